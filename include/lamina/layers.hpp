@@ -1,0 +1,71 @@
+// Stage 2, layers: rays along wall normals, points along rays, and the outer border of the boundary layer.
+// Source: J. K. Pardue, thesis (2015), chapter 3.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <lamina/geometry.hpp>
+#include <lamina/ids.hpp>
+#include <lamina/point.hpp>
+
+namespace lamina {
+
+enum class GrowthLaw { geometric };
+enum class Corners { fan, refine };
+
+struct LayerOptions {
+    bool enabled = true;
+    double first_height = 1e-5;  ///< of the first layer, along the ray, in units of the input
+    double growth = 1.2;         ///< ratio of the heights of successive layers
+    GrowthLaw growth_law = GrowthLaw::geometric;
+    std::uint32_t layers = 30;
+    std::optional<double> thickness;  ///< stop each ray at this total height
+    double max_ray_angle_deg = 5;     ///< between neighbouring rays
+    Corners corners = Corners::fan;   ///< sharp convex corners: a fan from the vertex, or refining rays beside it
+    /// Largest ratio of the lengths of adjacent edges of the outer border; 1.4 serves angle bounds up to 30 degrees.
+    double border_ratio = 1.4;
+    /// Edges of the outer border are split until none is longer than (length of any other) + gradation x distance.
+    double border_gradation = 0.1;
+};
+
+/// A line of layer points that leaves the wall.
+struct Ray {
+    VertexId origin;          ///< wall vertex
+    Point direction;          ///< unit vector
+    std::uint32_t layers;     ///< points made on the ray; less than asked where it was truncated
+    std::uint32_t requested;  ///< points asked for
+    std::size_t first_point;  ///< Layer::points[first_point + n] lies at height n + 1
+    double height_limit;      ///< nothing is placed beyond this height; infinite where nothing is in the way
+};
+
+/// Everything the later stages need of the layer.
+struct Layer {
+    /// Wall vertices first (element by element; a refining ray's vertex stands where it lies on the wall), then ray
+    /// points, then split points of the outer border.
+    std::vector<Point> points;
+    std::size_t wall_points = 0;
+    /// Per element: the wall's vertices, counter-clockwise, and its rays in the same order (a fan has several rays of
+    /// one origin).
+    std::vector<std::vector<VertexId>> walls;
+    std::vector<std::vector<Ray>> rays;
+    /// Per element: the closed outer border, counter-clockwise, simple and disjoint from the others. Where the layer is
+    /// truncated to nothing it runs through wall vertices.
+    std::vector<std::vector<VertexId>> borders;
+    std::vector<std::uint16_t> layer_of_point;  ///< 0 on the wall, n on layer n; split points: that of the lower end
+    std::size_t incomplete_rays = 0;
+    std::size_t requested_cells = 0;  ///< for the share of the requested cells that were made
+    std::size_t made_cells = 0;
+};
+
+/// Height of the n-th layer's top, n >= 0, above the wall (height 0 at n = 0).
+/// Source: thesis 3.3; geometric: first_height (growth^n - 1) / (growth - 1).
+double layer_height(const LayerOptions& options, std::uint32_t n);
+
+/// Makes rays, truncates them where they would meet, places the points and the outer border.
+/// Throws UsageError for heights <= 0, growth <= 1 and the like; MeshError where no simple border can be made.
+/// With enabled = false the walls alone, and borders equal to the walls.
+Layer make_layer(const Pslg& pslg, const LayerOptions& options = {});
+
+}  // namespace lamina

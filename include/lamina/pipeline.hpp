@@ -1,0 +1,75 @@
+// The reading order of the whole program: airfoil in, viscous mesh out.
+//
+//   read_geometry   geometry.hpp     files, NACA names          -> Pslg
+//   make_layer      layers.hpp       rays, points, outer border -> Layer
+//   triangulate     (pipeline.cpp)   constrained Delaunay       -> layer triangles
+//   SizeField       sizing.hpp       layer border lengths       -> h(x)
+//   decouple        decoupling.hpp   near body, rings           -> Subdomains
+//   refine          decoupling.hpp   one Subdomain              -> Refinement, all of them in parallel
+//   assemble        (pipeline.cpp)   numbering, markers         -> Mesh
+//   check_mesh      mesh.hpp         before anything is written
+//   write_mesh      io.hpp
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+#include <lamina/geometry.hpp>
+#include <lamina/layers.hpp>
+#include <lamina/mesh.hpp>
+
+namespace lamina {
+
+/// Everything that decides a mesh. Defaults are those of the command line.
+struct CaseOptions {
+    GeometryOptions geometry;
+    LayerOptions layer;
+    double far_field = 100;           ///< half-width of the far-field box, chords
+    double gradation = 0.1;           ///< growth of the target edge length per unit of distance (docs/decisions)
+    std::optional<double> wall_size;  ///< target edge length at the layer's outer border instead of its own edges
+    std::optional<double> far_size;   ///< cap of the target edge length
+    double min_angle_deg = 20.7;
+    SeparatorRule separators = SeparatorRule::equidistributed;
+    double pieces_target = 50'000;
+    unsigned threads = 0;  ///< 0 = all cores; never changes the mesh
+};
+
+/// Wall-clock seconds of each stage.
+struct StageSeconds {
+    double geometry = 0, layers = 0, decomposition = 0, layer_triangulation = 0, sizing = 0, decoupling = 0,
+           refinement = 0, assembly = 0, check = 0, total = 0;
+};
+
+/// Time each worker thread spent in the parallel stage, and waiting in it.
+struct ThreadSeconds {
+    double busy = 0, idle = 0;
+};
+
+struct MeshResult {
+    Mesh mesh;
+    MeshCheck check;
+    Pslg pslg;
+    StageSeconds seconds;
+    std::vector<ThreadSeconds> refinement_threads;
+    unsigned threads = 1;
+    std::size_t layer_pieces = 0, inviscid_pieces = 0;
+    std::size_t surface_vertices = 0;
+    std::size_t incomplete_rays = 0, requested_layer_cells = 0, made_layer_cells = 0;
+    RefineStats refinement;  ///< summed over pieces
+};
+
+/// Called at the start of each stage with its name; may be empty.
+using Progress = std::function<void(const std::string& stage)>;
+
+/// Runs every stage on a Pslg. Throws UsageError, InputError, MeshError; a mesh that is not valid is never returned.
+MeshResult generate_mesh(Pslg pslg, const CaseOptions& options = {}, const Progress& progress = {});
+
+/// Reads the inputs first.
+MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options = {},
+                         const Progress& progress = {});
+
+}  // namespace lamina

@@ -1,0 +1,55 @@
+// Points of the plane and the few operations on them.
+// Lengths are in the units of the input everywhere; angles are in radians unless a name says _deg.
+#pragma once
+
+#include <cmath>
+
+namespace lamina {
+
+struct Point {
+    double x = 0;
+    double y = 0;
+    friend constexpr bool operator==(Point a, Point b) { return a.x == b.x && a.y == b.y; }
+};
+
+constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+constexpr Point operator-(Point a) { return {-a.x, -a.y}; }
+constexpr Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
+
+/// Rounded, not exact: use orient2d() where a decision hangs on the sign.
+constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+constexpr double squared_length(Point a) { return dot(a, a); }
+inline double length(Point a) { return std::sqrt(squared_length(a)); }
+inline double distance(Point a, Point b) { return length(b - a); }
+constexpr Point midpoint(Point a, Point b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
+/// The vector turned by +90 degrees.
+constexpr Point perpendicular(Point a) { return {-a.y, a.x}; }
+/// Precondition: a is not zero.
+inline Point unit(Point a) { return (1.0 / length(a)) * a; }
+
+/// x first, then y: the total order that every tie rule in the program goes back to (docs/decisions/0001).
+constexpr bool lexicographically_less(Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
+/// Axis-parallel box; empty when lower > upper.
+struct Box {
+    Point lower{HUGE_VAL, HUGE_VAL};
+    Point upper{-HUGE_VAL, -HUGE_VAL};
+
+    constexpr void include(Point p) {
+        lower = {p.x < lower.x ? p.x : lower.x, p.y < lower.y ? p.y : lower.y};
+        upper = {p.x > upper.x ? p.x : upper.x, p.y > upper.y ? p.y : upper.y};
+    }
+    constexpr bool contains(Point p) const {
+        return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y;
+    }
+    constexpr bool overlaps(const Box& o) const {
+        return lower.x <= o.upper.x && o.lower.x <= upper.x && lower.y <= o.upper.y && o.lower.y <= upper.y;
+    }
+    constexpr double width() const { return upper.x - lower.x; }
+    constexpr double height() const { return upper.y - lower.y; }
+    constexpr Point center() const { return midpoint(lower, upper); }
+};
+
+}  // namespace lamina
