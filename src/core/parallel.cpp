@@ -1,0 +1,64 @@
+#include "core/parallel.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <cassert>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace lamina {
+
+void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f) {
+    assert(grain > 0);
+    const std::size_t blocks = (n + grain - 1) / grain;
+    const std::size_t workers = std::min<std::size_t>(blocks, thread_count());
+    const auto run_block = [&](std::size_t b) { f(b * grain, std::min(n, (b + 1) * grain)); };
+    if (workers <= 1) {
+        for (std::size_t b = 0; b < blocks; ++b) run_block(b);
+        return;
+    }
+
+    // Every block below a failing one has been started already, so the lowest failure does not depend on timing.
+    std::atomic<std::size_t> next{0};
+    std::mutex failure_mutex;
+    std::size_t failed_block = blocks;
+    std::exception_ptr failure;
+    const auto run_worker = [&](std::size_t) {
+        for (std::size_t b; (b = next.fetch_add(1)) < blocks;) {
+            try {
+                run_block(b);
+            } catch (...) {
+                next = blocks;
+                const std::lock_guard lock(failure_mutex);
+                if (b < failed_block) {
+                    failed_block = b;
+                    failure = std::current_exception();
+                }
+            }
+        }
+    };
+    tbb::parallel_for(std::size_t{0}, workers, run_worker, tbb::simple_partitioner{});
+    if (failure) std::rethrow_exception(failure);
+}
+
+void with_threads(unsigned threads, const std::function<void()>& f) {
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    if (threads == 0) threads = cores;
+    // By itself the library never starts more threads than there are cores.
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(threads, cores));
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute(f);
+}
+
+unsigned thread_count() { return static_cast<unsigned>(tbb::this_task_arena::max_concurrency()); }
+
+unsigned thread_index() {
+    const int index = tbb::this_task_arena::current_thread_index();
+    return index == tbb::task_arena::not_initialized ? 0u : static_cast<unsigned>(index);
+}
+
+}  // namespace lamina
