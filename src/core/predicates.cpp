@@ -1,0 +1,286 @@
+// Exact predicates.
+// Source: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
+// Discrete & Computational Geometry 18 (1997): expansions, error bounds, stages. Section numbers below are his.
+//
+// Why the range of coordinates is enough. A coordinate of magnitude in [1e-60, 1e60] is a multiple of
+// u = 2^-252 (1e-60 > 2^-200, less 52 bits) below 2^200. So are sums and differences and all their round-off (below
+// 2^201); the two halves of a split number are multiples of the same unit as the number itself. Every value met in a
+// product of k differences, round-off included, is hence a multiple of u^k: for k = 4 of 2^-1008, which is above the
+// smallest subnormal number 2^-1074, so no round-off is ever lost. Upwards, the largest determinant is below
+// 6 * 2 * 2^(4 * 201) < 2^808, and splitting multiplies by 2^27 at most: far below 2^1024.
+// The error bounds themselves (2^-53 and 2^-106 times a permanent) might underflow only where the permanent is below
+// 2^-955 or so; then it holds less than 53 bits over its unit, every operation under it was exact, and so were the
+// differences (an inexact one is at least 2^-199, its square times two other differences at least 2^-902).
+
+#include "core/predicates.hpp"
+
+#include <lamina/predicates.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lamina {
+namespace {
+
+using detail::epsilon;
+
+// Error bounds of the later stages (4.3 and 4.4), to be multiplied by the permanent: B after the exact determinant of
+// the rounded differences, C after the first-order correction by their tails.
+constexpr double result_bound = (3 + 8 * epsilon) * epsilon;
+constexpr double orient2d_bound_b = (2 + 12 * epsilon) * epsilon;
+constexpr double orient2d_bound_c = (9 + 64 * epsilon) * epsilon * epsilon;
+constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
+constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
+
+// head + tail is the exact result of an operation, head the rounded one.
+struct Two {
+    double head, tail;
+};
+
+// Precondition: |a| >= |b| or a == 0.
+inline Two fast_two_sum(double a, double b) {
+    const double head = a + b;
+    return {head, b - (head - a)};
+}
+
+inline Two two_sum(double a, double b) {
+    const double head = a + b;
+    const double b_seen = head - a;
+    const double a_seen = head - b_seen;
+    return {head, (a - a_seen) + (b - b_seen)};
+}
+
+inline Two two_diff(double a, double b) { return two_sum(a, -b); }
+
+// Two halves of 26 bits, whose products are exact (Dekker): fused multiply-add is not part of baseline x86-64.
+inline Two split(double a) {
+    const double c = 0x1.0000002p27 * a;
+    const double high = c - (c - a);
+    return {high, a - high};
+}
+
+inline Two two_product(double a, Two a_halves, double b, Two b_halves) {
+    const double head = a * b;
+    const double error =
+        ((head - a_halves.head * b_halves.head) - a_halves.tail * b_halves.head) - a_halves.head * b_halves.tail;
+    return {head, a_halves.tail * b_halves.tail - error};
+}
+
+inline Two two_product(double a, double b) { return two_product(a, split(a), b, split(b)); }
+
+// A sum of doubles that do not overlap, of growing magnitude, without zeros: the last one has the sign of the sum.
+template <int Capacity>
+struct Expansion {
+    int size = 0;
+    std::array<double, Capacity> part;  // only the first `size` are set
+
+    void push(double x) {
+        if (x != 0) part[size++] = x;
+    }
+    double sign() const { return size == 0 ? 0.0 : part[size - 1]; }
+    double estimate() const {
+        double sum = 0;
+        for (int i = 0; i < size; ++i) sum += part[i];
+        return sum;
+    }
+};
+
+inline Expansion<2> expansion(Two a) {
+    Expansion<2> result;
+    result.push(a.tail);
+    result.push(a.head);
+    return result;
+}
+
+// Fast expansion sum (2.4), zeros left out: merge by magnitude, then one sweep.
+template <int M, int N>
+Expansion<M + N> operator+(const Expansion<M>& e, const Expansion<N>& f) {
+    Expansion<M + N> h;
+    if (e.size == 0 || f.size == 0) {
+        h.size = e.size + f.size;
+        std::copy_n(e.part.begin(), e.size, h.part.begin());
+        std::copy_n(f.part.begin(), f.size, h.part.begin());
+        return h;
+    }
+    int i = 0, j = 0;
+    const auto next = [&] {
+        const bool from_e = j == f.size || (i < e.size && std::abs(e.part[i]) < std::abs(f.part[j]));
+        return from_e ? e.part[i++] : f.part[j++];
+    };
+    double q = next();
+    for (int k = 1; k < e.size + f.size; ++k) {
+        const Two s = two_sum(q, next());
+        h.push(s.tail);
+        q = s.head;
+    }
+    h.push(q);
+    return h;
+}
+
+// Scale expansion (2.5), zeros left out.
+template <int N>
+Expansion<2 * N> operator*(const Expansion<N>& e, double b) {
+    Expansion<2 * N> h;
+    if (e.size == 0 || b == 0) return h;
+    const Two b_halves = split(b);
+    Two p = two_product(e.part[0], split(e.part[0]), b, b_halves);
+    h.push(p.tail);
+    double q = p.head;
+    for (int i = 1; i < e.size; ++i) {
+        p = two_product(e.part[i], split(e.part[i]), b, b_halves);
+        const Two low = two_sum(q, p.tail);
+        h.push(low.tail);
+        const Two high = fast_two_sum(p.head, low.head);
+        h.push(high.tail);
+        q = high.head;
+    }
+    h.push(q);
+    return h;
+}
+
+template <int N>
+Expansion<N> operator-(Expansion<N> e) {
+    for (int i = 0; i < e.size; ++i) e.part[i] = -e.part[i];
+    return e;
+}
+
+template <int M, int N>
+Expansion<2 * M * N> operator*(const Expansion<M>& e, const Expansion<N>& f) {
+    if constexpr (N == 1) {
+        return e * (f.size == 0 ? 0.0 : f.part[0]);
+    } else {  // halves, so that partial sums stay short
+        Expansion<N / 2> low;
+        Expansion<N - N / 2> high;
+        const int half = std::min(f.size / 2, N / 2);
+        for (int i = 0; i < half; ++i) low.push(f.part[i]);
+        for (int i = half; i < f.size; ++i) high.push(f.part[i]);
+        return e * low + e * high;
+    }
+}
+
+// a b - c d of rounded factors.
+inline Expansion<4> cross_expansion(double a, double b, double c, double d) {
+    return expansion(two_product(a, b)) + expansion(two_product(-c, d));
+}
+
+// a b - c d of exact differences.
+inline Expansion<16> cross_expansion(const Two& a, const Two& b, const Two& c, const Two& d) {
+    return expansion(a) * expansion(b) + -(expansion(c) * expansion(d));
+}
+
+// A coordinate difference with its round-off.
+struct Difference {
+    Two x, y;
+    bool exact() const { return x.tail == 0 && y.tail == 0; }
+};
+
+inline Difference difference(Point a, Point b) { return {two_diff(a.x, b.x), two_diff(a.y, b.y)}; }
+
+// (x^2 + y^2) m for rounded x, y.
+inline Expansion<32> lifted(const Difference& p, const Expansion<4>& m) {
+    return m * p.x.head * p.x.head + m * p.y.head * p.y.head;
+}
+
+// (x^2 + y^2) m for exact differences.
+Expansion<512> lifted(const Difference& p, const Expansion<16>& m) {
+    const Expansion<2> x = expansion(p.x), y = expansion(p.y);
+    return m * (x * x + y * y);
+}
+
+// The first-order change of the two factors of one term of incircle's determinant by the tails of a, b, c.
+inline double first_order(const Difference& a, const Difference& b, const Difference& c) {
+    return (a.x.head * a.x.head + a.y.head * a.y.head) *
+               ((b.x.head * c.y.tail + c.y.head * b.x.tail) - (b.y.head * c.x.tail + c.x.head * b.y.tail)) +
+           2.0 * (a.x.head * a.x.tail + a.y.head * a.y.tail) * (b.x.head * c.y.head - b.y.head * c.x.head);
+}
+
+double incircle_exact(const Difference& a, const Difference& b, const Difference& c) {
+    const auto term = [](const Difference& p, const Difference& q, const Difference& r) {
+        return lifted(p, cross_expansion(q.x, r.y, r.x, q.y));
+    };
+    return (term(a, b, c) + term(b, c, a) + term(c, a, b)).sign();
+}
+
+double incircle_adaptive(Point pa, Point pb, Point pc, Point pd) {
+    const Difference a = difference(pa, pd), b = difference(pb, pd), c = difference(pc, pd);
+    const auto term = [](const Difference& p, const Difference& q, const Difference& r) {
+        return lifted(p, cross_expansion(q.x.head, r.y.head, r.x.head, q.y.head));
+    };
+    const Expansion<96> of_heads = term(a, b, c) + term(b, c, a) + term(c, a, b);
+    if (a.exact() && b.exact() && c.exact()) return of_heads.sign();
+
+    double det = of_heads.estimate();
+    const double permanent = detail::rounded_incircle(pa, pb, pc, pd).permanent;
+    if (std::abs(det) > incircle_bound_b * permanent) return det;
+    const double error = incircle_bound_c * permanent + result_bound * std::abs(det);
+    det += first_order(a, b, c) + first_order(b, c, a) + first_order(c, a, b);
+    if (std::abs(det) > error) return det;
+    return incircle_exact(a, b, c);
+}
+
+// The sign of the determinant's change where the point `index` of a, b, c, d (rows) is lowered: minus its cofactor in
+// the column of heights.
+double change_by_lowering(int index, const std::array<Point, 4>& p) {
+    switch (index) {
+        case 0:
+            return -detail::inline_orient2d(p[1], p[2], p[3]);
+        case 1:
+            return -detail::inline_orient2d(p[2], p[0], p[3]);
+        case 2:
+            return -detail::inline_orient2d(p[0], p[1], p[3]);
+        default:
+            return detail::inline_orient2d(p[0], p[1], p[2]);
+    }
+}
+
+// Each height is lowered by an infinitesimal, the lexicographically smallest point's beyond all others: the first
+// coefficient that is not 0 decides. Of four distinct cocircular points no three are collinear, so it is the first.
+double break_tie(const std::array<Point, 4>& p) {
+    std::array<int, 4> order{0, 1, 2, 3};
+    std::sort(order.begin(), order.end(), [&](int i, int j) { return lexicographically_less(p[i], p[j]); });
+    for (const int i : order) {
+        const double change = change_by_lowering(i, p);
+        if (change != 0) return change;
+    }
+    return 0;
+}
+
+bool in_exact_range(double c) {
+    const double magnitude = std::abs(c);
+    return magnitude == 0 || (magnitude >= smallest_exact_coordinate && magnitude <= largest_exact_coordinate);
+}
+
+}  // namespace
+
+double detail::orient2d_after_filter(Point pa, Point pb, Point pc) {
+    const Difference a = difference(pa, pc), b = difference(pb, pc);
+    const Expansion<4> of_heads = cross_expansion(a.x.head, b.y.head, a.y.head, b.x.head);
+    if (a.exact() && b.exact()) return of_heads.sign();
+
+    double det = of_heads.estimate();
+    const double permanent = std::abs(a.x.head * b.y.head) + std::abs(a.y.head * b.x.head);
+    if (std::abs(det) > orient2d_bound_b * permanent) return det;
+    const double error = orient2d_bound_c * permanent + result_bound * std::abs(det);
+    det += (a.x.head * b.y.tail + b.y.head * a.x.tail) - (a.y.head * b.x.tail + b.x.head * a.y.tail);
+    if (std::abs(det) > error) return det;
+    return cross_expansion(a.x, b.y, a.y, b.x).sign();
+}
+
+double detail::incircle_after_filter(Point a, Point b, Point c, Point d) {
+    const double det = incircle_adaptive(a, b, c, d);
+    return det != 0 ? det : break_tie({a, b, c, d});
+}
+
+bool in_exact_range(Point p) { return in_exact_range(p.x) && in_exact_range(p.y); }
+
+double orient2d(Point a, Point b, Point c) { return detail::inline_orient2d(a, b, c); }
+
+double incircle(Point a, Point b, Point c, Point d) {
+    const detail::RoundedIncircle rounded = detail::rounded_incircle(a, b, c, d);
+    return rounded.certain() ? rounded.det : incircle_adaptive(a, b, c, d);
+}
+
+double incircle_perturbed(Point a, Point b, Point c, Point d) { return detail::inline_incircle_perturbed(a, b, c, d); }
+
+}  // namespace lamina

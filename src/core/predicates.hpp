@@ -1,0 +1,60 @@
+// Exact predicates for hot loops: the floating-point filter inline, everything behind it in predicates.cpp.
+// Source: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
+// Discrete & Computational Geometry 18 (1997).
+#pragma once
+
+#include <cmath>
+
+#include <lamina/point.hpp>
+
+namespace lamina::detail {
+
+/// Half an ulp of 1.
+inline constexpr double epsilon = 0x1p-53;
+
+/// The rounded determinant has the right sign where it exceeds its bound times the permanent: the same expression with
+/// every product replaced by its magnitude and every difference of products by their sum.
+inline constexpr double orient2d_bound = (3 + 16 * epsilon) * epsilon;
+inline constexpr double incircle_bound = (10 + 96 * epsilon) * epsilon;
+
+/// orient2d() where the filter could not tell.
+double orient2d_after_filter(Point a, Point b, Point c);
+
+/// incircle_perturbed() where the filter could not tell: adaptive and exact stages, then the tie rule.
+double incircle_after_filter(Point a, Point b, Point c, Point d);
+
+/// orient2d(), inline.
+inline double inline_orient2d(Point a, Point b, Point c) {
+    const double left = (a.x - c.x) * (b.y - c.y);
+    const double right = (a.y - c.y) * (b.x - c.x);
+    const double det = left - right;
+    if (std::abs(det) > orient2d_bound * (std::abs(left) + std::abs(right))) return det;
+    return orient2d_after_filter(a, b, c);
+}
+
+/// The rounded determinant of incircle(), and its permanent.
+struct RoundedIncircle {
+    double det, permanent;
+    bool certain() const { return std::abs(det) > incircle_bound * permanent; }
+};
+
+inline RoundedIncircle rounded_incircle(Point a, Point b, Point c, Point d) {
+    const Point ad = a - d, bd = b - d, cd = c - d;
+    const double bc = bd.x * cd.y, cb = cd.x * bd.y;
+    const double ca = cd.x * ad.y, ac = ad.x * cd.y;
+    const double ab = ad.x * bd.y, ba = bd.x * ad.y;
+    const double al = squared_length(ad), bl = squared_length(bd), cl = squared_length(cd);
+    const double det = al * (bc - cb) + bl * (ca - ac) + cl * (ab - ba);
+    const double permanent =
+        (std::abs(bc) + std::abs(cb)) * al + (std::abs(ca) + std::abs(ac)) * bl + (std::abs(ab) + std::abs(ba)) * cl;
+    return {det, permanent};
+}
+
+/// incircle_perturbed(), inline.
+inline double inline_incircle_perturbed(Point a, Point b, Point c, Point d) {
+    const RoundedIncircle rounded = rounded_incircle(a, b, c, d);
+    if (rounded.certain()) return rounded.det;
+    return incircle_after_filter(a, b, c, d);
+}
+
+}  // namespace lamina::detail
