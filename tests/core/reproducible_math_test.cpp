@@ -1,0 +1,56 @@
+#include "core/reproducible_math.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace lamina {
+namespace {
+
+TEST(ReproducibleMath, SineAndCosineAgreeWithTheLibrary) {
+    std::mt19937_64 random(1);
+    for (double range : {1e-8, 0.1, 1.0, 10.0, 1000.0, 1e6}) {
+        std::uniform_real_distribution<double> angle(-range, range);
+        for (int i = 0; i < 100000; ++i) {
+            const double a = angle(random);
+            ASSERT_NEAR(sin_reproducible(a), std::sin(a), 2.3e-16 * std::abs(std::sin(a)) + 1e-300) << a;
+            ASSERT_NEAR(cos_reproducible(a), std::cos(a), 2.3e-16 * std::abs(std::cos(a)) + 1e-300) << a;
+        }
+    }
+}
+
+TEST(ReproducibleMath, ExactValuesAndSymmetry) {
+    EXPECT_EQ(sin_reproducible(0.0), 0.0);
+    EXPECT_EQ(cos_reproducible(0.0), 1.0);
+    EXPECT_EQ(sin_reproducible(pi / 2), 1.0);
+    EXPECT_EQ(cos_reproducible(pi), -1.0);
+    EXPECT_EQ(sin_reproducible(-pi / 2), -1.0);
+    for (int i = 1; i < 1000; ++i) {
+        const double a = 0.0137 * i;
+        EXPECT_EQ(sin_reproducible(-a), -sin_reproducible(a));
+        EXPECT_EQ(cos_reproducible(-a), cos_reproducible(a));
+        EXPECT_EQ(atan2_reproducible(-a, 1.7), -atan2_reproducible(a, 1.7));
+    }
+}
+
+TEST(ReproducibleMath, ArctangentAgreesWithTheLibrary) {
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> coordinate(-1, 1), exponent(-300, 300);
+    for (int i = 0; i < 300000; ++i) {
+        double x = coordinate(random), y = coordinate(random);
+        if (i % 3 == 0) x *= std::pow(10.0, exponent(random) / 2);
+        if (i % 5 == 0) y *= std::pow(10.0, exponent(random) / 2);
+        const double expected = std::atan2(y, x);
+        ASSERT_NEAR(atan2_reproducible(y, x), expected, 4.5e-16 * std::abs(expected) + 1e-300) << y << ' ' << x;
+    }
+    EXPECT_EQ(atan2_reproducible(0.0, 0.0), 0.0);
+    EXPECT_EQ(atan2_reproducible(0.0, -1.0), pi);
+    EXPECT_EQ(atan2_reproducible(-0.0, -1.0), -pi);
+    EXPECT_EQ(atan2_reproducible(1.0, 0.0), pi / 2);
+    EXPECT_EQ(atan2_reproducible(-1.0, 0.0), -pi / 2);
+    EXPECT_EQ(atan2_reproducible(1.0, 1.0), pi / 4);
+}
+
+}  // namespace
+}  // namespace lamina
