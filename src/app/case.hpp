@@ -1,0 +1,28 @@
+// One run of `lamina mesh`: what goes in, every option, what comes out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <lamina/pipeline.hpp>
+
+namespace lamina::app {
+
+enum class Surface { keep };
+enum class ProgressShown { automatic, always, never };
+
+struct MeshCase {
+    std::vector<std::string> inputs;  ///< airfoil files and NACA names; never a case file
+    std::vector<std::string> outputs;
+    std::string report;  ///< empty = none
+    Surface surface = Surface::keep;
+    CaseOptions options;
+    ProgressShown progress = ProgressShown::automatic;
+    bool quiet = false;
+};
+
+/// The case that the INPUT arguments of a command stand for: that of a case file if they are one, else the defaults
+/// with these inputs. Throws UsageError where a case file stands beside other inputs, and as read_case_file().
+MeshCase case_of_inputs(const std::vector<std::string>& inputs);
+
+}  // namespace lamina::app

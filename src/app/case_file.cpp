@@ -1,0 +1,119 @@
+#include "app/case_file.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <lamina/error.hpp>
+
+#include "app/options.hpp"
+#include "core/atomic_file.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+bool is_naca_name(const std::string& input) { return input.starts_with("naca:"); }
+
+bool holds_paths(const Option& option) { return option.kind == Kind::path || option.kind == Kind::paths; }
+
+/// Applies `change` to every path of the value; NACA names are none.
+template <class Change>
+Value with_paths(Value value, Change change) {
+    const auto apply = [&](std::string& text) {
+        if (!text.empty() && !is_naca_name(text)) text = change(std::filesystem::path(text)).string();
+    };
+    if (auto* text = std::get_if<std::string>(&value)) apply(*text);
+    if (auto* texts = std::get_if<std::vector<std::string>>(&value)) std::for_each(texts->begin(), texts->end(), apply);
+    return value;
+}
+
+Value value_of(const toml::node& node, const std::string& origin) {
+    if (const auto* flag = node.as_boolean()) return flag->get();
+    if (const auto* count = node.as_integer()) return count->get();
+    if (const auto* real = node.as_floating_point()) return real->get();
+    if (const auto* text = node.as_string()) return text->get();
+    if (const auto* array = node.as_array()) {
+        std::vector<std::string> texts;
+        for (const toml::node& entry : *array) {
+            if (!entry.is_string()) throw UsageError(origin + ": an array holds strings");
+            texts.push_back(entry.as_string()->get());
+        }
+        return texts;
+    }
+    throw UsageError(origin + ": must be a number, a string, true, false or an array of strings");
+}
+
+toml::table parse(const std::filesystem::path& file) {
+    const std::string text = read_whole_file(file);
+    try {
+        return toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+        throw InputError({file.string(), error.source().begin.line, std::nullopt},
+                         "no TOML: " + std::string(error.description()));
+    }
+}
+
+std::string toml_text(const Value& value) {
+    std::ostringstream out;
+    std::visit(
+        [&out](const auto& held) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::vector<std::string>>) {
+                toml::array array;
+                for (const std::string& text : held) array.push_back(text);
+                out << array;
+            } else {
+                out << toml::value(held);
+            }
+        },
+        value);
+    return out.str();
+}
+
+}  // namespace
+
+MeshCase read_case_file(const std::filesystem::path& file) {
+    const toml::table table = parse(file);
+    MeshCase mesh_case;
+    for (const auto& [key, node] : table) {
+        const std::string origin = fmt::format("{}:{}: {}", file.string(), key.source().begin.line, key.str());
+        const auto& options = mesh_options();
+        const auto option =
+            std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.key() == key.str(); });
+        if (option == options.end()) throw UsageError(origin + ": no such option");
+
+        Value value = value_of(node, origin);
+        if (holds_paths(*option)) {
+            value = with_paths(std::move(value), [&](const auto& path) { return file.parent_path() / path; });
+        }
+        assign(*option, mesh_case, value, origin);
+    }
+    if (std::any_of(mesh_case.inputs.begin(), mesh_case.inputs.end(),
+                    [](const std::string& input) { return input.ends_with(".toml"); })) {
+        throw UsageError(file.string() + ": a case file cannot be the input of another");
+    }
+    return mesh_case;
+}
+
+std::string dump_case(const MeshCase& mesh_case) {
+    std::string text = fmt::format("# lamina {}\n", LAMINA_VERSION);
+    std::string_view group;
+    for (const Option& option : mesh_options()) {
+        if (option.group != group) text += fmt::format("\n# {}\n", group = option.group);
+        std::optional<Value> value = option.get(mesh_case);
+        if (!value) {
+            text += fmt::format("# {} is not set\n", option.key());
+            continue;
+        }
+        if (holds_paths(option)) {
+            value = with_paths(*std::move(value), [](const auto& path) { return std::filesystem::absolute(path); });
+        }
+        text += fmt::format("{} = {}\n", option.key(), toml_text(*value));
+    }
+    return text;
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,152 @@
+// lamina check: is a mesh file valid, and how good is it.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+#include <lamina/mesh.hpp>
+
+#include "app/commands.hpp"
+#include "app/options.hpp"
+#include "app/report.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+struct CheckArguments {
+    std::string mesh;
+    bool json = false;
+    std::vector<std::string> walls;
+    std::string far_field;
+    bool require_delaunay = false;
+    std::string min_angle;
+};
+
+/// What the user demands beyond validity, and is not so.
+using Shortcomings = std::vector<std::string>;
+
+/// Gives the marker its kind, whatever the file says.
+void require_marker(Mesh& mesh, const std::string& name, MarkerKind kind, Shortcomings& shortcomings) {
+    const auto marker = std::find_if(mesh.markers.begin(), mesh.markers.end(),
+                                     [&](const Marker& candidate) { return candidate.name == name; });
+    if (marker == mesh.markers.end() || marker->edges.empty()) {
+        shortcomings.push_back("no marker '" + name + "'");
+    } else {
+        marker->kind = kind;
+    }
+}
+
+const char* kind_name(MarkerKind kind) {
+    switch (kind) {
+        case MarkerKind::wall:
+            return "wall";
+        case MarkerKind::far_field:
+            return "far field";
+        case MarkerKind::symmetry:
+            return "symmetry";
+        case MarkerKind::other:
+            break;
+    }
+    return "other";
+}
+
+Json check_report(const Mesh& mesh, const MeshCheck& check, const Shortcomings& shortcomings) {
+    Json defects = Json::array();
+    for (const MeshDefect& defect : check.defects) {
+        defects.push_back({{"what", defect.what}, {"at", {defect.at.x, defect.at.y}}});
+    }
+    Json markers = Json::array();
+    for (const Marker& marker : mesh.markers) {
+        markers.push_back({{"name", marker.name}, {"kind", kind_name(marker.kind)}, {"edges", marker.edges.size()}});
+    }
+    return {{"version", LAMINA_VERSION},
+            {"valid", check.valid()},
+            {"defect_count", check.defect_count},
+            {"defects", defects},
+            {"shortcomings", shortcomings},
+            {"vertices", mesh.points.size()},
+            {"triangles", mesh.triangles.size()},
+            {"quads", mesh.quads.size()},
+            {"markers", markers},
+            {"area", check.area},
+            {"euler_characteristic", check.euler_characteristic},
+            {"boundary_loops", check.boundary_loops},
+            {"quality", quality_report(check)},
+            {"hash", mesh_hash(mesh)}};
+}
+
+std::string check_summary(const std::string& file, const Mesh& mesh, const MeshCheck& check,
+                          const Shortcomings& shortcomings) {
+    std::string text = fmt::format("{}: {}\n", file, check.valid() ? "valid" : "not valid");
+    for (const MeshDefect& defect : check.defects) {
+        text += fmt::format("  defect    {} at ({}, {})\n", defect.what, defect.at.x, defect.at.y);
+    }
+    if (check.defect_count > check.defects.size()) {
+        text += fmt::format("  defect    and {} more\n", check.defect_count - check.defects.size());
+    }
+    for (const std::string& shortcoming : shortcomings) text += "  demanded  " + shortcoming + "\n";
+    text += fmt::format("  mesh      {} vertices, {} triangles, {} quads, {} boundary loops\n", mesh.points.size(),
+                        mesh.triangles.size(), mesh.quads.size(), check.boundary_loops);
+    for (const Marker& marker : mesh.markers) {
+        text +=
+            fmt::format("  marker    {} ({}), {} edges\n", marker.name, kind_name(marker.kind), marker.edges.size());
+    }
+    return text + quality_summary(check);
+}
+
+void check(const CheckArguments& arguments) {
+    MeshCheckOptions options;
+    if (!arguments.min_angle.empty()) {
+        options.min_angle_deg = parse_real(arguments.min_angle, "option --min-angle");
+        if (!(options.min_angle_deg > 0 && options.min_angle_deg <= 60)) {
+            throw UsageError("option --min-angle: must be > 0 and <= 60 degrees");
+        }
+    }
+
+    Mesh mesh = read_mesh(arguments.mesh);
+    Shortcomings shortcomings;
+    for (const std::string& wall : arguments.walls) require_marker(mesh, wall, MarkerKind::wall, shortcomings);
+    if (!arguments.far_field.empty()) {
+        require_marker(mesh, arguments.far_field, MarkerKind::far_field, shortcomings);
+    }
+    const MeshCheck result = check_mesh(mesh, options);
+    if (arguments.require_delaunay && result.delaunay_violations > 0) {
+        shortcomings.push_back(fmt::format("{} edges are not Delaunay", result.delaunay_violations));
+    }
+    if (!arguments.min_angle.empty() && result.isotropic.angles_below_bound > 0) {
+        shortcomings.push_back(fmt::format("{} triangles have an angle below {} degrees",
+                                           result.isotropic.angles_below_bound, options.min_angle_deg));
+    }
+
+    fmt::print("{}", arguments.json ? to_text(check_report(mesh, result, shortcomings))
+                                    : check_summary(arguments.mesh, mesh, result, shortcomings));
+    if (!result.valid()) {
+        throw MeshError(fmt::format("{}: not valid, {} defects; the first: {}", arguments.mesh, result.defect_count,
+                                    result.defects.front().what));
+    }
+    if (!shortcomings.empty()) throw MeshError(arguments.mesh + ": " + shortcomings.front());
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("check", "validity, Delaunay property and quality; 0 only if valid");
+    auto arguments = std::make_shared<CheckArguments>();
+    command->add_option("MESH", arguments->mesh, "mesh file")->required();
+    command->add_flag("--json", arguments->json, "print one JSON object");
+    command->add_option("--wall", arguments->walls, "markers that must be there, as walls")->type_name("NAME");
+    command->add_option("--far", arguments->far_field, "marker that must be there, as far field")->type_name("NAME");
+    command->add_flag("--require-delaunay", arguments->require_delaunay,
+                      "demand that every isotropic edge be Delaunay (exact test)");
+    command->add_option("--min-angle", arguments->min_angle, "demand this smallest angle of isotropic triangles")
+        ->type_name("DEG");
+    command->callback([arguments] { check(*arguments); });
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,25 @@
+// lamina info: what was read, detected and repaired.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <lamina/geometry.hpp>
+
+#include "app/case.hpp"
+#include "app/commands.hpp"
+
+namespace lamina::app {
+
+void add_info_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("info", "what was read, detected and repaired");
+    auto inputs = std::make_shared<std::vector<std::string>>();
+    command->add_option("INPUT", *inputs, "airfoil files, naca:DIGITS[:POINTS], or one case file (.toml)");
+    command->callback([inputs] {
+        const MeshCase mesh_case = case_of_inputs(*inputs);
+        fmt::print("{}", describe(read_geometry(mesh_case.inputs, mesh_case.options.geometry)));
+    });
+}
+
+}  // namespace lamina::app

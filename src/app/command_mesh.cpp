@@ -1,0 +1,110 @@
+// lamina mesh: airfoils in, mesh files out.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+#include <lamina/pipeline.hpp>
+
+#include "app/case.hpp"
+#include "app/case_file.hpp"
+#include "app/commands.hpp"
+#include "app/options.hpp"
+#include "app/report.hpp"
+#include "core/atomic_file.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+/// The options of the table, each with what the command line says about it.
+using GivenOptions = std::vector<std::pair<const Option*, CLI::Option*>>;
+
+CLI::Option* add_option(CLI::App& command, const Option& option) {
+    const std::optional<Value> standard = option.get(MeshCase{});
+    const std::string text = standard && option.kind != Kind::flag ? to_text(*standard) : "";
+    const std::string help = text.empty() ? option.help : option.help + " [" + text + "]";
+    if (option.kind == Kind::flag) return command.add_flag(option.command_line(), help)->group(option.group);
+
+    // The texts are read from the option once the case file is known.
+    CLI::Option* given = command.add_option(
+        option.command_line(), [](const CLI::results_t&) { return true; }, help);
+    given->group(option.group)->type_name(option.metavar);
+    if (option.kind == Kind::words) return given->delimiter(',')->expected(1, -1)->allow_extra_args(false);
+    if (option.kind != Kind::paths) return given->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    return given->expected(1, -1)->allow_extra_args(given->get_positional());
+}
+
+/// The case file first, where the input is one; then the command line over it.
+MeshCase case_in_force(const GivenOptions& options) {
+    MeshCase mesh_case;
+    for (const auto& [option, given] : options) {
+        if (given->get_positional()) {
+            mesh_case = case_of_inputs(given->results());
+        } else if (given->count() > 0) {
+            const std::string origin = "option --" + option->name;
+            assign(*option, mesh_case, value_of_text(option->kind, given->results(), origin), origin);
+        }
+    }
+    return mesh_case;
+}
+
+Progress progress_printer(const MeshCase& mesh_case) {
+    const bool on_terminal = !mesh_case.quiet && isatty(STDERR_FILENO) != 0;
+    const bool shown =
+        mesh_case.progress == ProgressShown::always || (mesh_case.progress == ProgressShown::automatic && on_terminal);
+    if (!shown) return {};
+    return [](const std::string& stage) { fmt::print(stderr, "lamina: {}\n", stage); };
+}
+
+/// Everything that can be refused before the work begins.
+void require_outputs(const MeshCase& mesh_case) {
+    if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
+    for (const std::string& output : mesh_case.outputs) check_writable(output);
+}
+
+void mesh(const MeshCase& mesh_case) {
+    require_outputs(mesh_case);
+    const MeshResult result = generate_mesh(mesh_case.inputs, mesh_case.options, progress_printer(mesh_case));
+
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output);
+    const double write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+
+    if (!mesh_case.report.empty()) {
+        const std::string report = to_text(mesh_report(result, write_seconds));
+        write_stream_atomically(mesh_case.report, [&](std::ostream& out) { out << report; });
+    }
+    if (!mesh_case.quiet) fmt::print("{}", mesh_summary(result, mesh_case.outputs, write_seconds));
+}
+
+}  // namespace
+
+void add_mesh_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("mesh", "airfoils in, mesh files out");
+    auto options = std::make_shared<GivenOptions>();
+    for (const Option& option : mesh_options()) options->emplace_back(&option, add_option(*command, option));
+    auto dump = std::make_shared<bool>(false);
+    command->add_flag("--dump-config", *dump, "print the configuration in force as a case file, and do nothing else")
+        ->group("Run");
+    command->callback([options, dump] {
+        const MeshCase mesh_case = case_in_force(*options);
+        if (*dump) {
+            fmt::print("{}", dump_case(mesh_case));
+        } else {
+            mesh(mesh_case);
+        }
+    });
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,13 @@
+// The commands of the program, one a file. Each adds itself to the command line and runs when it is named there.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace lamina::app {
+
+void add_mesh_command(CLI::App& app);
+void add_check_command(CLI::App& app);
+void add_plot_command(CLI::App& app);
+void add_info_command(CLI::App& app);
+
+}  // namespace lamina::app

@@ -1,0 +1,82 @@
+// The program: reads the command line, runs one command, and turns errors into one line and an exit code.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include <lamina/error.hpp>
+
+#include "app/commands.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+int fail(ExitCode code, std::string line) {
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::fputs(("lamina: error: " + line + "\n").c_str(), stderr);
+    return static_cast<int>(code);
+}
+
+/// CLI11 would complain of a missing command.
+void require_known_command(const CLI::App& app, int argc, char** argv) {
+    if (argc < 2) throw UsageError("no command (see lamina --help)");
+    const std::string command = argv[1];
+    if (command.starts_with("-")) return;
+    std::string known;
+    for (const CLI::App* each : app.get_subcommands({})) {
+        if (each->get_name() == command) return;
+        known += (known.empty() ? "" : ", ") + each->get_name();
+    }
+    throw UsageError("command '" + command + "' is not known; known: " + known);
+}
+
+void run(CLI::App& app, int argc, char** argv) {
+    require_known_command(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) {
+            throw UsageError(std::string(error.what()) + " (see " + app.get_name() + " --help)");
+        }
+        app.exit(error);  // --help or --version: prints it
+    }
+    if (std::fflush(stdout) != 0) throw IoError("standard output", "cannot be written");
+}
+
+}  // namespace
+
+}  // namespace lamina::app
+
+int main(int argc, char** argv) {
+    using namespace lamina;
+    using namespace lamina::app;
+    try {
+        CLI::App app("Two-dimensional viscous meshes round airfoils", "lamina");
+        app.set_version_flag("--version", "lamina " LAMINA_VERSION);
+        app.require_subcommand(1);
+        app.footer(
+            "Exit codes: 0 done; 2 wrong usage; 3 bad input; 4 the mesh could not be made to the promised "
+            "standard; 5 reading or writing failed.");
+        add_mesh_command(app);
+        add_check_command(app);
+        add_plot_command(app);
+        add_info_command(app);
+        run(app, argc, argv);
+        return static_cast<int>(ExitCode::done);
+    } catch (const Error& error) {
+        return fail(error.exit_code(), error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(ExitCode::mesh_failed, "out of memory");
+    } catch (const std::system_error& error) {
+        return fail(ExitCode::io_failed, error.what());
+    } catch (const std::exception& error) {
+        return fail(ExitCode::mesh_failed, std::string("internal error: ") + error.what());
+    } catch (...) {
+        return fail(ExitCode::mesh_failed, "internal error");
+    }
+}

@@ -1,0 +1,306 @@
+#include "app/options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lamina::app {
+
+namespace {
+
+// ---- ranges ----
+
+/// Numbers an option may take; always finite.
+struct Range {
+    double lower = -HUGE_VAL;
+    double upper = HUGE_VAL;
+    bool with_lower = false;  ///< whether the lower bound itself is in; the upper one always is
+};
+
+constexpr Range positive{0, HUGE_VAL, false};
+constexpr Range greater_than(double bound) { return {bound, HUGE_VAL, false}; }
+constexpr Range above_up_to(double lower, double upper) { return {lower, upper, false}; }
+constexpr Range from_to(double lower, double upper) { return {lower, upper, true}; }
+
+std::string range_text(const Range& range) {
+    const char* relation = range.with_lower ? ">=" : ">";
+    if (std::isinf(range.upper)) return fmt::format("{} {}", relation, range.lower);
+    return fmt::format("{} {} and <= {}", relation, range.lower, range.upper);
+}
+
+/// Throws for NaN, too.
+void require(const Range& range, double value) {
+    const bool above = range.with_lower ? value >= range.lower : value > range.lower;
+    if (std::isfinite(value) && above && value <= range.upper) return;
+    throw UsageError(fmt::format("{} is out of range: must be {}", value, range_text(range)));
+}
+
+// ---- typed access to a Value ----
+
+double as_real(const Value& value) {
+    if (const auto* real = std::get_if<double>(&value)) return *real;
+    if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
+    throw UsageError("must be a number");
+}
+
+std::int64_t as_count(const Value& value) {
+    if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
+    throw UsageError("must be a whole number");
+}
+
+bool as_flag(const Value& value) {
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag;
+    throw UsageError("must be true or false");
+}
+
+const std::string& as_word(const Value& value) {
+    if (const auto* word = std::get_if<std::string>(&value)) return *word;
+    throw UsageError("must be a string");
+}
+
+/// One word will do for a list of one.
+std::vector<std::string> as_words(const Value& value) {
+    if (const auto* words = std::get_if<std::vector<std::string>>(&value)) return *words;
+    if (const auto* word = std::get_if<std::string>(&value)) return {*word};
+    throw UsageError("must be an array of strings");
+}
+
+// ---- kinds of options; member(c) is a reference to what the option sets in a MeshCase ----
+
+/// A number that may be optional: then empty where it is not set.
+template <class As, class Member>
+std::optional<Value> number_value(const Member& member) {
+    if constexpr (requires { member.has_value(); }) {
+        return member ? std::optional<Value>(static_cast<As>(*member)) : std::nullopt;
+    } else {
+        return static_cast<As>(member);
+    }
+}
+
+template <class Member>
+Option real(std::string name, std::string metavar, const std::string& help, Range range, Member member) {
+    const auto set = [=](MeshCase& c, const Value& value) {
+        require(range, as_real(value));
+        member(c) = as_real(value);
+    };
+    const auto get = [=](const MeshCase& c) { return number_value<double>(member(c)); };
+    return {std::move(name), Kind::real, std::move(metavar), help + "; " + range_text(range), set, get};
+}
+
+template <class Member>
+Option count(std::string name, std::string metavar, const std::string& help, Range range, Member member) {
+    const auto set = [=](MeshCase& c, const Value& value) {
+        require(range, static_cast<double>(as_count(value)));
+        member(c) = static_cast<std::decay_t<decltype(member(c))>>(as_count(value));
+    };
+    const auto get = [=](const MeshCase& c) { return number_value<std::int64_t>(member(c)); };
+    return {std::move(name), Kind::count, std::move(metavar), help + "; " + range_text(range), set, get};
+}
+
+/// Sets the member to `meaning` where the flag is given.
+template <class Member>
+Option flag(std::string name, const std::string& help, bool meaning, Member member) {
+    const auto set = [=](MeshCase& c, const Value& value) { member(c) = as_flag(value) == meaning; };
+    const auto get = [=](const MeshCase& c) { return std::optional<Value>(member(c) == meaning); };
+    return {std::move(name), Kind::flag, "", help, set, get};
+}
+
+template <class Choice, class Member>
+Option choice(std::string name, const std::string& help, const Choices<Choice>& choices, Member member) {
+    std::string metavar;
+    for (const auto& entry : choices) metavar += (metavar.empty() ? "" : "|") + entry.first;
+    const auto set = [=](MeshCase& c, const Value& value) { member(c) = choose(as_word(value), choices); };
+    const auto get = [=](const MeshCase& c) {
+        const auto named =
+            std::find_if(choices.begin(), choices.end(), [&](const auto& e) { return e.second == member(c); });
+        return std::optional<Value>(named->first);
+    };
+    return {std::move(name), Kind::word, std::move(metavar), help, set, get};
+}
+
+template <class Member>
+Option text(std::string name, Kind kind, std::string metavar, const std::string& help, Member member) {
+    const auto set = [=](MeshCase& c, const Value& value) { member(c) = as_word(value); };
+    const auto get = [=](const MeshCase& c) { return std::optional<Value>(member(c)); };
+    return {std::move(name), kind, std::move(metavar), help, set, get};
+}
+
+template <class Member>
+Option list(std::string name, Kind kind, std::string metavar, const std::string& help, Member member) {
+    const auto set = [=](MeshCase& c, const Value& value) { member(c) = as_words(value); };
+    const auto get = [=](const MeshCase& c) { return std::optional<Value>(member(c)); };
+    return {std::move(name), kind, std::move(metavar), help, set, get};
+}
+
+// ---- the table ----
+
+// Layer numbers are kept in 16 bits.
+constexpr double most_layers = 65535;
+
+std::vector<Option> make_table() {
+    std::vector<Option> table;
+    const auto group = [&table](const std::string& heading, std::vector<Option> options) {
+        for (Option& option : options) option.group = heading;
+        table.insert(table.end(), options.begin(), options.end());
+    };
+
+    group("Files",
+          {
+              list(
+                  "input", Kind::paths, "INPUT", "airfoil files, naca:DIGITS[:POINTS], or one case file (.toml)",
+                  [](auto& c) -> auto& { return c.inputs; }),
+              list(
+                  "output", Kind::paths, "FILE", "mesh file; may be given several times",
+                  [](auto& c) -> auto& { return c.outputs; }),
+              text(
+                  "report", Kind::path, "FILE", "JSON report of the run", [](auto& c) -> auto& { return c.report; }),
+          });
+    group("Geometry", {
+                          choice(
+                              "surface", "surface vertices: as given", Choices<Surface>{{"keep", Surface::keep}},
+                              [](auto& c) -> auto& { return c.surface; }),
+                          list(
+                              "names", Kind::words, "A,B,...",
+                              "marker names, one an element; else file stems, 'airfoil' if there is one",
+                              [](auto& c) -> auto& { return c.options.geometry.names; }),
+                      });
+    group("Layer",
+          {
+              real(
+                  "first-height", "H", "height of the first layer along the ray, in units of the input", positive,
+                  [](auto& c) -> auto& { return c.options.layer.first_height; }),
+              real(
+                  "growth", "R", "ratio of the heights of successive layers", greater_than(1),
+                  [](auto& c) -> auto& { return c.options.layer.growth; }),
+              choice(
+                  "growth-law", "how heights grow along a ray", Choices<GrowthLaw>{{"geometric", GrowthLaw::geometric}},
+                  [](auto& c) -> auto& { return c.options.layer.growth_law; }),
+              count(
+                  "layers", "N", "number of layers", from_to(1, most_layers),
+                  [](auto& c) -> auto& { return c.options.layer.layers; }),
+              real(
+                  "thickness", "T", "total height, in units of the input, beyond which no layer goes", positive,
+                  [](auto& c) -> auto& { return c.options.layer.thickness; }),
+              flag(
+                  "no-layers", "isotropic triangles up to the wall", false,
+                  [](auto& c) -> auto& { return c.options.layer.enabled; }),
+              real(
+                  "max-ray-angle", "DEG", "largest angle between neighbouring rays, in degrees", above_up_to(0, 90),
+                  [](auto& c) -> auto& { return c.options.layer.max_ray_angle_deg; }),
+              choice(
+                  "corners", "sharp convex corners: a fan of rays, or refining rays beside the vertex",
+                  Choices<Corners>{{"fan", Corners::fan}, {"refine", Corners::refine}},
+                  [](auto& c) -> auto& { return c.options.layer.corners; }),
+          });
+    group(
+        "Outer region",
+        {
+            real(
+                "far-field", "CHORDS", "half-width of the far-field box, in chords (extents in x of the configuration)",
+                positive, [](auto& c) -> auto& { return c.options.far_field; }),
+            real(
+                "gradation", "G", "growth of the edge length per unit of distance", above_up_to(0, 1),
+                [](auto& c) -> auto& { return c.options.gradation; }),
+            real(
+                "wall-size", "H", "edge length at the layer's outer border, in units of the input, instead of its own",
+                positive, [](auto& c) -> auto& { return c.options.wall_size; }),
+            real(
+                "far-size", "H", "largest edge length, in units of the input", positive,
+                [](auto& c) -> auto& { return c.options.far_size; }),
+            real(
+                "min-angle", "DEG", "smallest angle of isotropic triangles, in degrees", above_up_to(0, 33),
+                [](auto& c) -> auto& { return c.options.min_angle_deg; }),
+            choice(
+                "separators", "how borders between pieces are divided",
+                Choices<SeparatorRule>{{"equidistributed", SeparatorRule::equidistributed},
+                                       {"k-rule", SeparatorRule::k_rule}},
+                [](auto& c) -> auto& { return c.options.separators; }),
+            real(
+                "pieces-target", "TRIANGLES", "triangles a piece, about", from_to(100, 1e9),
+                [](auto& c) -> auto& { return c.options.pieces_target; }),
+        });
+    group("Run", {
+                     count(
+                         "threads", "N", "threads, 0 = all cores; never changes the mesh", from_to(0, 1024),
+                         [](auto& c) -> auto& { return c.options.threads; }),
+                     choice(
+                         "progress", "stages on standard error; auto: where it is a terminal",
+                         Choices<ProgressShown>{{"auto", ProgressShown::automatic},
+                                                {"always", ProgressShown::always},
+                                                {"never", ProgressShown::never}},
+                         [](auto& c) -> auto& { return c.progress; }),
+                     flag(
+                         "quiet", "no summary", true, [](auto& c) -> auto& { return c.quiet; }),
+                 });
+    return table;
+}
+
+}  // namespace
+
+std::string Option::key() const {
+    std::string key = name;
+    std::replace(key.begin(), key.end(), '-', '_');
+    return key;
+}
+
+std::string Option::command_line() const {
+    if (name == "input") return "INPUT";
+    if (name == "output") return "-o,--output";
+    return "--" + name;
+}
+
+const std::vector<Option>& mesh_options() {
+    static const std::vector<Option> table = make_table();
+    return table;
+}
+
+void assign(const Option& option, MeshCase& mesh_case, const Value& value, const std::string& origin) {
+    try {
+        option.set(mesh_case, value);
+    } catch (const UsageError& error) {
+        throw UsageError(origin + ": " + error.what());
+    }
+}
+
+double parse_real(const std::string& text, const std::string& origin) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) {
+        throw UsageError(fmt::format("{}: '{}' is not a number", origin, text));
+    }
+    return value;
+}
+
+Value value_of_text(Kind kind, const std::vector<std::string>& texts, const std::string& origin) {
+    if (kind == Kind::words || kind == Kind::paths) return texts;
+    const std::string& text = texts.back();
+    if (kind == Kind::real) return parse_real(text, origin);
+    if (kind == Kind::flag) return text == "true";
+    if (kind == Kind::count) {
+        std::int64_t value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc{} || end != text.data() + text.size()) {
+            throw UsageError(fmt::format("{}: '{}' is not a whole number", origin, text));
+        }
+        return value;
+    }
+    return text;
+}
+
+std::string to_text(const Value& value) {
+    struct Printer {
+        std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+        std::string operator()(std::int64_t count) const { return fmt::to_string(count); }
+        std::string operator()(double real) const { return fmt::to_string(real); }
+        std::string operator()(const std::string& text) const { return text; }
+        std::string operator()(const std::vector<std::string>& texts) const {
+            return fmt::format("{}", fmt::join(texts, ","));
+        }
+    };
+    return std::visit(Printer{}, value);
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,144 @@
+#include "app/report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace lamina::app {
+
+namespace {
+
+std::size_t triangles_in(const Mesh& mesh, Region region) {
+    const auto first = mesh.region.begin();
+    const auto end = first + static_cast<std::ptrdiff_t>(std::min(mesh.region.size(), mesh.triangles.size()));
+    return static_cast<std::size_t>(std::count(first, end, region));
+}
+
+double made_share(const MeshResult& result) {
+    if (result.requested_layer_cells == 0) return 1;
+    return static_cast<double>(result.made_layer_cells) / static_cast<double>(result.requested_layer_cells);
+}
+
+Json input_report(const Pslg& pslg) {
+    Json input = Json::array();
+    for (const Element& element : pslg.elements) {
+        Json repairs = Json::array();
+        for (const Repair& repair : element.repairs) repairs.push_back(repair.text);
+        input.push_back({{"name", element.name},
+                         {"file", element.file},
+                         {"format", element.format},
+                         {"points", element.points.size()},
+                         {"points_read", element.points_read},
+                         {"repairs", repairs}});
+    }
+    return input;
+}
+
+Json seconds_report(const StageSeconds& seconds, double write_seconds) {
+    return {{"geometry", seconds.geometry},
+            {"layers", seconds.layers},
+            {"decomposition", seconds.decomposition},
+            {"layer_triangulation", seconds.layer_triangulation},
+            {"sizing", seconds.sizing},
+            {"decoupling", seconds.decoupling},
+            {"refinement", seconds.refinement},
+            {"assembly", seconds.assembly},
+            {"check", seconds.check},
+            {"write", write_seconds},
+            {"total", seconds.total + write_seconds}};
+}
+
+Json threads_report(const std::vector<ThreadSeconds>& threads) {
+    Json report = Json::array();
+    for (const ThreadSeconds& thread : threads) report.push_back({{"busy", thread.busy}, {"idle", thread.idle}});
+    return report;
+}
+
+}  // namespace
+
+Json quality_report(const MeshCheck& check) {
+    const QualitySummary& isotropic = check.isotropic;
+    const QualitySummary& layer = check.layer;
+    return {{"isotropic",
+             {{"cells", isotropic.cells},
+              {"min_angle_deg", isotropic.min_angle_deg},
+              {"mean_min_angle_deg", isotropic.mean_min_angle_deg},
+              {"max_angle_deg", isotropic.max_angle_deg},
+              {"angles_below_bound", isotropic.angles_below_bound},
+              {"max_neighbour_area_ratio", isotropic.max_neighbour_area_ratio},
+              {"p999_neighbour_area_ratio", isotropic.p999_neighbour_area_ratio},
+              {"angle_histogram", isotropic.angle_histogram}}},
+            {"layer",
+             {{"cells", layer.cells},
+              {"max_aspect_ratio", layer.max_aspect_ratio},
+              {"max_angle_deg", layer.max_angle_deg}}},
+            {"delaunay", {{"interior_edges", check.interior_edges}, {"violations", check.delaunay_violations}}}};
+}
+
+Json mesh_report(const MeshResult& result, double write_seconds) {
+    Json quality = quality_report(result.check);
+    quality["layer"]["incomplete_rays"] = result.incomplete_rays;
+    quality["isotropic"]["exempt"] = result.refinement.exempt;
+    quality["isotropic"]["oversized"] = result.refinement.oversized;
+    quality["isotropic"]["refused_points"] = result.refinement.refused;
+    return {{"version", LAMINA_VERSION},
+            {"threads", result.threads},
+            {"input", input_report(result.pslg)},
+            {"vertices", result.mesh.points.size()},
+            {"triangles", result.mesh.triangles.size()},
+            {"quads", result.mesh.quads.size()},
+            {"layer_triangles", triangles_in(result.mesh, Region::layer)},
+            {"isotropic_triangles", triangles_in(result.mesh, Region::isotropic)},
+            {"surface_vertices", result.surface_vertices},
+            {"pieces", {{"layer", result.layer_pieces}, {"inviscid", result.inviscid_pieces}}},
+            {"layer_cells",
+             {{"requested", result.requested_layer_cells},
+              {"made", result.made_layer_cells},
+              {"share", made_share(result)}}},
+            {"seconds", seconds_report(result.seconds, write_seconds)},
+            {"thread_seconds", {{"refinement", threads_report(result.refinement_threads)}}},
+            {"quality", quality},
+            {"hash", mesh_hash(result.mesh)}};
+}
+
+std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+std::string quality_summary(const MeshCheck& check) {
+    std::string text;
+    if (check.isotropic.cells > 0) {
+        text += fmt::format(
+            "  isotropic {} cells, angles {:.2f} to {:.2f} deg, mean smallest {:.2f} deg, {} below bound, "
+            "neighbour areas within {:.2f}\n",
+            check.isotropic.cells, check.isotropic.min_angle_deg, check.isotropic.max_angle_deg,
+            check.isotropic.mean_min_angle_deg, check.isotropic.angles_below_bound,
+            check.isotropic.max_neighbour_area_ratio);
+    }
+    if (check.layer.cells > 0) {
+        text += fmt::format("  layer     {} cells, aspect ratios up to {:.4g}, angles up to {:.2f} deg\n",
+                            check.layer.cells, check.layer.max_aspect_ratio, check.layer.max_angle_deg);
+    }
+    return text + fmt::format("  delaunay  {} of {} edges violate the property\n", check.delaunay_violations,
+                              check.interior_edges);
+}
+
+std::string mesh_summary(const MeshResult& result, const std::vector<std::string>& outputs, double write_seconds) {
+    std::string text;
+    for (const Element& element : result.pslg.elements) {
+        text += fmt::format("{}: {} points of {} ({})\n", element.name, element.points.size(), element.file,
+                            element.format);
+        for (const Repair& repair : element.repairs) text += "  repaired  " + repair.text + "\n";
+    }
+    text += fmt::format("mesh: {} vertices, {} triangles, {} pieces\n", result.mesh.points.size(),
+                        result.mesh.triangles.size(), result.layer_pieces + result.inviscid_pieces);
+    text += quality_summary(result.check);
+    if (result.requested_layer_cells > 0) {
+        text += fmt::format("  rays      {} cut short; {:.2f} % of the requested layer cells made\n",
+                            result.incomplete_rays, 100 * made_share(result));
+    }
+    text += fmt::format("  time      {:.3f} s, and {:.3f} s for writing, on {} thread{}\n", result.seconds.total,
+                        write_seconds, result.threads, result.threads == 1 ? "" : "s");
+    for (const std::string& output : outputs) text += "  wrote     " + output + "\n";
+    return text;
+}
+
+}  // namespace lamina::app
