@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,14 +26,15 @@ struct SizingOptions {
 /// `relative_error` of the exact minimum over the sources. A cheap value: copies share the tree.
 class SizeField {
 public:
-    /// The same size everywhere.
+    /// The same size everywhere. Throws UsageError unless it is positive.
     explicit SizeField(double uniform_size);
     /// h(x) = min(max_size, min over sources (size + gradation x distance)) inside `domain`; points outside are clamped
-    /// to it.
+    /// to it. Throws UsageError for sizes <= 0, a negative gradation, an empty domain, or no source and no max_size.
     SizeField(std::span<const SizeSource> sources, const SizingOptions& options, const Box& domain);
 
     double operator()(Point p) const;
-    /// The same field, faster inside a box: evaluation starts at the smallest cell that holds it.
+    /// The same field, faster inside a box: evaluation starts at the smallest cell that holds it. Points outside get
+    /// the same value as before, too.
     SizeField restricted_to(const Box& box) const;
     std::size_t cells() const;
 
@@ -40,8 +42,15 @@ public:
 
 private:
     struct Tree;
+    /// A cell of the tree to start at: its node, and the position of any point in it.
+    struct Start {
+        std::uint32_t node = 0;
+        int shift = 0;
+        std::uint64_t x = 0, y = 0;
+    };
+
     std::shared_ptr<const Tree> tree_;
-    std::uint32_t root_ = 0;
+    Start start_;
     double uniform_ = 0;
 };
 

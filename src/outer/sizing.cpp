@@ -1,0 +1,402 @@
+// Background size field: the lower envelope of graded cones over segments, sampled on a graded quadtree.
+// Source: P.-O. Persson, Mesh size functions for implicit geometries and PDE-based gradient limiting, Engineering with
+// Computers 22 (2006): in a convex domain the gradient-limited size is h(x) = min_i (h_i + gradation |x - x_i|).
+// Sources that cannot matter in a cell are dropped on the way down (branch and bound).
+//
+// Why the error is bounded. The envelope f is Lipschitz with constant g (the gradation), so in a cell of side s the
+// bilinear interpolant of its corners is off by at most g s / sqrt 2. Where a cell keeps half a side's distance from
+// every source that counts in it, f is a minimum of smooth functions: it bends upwards by at most g s^2 / (8 distance)
+// and otherwise has concave ridges only, whose error anywhere is a small multiple of that at the five sample points.
+
+#include <lamina/sizing.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <lamina/error.hpp>
+
+namespace lamina {
+namespace {
+
+constexpr double sqrt_half = 0.70710678118654752;
+// Share of h that the Lipschitz bound may take; and relative error at the sample points of smooth cells.
+constexpr double lipschitz_tolerance = 0.047;
+constexpr double sample_tolerance = 0.01;
+// The smallest cell's side is that of the root / 2^max_level.
+constexpr int max_level = 40;
+
+// Points are looked up by fixed-point coordinates of key_bits bits within the root's square.
+constexpr int key_bits = 52;
+constexpr int root_shift = key_bits - 2;
+
+// A wide node is two levels of the quadtree: 4 x 4 slots, one cache line. A slot holds the next wide node, or a leaf
+// of a quarter of the node's side, or a leaf of half its side, which fills four slots.
+using Slots = std::array<std::uint32_t, 16>;
+constexpr std::uint32_t leaf_bit = 1u << 31;
+constexpr std::uint32_t half_bit = 1u << 30;
+constexpr std::uint32_t index_mask = half_bit - 1;
+
+// h at lower left, lower right, upper left, upper right, in units of the root's side.
+using Leaf = std::array<float, 4>;
+
+// A source made ready for distances.
+struct Cone {
+    Point a, along;
+    double inverse_squared_length;  // 0 for a point
+    double size;
+
+    double distance_to(Point p) const {
+        const Point ap = p - a;
+        const double t = std::clamp(dot(ap, along) * inverse_squared_length, 0.0, 1.0);
+        return length(ap - t * along);
+    }
+};
+
+Cone make_cone(const SizeSource& s) {
+    const Point along = s.b - s.a;
+    const double squared = squared_length(along);
+    return {s.a, along, squared > 0 ? 1.0 / squared : 0.0, s.size};
+}
+
+double box_distance(const Box& box, Point p) {
+    const double x = std::max({box.lower.x - p.x, p.x - box.upper.x, 0.0});
+    const double y = std::max({box.lower.y - p.y, p.y - box.upper.y, 0.0});
+    return std::sqrt(x * x + y * y);
+}
+
+double box_distance(const Box& a, const Box& b) {
+    const double x = std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, 0.0});
+    const double y = std::max({a.lower.y - b.upper.y, b.lower.y - a.upper.y, 0.0});
+    return std::sqrt(x * x + y * y);
+}
+
+// Binary tree of sources; the left child of an inner node follows it.
+struct Group {
+    Box box;
+    double smallest;  // size in the group
+    std::uint32_t right = 0;
+    std::uint32_t cone = 0;  // of a group of one
+    bool single() const { return right == 0; }
+    double extent() const { return std::max(box.width(), box.height()); }
+};
+
+std::uint32_t group_sources(std::span<SizeSource> sources, std::vector<Group>& groups, std::vector<Cone>& cones) {
+    const auto index = static_cast<std::uint32_t>(groups.size());
+    Group group{.box = {}, .smallest = HUGE_VAL};
+    for (const SizeSource& s : sources) {
+        group.box.include(s.a);
+        group.box.include(s.b);
+        group.smallest = std::min(group.smallest, s.size);
+    }
+    groups.push_back(group);
+    if (sources.size() == 1) {
+        groups[index].cone = static_cast<std::uint32_t>(cones.size());
+        cones.push_back(make_cone(sources[0]));
+        return index;
+    }
+    const bool by_x = group.box.width() >= group.box.height();
+    const std::size_t half = sources.size() / 2;
+    std::nth_element(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(half), sources.end(),
+                     [by_x](const SizeSource& s, const SizeSource& t) {
+                         return by_x ? s.a.x + s.b.x < t.a.x + t.b.x : s.a.y + s.b.y < t.a.y + t.b.y;
+                     });
+    group_sources(sources.first(half), groups, cones);
+    const std::uint32_t right = group_sources(sources.subspan(half), groups, cones);
+    groups[index].right = right;
+    return index;
+}
+
+// A square of the quadtree under construction.
+struct Cell {
+    Point lower;
+    double side;
+    int level;
+    std::array<double, 4> h;  // exact, in the order of Leaf
+
+    Box box() const { return {lower, {lower.x + side, lower.y + side}}; }
+    double smallest() const { return std::min({h[0], h[1], h[2], h[3]}); }
+    double largest() const { return std::max({h[0], h[1], h[2], h[3]}); }
+};
+
+// Exact h at the middles of a cell's edges and at its centre.
+struct Samples {
+    double south, west, center, east, north;
+};
+
+// The groups that may decide h somewhere in a cell: a range of Builder::candidates_; and a lower bound of their
+// distance from the cell.
+struct Candidates {
+    std::size_t begin, end;
+    double nearest;
+};
+
+class Builder {
+public:
+    Builder(std::vector<SizeSource> sources, const SizingOptions& options, Point lower, double side,
+            std::vector<Slots>& nodes, std::vector<Leaf>& leaves)
+        : gradation_(options.gradation), max_size_(options.max_size), unit_(side), nodes_(nodes), leaves_(leaves) {
+        if (!sources.empty()) {
+            groups_.reserve(2 * sources.size());
+            cones_.reserve(sources.size());
+            group_sources(sources, groups_, cones_);
+            candidates_.push_back(0);
+        }
+        const Candidates all{0, candidates_.size(), 0};
+        Cell root{lower, side, 0, {}};
+        for (int i = 0; i < 4; ++i)
+            root.h[i] = evaluate({lower.x + (i & 1) * side, lower.y + (i >> 1) * side}, all, max_size_);
+        split_twice(root, all, sample(root, all));
+    }
+
+private:
+    // The exact field at p, given an upper bound.
+    double evaluate(Point p, const Candidates& in, double bound) {
+        double best = std::min(bound, max_size_);
+        for (std::size_t i = in.begin; i < in.end; ++i) {
+            pending_.push_back(candidates_[i]);
+            while (!pending_.empty()) {
+                const std::uint32_t index = pending_.back();
+                const Group& group = groups_[index];
+                pending_.pop_back();
+                if (group.single()) {
+                    const Cone& cone = cones_[group.cone];
+                    best = std::min(best, cone.size + gradation_ * cone.distance_to(p));
+                } else if (group.smallest + gradation_ * box_distance(group.box, p) < best) {
+                    pending_.push_back(group.right);
+                    pending_.push_back(index + 1);
+                }
+            }
+        }
+        return best;
+    }
+
+    Samples sample(const Cell& c, const Candidates& in) {
+        const double x0 = c.lower.x, x1 = x0 + 0.5 * c.side, x2 = x0 + c.side;
+        const double y0 = c.lower.y, y1 = y0 + 0.5 * c.side, y2 = y0 + c.side;
+        // The field cannot exceed a neighbour's by more than this; the last factor is for rounding.
+        const auto bound = [&](double a, double b) {
+            return (std::min(a, b) + 0.5 * gradation_ * c.side) * (1 + 1e-9);
+        };
+        Samples s;
+        s.south = evaluate({x1, y0}, in, bound(c.h[0], c.h[1]));
+        s.west = evaluate({x0, y1}, in, bound(c.h[0], c.h[2]));
+        s.center = evaluate({x1, y1}, in, bound(s.south, s.west));
+        s.east = evaluate({x2, y1}, in, bound(c.h[1], c.h[3]));
+        s.north = evaluate({x1, y2}, in, bound(c.h[2], c.h[3]));
+        return s;
+    }
+
+    // The parent's candidates without those that another source undercuts all over the cell. Appended to candidates_.
+    Candidates prune(const Cell& c, const Candidates& parent) {
+        const double radius = sqrt_half * c.side;
+        const double highest = std::min(c.largest() + gradation_ * radius, c.smallest() + 2 * gradation_ * radius);
+        const Box box = c.box();
+        Candidates result{candidates_.size(), 0, HUGE_VAL};
+        for (std::size_t i = parent.begin; i < parent.end; ++i) {
+            pending_.push_back(candidates_[i]);
+            while (!pending_.empty()) {
+                const std::uint32_t index = pending_.back();
+                const Group& group = groups_[index];
+                pending_.pop_back();
+                double distance = box_distance(group.box, box);
+                if (group.single())
+                    distance = std::max(distance, cones_[group.cone].distance_to(box.center()) - radius);
+                if (group.smallest + gradation_ * distance > highest) continue;
+                if (!group.single() && group.extent() > 0.5 * c.side) {
+                    pending_.push_back(group.right);
+                    pending_.push_back(index + 1);
+                } else {
+                    candidates_.push_back(index);
+                    result.nearest = std::min(result.nearest, distance);
+                }
+            }
+        }
+        result.end = candidates_.size();
+        return result;
+    }
+
+    bool needs_no_samples(const Cell& c, const Candidates& in) const {
+        return in.begin == in.end || c.level == max_level ||
+               sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.smallest();
+    }
+
+    bool smooth(const Cell& c, const Candidates& in, const Samples& s) const {
+        const auto close = [](double interpolated, double exact) {
+            return std::abs(interpolated - exact) <= sample_tolerance * exact;
+        };
+        return in.nearest >= 0.5 * c.side && close(0.5 * (c.h[0] + c.h[1]), s.south) &&
+               close(0.5 * (c.h[0] + c.h[2]), s.west) && close(0.5 * (c.h[1] + c.h[3]), s.east) &&
+               close(0.5 * (c.h[2] + c.h[3]), s.north) &&
+               close(0.25 * ((c.h[0] + c.h[1]) + (c.h[2] + c.h[3])), s.center);
+    }
+
+    static Cell quadrant(const Cell& c, const Samples& s, int q) {
+        const std::array<double, 9> h{c.h[0], s.south, c.h[1], s.west, s.center, s.east, c.h[2], s.north, c.h[3]};
+        const int i = q & 1, j = q >> 1, corner = 3 * j + i;
+        const double half = 0.5 * c.side;
+        return {{c.lower.x + i * half, c.lower.y + j * half},
+                half,
+                c.level + 1,
+                {h[corner], h[corner + 1], h[corner + 3], h[corner + 4]}};
+    }
+
+    std::uint32_t add_leaf(const Cell& c) {
+        Leaf leaf;
+        for (int i = 0; i < 4; ++i) leaf[i] = static_cast<float>(c.h[i] / unit_);
+        leaves_.push_back(leaf);
+        return leaf_bit | static_cast<std::uint32_t>(leaves_.size() - 1);
+    }
+
+    // Calls leaf(quadrant, its cell) or inner(quadrant, its cell, candidates, samples) for the four quadrants.
+    template <class OnLeaf, class OnInner>
+    void split(const Cell& parent, const Candidates& candidates, const Samples& samples, OnLeaf leaf, OnInner inner) {
+        for (int q = 0; q < 4; ++q) {
+            const Cell c = quadrant(parent, samples, q);
+            const Candidates in = prune(c, candidates);
+            if (needs_no_samples(c, in)) {
+                leaf(q, c);
+            } else {
+                const Samples s = sample(c, in);
+                if (smooth(c, in, s))
+                    leaf(q, c);
+                else
+                    inner(q, c, in, s);
+            }
+            candidates_.resize(in.begin);
+        }
+    }
+
+    // Makes the wide node of a cell that needs one. The recursion is at most max_level deep.
+    std::uint32_t split_twice(const Cell& cell, const Candidates& candidates, const Samples& samples) {
+        const auto node = static_cast<std::uint32_t>(nodes_.size());
+        nodes_.emplace_back();
+        const auto slot = [](int q, int r) { return 8 * (q >> 1) + 4 * (r >> 1) + 2 * (q & 1) + (r & 1); };
+        split(
+            cell, candidates, samples,
+            [&](int q, const Cell& half) {
+                const std::uint32_t leaf = add_leaf(half) | half_bit;
+                for (int r = 0; r < 4; ++r) nodes_[node][slot(q, r)] = leaf;
+            },
+            [&](int q, const Cell& half, const Candidates& half_candidates, const Samples& half_samples) {
+                split(
+                    half, half_candidates, half_samples,
+                    [&](int r, const Cell& quarter) { nodes_[node][slot(q, r)] = add_leaf(quarter); },
+                    [&](int r, const Cell& quarter, const Candidates& in, const Samples& s) {
+                        const std::uint32_t next = split_twice(quarter, in, s);
+                        nodes_[node][slot(q, r)] = next;
+                    });
+            });
+        return node;
+    }
+
+    double gradation_, max_size_, unit_;
+    std::vector<Slots>& nodes_;
+    std::vector<Leaf>& leaves_;
+    std::vector<Group> groups_;
+    std::vector<Cone> cones_;
+    std::vector<std::uint32_t> candidates_;  // of the cells on the way from the root to the present one
+    std::vector<std::uint32_t> pending_;     // scratch
+};
+
+void require_valid(std::span<const SizeSource> sources, const SizingOptions& options, const Box& domain) {
+    if (!(options.gradation >= 0 && options.gradation < HUGE_VAL))
+        throw UsageError("size field: the gradation must be finite and not negative");
+    if (!(options.max_size > 0)) throw UsageError("size field: the largest size must be positive");
+    if (sources.empty() && !(options.max_size < HUGE_VAL))
+        throw UsageError("size field: neither a source nor a largest size is given");
+    if (!(domain.width() >= 0 && domain.height() >= 0 && domain.width() + domain.height() > 0 &&
+          domain.width() + domain.height() < HUGE_VAL))
+        throw UsageError("size field: the domain is empty or infinite");
+    for (const SizeSource& s : sources)
+        if (!(s.size > 0 && s.size < HUGE_VAL)) throw UsageError("size field: a source's size must be positive");
+}
+
+}  // namespace
+
+struct SizeField::Tree {
+    struct Key {
+        std::uint64_t x, y;
+    };
+
+    Box domain;
+    double side = 0;
+    double keys_per_length = 0;
+    std::vector<Slots> nodes;
+    std::vector<Leaf> leaves;
+
+    Key key(Point p) const {
+        constexpr std::uint64_t last = (std::uint64_t{1} << key_bits) - 1;
+        const double x = (std::clamp(p.x, domain.lower.x, domain.upper.x) - domain.lower.x) * keys_per_length;
+        const double y = (std::clamp(p.y, domain.lower.y, domain.upper.y) - domain.lower.y) * keys_per_length;
+        // By way of the signed type, which is what the hardware converts.
+        return {std::min(static_cast<std::uint64_t>(static_cast<std::int64_t>(x)), last),
+                std::min(static_cast<std::uint64_t>(static_cast<std::int64_t>(y)), last)};
+    }
+
+    static std::size_t slot(Key k, int shift) { return ((k.y >> shift) & 3) * 4 + ((k.x >> shift) & 3); }
+};
+
+SizeField::SizeField(double uniform_size) : uniform_(uniform_size) {
+    if (!(uniform_size > 0)) throw UsageError("size field: the size must be positive");
+}
+
+SizeField::SizeField(std::span<const SizeSource> sources, const SizingOptions& options, const Box& domain) {
+    require_valid(sources, options, domain);
+    auto tree = std::make_shared<Tree>();
+    tree->domain = domain;
+    tree->side = std::max(domain.width(), domain.height());
+    tree->keys_per_length = static_cast<double>(std::uint64_t{1} << key_bits) / tree->side;
+    Builder({sources.begin(), sources.end()}, options, domain.lower, tree->side, tree->nodes, tree->leaves);
+    tree_ = std::move(tree);
+    start_.shift = root_shift;
+}
+
+double SizeField::operator()(Point p) const {
+    if (!tree_) return uniform_;
+    const Tree& tree = *tree_;
+    const Tree::Key key = tree.key(p);
+    std::uint32_t node = start_.node;
+    int shift = start_.shift;
+    if (((key.x ^ start_.x) | (key.y ^ start_.y)) >> (shift + 2) != 0) {  // outside the cell of start_
+        node = 0;
+        shift = root_shift;
+    }
+    std::uint32_t entry = tree.nodes[node][Tree::slot(key, shift)];
+    while ((entry & leaf_bit) == 0) {
+        shift -= 2;
+        entry = tree.nodes[entry][Tree::slot(key, shift)];
+    }
+    const int bits = shift + ((entry & half_bit) != 0);
+    const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+    const auto scale = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - bits) << 52);  // 2^-bits
+    const double u = static_cast<double>(static_cast<std::int64_t>(key.x & mask)) * scale;
+    const double v = static_cast<double>(static_cast<std::int64_t>(key.y & mask)) * scale;
+    const Leaf& h = tree.leaves[entry & index_mask];
+    const double south = h[0] + u * (static_cast<double>(h[1]) - h[0]);
+    const double north = h[2] + u * (static_cast<double>(h[3]) - h[2]);
+    return tree.side * (south + v * (north - south));
+}
+
+SizeField SizeField::restricted_to(const Box& box) const {
+    SizeField result = *this;
+    if (!tree_) return result;
+    const Tree::Key lower = tree_->key(box.lower), upper = tree_->key(box.upper);
+    Start start{.node = 0, .shift = root_shift, .x = lower.x, .y = lower.y};
+    for (;;) {
+        const std::size_t slot = Tree::slot(lower, start.shift);
+        const std::uint32_t entry = tree_->nodes[start.node][slot];
+        if (slot != Tree::slot(upper, start.shift) || (entry & leaf_bit) != 0) break;
+        start.node = entry;
+        start.shift -= 2;
+    }
+    result.start_ = start;
+    return result;
+}
+
+std::size_t SizeField::cells() const { return tree_ ? tree_->leaves.size() : 1; }
+
+}  // namespace lamina
