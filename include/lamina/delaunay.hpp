@@ -47,7 +47,9 @@ Triangulation constrained_delaunay(std::span<const Point> points, std::span<cons
 struct RefineOptions {
     double min_angle_deg = 20.7;  ///< proved to terminate up to 20.7, measured up to 33
     /// The most points that may be added before giving up with MeshError.
-    std::size_t max_points = 400'000'000;
+    std::size_t max_points = 200'000'000;
+    /// How many triangles to reserve memory for; a guess never changes the result.
+    std::size_t expected_triangles = 0;
 };
 
 struct RefineStats {

@@ -1,0 +1,319 @@
+// Delaunay refinement with a size field, a minimum angle and a frozen border.
+// Sources: J. Ruppert, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, J. Algorithms 18
+// (1995); L. P. Chew, SoCG 1993; off-centres: A. Ungor, LATIN 2004; points at a prescribed size on the perpendicular
+// bisector: S. Rebay, J. Comput. Phys. 106 (1993). Order of work and figures: docs/decisions/0002.
+//
+// Termination: no segment is ever split, and a point placed for an angle is farther from every vertex than the shortest
+// edge of the triangle it mends (for bounds up to 30 degrees); points placed for size keep a distance of a share of h.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
+
+#include "core/reproducible_math.hpp"
+#include "kernel/cavity.hpp"
+#include "kernel/triangulator.hpp"
+
+namespace lamina {
+
+namespace kernel {
+
+namespace {
+
+/// Share of the bound that the area of a triangle made by a size-driven point aims at.
+constexpr double aimed_area = 0.9;
+constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4: area over squared edge
+
+/// Triangles that wait for their angle to be mended, by shortest edge: buckets of a factor 2^(1/4) in squared length.
+/// An entry is stale, and dropped at the pop, when the triangle in its slot no longer has the recorded key.
+class AngleQueue {
+public:
+    struct Entry {
+        Index triangle;
+        float key;  ///< squared length of the shortest edge
+    };
+
+    void push(Entry e) {
+        const std::size_t b = bucket(e.key);
+        buckets_[b].push_back(e);
+        occupied_[b / 64] |= std::uint64_t{1} << (b % 64);
+    }
+
+    /// The most recent entry of the lowest bucket; false where none is left.
+    bool pop(Entry& e) {
+        for (std::size_t word = 0; word < occupied_.size(); ++word) {
+            if (occupied_[word] == 0) continue;
+            const std::size_t b = word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word]));
+            e = buckets_[b].back();
+            buckets_[b].pop_back();
+            if (buckets_[b].empty()) occupied_[word] &= occupied_[word] - 1;
+            return true;
+        }
+        return false;
+    }
+
+private:
+    static constexpr std::size_t bucket_count = 1024;  // 8 exponent bits, 2 bits of mantissa
+    static std::size_t bucket(float key) { return std::bit_cast<std::uint32_t>(key) >> 21; }
+
+    std::array<std::vector<Entry>, bucket_count> buckets_;
+    std::array<std::uint64_t, bucket_count / 64> occupied_{};
+};
+
+class Refiner {
+public:
+    Refiner(std::span<const Point> border, std::span<const Segment> segments, const SizeField& size,
+            const RefineOptions& options)
+        : size_(size), options_(options), border_count_(border.size()), points_(border.begin(), border.end()) {
+        const double bound = options.min_angle_deg * (pi / 180);
+        const double s = sin_reproducible(bound);
+        squared_sine_ = s * s;
+        // An apex of the bound's angle over the shortest edge, 5 % nearer so that rounding leaves the angle above it.
+        off_centre_ = 0.475 * std::sqrt((1 + cos_reproducible(bound)) / (1 - cos_reproducible(bound)));
+
+        tris_ = triangulate_points(border);
+        insert_segments(border, segments, tris_);
+        tris_ = keep_left_of_segments(segments, tris_, border.size());
+        sizes_.reserve(border.size());
+        for (Point p : border) sizes_.push_back(size(p));
+        reserve(options.expected_triangles);
+    }
+
+    /// Size first, from a stack, so that work stays in cache; then angles, shortest edge first.
+    void run() {
+        for (Index t = 0; t < tris_.size(); ++t) classify(t);
+        for (;;) {
+            if (!oversized_.empty()) {
+                const Index t = oversized_.back();
+                oversized_.pop_back();
+                mend_size(t);
+            } else {
+                AngleQueue::Entry e;
+                if (!narrow_.pop(e)) return;
+                mend_angle(e);
+            }
+        }
+    }
+
+    Refinement result() {
+        Refinement r;
+        r.stats = count_leftovers();
+        r.added.assign(points_.begin() + static_cast<std::ptrdiff_t>(border_count_), points_.end());
+        r.triangles.reserve(tris_.size());
+        for (const Tri& t : tris_) r.triangles.push_back({VertexId{t.v[0]}, VertexId{t.v[1]}, VertexId{t.v[2]}});
+        return r;
+    }
+
+private:
+    static constexpr double pi = 3.14159265358979323846;
+
+    /// A triangle with its edges as the decisions need them.
+    struct Shape {
+        std::array<double, 3> squared;  ///< squared length of edge e
+        double area2;                   ///< twice the area
+        unsigned shortest() const {
+            const unsigned m = squared[1] < squared[0] ? 1 : 0;
+            return squared[2] < squared[m] ? 2 : m;
+        }
+    };
+
+    Shape shape_of(const Tri& t) const {
+        const Point a = points_[t.v[0]], b = points_[t.v[1]], c = points_[t.v[2]];
+        return {{squared_length(c - b), squared_length(a - c), squared_length(b - a)}, cross(b - a, c - a)};
+    }
+
+    double area2_bound(const Tri& t) const {
+        const double h = sizes_[t.v[0]] + sizes_[t.v[1]] + sizes_[t.v[2]];
+        return (2 * equilateral_area / 9) * (h * h);
+    }
+
+    /// sin^2 of the smallest angle = (2 area)^2 / (product of the two longer squared edges).
+    bool is_narrow(double ab, double bc, double ca, double shortest, double area2) const {
+        return area2 * area2 * shortest < squared_sine_ * (ab * bc * ca);
+    }
+
+    void classify(Index t) {
+        const Shape s = shape_of(tris_[t]);
+        const double shortest = s.squared[s.shortest()];
+        if (s.area2 > area2_bound(tris_[t]))
+            oversized_.push_back(t);
+        else if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2))
+            narrow_.push({t, static_cast<float>(shortest)});
+    }
+
+    /// Where a point on the perpendicular bisector of edge e stands, `reach` edge lengths inside from its middle, but
+    /// never beyond the circumcentre. The segment from the middle to the circumcentre lies in the circumscribed circle.
+    ///
+    ///            w
+    ///          / : \           tangent of the angle at w: cross / dot
+    ///         /  x  \    x = circumcentre, dot / (2 cross) edge lengths above the middle
+    ///        /   :   \         .
+    ///       u ---m--- v
+    Point on_bisector(const Tri& t, unsigned e, double reach) const {
+        const Point u = points_[t.v[next(e)]], v = points_[t.v[previous(e)]], w = points_[t.v[e]];
+        const Point edge = v - u, wu = u - w, wv = v - w;
+        const double to_centre = 0.5 * dot(wu, wv) / cross(wu, wv);
+        return midpoint(u, v) + std::min(reach, to_centre) * perpendicular(edge);
+    }
+
+    void mend_size(Index t) {
+        const Tri& tri = tris_[t];
+        const Shape s = shape_of(tri);
+        const double bound = area2_bound(tri);
+        if (!(s.area2 > bound)) return;  // the slot was reused
+        // Height of a triangle of the aimed area over the shortest edge, in lengths of that edge. An edge that is long
+        // itself is no base for a front: the circumcentre serves.
+        const unsigned e = s.shortest();
+        const double reach = aimed_area * bound / s.squared[e];
+        insert(t, on_bisector(tri, e, reach > 0.5 ? reach : HUGE_VAL));
+    }
+
+    void mend_angle(AngleQueue::Entry entry) {
+        const Tri& tri = tris_[entry.triangle];
+        const Shape s = shape_of(tri);
+        const unsigned e = s.shortest();
+        const double shortest = s.squared[e];
+        if (static_cast<float>(shortest) != entry.key ||
+            !is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2))
+            return;
+        insert(entry.triangle, on_bisector(tri, e, off_centre_));
+    }
+
+    /// Inserts p, which lies in the circle of triangle t. False, and nothing changed, where p encroaches upon the
+    /// border.
+    bool insert(Index t, Point p) {
+        const Tri& tri = tris_[t];
+        if (!(detail::inline_incircle_perturbed(points_[tri.v[0]], points_[tri.v[1]], points_[tri.v[2]], p) > 0)) {
+            ++refused_;
+            return false;
+        }
+        find_cavity<false>(points_.data(), tris_, t, p, cavity_);
+        if (!rim_is_free(p)) {
+            ++refused_;
+            return false;
+        }
+        if (points_.size() - border_count_ >= options_.max_points)
+            throw MeshError(
+                fmt::format("refinement stopped after {} points: the size field is too fine", options_.max_points));
+        const Index vertex = static_cast<Index>(points_.size());
+        points_.push_back(p);
+        sizes_.push_back(size_(p));
+        const std::size_t before = tris_.size();
+        fill_cavity(tris_, cavity_, vertex);
+        classify_fan(vertex, before);
+        return true;
+    }
+
+    /// Every rim edge sees p on its inner side, and no border edge of the rim has p in its diametral circle.
+    bool rim_is_free(Point p) const {
+        const std::size_t k = cavity_.rim.size();
+        for (std::size_t i = 0; i < k; ++i) {
+            const RimEdge& a = cavity_.rim[i];
+            const RimEdge& b = cavity_.rim[i + 1 < k ? i + 1 : 0];
+            if (a.outer.is_fixed() && a.ax * b.ax + a.ay * b.ay <= 0) return false;
+            // Twice the rounding error of a cross product of these lengths.
+            if (a.area2 <= 1e-15 * (a.aa + b.aa) && detail::inline_orient2d(points_[a.a], points_[b.a], p) <= 0)
+                return false;
+        }
+        return true;
+    }
+
+    /// classify() for the new triangles, from the lengths that the cavity walk left behind.
+    void classify_fan(Index vertex, std::size_t before) {
+        const std::size_t k = cavity_.rim.size();
+        const double h = sizes_[vertex];
+        for (std::size_t i = 0; i < k; ++i) {
+            const RimEdge& a = cavity_.rim[i];
+            const RimEdge& b = cavity_.rim[i + 1 < k ? i + 1 : 0];
+            const double sum = h + sizes_[a.a] + sizes_[b.a];
+            const double ex = b.ax - a.ax, ey = b.ay - a.ay;
+            const double ab = ex * ex + ey * ey;
+            if (a.area2 > (2 * equilateral_area / 9) * (sum * sum)) {
+                oversized_.push_back(cavity_.created(i, before));
+            } else {
+                const double shortest = std::min(std::min(a.aa, b.aa), ab);
+                if (is_narrow(a.aa, b.aa, ab, shortest, a.area2)) {
+                    const Index t = cavity_.created(i, before);
+                    // The key must be the one a later look computes from the coordinates.
+                    const Shape s = shape_of(tris_[t]);
+                    narrow_.push({t, static_cast<float>(s.squared[s.shortest()])});
+                }
+            }
+        }
+    }
+
+    void reserve(std::size_t triangles) {
+        tris_.reserve(triangles + triangles / 8 + 16);
+        points_.reserve(border_count_ + triangles / 2 + triangles / 16);
+        sizes_.reserve(points_.capacity());
+    }
+
+    RefineStats count_leftovers() const;
+
+    const SizeField& size_;
+    const RefineOptions& options_;
+    std::size_t border_count_;
+    std::vector<Point> points_;
+    std::vector<double> sizes_;  ///< h at each point
+    Tris tris_;
+    double squared_sine_ = 0, off_centre_ = 0;
+    std::vector<Index> oversized_;
+    AngleQueue narrow_;
+    Cavity cavity_;
+    std::size_t refused_ = 0;
+};
+
+/// The region's interior angle at a vertex is below 60 degrees where the border turns back sharply: such corners
+/// excuse the triangles in them.
+RefineStats Refiner::count_leftovers() const {
+    // Border edges into and out of each border vertex (region on their left); a vertex with several of either, where
+    // the region touches itself, counts as sharp if any pair is.
+    std::vector<char> sharp(border_count_, 0);
+    std::vector<std::array<Index, 2>> around(border_count_, {no_index, no_index});
+    for (const Tri& t : tris_)
+        for (unsigned e = 0; e < 3; ++e) {
+            if (!t.n[e].is_border()) continue;
+            around[t.v[next(e)]][0] = t.v[previous(e)];
+            around[t.v[previous(e)]][1] = t.v[next(e)];
+        }
+    for (Index v = 0; v < border_count_; ++v) {
+        const auto [out, in] = around[v];
+        if (out == no_index || in == no_index) continue;
+        const Point a = points_[out] - points_[v], b = points_[in] - points_[v];
+        // Interior angle from out, counter-clockwise to in: below 60 degrees if it turns left and cos > 1/2.
+        const double d = dot(a, b);
+        sharp[v] = cross(a, b) > 0 && d > 0 && 4 * d * d > squared_length(a) * squared_length(b);
+    }
+
+    RefineStats stats;
+    stats.refused = refused_;
+    for (const Tri& t : tris_) {
+        const Shape s = shape_of(t);
+        const double shortest = s.squared[s.shortest()];
+        // What the check of the finished mesh would count: the bound, less rounding.
+        if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest * (1 + 1e-9), s.area2)) {
+            ++stats.below_bound;
+            stats.exempt += std::any_of(t.v, t.v + 3, [&](Index v) { return v < border_count_ && sharp[v]; });
+        }
+        stats.oversized += s.area2 > area2_bound(t) * (1 + 1e-9);
+    }
+    return stats;
+}
+
+}  // namespace
+
+}  // namespace kernel
+
+Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
+                  const RefineOptions& options) {
+    kernel::Refiner refiner(points, segments, size, options);
+    refiner.run();
+    return refiner.result();
+}
+
+}  // namespace lamina

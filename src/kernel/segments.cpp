@@ -1,0 +1,346 @@
+// Constraint insertion: the triangles that a segment crosses are removed and the polygons on its two sides triangulated
+// anew. Source: M. V. Anglada, An improved incremental algorithm for constructing restricted Delaunay triangulations,
+// Computers & Graphics 21 (1997). The opposite vertex of each base is chosen with the perturbed incircle test, so the
+// result obeys the one tie rule.
+#include <algorithm>
+#include <cassert>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "core/predicates.hpp"
+#include "kernel/triangulator.hpp"
+
+namespace lamina::kernel {
+
+namespace {
+
+/// An edge of the polygon beside a segment. Where both sides of an edge belong to the polygon (it dangles), `partner`
+/// is the other side's place in the list of all chain edges.
+struct ChainEdge {
+    Index a, b;
+    Link inside;  ///< triangle (to be removed) and edge from which it was seen
+    Link outer;   ///< what lies across
+    Index partner = no_index;
+    Link filled;  ///< the new triangle on the inside, once made
+};
+
+/// Scratch space of one call of insert_segments().
+struct Workspace {
+    std::vector<Index> crossed;      ///< triangles to be removed
+    std::vector<ChainEdge> edges;    ///< of both chains
+    std::vector<Index> left, right;  ///< indices into edges, in the order from a to b
+    std::vector<Index> chain;        ///< the chain being filled, as indices into edges
+    std::vector<Index> vertices;     ///< and its vertices, one more
+    struct Range {
+        std::size_t low, high;  ///< vertices of the chain; the polygon lies left of low -> high
+        Link base;              ///< the new triangle across the base
+    };
+    std::vector<Range> ranges;
+};
+
+std::string segment_name(std::span<const Segment> segments, Index a, Index b) {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const Index sa = segments[i].a.value, sb = segments[i].b.value;
+        if ((sa == a && sb == b) || (sa == b && sb == a)) return fmt::format("segment {} ({}-{})", i, sa, sb);
+    }
+    return fmt::format("segment ({}-{})", a, b);
+}
+
+[[noreturn]] void fail_through_vertex(std::span<const Point> points, std::span<const Segment> segments, Index a,
+                                      Index b, Index v) {
+    throw InputError({.file = {}, .line = 0, .at = points[v]},
+                     fmt::format("{} passes through point {}", segment_name(segments, a, b), v));
+}
+
+[[noreturn]] void fail_crossing(std::span<const Point> points, std::span<const Segment> segments, Index a, Index b,
+                                Index c, Index d) {
+    const Point p = points[a], q = points[b], r = points[c], s = points[d];
+    const double t = cross(r - p, s - r) / cross(q - p, s - r);
+    throw InputError({.file = {}, .line = 0, .at = p + t * (q - p)},
+                     fmt::format("{} crosses {}", segment_name(segments, a, b), segment_name(segments, c, d)));
+}
+
+void fix_edge(Tris& tris, Index triangle, unsigned edge) {
+    const Link outer = tris[triangle].n[edge];
+    tris[triangle].n[edge] = outer.fixed();
+    if (!outer.is_border()) tris[outer.triangle()].n[outer.edge()] = Link(triangle, edge, true);
+}
+
+/// Turns round a. If edge a-b is there it is fixed and border() returned; otherwise the edge opposite a through which
+/// the segment leaves, as (triangle, edge).
+Link first_crossing(std::span<const Point> points, std::span<const Segment> segments, Tris& tris, Index at_a, Index a,
+                    Index b) {
+    Index t = at_a;
+    Link exit = Link::border();
+    do {
+        const Tri& tri = tris[t];
+        const unsigned i = tri.v[0] == a ? 0 : tri.v[1] == a ? 1 : 2;
+        const Index u = tri.v[next(i)], w = tri.v[previous(i)];
+        if (u == b) {
+            fix_edge(tris, t, previous(i));
+            return Link::border();
+        }
+        if (w == b) {
+            fix_edge(tris, t, next(i));
+            return Link::border();
+        }
+        if (u != ghost_vertex) {
+            const double at_u = detail::inline_orient2d(points[a], points[u], points[b]);
+            if (at_u == 0 && dot(points[u] - points[a], points[b] - points[a]) > 0)
+                fail_through_vertex(points, segments, a, b, u);
+            if (w != ghost_vertex && at_u > 0 && detail::inline_orient2d(points[a], points[w], points[b]) < 0)
+                exit = Link(t, i);
+        }
+        t = tri.n[next(i)].triangle();  // counter-clockwise, across a-w
+    } while (t != at_a);
+    assert(!exit.is_border());
+    return exit;
+}
+
+/// Walks along a -> b and collects the crossed triangles and the two chains:
+///
+///        w0 ---- w1 ------- w2
+///       /  \    /  \      /    \        left chain   a w0 w1 w2 b
+///      a ---\--/----\----/----- b       right chain  a u0 u1 b
+///       \    \/      \  /      /
+///        u0 ---------- u1 ----
+void collect_crossed(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris, Link exit,
+                     Index a, Index b, Workspace& work) {
+    work.crossed.clear();
+    work.edges.clear();
+    work.left.clear();
+    work.right.clear();
+    const auto chain_edge = [&](std::vector<Index>& side, Index triangle, unsigned edge) {
+        const Tri& t = tris[triangle];
+        side.push_back(static_cast<Index>(work.edges.size()));
+        work.edges.push_back({t.v[next(edge)], t.v[previous(edge)], Link(triangle, edge), t.n[edge], no_index, {}});
+    };
+    Index t = exit.triangle();
+    unsigned e = exit.edge();
+    work.crossed.push_back(t);
+    chain_edge(work.left, t, next(e));
+    chain_edge(work.right, t, previous(e));
+    for (;;) {
+        const Link across = tris[t].n[e];
+        if (across.is_fixed()) fail_crossing(points, segments, a, b, tris[t].v[next(e)], tris[t].v[previous(e)]);
+        t = across.triangle();
+        const unsigned k = across.edge();
+        work.crossed.push_back(t);
+        const Index x = tris[t].v[k];
+        if (x == b) {
+            chain_edge(work.left, t, previous(k));
+            chain_edge(work.right, t, next(k));
+            return;
+        }
+        const double side = detail::inline_orient2d(points[a], points[b], points[x]);
+        if (side == 0) fail_through_vertex(points, segments, a, b, x);
+        if (side > 0) {
+            chain_edge(work.left, t, previous(k));
+            e = next(k);
+        } else {
+            chain_edge(work.right, t, next(k));
+            e = previous(k);
+        }
+    }
+}
+
+/// Finds the chain edges whose other side is removed, too (see ChainEdge). The removed triangles serve as the table:
+/// their links are overwritten by places in the list.
+void pair_dangling_edges(Tris& tris, Workspace& work) {
+    // A ghost has one vertex of this number, never two.
+    for (Index t : work.crossed) tris[t].v[0] = tris[t].v[1] = no_index;
+    for (Index i = 0; i < work.edges.size(); ++i) {
+        const ChainEdge& edge = work.edges[i];
+        tris[edge.inside.triangle()].n[edge.inside.edge()] = Link(i, 0);
+    }
+    for (ChainEdge& edge : work.edges) {
+        if (edge.outer.is_border()) continue;
+        const Tri& t = tris[edge.outer.triangle()];
+        if (t.v[0] == no_index && t.v[1] == no_index) edge.partner = t.n[edge.outer.edge()].triangle();
+    }
+}
+
+/// Connects a new triangle to a chain edge, or two new ones where the edge dangles.
+void attach(Tris& tris, Workspace& work, Index chain_edge, Index triangle, unsigned edge) {
+    ChainEdge& c = work.edges[chain_edge];
+    c.filled = Link(triangle, edge);
+    if (c.partner == no_index)
+        connect(tris, triangle, edge, c.outer);
+    else if (const Link other = work.edges[c.partner].filled; !other.is_border())
+        connect(tris, triangle, edge, Link(other.triangle(), other.edge(), c.outer.is_fixed()));
+}
+
+/// Does the direction from u to x lie in the closed sector that opens counter-clockwise from `from` to `to`?
+bool in_sector(Point u, Point from, Point to, Point x) {
+    if (from == to) return true;
+    const double opening = detail::inline_orient2d(u, from, to);
+    if (opening >= 0) return detail::inline_orient2d(u, from, x) >= 0 && detail::inline_orient2d(u, x, to) >= 0;
+    return !(detail::inline_orient2d(u, to, x) > 0 && detail::inline_orient2d(u, x, from) > 0);
+}
+
+/// The place in the chain, strictly between low and high, of the vertex that forms a triangle with low -> high: left of
+/// it, and no other such vertex in its circle. A vertex from which edges dangle stands in the chain several times: the
+/// place whose interior angle faces the base is the one.
+std::size_t opposite_vertex(std::span<const Point> points, const std::vector<Index>& vertices, std::size_t low,
+                            std::size_t high) {
+    const Index a = vertices[low], b = vertices[high];
+    std::size_t k = low;
+    for (std::size_t i = low + 1; i < high; ++i) {
+        const Index v = vertices[i];
+        if (detail::inline_orient2d(points[a], points[b], points[v]) <= 0) continue;
+        if (k == low ||
+            (v == vertices[k]
+                 ? in_sector(points[v], points[vertices[i - 1]], points[vertices[i + 1]], points[a])
+                 : detail::inline_incircle_perturbed(points[a], points[b], points[vertices[k]], points[v]) > 0))
+            k = i;
+    }
+    assert(k != low);
+    return k;
+}
+
+/// Triangulates the polygon between the chain and its base, the straight line from its first to its last vertex, which
+/// has the polygon on its left. The triangles come from the end of `crossed`. Returns the triangle at the base, as
+/// (triangle, edge 2).
+///
+///             k                 the vertex k whose circle with the base holds no other vertex of the chain
+///           /   \               makes the triangle; what remains on both sides is the same problem
+///       ../       \..
+///      low ------- high
+Link fill_polygon(std::span<const Point> points, Tris& tris, Workspace& work, std::vector<Index>& at_vertex) {
+    // Seen from the crossed triangles the edges run against the chain, which has its polygon on the right.
+    work.vertices.assign(1, work.edges[work.chain.front()].b);
+    for (Index e : work.chain) work.vertices.push_back(work.edges[e].a);
+    Link top = Link::border();
+    work.ranges.assign(1, {0, work.chain.size(), Link::border()});
+    while (!work.ranges.empty()) {
+        const Workspace::Range r = work.ranges.back();
+        work.ranges.pop_back();
+        const std::size_t k = opposite_vertex(points, work.vertices, r.low, r.high);
+        const Index t = work.crossed.back();
+        work.crossed.pop_back();
+        const Index v[3] = {work.vertices[r.low], work.vertices[r.high], work.vertices[k]};
+        for (unsigned i = 0; i < 3; ++i) {
+            tris[t].v[i] = v[i];
+            tris[t].n[i] = Link::border();
+            at_vertex[v[i]] = t;
+        }
+        if (r.base.is_border())
+            top = Link(t, 2);
+        else
+            connect(tris, t, 2, r.base);
+        if (r.high == k + 1)
+            attach(tris, work, work.chain[k], t, 0);
+        else
+            work.ranges.push_back({k, r.high, Link(t, 0)});
+        if (k == r.low + 1)
+            attach(tris, work, work.chain[r.low], t, 1);
+        else
+            work.ranges.push_back({r.low, k, Link(t, 1)});
+    }
+    return top;
+}
+
+void insert_segment(std::span<const Point> points, std::span<const Segment> segments, Tris& tris,
+                    std::vector<Index>& at_vertex, Index a, Index b, Workspace& work) {
+    const Link exit = first_crossing(points, segments, tris, at_vertex[a], a, b);
+    if (exit.is_border()) return;
+    collect_crossed(points, segments, tris, exit, a, b, work);
+    pair_dangling_edges(tris, work);
+    work.chain = work.left;
+    const Link left = fill_polygon(points, tris, work, at_vertex);
+    // The right chain, walked from b to a, has its polygon on the left as well.
+    work.chain.assign(work.right.rbegin(), work.right.rend());
+    const Link right = fill_polygon(points, tris, work, at_vertex);
+    connect(tris, left.triangle(), left.edge(), right.fixed());
+}
+
+}  // namespace
+
+std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count) {
+    std::vector<Index> at(point_count, no_index);
+    for (Index t = 0; t < tris.size(); ++t)
+        for (Index v : tris[t].v)
+            if (v != ghost_vertex) at[v] = t;
+    return at;
+}
+
+Link find_edge(const Tris& tris, const std::vector<Index>& at_vertex, Index a, Index b) {
+    const Index start = at_vertex[a];
+    Index t = start;
+    do {
+        const Tri& tri = tris[t];
+        const unsigned i = tri.v[0] == a ? 0 : tri.v[1] == a ? 1 : 2;
+        if (tri.v[next(i)] == b) return Link(t, previous(i));
+        t = tri.n[next(i)].triangle();
+    } while (t != start);
+    return Link::border();
+}
+
+void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris) {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const auto [a, b] = segments[i];
+        if (a.index() >= points.size() || b.index() >= points.size() || a == b)
+            throw InputError({}, fmt::format("segment {} ({}-{}) does not join two of the {} points", i, a.value,
+                                             b.value, points.size()));
+    }
+    if (tris.empty()) {
+        if (!segments.empty()) throw InputError({}, "all points lie on one line: segments cannot be inserted");
+        return;
+    }
+    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
+    Workspace work;
+    for (const Segment& s : segments) insert_segment(points, segments, tris, at_vertex, s.a.value, s.b.value, work);
+}
+
+Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count) {
+    const std::vector<Index> at_vertex = triangle_at_vertex(tris, point_count);
+    std::vector<char> keep(tris.size(), 0);
+    std::vector<Index> front;
+    const auto reach = [&](Index t) {
+        if (keep[t] || tris[t].is_ghost()) return;
+        keep[t] = 1;
+        front.push_back(t);
+    };
+    for (const Segment& s : segments) {
+        const Link left = find_edge(tris, at_vertex, s.a.value, s.b.value);
+        if (!left.is_border()) reach(left.triangle());
+        while (!front.empty()) {
+            const Tri& t = tris[front.back()];
+            front.pop_back();
+            for (Link n : t.n)
+                if (!n.is_fixed()) reach(n.triangle());
+        }
+    }
+
+    std::vector<Index> renumbered(tris.size(), no_index);
+    Index count = 0;
+    for (Index t = 0; t < tris.size(); ++t)
+        if (keep[t]) renumbered[t] = count++;
+    Tris kept(count);
+    for (Index t = 0; t < tris.size(); ++t) {
+        if (!keep[t]) continue;
+        Tri& copy = kept[renumbered[t]] = tris[t];
+        for (Link& n : copy.n) {
+            if (n.is_border()) continue;
+            const Index other = renumbered[n.triangle()];
+            n = other == no_index ? Link::border() : Link(other, n.edge(), n.is_fixed());
+        }
+    }
+    return kept;
+}
+
+}  // namespace lamina::kernel
+
+namespace lamina {
+
+Triangulation constrained_delaunay(std::span<const Point> points, std::span<const Segment> segments,
+                                   const ConstrainedOptions& options) {
+    kernel::Tris tris = kernel::triangulate_points(points);
+    kernel::insert_segments(points, segments, tris);
+    if (options.keep == Keep::left_of_segments) tris = kernel::keep_left_of_segments(segments, tris, points.size());
+    return kernel::without_ghosts(tris);
+}
+
+}  // namespace lamina

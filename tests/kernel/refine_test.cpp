@@ -1,0 +1,163 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
+
+#include "support/point_sets.hpp"
+
+namespace lamina::test {
+namespace {
+
+constexpr double equilateral_area = 0.43301270189221932;
+
+/// Border points, then added ones.
+std::vector<Point> all_points(const Border& border, const Refinement& r) {
+    std::vector<Point> points = border.points;
+    points.insert(points.end(), r.added.begin(), r.added.end());
+    return points;
+}
+
+/// Every promise of refine(), checked from the outside.
+void expect_promises(const Border& border, const Refinement& r, const SizeField& size, const RefineOptions& options,
+                     double area) {
+    const auto points = all_points(border, r);
+    for (const std::string& defect : validate(points, r.triangles, border.segments)) ADD_FAILURE() << defect;
+    double covered = 0;
+    std::size_t below = 0, oversized = 0;
+    for (const Triangle& t : r.triangles) {
+        const Point a = points[t.v[0].index()], b = points[t.v[1].index()], c = points[t.v[2].index()];
+        const double triangle = 0.5 * cross(b - a, c - a);
+        covered += triangle;
+        below += smallest_angle_deg(points, t) < options.min_angle_deg - 1e-6;
+        const double h = (size(a) + size(b) + size(c)) / 3;
+        oversized += triangle > equilateral_area * h * h * (1 + 1e-6);
+    }
+    EXPECT_NEAR(covered, area, 1e-9 * area);
+    EXPECT_EQ(below, r.stats.below_bound);
+    EXPECT_EQ(oversized, r.stats.oversized);
+}
+
+/// Deterministic graded field with a single small edge at the origin.
+SizeField graded(double smallest, double gradation, double extent) {
+    const std::vector<SizeSource> sources{{{0, 0}, {smallest, 0}, smallest}};
+    return SizeField(sources, {.gradation = gradation}, {{-extent, -extent}, {extent, extent}});
+}
+
+TEST(Refine, UniformSquareMeetsBounds) {
+    for (double angle : {20.7, 28.0, 30.0}) {
+        const double h = 0.02;
+        const Border border = square_border(1, 0.8 * h);
+        const SizeField size(h);
+        const RefineOptions options{.min_angle_deg = angle};
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, 1.0);
+        EXPECT_EQ(r.stats.below_bound, 0u) << angle;
+        EXPECT_EQ(r.stats.oversized, 0u) << angle;
+        EXPECT_EQ(r.stats.refused, 0u) << angle;
+        // Not finer than needed: the mean triangle has at least half of the area allowed.
+        EXPECT_LT(double(r.triangles.size()), 2.0 / (equilateral_area * h * h));
+    }
+}
+
+TEST(Refine, GradedBorderMeetsBounds) {
+    // A square whose border spacing follows h(x) = 0.001 + 0.2 |x|.
+    const SizeField size = graded(1e-3, 0.2, 4);
+    Border border;
+    const std::vector<Point> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int side = 0; side < 4; ++side) {
+        const Point a = corners[side], b = corners[(side + 1) % 4];
+        // March with lengths of 0.8 h, from the finer end.
+        const bool forward = size(a) <= size(b);
+        const Point from = forward ? a : b, to = forward ? b : a;
+        std::vector<double> cuts{0};
+        while (cuts.back() < 1) cuts.push_back(cuts.back() + 0.75 * size(from + cuts.back() * (to - from)));
+        const double stretch = 1 / cuts.back();
+        std::vector<Point> line;
+        for (double c : cuts) line.push_back(from + std::min(1.0, c * stretch) * (to - from));
+        if (!forward) std::reverse(line.begin(), line.end());
+        border.points.insert(border.points.end(), line.begin(), line.end() - 1);
+    }
+    for (std::size_t i = 0; i < border.points.size(); ++i)
+        border.segments.push_back({VertexId{i}, VertexId{(i + 1) % border.points.size()}});
+    for (double angle : {20.7, 30.0}) {
+        const RefineOptions options{.min_angle_deg = angle};
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, 1.0);
+        EXPECT_EQ(r.stats.below_bound, 0u) << angle;
+        EXPECT_EQ(r.stats.oversized, 0u) << angle;
+    }
+}
+
+TEST(Refine, SameResultForSameArgumentsAndForAnyReserve) {
+    const Border border = square_border(1, 0.02);
+    const SizeField size(0.025);
+    const Refinement a = refine(border.points, border.segments, size);
+    const Refinement b = refine(border.points, border.segments, size, {.expected_triangles = 100000});
+    EXPECT_EQ(a.added, b.added);
+    EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST(Refine, RegionWithHoleAndReflexCorners) {
+    Border border;
+    border.add_loop({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, 0.05);
+    border.add_loop({{0.3, 0.3}, {0.3, 0.7}, {0.7, 0.7}, {0.7, 0.3}}, 0.05);
+    const SizeField size(0.06);
+    const RefineOptions options;
+    const Refinement r = refine(border.points, border.segments, size, options);
+    expect_promises(border, r, size, options, 5.0 - 0.16);
+    EXPECT_EQ(r.stats.below_bound, 0u);
+}
+
+TEST(Refine, SmallInputAnglesTerminateAndStayConfined) {
+    for (double degrees : {1.0, 5.0, 15.0, 40.0}) {
+        Border border;
+        const double a = degrees * M_PI / 180;
+        border.add_loop({{0, 0}, {1, 0}, {std::cos(a), std::sin(a)}}, 0.02);
+        const SizeField size(0.03);
+        const Refinement r = refine(border.points, border.segments, size);
+        const auto points = all_points(border, r);
+        for (const std::string& defect : validate(points, r.triangles, border.segments)) ADD_FAILURE() << defect;
+    }
+}
+
+TEST(Refine, CoarseBorderIsNeverSplit) {
+    // Border edges fifty times longer than h: points beside them would encroach and are refused; the mesh stays valid.
+    const Border border = square_border(1, 0.5);
+    const SizeField size(0.01);
+    const Refinement r = refine(border.points, border.segments, size);
+    const auto points = all_points(border, r);
+    for (const std::string& defect : validate(points, r.triangles, border.segments)) ADD_FAILURE() << defect;
+    EXPECT_GT(r.stats.refused, 0u);
+}
+
+TEST(Refine, StopsAtTheLimitOfPoints) {
+    const Border border = square_border(1, 0.1);
+    EXPECT_THROW(refine(border.points, border.segments, SizeField(0.001), {.max_points = 1000}), MeshError);
+}
+
+TEST(Refine, RandomConvexPolygons) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        Random random(seed);
+        std::vector<Point> corners;
+        const int n = 5 + int(random.below(8));
+        for (int i = 0; i < n; ++i) {
+            const double t = 2 * M_PI * (i + 0.6 * random.real()) / n;
+            corners.push_back({std::cos(t), std::sin(t)});
+        }
+        const double h = random.real(0.02, 0.1);
+        Border border;
+        border.add_loop(corners, 0.8 * h);
+        const SizeField size(h);
+        const RefineOptions options;
+        const Refinement r = refine(border.points, border.segments, size, options);
+        double area = 0;
+        for (int i = 0; i < n; ++i) area += 0.5 * cross(corners[i], corners[(i + 1) % n]);
+        expect_promises(border, r, size, options, area);
+        EXPECT_EQ(r.stats.below_bound, r.stats.exempt) << seed;
+    }
+}
+
+}  // namespace
+}  // namespace lamina::test
