@@ -58,18 +58,17 @@ toml::table parse(const std::filesystem::path& file) {
 }
 
 std::string toml_text(const Value& value) {
+    if (const auto* real = std::get_if<double>(&value)) return fmt::to_string(*real);  // the shortest that reads back
     std::ostringstream out;
-    std::visit(
-        [&out](const auto& held) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::vector<std::string>>) {
-                toml::array array;
-                for (const std::string& text : held) array.push_back(text);
-                out << array;
-            } else {
-                out << toml::value(held);
-            }
-        },
-        value);
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) {
+        toml::array array;
+        for (const std::string& text : *texts) array.push_back(text);
+        out << array;
+    } else if (const auto* text = std::get_if<std::string>(&value)) {
+        out << toml::value(*text);
+    } else {
+        out << to_text(value);
+    }
     return out.str();
 }
 

@@ -35,13 +35,23 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
     throw UsageError("command '" + command + "' is not known; known: " + known);
 }
 
+std::string help_hint(const CLI::App& app) {
+    std::string command = app.get_name();
+    for (const CLI::App* named : app.get_subcommands()) command += " " + named->get_name();
+    return " (see " + command + " --help)";
+}
+
 void run(CLI::App& app, int argc, char** argv) {
     require_known_command(app, argc, argv);
     try {
         app.parse(argc, argv);
+    } catch (const CLI::ExtrasError&) {
+        const std::string extra = app.remaining(true).front();
+        throw UsageError((extra.starts_with("-") ? "unknown option " : "unexpected argument ") + extra +
+                         help_hint(app));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) {
-            throw UsageError(std::string(error.what()) + " (see " + app.get_name() + " --help)");
+            throw UsageError(error.what() + help_hint(app));
         }
         app.exit(error);  // --help or --version: prints it
     }

@@ -137,104 +137,88 @@ Option list(std::string name, Kind kind, std::string metavar, const std::string&
 
 // ---- the table ----
 
+/// The member of a MeshCase at the end of a chain of pointers to members.
+template <class... Members>
+auto member_at(Members... members) {
+    return [members...](auto& mesh_case) -> auto& { return (mesh_case.*....*members); };
+}
+
+template <class Member>
+auto of_case(Member member) {
+    return member_at(&MeshCase::options, member);
+}
+
+template <class Member>
+auto of_layer(Member member) {
+    return member_at(&MeshCase::options, &CaseOptions::layer, member);
+}
+
 // Layer numbers are kept in 16 bits.
 constexpr double most_layers = 65535;
 
 std::vector<Option> make_table() {
     std::vector<Option> table;
-    const auto group = [&table](const std::string& heading, std::vector<Option> options) {
-        for (Option& option : options) option.group = heading;
-        table.insert(table.end(), options.begin(), options.end());
+    std::string group;
+    const auto add = [&](Option option) {
+        option.group = group;
+        table.push_back(std::move(option));
     };
 
-    group("Files",
-          {
-              list(
-                  "input", Kind::paths, "INPUT", "airfoil files, naca:DIGITS[:POINTS], or one case file (.toml)",
-                  [](auto& c) -> auto& { return c.inputs; }),
-              list(
-                  "output", Kind::paths, "FILE", "mesh file; may be given several times",
-                  [](auto& c) -> auto& { return c.outputs; }),
-              text(
-                  "report", Kind::path, "FILE", "JSON report of the run", [](auto& c) -> auto& { return c.report; }),
-          });
-    group("Geometry", {
-                          choice(
-                              "surface", "surface vertices: as given", Choices<Surface>{{"keep", Surface::keep}},
-                              [](auto& c) -> auto& { return c.surface; }),
-                          list(
-                              "names", Kind::words, "A,B,...",
-                              "marker names, one an element; else file stems, 'airfoil' if there is one",
-                              [](auto& c) -> auto& { return c.options.geometry.names; }),
-                      });
-    group("Layer",
-          {
-              real(
-                  "first-height", "H", "height of the first layer along the ray, in units of the input", positive,
-                  [](auto& c) -> auto& { return c.options.layer.first_height; }),
-              real(
-                  "growth", "R", "ratio of the heights of successive layers", greater_than(1),
-                  [](auto& c) -> auto& { return c.options.layer.growth; }),
-              choice(
-                  "growth-law", "how heights grow along a ray", Choices<GrowthLaw>{{"geometric", GrowthLaw::geometric}},
-                  [](auto& c) -> auto& { return c.options.layer.growth_law; }),
-              count(
-                  "layers", "N", "number of layers", from_to(1, most_layers),
-                  [](auto& c) -> auto& { return c.options.layer.layers; }),
-              real(
-                  "thickness", "T", "total height, in units of the input, beyond which no layer goes", positive,
-                  [](auto& c) -> auto& { return c.options.layer.thickness; }),
-              flag(
-                  "no-layers", "isotropic triangles up to the wall", false,
-                  [](auto& c) -> auto& { return c.options.layer.enabled; }),
-              real(
-                  "max-ray-angle", "DEG", "largest angle between neighbouring rays, in degrees", above_up_to(0, 90),
-                  [](auto& c) -> auto& { return c.options.layer.max_ray_angle_deg; }),
-              choice(
-                  "corners", "sharp convex corners: a fan of rays, or refining rays beside the vertex",
-                  Choices<Corners>{{"fan", Corners::fan}, {"refine", Corners::refine}},
-                  [](auto& c) -> auto& { return c.options.layer.corners; }),
-          });
-    group(
-        "Outer region",
-        {
-            real(
-                "far-field", "CHORDS", "half-width of the far-field box, in chords (extents in x of the configuration)",
-                positive, [](auto& c) -> auto& { return c.options.far_field; }),
-            real(
-                "gradation", "G", "growth of the edge length per unit of distance", above_up_to(0, 1),
-                [](auto& c) -> auto& { return c.options.gradation; }),
-            real(
-                "wall-size", "H", "edge length at the layer's outer border, in units of the input, instead of its own",
-                positive, [](auto& c) -> auto& { return c.options.wall_size; }),
-            real(
-                "far-size", "H", "largest edge length, in units of the input", positive,
-                [](auto& c) -> auto& { return c.options.far_size; }),
-            real(
-                "min-angle", "DEG", "smallest angle of isotropic triangles, in degrees", above_up_to(0, 33),
-                [](auto& c) -> auto& { return c.options.min_angle_deg; }),
-            choice(
-                "separators", "how borders between pieces are divided",
-                Choices<SeparatorRule>{{"equidistributed", SeparatorRule::equidistributed},
-                                       {"k-rule", SeparatorRule::k_rule}},
-                [](auto& c) -> auto& { return c.options.separators; }),
-            real(
-                "pieces-target", "TRIANGLES", "triangles a piece, about", from_to(100, 1e9),
-                [](auto& c) -> auto& { return c.options.pieces_target; }),
-        });
-    group("Run", {
-                     count(
-                         "threads", "N", "threads, 0 = all cores; never changes the mesh", from_to(0, 1024),
-                         [](auto& c) -> auto& { return c.options.threads; }),
-                     choice(
-                         "progress", "stages on standard error; auto: where it is a terminal",
-                         Choices<ProgressShown>{{"auto", ProgressShown::automatic},
-                                                {"always", ProgressShown::always},
-                                                {"never", ProgressShown::never}},
-                         [](auto& c) -> auto& { return c.progress; }),
-                     flag(
-                         "quiet", "no summary", true, [](auto& c) -> auto& { return c.quiet; }),
-                 });
+    group = "Files";
+    add(list("input", Kind::paths, "INPUT", "airfoil files, naca:DIGITS[:POINTS], or one case file (.toml)",
+             member_at(&MeshCase::inputs)));
+    add(list("output", Kind::paths, "FILE", "mesh file; may be given several times", member_at(&MeshCase::outputs)));
+    add(text("report", Kind::path, "FILE", "JSON report of the run", member_at(&MeshCase::report)));
+
+    group = "Geometry";
+    add(choice("surface", "surface vertices: as given", Choices<Surface>{{"keep", Surface::keep}},
+               member_at(&MeshCase::surface)));
+    add(list("names", Kind::words, "A,B,...",
+             "marker names, one an element; else file stems, 'airfoil' if there is one",
+             member_at(&MeshCase::options, &CaseOptions::geometry, &GeometryOptions::names)));
+
+    group = "Layer";
+    add(real("first-height", "H", "height of the first layer along the ray, in units of the input", positive,
+             of_layer(&LayerOptions::first_height)));
+    add(real("growth", "R", "ratio of the heights of successive layers", greater_than(1),
+             of_layer(&LayerOptions::growth)));
+    add(choice("growth-law", "how heights grow along a ray", Choices<GrowthLaw>{{"geometric", GrowthLaw::geometric}},
+               of_layer(&LayerOptions::growth_law)));
+    add(count("layers", "N", "number of layers", from_to(1, most_layers), of_layer(&LayerOptions::layers)));
+    add(real("thickness", "T", "total height, in units of the input, beyond which no layer goes", positive,
+             of_layer(&LayerOptions::thickness)));
+    add(flag("no-layers", "isotropic triangles up to the wall", false, of_layer(&LayerOptions::enabled)));
+    add(real("max-ray-angle", "DEG", "largest angle between neighbouring rays, in degrees", above_up_to(0, 90),
+             of_layer(&LayerOptions::max_ray_angle_deg)));
+    add(choice("corners", "sharp convex corners: a fan of rays, or refining rays beside the vertex",
+               Choices<Corners>{{"fan", Corners::fan}, {"refine", Corners::refine}}, of_layer(&LayerOptions::corners)));
+
+    group = "Outer region";
+    add(real("far-field", "CHORDS", "half-width of the far-field box, in chords (extents in x of the configuration)",
+             positive, of_case(&CaseOptions::far_field)));
+    add(real("gradation", "G", "growth of the edge length per unit of distance", above_up_to(0, 1),
+             of_case(&CaseOptions::gradation)));
+    add(real("wall-size", "H", "edge length at the layer's outer border, in units of the input, instead of its own",
+             positive, of_case(&CaseOptions::wall_size)));
+    add(real("far-size", "H", "largest edge length, in units of the input", positive, of_case(&CaseOptions::far_size)));
+    add(real("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees", above_up_to(0, 33),
+             of_case(&CaseOptions::min_angle_deg)));
+    add(choice(
+        "separators", "how borders between pieces are divided",
+        Choices<SeparatorRule>{{"equidistributed", SeparatorRule::equidistributed}, {"k-rule", SeparatorRule::k_rule}},
+        of_case(&CaseOptions::separators)));
+    add(real("pieces-target", "TRIANGLES", "triangles a piece, about", from_to(100, 1e9),
+             of_case(&CaseOptions::pieces_target)));
+
+    group = "Run";
+    add(count("threads", "N", "threads, 0 = all cores; never changes the mesh", from_to(0, 1024),
+              of_case(&CaseOptions::threads)));
+    add(choice(
+        "progress", "stages on standard error; auto: where it is a terminal",
+        Choices<ProgressShown>{
+            {"auto", ProgressShown::automatic}, {"always", ProgressShown::always}, {"never", ProgressShown::never}},
+        member_at(&MeshCase::progress)));
+    add(flag("quiet", "no summary", true, member_at(&MeshCase::quiet)));
     return table;
 }
 
