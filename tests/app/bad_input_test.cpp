@@ -1,0 +1,128 @@
+// Whatever cannot be meshed is refused: documented exit code, one clear line, nothing written.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+constexpr int usage = 2, bad_input = 3, io_failed = 5;
+
+const std::vector<std::string> mesh_naca{"mesh", "naca:0012", "-o", "out.su2", "--report", "out.json"};
+
+std::vector<std::string> mesh_naca_with(std::vector<std::string> more) {
+    more.insert(more.begin(), mesh_naca.begin(), mesh_naca.end());
+    return more;
+}
+
+struct BadFile {
+    const char* content;
+    const char* said;
+};
+
+TEST(BadInput, FilesThatHoldNoOutline) {
+    const BadFile files[] = {
+        {"", "bad.dat"},
+        {"\n\n \n", "bad.dat"},
+        {"These are words.\nAnd nothing but words, here.\n", "bad.dat"},
+        {"title\n1 0\n0.5 0.1\n0 nan\n0.5 -0.1\n1 0\n", "bad.dat:4"},
+        {"title\n1 0\n0.5 inf\n0 0\n0.5 -0.1\n1 0\n", "bad.dat:3"},
+        {"title\n1 0\n0 0\n", "bad.dat"},
+        {"title\n1 0\n0.5 0\n0.25 0\n0 0\n0.25 0\n", "bad.dat"},
+        {"title\n0 0\n1 1\n1 0\n0 1\n", "bad.dat"},
+    };
+    for (const BadFile& bad : files) {
+        const TemporaryFolder folder;
+        folder.write("bad.dat", bad.content);
+        SCOPED_TRACE(bad.content);
+        expect_refused(folder, {"mesh", "bad.dat", "-o", "out.su2", "--report", "out.json"}, bad_input, bad.said);
+        expect_refused(folder, {"info", "bad.dat"}, bad_input, bad.said);
+    }
+}
+
+TEST(BadInput, ASelfCrossingOutlineIsRefusedWithCoordinates) {
+    const TemporaryFolder folder;
+    folder.write("bow.dat", "bow tie\n1 0\n0.5 0.1\n0 0\n0.5 0.2\n0.6 -0.1\n");
+    expect_refused(folder, {"mesh", "bow.dat", "-o", "out.su2"}, bad_input, "(at ");
+}
+
+TEST(BadInput, FilesThatAreMissing) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"mesh", "missing.dat", "-o", "out.su2"}, io_failed, "missing.dat");
+    expect_refused(folder, {"mesh", "missing.toml", "-o", "out.su2"}, io_failed, "missing.toml");
+    expect_refused(folder, {"info", "missing.dat"}, io_failed, "missing.dat");
+    expect_refused(folder, {"check", "missing.su2"}, io_failed, "missing.su2");
+    expect_refused(folder, {"plot", "missing.vtu", "-o", "out.png"}, io_failed, "missing.vtu");
+}
+
+TEST(BadInput, NumbersOutOfRange) {
+    const TemporaryFolder folder;
+    const std::vector<std::vector<std::string>> wrong{
+        {"--far-field", "0"},      {"--far-field", "-3"},    {"--far-field", "0.2"},  {"--first-height", "-1e-5"},
+        {"--first-height", "0"},   {"--growth", "1"},        {"--growth", "0.8"},     {"--growth", "nan"},
+        {"--first-height", "inf"}, {"--thickness", "-1"},    {"--layers", "0"},       {"--layers", "2.5"},
+        {"--layers", "-4"},        {"--min-angle", "0"},     {"--min-angle", "33.1"}, {"--gradation", "0"},
+        {"--wall-size", "-0.1"},   {"--far-size", "0"},      {"--threads", "-1"},     {"--threads", "many"},
+        {"--max-ray-angle", "0"},  {"--pieces-target", "0"}, {"--far-field", ""},     {"--growth", "1.2x"},
+    };
+    for (const auto& option : wrong) expect_refused(folder, mesh_naca_with(option), usage, option.front().substr(2));
+}
+
+TEST(BadInput, OptionsThatAreNotKnown) {
+    const TemporaryFolder folder;
+    expect_refused(folder, mesh_naca_with({"--frist-height", "1e-5"}), usage, "--frist-height");
+    expect_refused(folder, mesh_naca_with({"--growth-law", "linear"}), usage, "geometric");
+    expect_refused(folder, mesh_naca_with({"--surface", "melt"}), usage, "keep");
+    expect_refused(folder, mesh_naca_with({"--first-height"}), usage, "--first-height");
+    expect_refused(folder, {"plot", "mesh.vtu", "-o", "a.png", "--color", "red"}, usage, "quality");
+    expect_refused(folder, {"plot", "mesh.vtu", "-o", "a.png", "--window", "0,1,2"}, usage, "--window");
+    expect_refused(folder, {"fly"}, usage, "'fly'");
+    expect_refused(folder, {}, usage, "--help");
+    expect_refused(folder, {"mesh", "-o", "out.su2"}, usage, "INPUT");
+    expect_refused(folder, {"mesh", "naca:0012"}, usage, "-o");
+}
+
+TEST(BadInput, NacaNamesThatNameNoSection) {
+    const TemporaryFolder folder;
+    for (const char* name : {"naca:12", "naca:abcd", "naca:", "naca:0012:2", "naca:0012:x"}) {
+        expect_refused(folder, {"mesh", name, "-o", "out.su2"}, usage, name);
+    }
+}
+
+TEST(BadInput, OutputsThatCannotBeWritten) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "nowhere/out.su2"}, io_failed, "nowhere");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "out.su2", "-o", "nowhere/out.vtu"}, io_failed, "nowhere");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "out.su2", "--report", "nowhere/r.json"}, io_failed, "nowhere");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "out.unknown"}, usage, "out.unknown");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "/proc/out.su2"}, io_failed, "/proc/out.su2");
+}
+
+TEST(BadInput, CaseFiles) {
+    const TemporaryFolder folder;
+    const auto expect_case_refused = [&](const std::string& content, int exit_code, const std::string& said) {
+        folder.write("case.toml", content);
+        SCOPED_TRACE(content);
+        expect_refused(folder, {"mesh", "case.toml", "-o", "out.su2"}, exit_code, said);
+    };
+    expect_case_refused("input = 'naca:0012'\n\nfrist_height = 1e-5\n", usage, "case.toml:3: frist_height");
+    expect_case_refused("input = 'naca:0012'\nfar_field = -1\n", usage, "case.toml:2: far_field");
+    expect_case_refused("input = 'naca:0012'\ngrowth = nan\n", usage, "case.toml:2: growth");
+    expect_case_refused("input = 'naca:0012'\nlayers = '30'\n", usage, "case.toml:2: layers");
+    expect_case_refused("input = 'naca:0012'\nno_layers = 1\n", usage, "case.toml:2: no_layers");
+    expect_case_refused("input = [1, 2]\n", usage, "case.toml:1: input");
+    expect_case_refused("input = 'naca:0012'\n[layer]\ngrowth = 2\n", usage, "case.toml:2: layer");
+    expect_case_refused("input = 'naca:0012'\ngrowth = \n", bad_input, "case.toml:2");
+    expect_case_refused("growth = 1.2\n", usage, "INPUT");
+    expect_case_refused("input = 'case.toml'\n", usage, "case.toml");
+
+    folder.write("case.toml", "input = 'naca:0012'\n");
+    expect_refused(folder, {"mesh", "case.toml", "naca:0012", "-o", "out.su2"}, usage, "only INPUT");
+}
+
+}  // namespace
+}  // namespace lamina::test

@@ -1,0 +1,73 @@
+// case.toml and --dump-config: what is dumped reproduces the run.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+TEST(CaseFile, ADumpReproducesTheRunFromAnyFolder) {
+    const TemporaryFolder here;
+    here.write("wedge.dat", "wedge\n1 0\n0.5 0.08\n0 0\n0.5 -0.05\n");
+    const ProgramRun dump =
+        run_lamina(here, {"mesh", "wedge.dat", "-o", "a.su2", "--far-field", "3", "--layers", "4", "--first-height",
+                          "0.001", "--names", "wing", "--gradation", "0.3", "--far-size", "0.7", "--dump-config"});
+    ASSERT_EQ(dump.exit_code, 0) << dump.err;
+    EXPECT_EQ(here.names(), std::vector<std::string>{"wedge.dat"});
+
+    const TemporaryFolder elsewhere;
+    elsewhere.write("case.toml", dump.out);
+    EXPECT_EQ(run_lamina(elsewhere, {"mesh", "case.toml", "--dump-config"}).out, dump.out);
+
+    const ProgramRun first =
+        run_lamina(here, {"mesh", "wedge.dat", "-o", "b.su2", "--far-field", "3", "--layers", "4", "--first-height",
+                          "0.001", "--names", "wing", "--gradation", "0.3", "--far-size", "0.7"});
+    ASSERT_EQ(first.exit_code, 0) << first.err;
+    const ProgramRun again = run_lamina(elsewhere, {"mesh", "case.toml"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(here.read("a.su2"), here.read("b.su2"));
+}
+
+TEST(CaseFile, TheCommandLineGoesOverTheFile) {
+    const TemporaryFolder folder;
+    folder.write("case.toml",
+                 "input = 'naca:0012'\nfar_field = 50\nno_layers = true\nthickness = 0.25\nnames = ['a', 'b']\n");
+    const std::string dumped =
+        run_lamina(folder, {"mesh", "case.toml", "--far-field", "7", "--no-layers=false", "--dump-config"}).out;
+    EXPECT_NE(dumped.find("far_field = 7\n"), std::string::npos) << dumped;
+    EXPECT_NE(dumped.find("no_layers = false\n"), std::string::npos) << dumped;
+    EXPECT_NE(dumped.find("thickness = 0.25\n"), std::string::npos) << dumped;
+    EXPECT_NE(dumped.find("# far_size is not set\n"), std::string::npos) << dumped;
+    EXPECT_NE(dumped.find("names = [ 'a', 'b' ]\n"), std::string::npos) << dumped;
+}
+
+TEST(CaseFile, PathsAreRelativeToItsFolder) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "sub");
+    folder.write("sub/case.toml", "input = ['wing.dat', 'naca:0012']\noutput = 'wing.vtu'\n");
+    const std::string dumped = run_lamina(folder, {"mesh", "sub/case.toml", "--dump-config"}).out;
+    EXPECT_NE(dumped.find((folder / "sub/wing.dat").string()), std::string::npos) << dumped;
+    EXPECT_NE(dumped.find((folder / "sub/wing.vtu").string()), std::string::npos) << dumped;
+    EXPECT_NE(dumped.find("'naca:0012'"), std::string::npos) << dumped;
+}
+
+TEST(CaseFile, EveryOptionOfTheHelpIsDumped) {
+    const TemporaryFolder folder;
+    const std::string help = run_lamina(folder, {"mesh", "--help"}).out;
+    const std::string dumped = run_lamina(folder, {"mesh", "naca:0012", "--dump-config"}).out;
+    std::size_t options = 0;
+    for (std::size_t at = help.find("\n  --"); at != std::string::npos; at = help.find("\n  --", at + 1)) {
+        std::string key = help.substr(at + 5, help.find_first_of(" \n", at + 5) - at - 5);
+        std::replace(key.begin(), key.end(), '-', '_');
+        if (key == "dump_config") continue;
+        ++options;
+        EXPECT_NE(dumped.find(key), std::string::npos) << key;
+    }
+    EXPECT_GT(options, 15u);
+}
+
+}  // namespace
+}  // namespace lamina::test

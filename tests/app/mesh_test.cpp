@@ -1,0 +1,187 @@
+// The judged case of the main job, through the program: report, validity, quality, thread counts.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+using Json = nlohmann::json;
+
+std::vector<std::string> judged_case(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"mesh",     "naca:0012", "--first-height",  "2.5e-5", "--growth",    "1.15",
+                                       "--layers", "30",        "--max-ray-angle", "4",      "--far-field", "50"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+/// The judged case meshed once for all tests.
+class MeshCommand : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = new TemporaryFolder;
+        run_ = new ProgramRun(run_lamina(*folder_, judged_case({"-o", "n.su2", "-o", "n.vtu", "--report", "r.json"})));
+    }
+    static void TearDownTestSuite() {
+        delete run_;
+        delete folder_;
+    }
+    void SetUp() override { ASSERT_EQ(run().exit_code, 0) << run().err; }
+
+    static const TemporaryFolder& folder() { return *folder_; }
+    static const ProgramRun& run() { return *run_; }
+    static Json report() { return Json::parse(folder().read("r.json")); }
+
+private:
+    static inline const TemporaryFolder* folder_ = nullptr;
+    static inline const ProgramRun* run_ = nullptr;
+};
+
+TEST_F(MeshCommand, WritesWhatWasAskedForAndNothingElse) {
+    EXPECT_EQ(folder().names(), (std::vector<std::string>{"n.su2", "n.vtu", "r.json"}));
+    EXPECT_EQ(run().err, "");
+    EXPECT_NE(run().out.find("n.su2"), std::string::npos) << run().out;
+}
+
+TEST_F(MeshCommand, TheReportHoldsWhatTheGuidePromises) {
+    const Json r = report();
+    EXPECT_TRUE(r["version"].is_string());
+    EXPECT_GE(r["threads"].get<int>(), 1);
+    ASSERT_EQ(r["input"].size(), 1u);
+    EXPECT_EQ(r["input"][0]["name"], "airfoil");
+    EXPECT_EQ(r["input"][0]["file"], "naca:0012");
+    EXPECT_EQ(r["input"][0]["points"], 200);
+    EXPECT_TRUE(r["input"][0]["repairs"].is_array());
+    for (const char* count : {"vertices", "triangles", "layer_triangles", "isotropic_triangles", "surface_vertices"}) {
+        EXPECT_GT(r[count].get<std::size_t>(), 0u) << count;
+    }
+    EXPECT_EQ(r["quads"], 0);
+    EXPECT_EQ(r["triangles"].get<std::size_t>(),
+              r["layer_triangles"].get<std::size_t>() + r["isotropic_triangles"].get<std::size_t>());
+    EXPECT_GE(r["pieces"]["layer"].get<int>(), 1);
+    EXPECT_GE(r["pieces"]["inviscid"].get<int>(), 1);
+    EXPECT_EQ(r["hash"].get<std::string>().size(), 32u);
+    const double share = r["layer_cells"]["share"];
+    EXPECT_GT(share, 0.5);
+    EXPECT_LE(share, 1);
+    EXPECT_EQ(r["thread_seconds"]["refinement"].size(), r["threads"].get<std::size_t>());
+}
+
+TEST_F(MeshCommand, SecondsOfTheStagesAddUpToTheTotal) {
+    const Json seconds = report()["seconds"];
+    double sum = 0;
+    for (const char* stage : {"geometry", "layers", "decomposition", "layer_triangulation", "sizing", "decoupling",
+                              "refinement", "assembly", "check", "write"}) {
+        EXPECT_GE(seconds[stage].get<double>(), 0) << stage;
+        sum += seconds[stage].get<double>();
+    }
+    const double total = seconds["total"];
+    EXPECT_LE(sum, total * 1.001 + 1e-3);
+    EXPECT_GT(sum, 0.8 * total);
+}
+
+TEST_F(MeshCommand, IsotropicTrianglesKeepTheAngleBound) {
+    const Json r = report();
+    const Json isotropic = r["quality"]["isotropic"];
+    const auto exempt = isotropic["exempt"].get<std::size_t>();
+    EXPECT_LE(isotropic["angles_below_bound"].get<std::size_t>(), exempt);
+    EXPECT_LT(static_cast<double>(exempt), 0.001 * r["isotropic_triangles"].get<double>());
+    if (exempt == 0) EXPECT_GE(isotropic["min_angle_deg"].get<double>(), 20.7);
+    EXPECT_EQ(r["quality"]["delaunay"]["violations"], 0);
+    EXPECT_GT(r["quality"]["delaunay"]["interior_edges"].get<std::size_t>(), 1000u);
+}
+
+TEST_F(MeshCommand, CheckFindsBothFilesValidAndTheSameMesh) {
+    const ProgramRun vtu = run_lamina(folder(), {"check", "n.vtu", "--json", "--wall", "airfoil", "--far", "farfield",
+                                                 "--require-delaunay", "--min-angle", "20.7"});
+    EXPECT_EQ(vtu.exit_code, 0) << vtu.err;
+    const ProgramRun su2 = run_lamina(folder(), {"check", "n.su2", "--json", "--wall", "airfoil", "--far", "farfield"});
+    EXPECT_EQ(su2.exit_code, 0) << su2.err;
+    for (const ProgramRun& checked : {vtu, su2}) {
+        const Json c = Json::parse(checked.out);
+        EXPECT_EQ(c["valid"], true);
+        EXPECT_EQ(c["hash"], report()["hash"]);
+        EXPECT_EQ(c["triangles"], report()["triangles"]);
+        EXPECT_EQ(c["boundary_loops"], 2);
+        EXPECT_EQ(c["markers"].size(), 2u);
+    }
+    EXPECT_EQ(Json::parse(vtu.out)["quality"]["delaunay"]["violations"], 0);
+}
+
+TEST_F(MeshCommand, ThreadsDoNotChangeTheFiles) {
+    for (const char* threads : {"1", "2", "4"}) {
+        const std::string stem = std::string("t") + threads;
+        const ProgramRun again = run_lamina(
+            folder(), judged_case({"-o", stem + ".su2", "-o", stem + ".vtu", "--threads", threads, "--quiet"}));
+        ASSERT_EQ(again.exit_code, 0) << again.err;
+        EXPECT_EQ(again.out, "");
+        EXPECT_TRUE(folder().read(stem + ".su2") == folder().read("n.su2")) << threads;
+        EXPECT_TRUE(folder().read(stem + ".vtu") == folder().read("n.vtu")) << threads;
+        std::filesystem::remove(folder() / (stem + ".su2"));
+        std::filesystem::remove(folder() / (stem + ".vtu"));
+    }
+}
+
+TEST_F(MeshCommand, PlotsEveryFormat) {
+    const TemporaryFolder pictures;
+    const std::string mesh = (folder() / "n.vtu").string();
+    for (const char* name : {"a.png", "a.svg", "a.pdf"}) {
+        const ProgramRun plot =
+            run_lamina(pictures, {"plot", mesh, "-o", name, "--window", "-0.1,0.1,-0.1,0.1", "--color", "quality"});
+        EXPECT_EQ(plot.exit_code, 0) << plot.err;
+        EXPECT_GT(pictures.read(name).size(), 1000u) << name;
+    }
+}
+
+TEST_F(MeshCommand, ACutFileIsNoMesh) {
+    const TemporaryFolder broken;
+    const std::string whole = folder().read("n.su2");
+    broken.write("cut.su2", whole.substr(0, whole.size() / 2));
+    const ProgramRun run = run_lamina(broken, {"check", "cut.su2"});
+    EXPECT_TRUE(run.exit_code == 3 || run.exit_code == 4) << run.exit_code;
+    EXPECT_TRUE(run.err.starts_with("lamina: error: cut.su2")) << run.err;
+}
+
+TEST(CheckCommand, AnInvalidMeshIsExitCode4) {
+    const TemporaryFolder folder;
+    folder.write("bad.su2",
+                 "NDIME= 2\nNELEM= 2\n5 0 1 2 0\n5 0 3 2 1\nNPOIN= 4\n0 0 0\n1 0 1\n1 1 2\n0 1 3\nNMARK= 1\n"
+                 "MARKER_TAG= wall\nMARKER_ELEMS= 4\n3 0 1\n3 1 2\n3 2 3\n3 3 0\n");
+    const ProgramRun run = run_lamina(folder, {"check", "bad.su2"});
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    EXPECT_NE(run.out.find("not valid"), std::string::npos) << run.out;
+    EXPECT_TRUE(run.err.starts_with("lamina: error: bad.su2: not valid")) << run.err;
+}
+
+TEST(CheckCommand, AMarkerThatIsMissingIsExitCode4) {
+    const TemporaryFolder folder;
+    folder.write("square.su2",
+                 "NDIME= 2\nNELEM= 2\n5 0 1 2 0\n5 0 2 3 1\nNPOIN= 4\n0 0 0\n1 0 1\n1 1 2\n0 1 3\nNMARK= 1\n"
+                 "MARKER_TAG= box\nMARKER_ELEMS= 4\n3 0 1\n3 1 2\n3 2 3\n3 3 0\n");
+    EXPECT_EQ(run_lamina(folder, {"check", "square.su2", "--far", "box"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"check", "square.su2", "--wall", "airfoil"}).exit_code, 4);
+    EXPECT_EQ(run_lamina(folder, {"check", "square.su2", "--min-angle", "50"}).exit_code, 4);
+}
+
+TEST(MeshCommandOptions, ProgressGoesToStandardError) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments{"mesh", "naca:0012:40", "--no-layers", "--far-field",
+                                             "2",    "-o",           "a.vtu",       "--progress"};
+    const auto with = [&](const char* shown) {
+        std::vector<std::string> all = arguments;
+        all.emplace_back(shown);
+        return run_lamina(folder, all);
+    };
+    const ProgramRun always = with("always");
+    EXPECT_EQ(always.exit_code, 0) << always.err;
+    EXPECT_NE(always.err.find("lamina: "), std::string::npos);
+    EXPECT_EQ(with("auto").err, "");
+    EXPECT_EQ(with("never").err, "");
+}
+
+}  // namespace
+}  // namespace lamina::test

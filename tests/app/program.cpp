@@ -1,0 +1,62 @@
+#include "app/program.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+
+extern char** environ;
+
+namespace lamina::test {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& arguments) {
+    std::string line = "lamina";
+    for (const std::string& argument : arguments) line += " " + argument;
+    return line;
+}
+
+}  // namespace
+
+ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+    const TemporaryFolder captured;
+    std::vector<std::string> words{LAMINA_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    const int flags = O_WRONLY | O_CREAT;
+    posix_spawn_file_actions_addopen(&actions, 1, (captured / "out").c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, 2, (captured / "err").c_str(), flags, 0600);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
+    pid_t child = 0;
+    const int failed = posix_spawn(&child, LAMINA_PROGRAM, &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failed != 0) throw std::runtime_error(std::string("cannot start ") + LAMINA_PROGRAM);
+
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, captured.read("out"), captured.read("err")};
+}
+
+void expect_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,
+                    const std::string& said) {
+    SCOPED_TRACE(joined(arguments));
+    const std::vector<std::string> before = folder.names();
+    const ProgramRun run = run_lamina(folder, arguments);
+    EXPECT_EQ(run.exit_code, exit_code) << run.err;
+    EXPECT_TRUE(run.err.starts_with("lamina: error: ")) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_TRUE(run.err.ends_with('\n')) << run.err;
+    EXPECT_NE(run.err.find(said), std::string::npos) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(folder.names(), before);
+}
+
+}  // namespace lamina::test
