@@ -39,7 +39,7 @@ struct GeometryOptions {
     std::size_t naca_points = 200;   ///< surface points of `naca:` inputs that do not say so themselves
 };
 
-/// Reads every input (a path, or `naca:DIGITS[:POINTS]`), repairs, orients and checks them.
+/// Reads every input (a path, or `naca:DIGITS[:POINTS][:blunt|:sharp]`), repairs, orients and checks them.
 /// Coordinates are never scaled or moved. Throws InputError for what cannot be repaired (no or too few points, NaN,
 /// a crossing outline, elements that cross or contain each other, coordinates outside the exact range of
 /// predicates.hpp), IoError for files that cannot be read.
@@ -52,14 +52,16 @@ std::vector<Element> read_airfoil(const std::filesystem::path& file);
 enum class TrailingEdge { sharp, blunt };
 
 /// NACA 4-digit ("0012") or 5-digit ("23012", reflexed "23112") section of unit chord with cosine spacing.
-/// points counts surface points without the repeated trailing edge; `sharp` closes the tail by the modified last
-/// thickness coefficient (-0.1036), `blunt` keeps the published one (-0.1015) and its base edge.
-/// Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935).
-/// Throws UsageError for digits that name no section.
+/// Points start at the trailing edge, upper surface first; both surfaces get the same number, so `points` (surface
+/// points without the repeated trailing edge and without those inside a base) is rounded up to an even number for
+/// `sharp`, to an odd one for `blunt`. The sections of symmetric digits are mirror images exactly. `sharp` closes the
+/// tail by the modified last thickness coefficient (-0.1036), `blunt` keeps the published one (-0.1015) and its base
+/// edge. Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935). Throws
+/// UsageError for digits that name no section and for fewer than 6 or more than 10 million points.
 Element naca_airfoil(const std::string& digits, std::size_t points, TrailingEdge trailing_edge = TrailingEdge::sharp);
 
-/// Throws InputError at the first place where the Pslg is not made of simple, disjoint, counter-clockwise loops.
-/// Exact (predicates.hpp), O(n log n) in practice.
+/// Throws InputError where the Pslg is not made of simple, disjoint, counter-clockwise loops that lie side by side; the
+/// message names the lines of both edges. Exact (predicates.hpp), O(n log n) in practice.
 void check_simple(const Pslg& pslg);
 
 /// Facts about one element that a person wants to see (`lamina info`).
@@ -77,5 +79,8 @@ struct ElementSummary {
     bool blunt_trailing_edge = false;
 };
 ElementSummary summarize(const Element& element);
+
+/// The report of `lamina info`: what was read, mended and found, element by element; several lines.
+std::string describe(const Pslg& pslg);
 
 }  // namespace lamina

@@ -1,0 +1,135 @@
+// NACA 4- and 5-digit sections.
+// Source: E. N. Jacobs, K. E. Ward, R. M. Pinkerton, NACA Report 460 (1933); E. N. Jacobs, R. M. Pinkerton, NACA Report
+// 537 (1935). The sharp trailing edge changes the last coefficient of the thickness to -0.1036, which closes the tail
+// with the least change elsewhere (J. Moran, Theoretical and Computational Aerodynamics, 1984).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/reproducible_math.hpp"
+#include "geometry/outline_repair.hpp"
+
+namespace lamina {
+
+namespace {
+
+constexpr std::size_t min_points = 6, max_points = 10'000'000;
+
+/// Height and slope of the mean line.
+struct Camber {
+    double y = 0, slope = 0;
+};
+
+struct FourDigitLine {
+    double max_camber, position;
+
+    Camber operator()(double x) const {
+        const double m = max_camber, p = position;
+        if (m == 0) return {};
+        if (x < p) return {m / (p * p) * (2 * p * x - x * x), 2 * m / (p * p) * (p - x)};
+        const double q = 1 - p;
+        return {m / (q * q) * ((1 - 2 * p) + 2 * p * x - x * x), 2 * m / (q * q) * (p - x)};
+    }
+};
+
+/// Report 537: cubic up to r, straight (or, reflexed, cubic) behind it; k1 for a design lift coefficient of 0.3.
+struct FiveDigitLine {
+    double r, k1, k2_over_k1;
+    bool reflexed;
+
+    Camber operator()(double x) const {
+        const double r3 = r * r * r, q = 1 - r, d = x - r;
+        if (reflexed) {
+            const double k = x < r ? 1.0 : k2_over_k1, tail = k2_over_k1 * q * q * q + r3;
+            return {k1 / 6 * (k * d * d * d - tail * x + r3), k1 / 6 * (3 * k * d * d - tail)};
+        }
+        if (x < r)
+            return {k1 / 6 * (x * x * x - 3 * r * x * x + r * r * (3 - r) * x),
+                    k1 / 6 * (3 * x * x - 6 * r * x + r * r * (3 - r))};
+        return {k1 * r3 / 6 * (1 - x), -k1 * r3 / 6};
+    }
+};
+
+struct Section {
+    double thickness;
+    std::optional<FiveDigitLine> five_digit;
+    FourDigitLine four_digit{0, 0};
+
+    Camber camber(double x) const { return five_digit ? (*five_digit)(x) : four_digit(x); }
+};
+
+Section parse_digits(const std::string& digits) {
+    const auto fail = [&](const std::string& reason) -> UsageError {
+        return UsageError(fmt::format("naca:{}: {}", digits, reason));
+    };
+    const bool all_digits = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!all_digits || (digits.size() != 4 && digits.size() != 5))
+        throw fail("a section has 4 or 5 digits, as in naca:0012 or naca:23012");
+    const auto digit = [&](std::size_t i) { return digits[i] - '0'; };
+    Section section;
+    section.thickness = (10 * digit(digits.size() - 2) + digit(digits.size() - 1)) / 100.0;
+    if (section.thickness == 0) throw fail("no thickness");
+    if (digits.size() == 4) {
+        if ((digit(0) == 0) != (digit(1) == 0)) throw fail("camber and its position must both be given or both be 0");
+        section.four_digit = {digit(0) / 100.0, digit(1) / 10.0};
+        return section;
+    }
+    constexpr FiveDigitLine simple[] = {{0.0580, 361.400, 0, false},
+                                        {0.1260, 51.640, 0, false},
+                                        {0.2025, 15.957, 0, false},
+                                        {0.2900, 6.643, 0, false},
+                                        {0.3910, 3.230, 0, false}};
+    constexpr FiveDigitLine reflexed[] = {{0.1300, 51.990, 0.000764, true},
+                                          {0.2170, 15.793, 0.00677, true},
+                                          {0.3180, 6.520, 0.0303, true},
+                                          {0.4410, 3.191, 0.1355, true}};
+    const int lift = digit(0), position = digit(1), reflex = digit(2);
+    if (lift == 0 || reflex > 1 || position < 1 + reflex || position > 5)
+        throw fail("the first three digits must be 110 to 950 or, reflexed, 121 to 951, the second of them at most 5");
+    section.five_digit = reflex == 1 ? reflexed[position - 2] : simple[position - 1];
+    section.five_digit->k1 *= lift / 2.0;
+    return section;
+}
+
+}  // namespace
+
+Element naca_airfoil(const std::string& digits, std::size_t points, TrailingEdge trailing_edge) {
+    const Section section = parse_digits(digits);
+    if (points < min_points || points > max_points)
+        throw UsageError(
+            fmt::format("naca:{}: {} points; {} to {} can be made", digits, points, min_points, max_points));
+    const bool sharp = trailing_edge == TrailingEdge::sharp;
+    const double tail = sharp ? -0.1036 : -0.1015;
+    const std::size_t n = sharp ? (points + 1) / 2 : points / 2;  // edges of each surface
+
+    std::vector<Point> upper(n + 1), lower(n + 1);  // from the leading edge
+    for (std::size_t k = 1; k <= n; ++k) {
+        // (1 - cos 2a) / 2 = sin^2 a, without cancellation at the leading edge.
+        const double s = sin_reproducible(pi * static_cast<double>(k) / static_cast<double>(2 * n));
+        const double x = k == n ? 1.0 : s * s;
+        const double half =
+            5 * section.thickness * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * tail))));
+        const double t = k == n && sharp ? 0.0 : half;
+        Camber camber = section.camber(x);
+        if (k == n) camber.y = 0;
+        const double cosine = 1 / std::sqrt(1 + camber.slope * camber.slope);
+        const Point normal{-camber.slope * cosine, cosine};
+        upper[k] = {x + t * normal.x, camber.y + t * normal.y};
+        lower[k] = {x - t * normal.x, camber.y - t * normal.y};
+    }
+
+    RawOutline outline;
+    outline.title = fmt::format("NACA {}", digits);
+    outline.format = "naca";
+    for (std::size_t k = n + 1; k-- > 0;) outline.points.push_back({upper[k], 0});
+    for (std::size_t k = 1; k <= n; ++k) outline.points.push_back({lower[k], 0});
+    Element element = repair_outline(outline, "naca:" + digits);
+    element.points_read = 0;
+    element.repairs.clear();  // nothing here was wrong
+    element.name = "airfoil";
+    return element;
+}
+
+}  // namespace lamina

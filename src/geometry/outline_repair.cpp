@@ -1,0 +1,112 @@
+#include "geometry/outline_repair.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <lamina/predicates.hpp>
+
+namespace lamina {
+
+namespace {
+
+using Outline = std::vector<SourcePoint>;
+
+/// Distance below which neighbours are the same point, printed with different rounding.
+double merge_tolerance(const Outline& points) {
+    Box box;
+    for (const SourcePoint& p : points) box.include(p.at);
+    return points.empty() ? 0 : 1e-12 * std::max(box.width(), box.height());
+}
+
+void remove_duplicates(Outline& points, std::vector<Repair>& repairs) {
+    const double tolerance = merge_tolerance(points);
+    Outline kept;
+    for (const SourcePoint& p : points) {
+        if (kept.empty() || distance(kept.back().at, p.at) > tolerance) {
+            kept.push_back(p);
+        } else {
+            repairs.push_back(
+                {fmt::format("line {}: duplicate of line {} removed {}", p.line, kept.back().line, coordinates(p.at))});
+        }
+    }
+    while (kept.size() > 1 && distance(kept.front().at, kept.back().at) <= tolerance) {
+        repairs.push_back({fmt::format("line {}: closing point merged with line {} {}", kept.back().line,
+                                       kept.front().line, coordinates(kept.back().at))});
+        kept.pop_back();
+    }
+    points = std::move(kept);
+}
+
+void check_extent(const Outline& points, const std::string& file) {
+    const InputPlace place{file, points.empty() ? 0 : points[0].line, {}};
+    if (points.size() < 3)
+        throw InputError(place, fmt::format("only {} distinct point{}; an outline needs at least three", points.size(),
+                                            points.size() == 1 ? "" : "s"));
+    const bool flat = std::all_of(points.begin(), points.end(), [&](const SourcePoint& p) {
+        return orient2d(points[0].at, points[1].at, p.at) == 0;
+    });
+    if (flat) throw InputError(place, fmt::format("all {} points lie on one line", points.size()));
+}
+
+/// The edge from the last point back to the first gets vertices at about the spacing of the shorter neighbour.
+void close_outline(Outline& points, const std::string& file, std::vector<Repair>& repairs) {
+    const SourcePoint last = points.back(), first = points.front();
+    const double base = distance(last.at, first.at);
+    double perimeter = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) perimeter += distance(points[i - 1].at, points[i].at);
+    if (base > 0.5 * perimeter)
+        throw InputError(
+            {file, last.line, last.at},
+            fmt::format("the outline is open: its end is {:.3g} away from its start {} on line {}, too far "
+                        "to be closed by a base edge",
+                        base, coordinates(first.at), first.line));
+    const double neighbour =
+        std::min(distance(points[0].at, points[1].at), distance(points[points.size() - 2].at, points.back().at));
+    const auto edges = static_cast<std::size_t>(std::clamp(std::floor(base / neighbour + 0.5), 1.0, 64.0));
+    for (std::size_t i = 1; i < edges; ++i) {
+        const double t = static_cast<double>(i) / static_cast<double>(edges);
+        points.push_back({last.at + t * (first.at - last.at), 0});
+    }
+    repairs.push_back(
+        {fmt::format("lines {} and {}: open end closed from {} to {} by {} edge{}, {:.4g} long", last.line, first.line,
+                     coordinates(last.at), coordinates(first.at), edges, edges == 1 ? "" : "s", base)});
+}
+
+/// Exact for simple outlines: the turn at the lexicographically smallest point is the turn of the loop.
+bool is_clockwise(const Outline& points) {
+    const auto smallest =
+        std::min_element(points.begin(), points.end(),
+                         [](const SourcePoint& a, const SourcePoint& b) { return lexicographically_less(a.at, b.at); });
+    const std::size_t n = points.size(), i = static_cast<std::size_t>(smallest - points.begin());
+    return orient2d(points[(i + n - 1) % n].at, points[i].at, points[(i + 1) % n].at) < 0;
+}
+
+}  // namespace
+
+Element repair_outline(const RawOutline& outline, const std::string& file) {
+    Element element;
+    element.file = file;
+    element.title = outline.title;
+    element.format = outline.format;
+    element.points_read = outline.points.size();
+    element.repairs = outline.notes;
+
+    Outline points = outline.points;
+    const bool closed = points.size() > 1 && distance(points.front().at, points.back().at) <= merge_tolerance(points);
+    remove_duplicates(points, element.repairs);
+    check_extent(points, file);
+    if (!closed) close_outline(points, file, element.repairs);
+    if (is_clockwise(points)) {
+        std::reverse(points.begin() + 1, points.end());
+        element.repairs.push_back({fmt::format("line {}: clockwise order reversed, starting from {}", points[0].line,
+                                               coordinates(points[0].at))});
+    }
+    for (const SourcePoint& p : points) {
+        element.points.push_back(p.at);
+        element.lines.push_back(p.line);
+    }
+    return element;
+}
+
+}  // namespace lamina

@@ -1,0 +1,17 @@
+// Raw outline -> closed counter-clockwise element, every change reported.
+#pragma once
+
+#include <lamina/geometry.hpp>
+
+#include "geometry/outlines.hpp"
+
+namespace lamina {
+
+/// Removes repeated neighbours (nearer than 1e-12 of the extent, as after rounding), closes an open outline by a base
+/// edge with vertices spaced like its neighbours, reverses clockwise order. Coordinates stay as they are; the first
+/// point stays first. Whether the outline is simple is for check_simple() to say.
+/// Throws InputError for fewer than three points, points on one line, and an outline too open to be closed. The
+/// element's name stays empty.
+Element repair_outline(const RawOutline& outline, const std::string& file);
+
+}  // namespace lamina

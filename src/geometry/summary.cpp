@@ -1,0 +1,111 @@
+// What a person wants to know about an element, as numbers and as text.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <lamina/geometry.hpp>
+
+#include "core/reproducible_math.hpp"
+
+namespace lamina {
+
+namespace {
+
+constexpr double sharp_corner_deg = 60;
+
+/// Exterior angle at every vertex, positive where the outline is convex.
+std::vector<double> turnings_deg(const std::vector<Point>& points) {
+    const std::size_t n = points.size();
+    std::vector<double> turnings(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point in = points[i] - points[(i + n - 1) % n], out = points[(i + 1) % n] - points[i];
+        turnings[i] = degrees(atan2_reproducible(cross(in, out), dot(in, out)));
+    }
+    return turnings;
+}
+
+/// A straight base at the downstream end: two convex corners of 45 to 135 degrees with nothing but straight edges
+/// between them, shorter than half of the element and in its rear half.
+bool has_base(const std::vector<Point>& points, const std::vector<double>& turnings, const Box& box) {
+    const std::size_t n = points.size();
+    const auto is_corner = [&](std::size_t i) { return turnings[i] > 45 && turnings[i] < 135; };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!is_corner(i)) continue;
+        std::size_t j = (i + 1) % n;
+        while (j != i && std::abs(turnings[j]) < 1) j = (j + 1) % n;
+        if (j == i || !is_corner(j)) continue;
+        const bool is_short = distance(points[i], points[j]) < 0.5 * std::max(box.width(), box.height());
+        if (is_short && midpoint(points[i], points[j]).x > box.center().x) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+ElementSummary summarize(const Element& element) {
+    ElementSummary s;
+    const std::vector<Point>& points = element.points;
+    const std::size_t n = points.size();
+    if (n < 3) return s;
+    for (Point p : points) s.box.include(p);
+    s.chord = s.box.width();
+
+    s.min_spacing = HUGE_VAL;
+    double before = distance(points[n - 1], points[0]);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point a = points[i], b = points[(i + 1) % n];
+        const double spacing = distance(a, b);
+        s.perimeter += spacing;
+        s.area += 0.5 * cross(a - points[0], b - points[0]);
+        s.min_spacing = std::min(s.min_spacing, spacing);
+        s.max_spacing = std::max(s.max_spacing, spacing);
+        s.max_spacing_ratio = std::max({s.max_spacing_ratio, spacing / before, before / spacing});
+        before = spacing;
+    }
+
+    const std::vector<double> turnings = turnings_deg(points);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (std::abs(turnings[i]) > s.max_turning_deg) {
+            s.max_turning_deg = std::abs(turnings[i]);
+            s.max_turning_at = points[i];
+        }
+        if (turnings[i] > sharp_corner_deg) ++s.sharp_corners;
+    }
+    s.blunt_trailing_edge = has_base(points, turnings, s.box);
+    return s;
+}
+
+std::string describe(const Pslg& pslg) {
+    std::string text;
+    const auto out = std::back_inserter(text);
+    for (const Element& e : pslg.elements) {
+        const ElementSummary s = summarize(e);
+        fmt::format_to(out, "{}\n", e.name);
+        fmt::format_to(out, "  file           {} ({})\n", e.file, e.format);
+        if (!e.title.empty()) fmt::format_to(out, "  title          {}\n", e.title);
+        if (e.points_read > 0) {
+            fmt::format_to(out, "  points         {} read, {} in the outline\n", e.points_read, e.points.size());
+        } else {
+            fmt::format_to(out, "  points         {} generated\n", e.points.size());
+        }
+        fmt::format_to(out, "  box            x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", s.box.lower.x, s.box.upper.x,
+                       s.box.lower.y, s.box.upper.y);
+        fmt::format_to(out, "  chord          {:.6g}, perimeter {:.6g}, area {:.6g}\n", s.chord, s.perimeter, s.area);
+        fmt::format_to(out, "  spacing        {:.4g} to {:.4g}, neighbours differ by up to a factor {:.4g}\n",
+                       s.min_spacing, s.max_spacing, s.max_spacing_ratio);
+        fmt::format_to(out, "  turning        at most {:.4g} degrees, at ({:.6g}, {:.6g}); {} sharp corner{}\n",
+                       s.max_turning_deg, s.max_turning_at.x, s.max_turning_at.y, s.sharp_corners,
+                       s.sharp_corners == 1 ? "" : "s");
+        fmt::format_to(out, "  trailing edge  {}\n", s.blunt_trailing_edge ? "blunt" : "not blunt");
+        if (e.repairs.empty()) {
+            fmt::format_to(out, "  repairs        none\n");
+        } else {
+            for (std::size_t i = 0; i < e.repairs.size(); ++i)
+                fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "repairs" : "", e.repairs[i].text);
+        }
+    }
+    return text;
+}
+
+}  // namespace lamina
