@@ -26,6 +26,8 @@ constexpr double sqrt_half = 0.70710678118654752;
 // Share of h that the Lipschitz bound may take; and relative error at the sample points of smooth cells.
 constexpr double lipschitz_tolerance = 0.047;
 constexpr double sample_tolerance = 0.01;
+// Bounds are loosened by this share, so that rounding never makes them wrong.
+constexpr double rounding = 1e-9;
 // The smallest cell's side is that of the root / 2^max_level.
 constexpr int max_level = 40;
 
@@ -177,9 +179,9 @@ private:
     Samples sample(const Cell& c, const Candidates& in) {
         const double x0 = c.lower.x, x1 = x0 + 0.5 * c.side, x2 = x0 + c.side;
         const double y0 = c.lower.y, y1 = y0 + 0.5 * c.side, y2 = y0 + c.side;
-        // The field cannot exceed a neighbour's by more than this; the last factor is for rounding.
+        // The field cannot exceed a neighbour's by more than this.
         const auto bound = [&](double a, double b) {
-            return (std::min(a, b) + 0.5 * gradation_ * c.side) * (1 + 1e-9);
+            return (std::min(a, b) + 0.5 * gradation_ * c.side) * (1 + rounding);
         };
         Samples s;
         s.south = evaluate({x1, y0}, in, bound(c.h[0], c.h[1]));
@@ -224,14 +226,26 @@ private:
                sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.smallest();
     }
 
-    bool smooth(const Cell& c, const Candidates& in, const Samples& s) const {
+    // Bilinear interpolation is good enough where the samples say so. Their word is taken only away from the sources;
+    // where ridges and bends may cancel out at the five samples, four more are asked.
+    bool smooth(const Cell& c, const Candidates& in, const Samples& s) {
         const auto close = [](double interpolated, double exact) {
             return std::abs(interpolated - exact) <= sample_tolerance * exact;
         };
-        return in.nearest >= 0.5 * c.side && close(0.5 * (c.h[0] + c.h[1]), s.south) &&
-               close(0.5 * (c.h[0] + c.h[2]), s.west) && close(0.5 * (c.h[1] + c.h[3]), s.east) &&
-               close(0.5 * (c.h[2] + c.h[3]), s.north) &&
-               close(0.25 * ((c.h[0] + c.h[1]) + (c.h[2] + c.h[3])), s.center);
+        const auto mean = [](double a, double b) { return 0.5 * (a + b); };
+        const double west = mean(c.h[0], c.h[2]), east = mean(c.h[1], c.h[3]);
+        if (!(in.nearest >= 0.5 * c.side && close(mean(c.h[0], c.h[1]), s.south) && close(west, s.west) &&
+              close(east, s.east) && close(mean(c.h[2], c.h[3]), s.north) && close(mean(west, east), s.center)))
+            return false;
+        if (in.end - in.begin == 1 && groups_[candidates_[in.begin]].single()) return true;
+        for (int q = 0; q < 4; ++q) {
+            const double u = (q & 1) != 0 ? 0.75 : 0.25, v = (q >> 1) != 0 ? 0.75 : 0.25;
+            const double low = c.h[0] + u * (c.h[1] - c.h[0]), high = c.h[2] + u * (c.h[3] - c.h[2]);
+            const Point p{c.lower.x + u * c.side, c.lower.y + v * c.side};
+            const double bound = (c.h[q] + 0.5 * sqrt_half * gradation_ * c.side) * (1 + rounding);
+            if (!close(low + v * (high - low), evaluate(p, in, bound))) return false;
+        }
+        return true;
     }
 
     static Cell quadrant(const Cell& c, const Samples& s, int q) {
