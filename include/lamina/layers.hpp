@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <lamina/geometry.hpp>
@@ -23,10 +24,12 @@ struct LayerOptions {
     std::uint32_t layers = 30;
     std::optional<double> thickness;  ///< stop each ray at this total height
     double max_ray_angle_deg = 5;     ///< between neighbouring rays
-    Corners corners = Corners::fan;   ///< sharp convex corners: a fan from the vertex, or refining rays beside it
+    /// Convex corners that turn by more than 60 degrees: a fan from the vertex, or refining rays beside it.
+    Corners corners = Corners::fan;
     /// Largest ratio of the lengths of adjacent edges of the outer border; 1.4 serves angle bounds up to 30 degrees.
+    /// Below 2 an edge that must be halved often makes its neighbours follow, all along the border.
     double border_ratio = 1.4;
-    /// Edges of the outer border are split until none is longer than (length of any other) + gradation x distance.
+    /// Edges of the outer border are split until none is much longer than (length of any other) + gradation x distance.
     double border_gradation = 0.1;
 };
 
@@ -43,7 +46,7 @@ struct Ray {
 /// Everything the later stages need of the layer.
 struct Layer {
     /// Wall vertices first (element by element; a refining ray's vertex stands where it lies on the wall), then ray
-    /// points, then split points of the outer border.
+    /// points, then split points of the outer border. All distinct. Ray points lie strictly between wall and border.
     std::vector<Point> points;
     std::size_t wall_points = 0;
     /// Per element: the wall's vertices, counter-clockwise, and its rays in the same order (a fan has several rays of
@@ -51,7 +54,8 @@ struct Layer {
     std::vector<std::vector<VertexId>> walls;
     std::vector<std::vector<Ray>> rays;
     /// Per element: the closed outer border, counter-clockwise, simple and disjoint from the others. Where the layer is
-    /// truncated to nothing it runs through wall vertices.
+    /// truncated to nothing it runs through wall vertices, and along wall edges between two of them: an edge that both
+    /// loops have bounds no layer. Where such an edge is split, the wall has the split points, too (without rays).
     std::vector<std::vector<VertexId>> borders;
     std::vector<std::uint16_t> layer_of_point;  ///< 0 on the wall, n on layer n; split points: that of the lower end
     std::size_t incomplete_rays = 0;
@@ -63,9 +67,16 @@ struct Layer {
 /// Source: thesis 3.3; geometric: first_height (growth^n - 1) / (growth - 1).
 double layer_height(const LayerOptions& options, std::uint32_t n);
 
-/// Makes rays, truncates them where they would meet, places the points and the outer border.
-/// Throws UsageError for heights <= 0, growth <= 1 and the like; MeshError where no simple border can be made.
-/// With enabled = false the walls alone, and borders equal to the walls.
+/// Makes rays, truncates them where they would meet, places the points and the outer border. Precondition: pslg passes
+/// check_simple(). Neighbouring rays differ by at most one layer; every cell between them is positively oriented.
+/// Throws UsageError for heights <= 0, growth <= 1 and the like, for heights below the resolution of the coordinates
+/// and for layers absurdly thicker than the input is wide.
+/// With enabled = false no rays: the walls alone, their edges split like those of any border, and borders equal to
+/// them.
 Layer make_layer(const Pslg& pslg, const LayerOptions& options = {});
+
+/// What is wrong with a layer made with these options, each in one line; empty = every promise above holds. Exact where
+/// a sign decides. O(n log n) in practice.
+std::vector<std::string> validate(const Layer& layer, const LayerOptions& options);
 
 }  // namespace lamina

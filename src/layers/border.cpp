@@ -1,0 +1,270 @@
+// Frozen borders must be graded before they are frozen (design 2): no Delaunay refinement mends a long edge beside a
+// short one. First every edge gets the number of pieces that its target length asks for; then, wherever the pieces on
+// both sides of a corner differ by more than the allowed ratio, the edge of the longer piece gets one more, until
+// nothing changes. Both steps treat the two directions of a border alike.
+#include "layers/border.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "layers/box_tree.hpp"
+#include "layers/segments.hpp"
+
+namespace lamina {
+namespace {
+
+/// An edge up to this much longer than its target is left alone.
+constexpr double size_slack = 1.25;
+/// Length of the intervals of the sums over ds / h, in units of h.
+constexpr double interval = 0.25;
+/// Edges are divided for the ratio's sake into at most this many times the pieces that size asks for.
+constexpr std::size_t most_refined = 6;
+/// Direction cosine below which two edges that see each other form a gap rather than a corner.
+constexpr double facing = -0.3;
+
+struct Edge {
+    Point a, b;
+    double length;
+    std::size_t previous, next;
+};
+
+std::vector<Edge> edges_of(std::span<const std::vector<Point>> borders) {
+    std::vector<Edge> edges;
+    for (const std::vector<Point>& border : borders) {
+        const std::size_t first = edges.size(), n = border.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            const Point a = border[k], b = border[(k + 1) % n];
+            edges.push_back({a, b, distance(a, b), first + (k + n - 1) % n, first + (k + 1) % n});
+        }
+    }
+    return edges;
+}
+
+BoxTree tree_of(std::span<const Edge> edges) {
+    std::vector<Box> boxes;
+    boxes.reserve(edges.size());
+    for (const Edge& edge : edges) boxes.push_back(box_of(edge.a, edge.b));
+    return BoxTree(std::move(boxes));
+}
+
+/// Distance of two segments that do not cross.
+double gap_between(const Edge& s, const Edge& t) {
+    return std::min({distance_to_segment(s.a, t.a, t.b), distance_to_segment(s.b, t.a, t.b),
+                     distance_to_segment(t.a, s.a, s.b), distance_to_segment(t.b, s.a, s.b)});
+}
+
+/// Length each edge counts with: its own, or the gap to an edge it faces.
+std::vector<double> source_sizes(std::span<const Edge> edges, const BoxTree& tree) {
+    std::vector<double> sizes(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const Edge& edge = edges[i];
+        sizes[i] = edge.length;
+        Box near = box_of(edge.a, edge.b);
+        near.lower = near.lower - Point{edge.length, edge.length};
+        near.upper = near.upper + Point{edge.length, edge.length};
+        tree.overlaps(near, [&](std::size_t j) {
+            const Edge& other = edges[j];
+            if (j == i || j == edge.previous || j == edge.next) return;
+            const Point u = edge.b - edge.a, v = other.b - other.a;
+            if (dot(u, v) > facing * edge.length * other.length) return;
+            // The outside lies on the right of both.
+            const Point between = midpoint(other.a, other.b) - midpoint(edge.a, edge.b);
+            if (cross(u, between) >= 0 || cross(v, between) <= 0) return;
+            sizes[i] = std::min(sizes[i], gap_between(edge, other));
+        });
+    }
+    return sizes;
+}
+
+/// The target length along one edge, as a step function: symmetric in the edge's direction.
+struct Interval {
+    double length, size;
+};
+
+class TargetLength {
+public:
+    TargetLength(std::span<const Edge> edges, const BoxTree& tree, const std::vector<double>& sizes, double gradation)
+        : edges_(edges),
+          tree_(tree),
+          gradation_(gradation),
+          values_(tree.least_values(sizes)),
+          at_start_(edges.size()) {
+        // Along a border first: a good bound makes the search in the tree short.
+        for (std::size_t i = 0; i < edges.size(); ++i) at_start_[i] = std::min(sizes[edges[i].previous], sizes[i]);
+        for (int round = 0; round < 2; ++round) {
+            for (std::size_t i = 0; i < edges.size(); ++i) pass_on(i, i, edges[i].next);
+            for (std::size_t i = edges.size(); i-- > 0;) pass_on(i, edges[i].next, i);
+        }
+        for (std::size_t i = 0; i < edges.size(); ++i) at_start_[i] = at(edges[i].a, at_start_[i]);
+    }
+
+    std::vector<Interval> along(std::size_t i) const {
+        const Edge& edge = edges_[i];
+        std::vector<Interval> intervals;
+        divide(edge.a, edge.b, edge.length, at_start_[i], at_start_[edge.next], values_[0][i], intervals);
+        return intervals;
+    }
+
+private:
+    std::span<const Edge> edges_;
+    const BoxTree& tree_;
+    double gradation_;
+    std::vector<std::vector<double>> values_;
+    std::vector<double> at_start_;
+
+    void pass_on(std::size_t edge, std::size_t from, std::size_t to) {
+        at_start_[to] = std::min(at_start_[to], at_start_[from] + gradation_ * edges_[edge].length);
+    }
+
+    double at(Point p, double start) const {
+        return tree_.least(p, gradation_, start, values_,
+                           [&](std::size_t i) { return distance_to_segment(p, edges_[i].a, edges_[i].b); });
+    }
+
+    /// Between the ends the target rises from both until it meets or reaches `cap`, unless something near the middle
+    /// asks for less: halves until the middle agrees.
+    void divide(Point a, Point b, double length, double size_a, double size_b, double cap,
+                std::vector<Interval>& intervals) const {
+        const double least = std::min(size_a, size_b);
+        const double expected = std::min(cap, least + gradation_ * 0.5 * length);
+        if (length > 2 * least) {
+            const Point middle = midpoint(a, b);
+            const double size = at(middle, expected);
+            if (size < 0.9 * expected || length > 64 * least) {
+                divide(a, middle, 0.5 * length, size_a, size, cap, intervals);
+                divide(middle, b, 0.5 * length, size, size_b, cap, intervals);
+                return;
+            }
+        }
+        // Two cones and a plateau; the cones meet at `peak`.
+        const double peak = std::clamp(0.5 * (length + (size_b - size_a) / gradation_), 0.0, length);
+        const double rise_a = std::min(peak, std::max(0.0, (cap - size_a) / gradation_));
+        const double rise_b = std::min(length - peak, std::max(0.0, (cap - size_b) / gradation_));
+        march(size_a, rise_a, intervals);
+        const double plateau = length - rise_a - rise_b;
+        if (plateau > 0) {
+            const double n = std::ceil(plateau / (interval * cap));
+            intervals.insert(intervals.end(), static_cast<std::size_t>(n), {plateau / n, cap});
+        }
+        const auto from = static_cast<std::ptrdiff_t>(intervals.size());
+        march(size_b, rise_b, intervals);
+        std::reverse(intervals.begin() + from, intervals.end());
+    }
+
+    void march(double size, double length, std::vector<Interval>& intervals) const {
+        for (double done = 0; done < length;) {
+            const double step = std::min(interval * (size + gradation_ * done), length - done);
+            intervals.push_back({step, size + gradation_ * (done + 0.5 * step)});
+            if (done + step == done) break;
+            done += step;
+        }
+    }
+};
+
+/// One edge with its step function and the pieces it is cut into.
+struct Division {
+    std::vector<Interval> intervals;
+    double total = 0;  ///< sum of length / size
+    std::size_t least_pieces = 1, pieces = 1;
+
+    /// Distances from the edge's start of the ends of the pieces, the last one (the edge's end) left out.
+    std::vector<double> cuts() const {
+        std::vector<double> result;
+        double distance = 0, sum = 0;
+        std::size_t k = 1;
+        for (const auto& [length, size] : intervals) {
+            const double share = length / size;
+            while (k < pieces) {
+                const double wanted = total * static_cast<double>(k) / static_cast<double>(pieces);
+                if (wanted > sum + share) break;
+                result.push_back(distance + (wanted - sum) * size);
+                ++k;
+            }
+            sum += share;
+            distance += length;
+        }
+        return result;
+    }
+
+    struct Ends {
+        double first, last;
+    };
+    Ends ends(double edge_length) const {
+        if (pieces == 1) return {edge_length, edge_length};
+        const double piece = total / static_cast<double>(pieces);
+        const auto advance = [piece](auto begin, auto end) {
+            double distance = 0, sum = 0;
+            for (auto it = begin; it != end; ++it) {
+                const double share = it->length / it->size;
+                if (sum + share >= piece) return distance + (piece - sum) * it->size;
+                sum += share;
+                distance += it->length;
+            }
+            return distance;
+        };
+        return {advance(intervals.begin(), intervals.end()), advance(intervals.rbegin(), intervals.rend())};
+    }
+};
+
+/// Adds pieces where neighbours differ too much. All corners are judged by one state, then changed together: the
+/// result does not depend on where a border starts or which way it runs.
+void balance(std::span<const Edge> edges, double ratio, std::vector<Division>& divisions) {
+    std::vector<Division::Ends> ends(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) ends[i] = divisions[i].ends(edges[i].length);
+    std::vector<std::size_t> active(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) active[i] = i;
+    const double limit = ratio * (1 + 1e-9);
+    std::vector<std::size_t> longer;
+    while (!active.empty()) {
+        longer.clear();
+        const auto compare = [&](std::size_t i, std::size_t j) {
+            if (ends[i].last > limit * ends[j].first) longer.push_back(i);
+            if (ends[j].first > limit * ends[i].last) longer.push_back(j);
+        };
+        for (std::size_t i : active) {
+            compare(edges[i].previous, i);
+            compare(i, edges[i].next);
+        }
+        std::sort(longer.begin(), longer.end());
+        longer.erase(std::unique(longer.begin(), longer.end()), longer.end());
+        std::erase_if(longer,
+                      [&](std::size_t i) { return divisions[i].pieces >= most_refined * divisions[i].least_pieces; });
+        for (std::size_t i : longer) {
+            ++divisions[i].pieces;
+            ends[i] = divisions[i].ends(edges[i].length);
+        }
+        std::swap(active, longer);
+    }
+}
+
+}  // namespace
+
+std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::vector<Point>> borders,
+                                                           const GradingOptions& options) {
+    const std::vector<Edge> edges = edges_of(borders);
+    const BoxTree tree = tree_of(edges);
+    const TargetLength target(edges, tree, source_sizes(edges, tree), options.gradation);
+    std::vector<Division> divisions(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        Division& division = divisions[i];
+        division.intervals = target.along(i);
+        for (const auto& [length, size] : division.intervals) division.total += length / size;
+        division.least_pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(division.total / size_slack)));
+        division.pieces = division.least_pieces;
+    }
+    balance(edges, options.ratio, divisions);
+
+    std::vector<std::vector<std::vector<Point>>> cuts(borders.size());
+    std::size_t i = 0;
+    for (std::size_t e = 0; e < borders.size(); ++e) {
+        cuts[e].resize(borders[e].size());
+        for (std::vector<Point>& inside : cuts[e]) {
+            const Edge& edge = edges[i];
+            for (double at : divisions[i].cuts()) inside.push_back(edge.a + (at / edge.length) * (edge.b - edge.a));
+            ++i;
+        }
+    }
+    return cuts;
+}
+
+}  // namespace lamina

@@ -1,0 +1,24 @@
+// Grading of the layer's outer borders; internal to the layer stage.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/point.hpp>
+
+namespace lamina {
+
+struct GradingOptions {
+    double ratio = 1.4;      ///< largest ratio of the lengths of adjacent edges
+    double gradation = 0.1;  ///< growth of the target length per unit of distance
+};
+
+/// Points that divide the edges of closed borders so that lengths vary gradually along and between the borders.
+/// Result: per border and edge (edge k runs from corner k to corner k + 1) the points inside it, in order; corners stay
+/// and no edge is merged. Target length at x: min over all edges j of (length_j + gradation x distance(x, j)), where an
+/// edge that faces another one across a gap narrower than itself counts with the width of the gap.
+std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::vector<Point>> borders,
+                                                           const GradingOptions& options);
+
+}  // namespace lamina

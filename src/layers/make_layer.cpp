@@ -1,0 +1,266 @@
+// Rays, heights, counts, points, border. Source: J. K. Pardue, thesis (2015), chapter 3.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/layers.hpp>
+
+#include "core/parallel.hpp"
+#include "layers/border.hpp"
+#include "layers/front.hpp"
+#include "layers/rays.hpp"
+
+namespace lamina {
+namespace {
+
+/// A layer this many times as thick as the configuration is wide is a slip of the pen.
+constexpr double thickest_layer = 1e4;
+/// Heights below this many units of rounding of the coordinates cannot be represented.
+constexpr double least_roundings = 64;
+
+void require(bool condition, const std::string& message) {
+    if (!condition) throw UsageError(message);
+}
+
+void check_options(const LayerOptions& o) {
+    require(o.border_ratio > 1 && std::isfinite(o.border_ratio),
+            fmt::format("border ratio must be greater than 1, not {}", o.border_ratio));
+    require(o.border_gradation > 0 && std::isfinite(o.border_gradation),
+            fmt::format("border gradation must be greater than 0, not {}", o.border_gradation));
+    if (!o.enabled) return;
+    require(o.first_height > 0 && std::isfinite(o.first_height),
+            fmt::format("first height must be greater than 0, not {}", o.first_height));
+    require(o.growth > 1 && std::isfinite(o.growth),
+            fmt::format("geometric growth must be greater than 1, not {}", o.growth));
+    require(o.layers >= 1 && o.layers <= std::numeric_limits<std::uint16_t>::max(),
+            fmt::format("layers must be from 1 to 65535, not {}", o.layers));
+    require(o.max_ray_angle_deg >= 0.01 && o.max_ray_angle_deg <= 90,
+            fmt::format("largest angle between rays must be from 0.01 to 90 degrees, not {}", o.max_ray_angle_deg));
+    if (o.thickness) {
+        require(
+            *o.thickness >= o.first_height && std::isfinite(*o.thickness),
+            fmt::format("layer thickness {} must not be less than the first height {}", *o.thickness, o.first_height));
+    }
+}
+
+/// layer_height() for n = 0 ... as many as are asked for.
+std::vector<double> heights_of(const LayerOptions& options) {
+    std::vector<double> heights{0.0};
+    double step = options.first_height;
+    // A slack of rounding, so that a thickness of exactly n layers gives n.
+    const double most = options.thickness ? *options.thickness * (1 + 1e-12) : HUGE_VAL;
+    for (std::uint32_t n = 0; n < options.layers && heights.back() + step <= most; ++n) {
+        heights.push_back(heights.back() + step);
+        step *= options.growth;
+    }
+    return heights;
+}
+
+void check_scale(const Pslg& pslg, const LayerOptions& options, std::span<const double> heights) {
+    Box box;
+    for (const Element& element : pslg.elements)
+        for (Point p : element.points) box.include(p);
+    const double extent = std::max(box.width(), box.height());
+    const double largest =
+        std::max({std::abs(box.lower.x), std::abs(box.lower.y), std::abs(box.upper.x), std::abs(box.upper.y)});
+    require(options.first_height > least_roundings * std::numeric_limits<double>::epsilon() * largest,
+            fmt::format("first height {} is below the resolution of coordinates as large as {}", options.first_height,
+                        largest));
+    require(heights.back() <= thickest_layer * extent,
+            fmt::format("{} layers are {:.3g} thick, {:.3g} times the extent of the input", heights.size() - 1,
+                        heights.back(), heights.back() / extent));
+}
+
+RaySet rays_of(const Pslg& pslg, const LayerOptions& options) {
+    RaySet set;
+    for (const Element& element : pslg.elements) {
+        const std::vector<RayLine> rays = make_rays(element.points, options);
+        set.rays.insert(set.rays.end(), rays.begin(), rays.end());
+        set.begin.push_back(set.rays.size());
+    }
+    return set;
+}
+
+/// Origins without layers or directions: what is left of a body where no layer is wanted.
+RaySet bare_walls(const Pslg& pslg) {
+    RaySet set;
+    for (const Element& element : pslg.elements) {
+        for (Point p : element.points) set.rays.push_back({p, {}});
+        set.begin.push_back(set.rays.size());
+    }
+    return set;
+}
+
+/// A corner of the border before it is graded.
+struct BorderCorner {
+    std::size_t ray;       ///< whose tip it is; the last of a fan without layers
+    std::uint32_t layers;  ///< 0: it is the ray's origin
+};
+
+class Assembly {
+public:
+    Assembly(const RaySet& set, std::span<const std::uint32_t> counts, std::span<const double> heights)
+        : set_(set), counts_(counts), heights_(heights), wall_of_ray_(set.rays.size()), first_point_(set.rays.size()) {}
+
+    Layer build(const GradingOptions& grading, std::span<const double> limits) {
+        const std::vector<std::vector<BorderCorner>> corners = border_corners();
+        std::vector<std::vector<Point>> borders(corners.size());
+        for (std::size_t e = 0; e < corners.size(); ++e)
+            for (const BorderCorner& corner : corners[e]) borders[e].push_back(tip(corner.ray));
+        const auto cuts = grade_borders(borders, grading);
+        place_walls(corners, cuts);
+        place_ray_points();
+        place_borders(corners, cuts);
+        describe_rays(limits);
+        return std::move(layer_);
+    }
+
+private:
+    const RaySet& set_;
+    std::span<const std::uint32_t> counts_;
+    std::span<const double> heights_;
+    std::vector<VertexId> wall_of_ray_;
+    std::vector<std::size_t> first_point_;
+    std::vector<std::vector<VertexId>> wall_cuts_;  ///< by ray: vertices added to the wall edge behind it
+    Layer layer_;
+
+    Point tip(std::size_t ray) const {
+        const RayLine& line = set_.rays[ray];
+        return counts_[ray] == 0 ? line.origin : line.origin + heights_[counts_[ray]] * line.direction;
+    }
+
+    std::vector<std::vector<BorderCorner>> border_corners() const {
+        std::vector<std::vector<BorderCorner>> borders(set_.bodies());
+        for (std::size_t e = 0; e < set_.bodies(); ++e) {
+            const std::size_t begin = set_.begin[e], end = set_.begin[e + 1];
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::size_t next = i + 1 < end ? i + 1 : begin;
+                const bool same =
+                    counts_[i] == 0 && counts_[next] == 0 && set_.rays[i].origin == set_.rays[next].origin;
+                if (!same) borders[e].push_back({i, counts_[i]});
+            }
+        }
+        return borders;
+    }
+
+    VertexId add_point(Point p, std::uint32_t layer) {
+        layer_.points.push_back(p);
+        layer_.layer_of_point.push_back(static_cast<std::uint16_t>(layer));
+        return VertexId(layer_.points.size() - 1);
+    }
+
+    /// Where the border runs along the wall, its division divides the wall.
+    void place_walls(const std::vector<std::vector<BorderCorner>>& corners,
+                     const std::vector<std::vector<std::vector<Point>>>& cuts) {
+        wall_cuts_.resize(set_.rays.size());
+        layer_.walls.resize(set_.bodies());
+        for (std::size_t e = 0; e < set_.bodies(); ++e) {
+            std::vector<VertexId>& wall = layer_.walls[e];
+            std::size_t k = 0;  // the next border corner
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+                const Point origin = set_.rays[i].origin;
+                if (i == set_.begin[e] || origin != set_.rays[i - 1].origin) wall.push_back(add_point(origin, 0));
+                wall_of_ray_[i] = wall.back();
+                if (k == corners[e].size() || corners[e][k].ray != i) continue;
+                const BorderCorner& after = corners[e][(k + 1) % corners[e].size()];
+                if (counts_[i] == 0 && after.layers == 0) {
+                    for (Point p : cuts[e][k]) {
+                        wall.push_back(add_point(p, 0));
+                        wall_cuts_[i].push_back(wall.back());
+                    }
+                }
+                ++k;
+            }
+        }
+        layer_.wall_points = layer_.points.size();
+    }
+
+    void place_ray_points() {
+        std::size_t total = layer_.points.size();
+        for (std::size_t i = 0; i < set_.rays.size(); ++i) {
+            first_point_[i] = total;
+            total += counts_[i];
+        }
+        layer_.points.resize(total);
+        layer_.layer_of_point.resize(total);
+        parallel_for(set_.rays.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const RayLine& line = set_.rays[i];
+                for (std::uint32_t n = 1; n <= counts_[i]; ++n) {
+                    layer_.points[first_point_[i] + n - 1] = line.origin + heights_[n] * line.direction;
+                    layer_.layer_of_point[first_point_[i] + n - 1] = static_cast<std::uint16_t>(n);
+                }
+            }
+        });
+    }
+
+    void place_borders(const std::vector<std::vector<BorderCorner>>& corners,
+                       const std::vector<std::vector<std::vector<Point>>>& cuts) {
+        layer_.borders.resize(set_.bodies());
+        for (std::size_t e = 0; e < set_.bodies(); ++e) {
+            std::vector<VertexId>& border = layer_.borders[e];
+            for (std::size_t k = 0; k < corners[e].size(); ++k) {
+                const auto [ray, layers] = corners[e][k];
+                const std::uint32_t after = corners[e][(k + 1) % corners[e].size()].layers;
+                border.push_back(layers == 0 ? wall_of_ray_[ray] : VertexId(first_point_[ray] + layers - 1));
+                if (layers == 0 && after == 0) {
+                    border.insert(border.end(), wall_cuts_[ray].begin(), wall_cuts_[ray].end());
+                } else {
+                    for (Point p : cuts[e][k]) border.push_back(add_point(p, std::min(layers, after)));
+                }
+            }
+        }
+    }
+
+    /// Rays and what became of them; none without limits.
+    void describe_rays(std::span<const double> limits) {
+        layer_.rays.resize(set_.bodies());
+        if (limits.empty()) return;
+        const auto requested = static_cast<std::uint32_t>(heights_.size() - 1);
+        for (std::size_t e = 0; e < set_.bodies(); ++e) {
+            const std::size_t begin = set_.begin[e], end = set_.begin[e + 1];
+            for (std::size_t i = begin; i < end; ++i) {
+                // A ray that was lowered for its neighbours' sake ends below the layer it did not get.
+                const double limit = counts_[i] < requested ? std::min(limits[i], heights_[counts_[i] + 1]) : limits[i];
+                layer_.rays[e].push_back(
+                    {wall_of_ray_[i], set_.rays[i].direction, counts_[i], requested, first_point_[i], limit});
+                layer_.incomplete_rays += counts_[i] < requested;
+                layer_.requested_cells += requested;
+                layer_.made_cells += std::min(counts_[i], counts_[i + 1 < end ? i + 1 : begin]);
+            }
+        }
+    }
+};
+
+}  // namespace
+
+double layer_height(const LayerOptions& options, std::uint32_t n) {
+    double height = 0, step = options.first_height;
+    for (std::uint32_t k = 0; k < n; ++k) {
+        height += step;
+        step *= options.growth;
+    }
+    return height;
+}
+
+Layer make_layer(const Pslg& pslg, const LayerOptions& options) {
+    check_options(options);
+    const GradingOptions grading{options.border_ratio, options.border_gradation};
+    if (!options.enabled) {
+        const RaySet walls = bare_walls(pslg);
+        const std::vector<std::uint32_t> none(walls.rays.size(), 0);
+        return Assembly(walls, none, {}).build(grading, {});
+    }
+    const std::vector<double> heights = heights_of(options);
+    check_scale(pslg, options, heights);
+    const RaySet set = rays_of(pslg, options);
+    const std::vector<double> limits = height_limits(set, heights.back());
+    const std::vector<std::uint32_t> counts = layer_counts(set, limits, heights);
+    return Assembly(set, counts, heights).build(grading, limits);
+}
+
+}  // namespace lamina

@@ -1,0 +1,162 @@
+// Rays against rays and walls. Source: J. K. Pardue, thesis (2015), section 3.2.
+//
+// The thesis walks along concavities, as convex bodies have no crossing rays. Here every ray is tested against all
+// others and all walls; the walk survives as the shortcut for one convex body. Two rays that cross at heights a < b:
+// the one that arrives later, at b, ends at a fraction of b. In a corner between two walls this makes the layer thin
+// towards the corner in proportion to the distance from it.
+//
+// Rays that are long against the spacing of the walls would make the search quadratic. It goes by scales: what is met
+// at heights in (h, 2 h] is sought with rays at distances of h / 5 only; the slope limit carries the answer to the
+// rays between.
+#include <algorithm>
+#include <cmath>
+
+#include "layers/box_tree.hpp"
+#include "layers/front.hpp"
+#include "layers/segments.hpp"
+
+namespace lamina {
+namespace {
+
+/// Share of the way to a wall that a ray may go: opposing fronts leave a quarter of the gap free.
+constexpr double wall_fraction = 0.375;
+/// Share of the height at which it crosses another ray; neighbours keep more than half of their distance.
+constexpr double ray_fraction = 0.45;
+/// Rise of the limit per unit of distance between neighbouring rays; two such slopes in a corner of 90 degrees leave
+/// 60 degrees to the outer region.
+constexpr double limit_slope = 0.25;
+/// Below this number of rays one scale does for all.
+constexpr std::size_t single_scale_rays = 600;
+/// Distance of the rays that stand for all others, in heights.
+constexpr double thinning = 0.1;
+
+Point at_height(const RayLine& ray, double height) { return ray.origin + height * ray.direction; }
+
+bool is_one_convex_body(const RaySet& set) {
+    if (set.bodies() != 1) return false;
+    const std::size_t n = set.rays.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const RayLine &a = set.rays[i], &b = set.rays[(i + 1) % n];
+        if (cross(a.direction, b.direction) < 0) return false;
+    }
+    return true;
+}
+
+double mean_spacing(const RaySet& set) {
+    double perimeter = 0;
+    for (std::size_t e = 0; e < set.bodies(); ++e) {
+        for (std::size_t i = set.begin[e], last = set.begin[e + 1] - 1; i < set.begin[e + 1]; last = i++)
+            perimeter += distance(set.rays[last].origin, set.rays[i].origin);
+    }
+    return perimeter / static_cast<double>(set.rays.size());
+}
+
+/// The rays looked at on one scale, and the wall drawn through their origins.
+struct Sample {
+    std::vector<std::size_t> rays;
+    std::vector<std::pair<std::size_t, std::size_t>> wall;  ///< edges between the origins of two rays
+};
+
+Sample thin_out(const RaySet& set, double height, double spacing) {
+    Sample sample;
+    for (std::size_t e = 0; e < set.bodies(); ++e) {
+        const std::size_t first = sample.rays.size();
+        for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
+            if (sample.rays.size() > first) {
+                const RayLine &kept = set.rays[sample.rays.back()], &ray = set.rays[i];
+                if (distance(kept.origin, ray.origin) < spacing &&
+                    distance(at_height(kept, height), at_height(ray, height)) < spacing)
+                    continue;
+            }
+            sample.rays.push_back(i);
+        }
+        for (std::size_t k = first, last = sample.rays.size() - 1; k < sample.rays.size(); last = k++) {
+            if (set.rays[sample.rays[last]].origin != set.rays[sample.rays[k]].origin)
+                sample.wall.emplace_back(sample.rays[last], sample.rays[k]);
+        }
+    }
+    return sample;
+}
+
+/// Heights at which two lines cross, along each of them.
+struct Crossing {
+    bool exists;
+    double first, second;
+};
+
+Crossing cross_lines(Point p, Point d, Point q, Point e) {
+    const double denominator = cross(d, e);
+    if (denominator == 0) return {false, 0, 0};
+    return {true, cross(q - p, e) / denominator, cross(q - p, d) / denominator};
+}
+
+/// Looks for what rays meet at heights in (low, high] and lowers their limits.
+void limit_on_scale(const RaySet& set, const Sample& sample, double low, double high, std::vector<double>& limits) {
+    const std::vector<double> before = limits;  // all rays are judged by the state at the start: no order matters
+    std::vector<Box> ray_boxes, wall_boxes;
+    for (std::size_t i : sample.rays) {
+        // A ray that has ended is in nobody's way beyond its end.
+        const double reach = std::min(high, before[i] / ray_fraction);
+        ray_boxes.push_back(box_of(set.rays[i].origin, at_height(set.rays[i], reach)));
+    }
+    for (auto [a, b] : sample.wall) wall_boxes.push_back(box_of(set.rays[a].origin, set.rays[b].origin));
+    const BoxTree ray_tree(ray_boxes), wall_tree(std::move(wall_boxes));
+
+    for (std::size_t k = 0; k < sample.rays.size(); ++k) {
+        const std::size_t i = sample.rays[k];
+        const RayLine& ray = set.rays[i];
+        if (before[i] <= wall_fraction * low) continue;
+        ray_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
+            const std::size_t j = sample.rays[item];
+            const RayLine& other = set.rays[j];
+            if (other.origin == ray.origin) return;
+            const Crossing at = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
+            if (!at.exists || at.first <= low || at.first > high) return;
+            if (at.second < 0 || at.second > at.first * (1 + 1e-9) || at.second > before[j] / ray_fraction) return;
+            limits[i] = std::min(limits[i], ray_fraction * at.first);
+        });
+        wall_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
+            const Point a = set.rays[sample.wall[item].first].origin, b = set.rays[sample.wall[item].second].origin;
+            if (a == ray.origin || b == ray.origin) return;
+            const Crossing at = cross_lines(ray.origin, ray.direction, a, b - a);
+            if (!at.exists || at.first <= low || at.first > high || at.second < 0 || at.second > 1) return;
+            limits[i] = std::min(limits[i], wall_fraction * at.first);
+        });
+    }
+}
+
+/// Bounds the slope of the limits along each wall: twice round in both directions.
+void smooth_limits(const RaySet& set, double full_height, std::vector<double>& limits) {
+    const auto pass_on = [&](std::size_t from, std::size_t to) {
+        const double height = std::min(limits[from], full_height);
+        const double gap = distance(at_height(set.rays[from], height), at_height(set.rays[to], height));
+        limits[to] = std::min(limits[to], limits[from] + limit_slope * gap);
+    };
+    for (std::size_t e = 0; e < set.bodies(); ++e) {
+        const std::size_t first = set.begin[e], n = set.begin[e + 1] - first;
+        for (std::size_t k = 0; k < 2 * n; ++k) pass_on(first + k % n, first + (k + 1) % n);
+        for (std::size_t k = 2 * n; k-- > 0;) pass_on(first + (k + 1) % n, first + k % n);
+    }
+}
+
+}  // namespace
+
+std::vector<double> height_limits(const RaySet& set, double full_height) {
+    std::vector<double> limits(set.rays.size(), HUGE_VAL);
+    if (is_one_convex_body(set)) return limits;
+    const double reach = full_height / wall_fraction;
+    double low = 0;
+    double high = set.rays.size() <= single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
+    for (;;) {
+        const Sample sample = thin_out(set, high, low > 0 ? thinning * high : 0.0);
+        limit_on_scale(set, sample, low, high, limits);
+        if (high >= reach) break;
+        low = high;
+        high = std::min(2 * high, reach);
+    }
+    if (std::all_of(limits.begin(), limits.end(), [](double limit) { return limit == HUGE_VAL; })) return limits;
+    smooth_limits(set, full_height, limits);
+    return limits;
+}
+
+}  // namespace lamina
