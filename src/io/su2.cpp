@@ -1,0 +1,290 @@
+// The native ASCII format of the SU2 solver: NDIME, NELEM, NPOIN, NMARK, each followed by its lines.
+// Source: SU2 documentation, "Mesh File", and the behaviour of its reader. Cells are VTK types: 3 line, 5 triangle,
+// 9 quadrilateral; numbers are zero-based; indices at the ends of lines are optional.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+#include <lamina/error.hpp>
+
+#include "core/parallel.hpp"
+#include "io/formats.hpp"
+
+namespace lamina::detail {
+
+namespace {
+
+enum CellType : unsigned { line_type = 3, triangle_type = 5, quad_type = 9 };
+
+// --- Writing
+
+/// Longer than any line of cells or points.
+constexpr std::size_t longest_line = 80;
+
+char* put(char* p, std::size_t value, char after) {
+    p = std::to_chars(p, p + 20, value).ptr;
+    *p++ = after;
+    return p;
+}
+
+/// 17 significant digits: every double comes back as it was.
+char* put(char* p, double value, char after) {
+    p = std::to_chars(p, p + 30, value, std::chars_format::scientific, 16).ptr;
+    *p++ = after;
+    return p;
+}
+
+/// Line i is what put_line(p, i) -> end leaves behind p. Formatted in parallel, a bounded number of blocks at a time.
+template <class F>
+void write_lines(std::ostream& out, std::size_t n, F&& put_line) {
+    constexpr std::size_t grain = 1 << 13;
+    const std::size_t batch = grain * 4 * thread_count();
+    for (std::size_t start = 0; start < n; start += batch) {
+        const auto format_block = [&](std::size_t begin, std::size_t end) {
+            std::string text((end - begin) * longest_line, '\0');
+            char* p = text.data();
+            for (std::size_t i = start + begin; i < start + end; ++i) p = put_line(p, i);
+            text.resize(static_cast<std::size_t>(p - text.data()));
+            return text;
+        };
+        for (const std::string& text : parallel_blocks(std::min(batch, n - start), grain, format_block))
+            out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    }
+}
+
+// --- Reading
+
+/// Lines of a file without comments and blank lines, and the numbers in them.
+class LineReader {
+public:
+    LineReader(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {}
+
+    /// The next line that holds something; false at the end.
+    bool next() {
+        while (!rest_.empty()) {
+            const std::size_t end = rest_.find('\n');
+            line_ = rest_.substr(0, end);
+            rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+            ++number_;
+            line_ = line_.substr(0, line_.find('%'));
+            skip_blanks();
+            if (!line_.empty()) return true;
+        }
+        return false;
+    }
+    /// "KEY = value": KEY if the line reads so, leaving the value.
+    std::optional<std::string_view> key() {
+        const std::size_t equals = line_.find('=');
+        if (equals == std::string_view::npos) return std::nullopt;
+        const std::string_view key = trimmed(line_.substr(0, equals));
+        line_.remove_prefix(equals + 1);
+        return key;
+    }
+    std::string_view text() const { return trimmed(line_); }
+    bool at_end() {
+        skip_blanks();
+        return line_.empty();
+    }
+    template <class T>
+    T number(const char* what) {
+        skip_blanks();
+        if (!line_.empty() && line_.front() == '+') line_.remove_prefix(1);
+        T value{};
+        const auto [end, error] = std::from_chars(line_.data(), line_.data() + line_.size(), value);
+        const auto used = static_cast<std::size_t>(end - line_.data());
+        if (error != std::errc{} || (used < line_.size() && !is_blank(line_[used])))
+            fail(line_.empty() ? fmt::format("{} expected", what)
+                               : fmt::format("{} expected, found '{}'", what, line_.substr(0, 30)));
+        line_.remove_prefix(used);
+        return value;
+    }
+    [[noreturn]] void fail(const std::string& reason) const { throw InputError({file_, number_, {}}, reason); }
+    std::size_t bytes_left() const { return rest_.size(); }
+
+private:
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+    static std::string_view trimmed(std::string_view s) {
+        while (!s.empty() && is_blank(s.front())) s.remove_prefix(1);
+        while (!s.empty() && is_blank(s.back())) s.remove_suffix(1);
+        return s;
+    }
+    void skip_blanks() {
+        while (!line_.empty() && is_blank(line_.front())) line_.remove_prefix(1);
+    }
+
+    std::string_view rest_, line_;
+    std::string file_;
+    std::size_t number_ = 0;
+};
+
+/// Sections in any order; NPOIN is looked up first, so that a wrong index is reported with its line.
+class Su2Reader {
+public:
+    Su2Reader(const std::string& bytes, const std::string& file) : in_(bytes, file), points_(find_npoin(bytes, file)) {}
+
+    Mesh read() {
+        while (in_.next()) {
+            const auto key = in_.key();
+            if (!key) in_.fail(fmt::format("'{}' belongs to no section", in_.text().substr(0, 30)));
+            if (*key == "NDIME")
+                read_dimension();
+            else if (*key == "NELEM")
+                read_cells();
+            else if (*key == "NPOIN")
+                read_points();
+            else if (*key == "NMARK")
+                announced_ = count(announced_, "NMARK");
+            else if (*key == "MARKER_TAG")
+                read_tag();
+            else if (*key == "MARKER_ELEMS")
+                read_marker();
+            // Other keys (NZONE, AOA ...) say nothing about the mesh of one zone.
+        }
+        for (const auto& [given, name] : {std::pair{dimension_, "NDIME"}, std::pair{cells_, "NELEM"},
+                                          std::pair{points_read_, "NPOIN"}, std::pair{announced_, "NMARK"}})
+            if (!given) in_.fail(fmt::format("the file ends without {}=", name));
+        if (open_tag_) in_.fail(fmt::format("marker '{}' has no MARKER_ELEMS=", mesh_.markers.back().name));
+        if (*announced_ != mesh_.markers.size())
+            in_.fail(fmt::format("NMARK= {}, but {} markers follow", *announced_, mesh_.markers.size()));
+        orient_markers(mesh_);
+        return std::move(mesh_);
+    }
+
+private:
+    static std::size_t find_npoin(const std::string& bytes, const std::string& file) {
+        LineReader in(bytes, file);
+        while (in.next())
+            if (in.key() == "NPOIN") return in.number<std::size_t>("number of points");
+        in.fail("the file ends without NPOIN=");
+    }
+
+    std::size_t count(const std::optional<std::size_t>& before, const char* name) {
+        if (before) in_.fail(fmt::format("a second {}=", name));
+        const auto n = in_.number<std::size_t>("count");
+        // A line has at least two bytes: refuse absurd counts before memory is asked for.
+        if (n > in_.bytes_left() / 2 + 1) in_.fail(fmt::format("{}= {}, but the file is shorter than that", name, n));
+        return n;
+    }
+    void next_line(std::size_t i, std::size_t n, const char* section) {
+        if (!in_.next()) in_.fail(fmt::format("the file ends after {} of {} lines of {}", i, n, section));
+    }
+    VertexId vertex() {
+        const auto index = in_.number<std::size_t>("vertex index");
+        if (index >= points_) in_.fail(fmt::format("vertex index {} where NPOIN= {}", index, points_));
+        return VertexId(index);
+    }
+    /// The index at the end of a line is optional.
+    void end_line() {
+        if (!in_.at_end()) in_.number<std::size_t>("index or end of line");
+        if (!in_.at_end()) in_.fail(fmt::format("end of line expected, found '{}'", in_.text().substr(0, 30)));
+    }
+
+    void read_dimension() {
+        dimension_ = in_.number<std::size_t>("dimension");
+        if (*dimension_ != 2) in_.fail(fmt::format("NDIME= {}: only two-dimensional meshes can be read", *dimension_));
+    }
+    void read_cells() {
+        cells_ = count(cells_, "NELEM");
+        for (std::size_t i = 0; i < *cells_; ++i) {
+            next_line(i, *cells_, "NELEM");
+            const auto type = in_.number<unsigned>("cell type");
+            if (type == triangle_type) {
+                const VertexId a = vertex(), b = vertex(), c = vertex();
+                mesh_.triangles.push_back({{a, b, c}});
+            } else if (type == quad_type) {
+                const VertexId a = vertex(), b = vertex(), c = vertex(), d = vertex();
+                mesh_.quads.push_back({{a, b, c, d}});
+            } else {
+                in_.fail(fmt::format("cell type {}: only 5 (triangle) and 9 (quadrilateral) can be read", type));
+            }
+            end_line();
+        }
+    }
+    void read_points() {
+        points_read_ = count(points_read_, "NPOIN");
+        mesh_.points.reserve(*points_read_);
+        for (std::size_t i = 0; i < *points_read_; ++i) {
+            next_line(i, *points_read_, "NPOIN");
+            const auto x = in_.number<double>("coordinate"), y = in_.number<double>("coordinate");
+            if (!std::isfinite(x) || !std::isfinite(y)) in_.fail("coordinate is not a finite number");
+            mesh_.points.push_back({x, y});
+            end_line();
+        }
+    }
+    void read_tag() {
+        if (open_tag_) in_.fail(fmt::format("marker '{}' has no MARKER_ELEMS=", mesh_.markers.back().name));
+        if (in_.text().empty()) in_.fail("a marker without a name");
+        mesh_.markers.push_back({std::string(in_.text()), kind_from_name(in_.text()), {}});
+        open_tag_ = true;
+    }
+    void read_marker() {
+        if (!open_tag_) in_.fail("MARKER_ELEMS= without a MARKER_TAG= before it");
+        open_tag_ = false;
+        const std::size_t n = count({}, "MARKER_ELEMS");
+        for (std::size_t i = 0; i < n; ++i) {
+            next_line(i, n, "MARKER_ELEMS");
+            if (const auto type = in_.number<unsigned>("type of boundary edge"); type != line_type)
+                in_.fail(fmt::format("boundary edge of type {}: only 3 (line) can be read", type));
+            const VertexId a = vertex(), b = vertex();
+            mesh_.markers.back().edges.push_back({a, b});
+            end_line();
+        }
+    }
+    /// The format holds no kinds: only far fields are commonly named alike.
+    static MarkerKind kind_from_name(std::string_view name) {
+        std::string letters;
+        for (const char c : name)
+            if (std::isalpha(static_cast<unsigned char>(c)))
+                letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        return letters == "farfield" || letters == "far" ? MarkerKind::far_field : MarkerKind::other;
+    }
+
+    LineReader in_;
+    std::size_t points_;
+    Mesh mesh_;
+    std::optional<std::size_t> dimension_, cells_, points_read_, announced_;
+    bool open_tag_ = false;
+};
+
+}  // namespace
+
+void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out) {
+    for (const Marker& marker : mesh.markers)
+        if (marker.name.empty() || marker.name.find_first_of(" \t\r\n%") != std::string::npos)
+            throw UsageError(fmt::format("{}: SU2 cannot hold a marker named '{}'", file.string(), marker.name));
+
+    const std::size_t triangles = mesh.triangles.size(), cells = triangles + mesh.quads.size();
+    out << "NDIME= 2\nNELEM= " << cells << '\n';
+    write_lines(out, cells, [&](char* p, std::size_t i) {
+        p = put(p, std::size_t{i < triangles ? triangle_type : quad_type}, ' ');
+        if (i < triangles)
+            for (const VertexId v : mesh.triangles[i].v) p = put(p, v.index(), ' ');
+        else
+            for (const VertexId v : mesh.quads[i - triangles].v) p = put(p, v.index(), ' ');
+        return put(p, i, '\n');
+    });
+    out << "NPOIN= " << mesh.points.size() << '\n';
+    write_lines(out, mesh.points.size(), [&](char* p, std::size_t i) {
+        return put(put(put(p, mesh.points[i].x, ' '), mesh.points[i].y, ' '), i, '\n');
+    });
+    out << "NMARK= " << mesh.markers.size() << '\n';
+    for (const Marker& marker : mesh.markers) {
+        out << "MARKER_TAG= " << marker.name << "\nMARKER_ELEMS= " << marker.edges.size() << '\n';
+        write_lines(out, marker.edges.size(), [&](char* p, std::size_t i) {
+            p = put(p, std::size_t{line_type}, ' ');
+            return put(put(p, marker.edges[i].a.index(), ' '), marker.edges[i].b.index(), '\n');
+        });
+    }
+}
+
+Mesh read_su2(const std::string& bytes, const std::filesystem::path& file) {
+    return Su2Reader(bytes, file.string()).read();
+}
+
+}  // namespace lamina::detail

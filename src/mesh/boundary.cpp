@@ -1,0 +1,195 @@
+#include "mesh/boundary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "core/predicates.hpp"
+#include "layers/box_tree.hpp"
+
+namespace lamina::detail {
+
+namespace {
+
+using Edge = std::uint32_t;  // index of a boundary edge, in the order of the loops
+
+/// Edges of each loop one after the other; loop l is [first[l], first[l + 1]).
+struct Loops {
+    std::vector<Segment> edges;
+    std::vector<Edge> first;
+};
+
+Box box_of(std::span<const Point> points, const Segment& edge) {
+    Box box;
+    box.include(points[edge.a.index()]);
+    box.include(points[edge.b.index()]);
+    return box;
+}
+
+/// Over edges in the order of the loops, which is coherent in the plane.
+BoxTree make_tree(std::span<const Point> points, std::span<const Segment> edges) {
+    std::vector<Box> boxes;
+    boxes.reserve(edges.size());
+    for (const Segment& edge : edges) boxes.push_back(box_of(points, edge));
+    return BoxTree(std::move(boxes));
+}
+
+/// Follows the edges, which are sorted by their first vertex, each of which starts one edge. Loops come in the order of
+/// their lexicographically smallest points, so that neighbours in the list are near in the plane.
+Loops trace_loops(std::span<const Point> points, std::span<const Segment> edges) {
+    const auto next = [&](const Segment& edge) {
+        const auto found = std::lower_bound(edges.begin(), edges.end(), Segment{edge.b, VertexId(0)});
+        assert(found != edges.end() && found->a == edge.b);
+        return static_cast<std::size_t>(found - edges.begin());
+    };
+    struct Start {
+        std::size_t edge;
+        Point smallest;
+    };
+    std::vector<Start> starts;
+    std::vector<bool> seen(edges.size(), false);
+    for (std::size_t start = 0; start < edges.size(); ++start) {
+        if (seen[start]) continue;
+        starts.push_back({start, points[edges[start].a.index()]});
+        for (std::size_t e = start; !seen[e]; e = next(edges[e])) {
+            seen[e] = true;
+            const Point p = points[edges[e].a.index()];
+            if (lexicographically_less(p, starts.back().smallest)) starts.back().smallest = p;
+        }
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Start& a, const Start& b) { return lexicographically_less(a.smallest, b.smallest); });
+
+    Loops loops;
+    loops.edges.reserve(edges.size());
+    for (const Start& start : starts) {
+        loops.first.push_back(static_cast<Edge>(loops.edges.size()));
+        std::size_t e = start.edge;
+        do {
+            loops.edges.push_back(edges[e]);
+            e = next(edges[e]);
+        } while (e != start.edge);
+    }
+    loops.first.push_back(static_cast<Edge>(loops.edges.size()));
+    return loops;
+}
+
+int orientation(Point a, Point b, Point c) {
+    const double value = inline_orient2d(a, b, c);
+    return (value > 0) - (value < 0);
+}
+
+/// Exact: have the segments more in common than one shared end vertex?
+bool improper_contact(std::span<const Point> points, const Segment& s, const Segment& t) {
+    const Point a = points[s.a.index()], b = points[s.b.index()], c = points[t.a.index()], d = points[t.b.index()];
+    if (s.b == t.a || s.a == t.b) {
+        if (s.b == t.a && s.a == t.b) return true;
+        const auto [p, q, r] = s.b == t.a ? std::array{a, b, d} : std::array{b, a, c};  // q is shared
+        return orientation(p, q, r) == 0 && lexicographically_less(p, q) == lexicographically_less(r, q);
+    }
+    const int c_side = orientation(a, b, c), d_side = orientation(a, b, d);
+    const int a_side = orientation(c, d, a), b_side = orientation(c, d, b);
+    return (c_side * d_side < 0 && a_side * b_side < 0) || (c_side == 0 && box_of(points, s).contains(c)) ||
+           (d_side == 0 && box_of(points, s).contains(d)) || (a_side == 0 && box_of(points, t).contains(a)) ||
+           (b_side == 0 && box_of(points, t).contains(b));
+}
+
+void check_contacts(std::span<const Point> points, const Loops& loops, const BoxTree& tree, DefectList& defects) {
+    const auto check_edges = [&](std::size_t begin, std::size_t end) {
+        DefectList found;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Segment& s = loops.edges[i];
+            tree.overlaps(box_of(points, s), [&](std::size_t j) {
+                const Segment& t = loops.edges[j];
+                if (j > i && improper_contact(points, s, t))
+                    found.add([&] {
+                        return MeshDefect{fmt::format("boundary edges {}-{} and {}-{} cross, touch or overlap",
+                                                      s.a.value, s.b.value, t.a.value, t.b.value),
+                                          points[s.a.index()]};
+                    });
+            });
+        }
+        return found;
+    };
+    for (DefectList& found : parallel_blocks(loops.edges.size(), 1024, check_edges)) defects.append(std::move(found));
+}
+
+/// Exact for a simple loop: at its lexicographically smallest vertex it turns the way it goes round.
+bool counter_clockwise(std::span<const Point> points, std::span<const Segment> loop) {
+    std::size_t smallest = 0;
+    for (std::size_t i = 1; i < loop.size(); ++i)
+        if (lexicographically_less(points[loop[i].a.index()], points[loop[smallest].a.index()])) smallest = i;
+    const Segment& before = loop[(smallest + loop.size() - 1) % loop.size()];
+    return orientation(points[before.a.index()], points[before.b.index()], points[loop[smallest].b.index()]) > 0;
+}
+
+/// Winding number, round a vertex of loop l, of all other loops: signed crossings of the ray to the right.
+long winding_of_others(std::span<const Point> points, const Loops& loops, const BoxTree& tree, std::size_t l) {
+    const Point p = points[loops.edges[loops.first[l]].a.index()];
+    long winding = 0;
+    tree.overlaps({p, {HUGE_VAL, p.y}}, [&](std::size_t e) {
+        if (e >= loops.first[l] && e < loops.first[l + 1]) return;
+        const Point a = points[loops.edges[e].a.index()], b = points[loops.edges[e].b.index()];
+        if ((a.y <= p.y) == (b.y <= p.y)) return;  // half open: each vertex on the ray counts once
+        const int side = orientation(a, b, p);
+        if (a.y <= p.y && side > 0) ++winding;
+        if (b.y <= p.y && side < 0) --winding;
+    });
+    return winding;
+}
+
+/// Between the loops of a valid mesh the winding number is 0 (outside) or 1: a counter-clockwise loop lies outside all
+/// domains, a clockwise one inside exactly one.
+void check_nesting(std::span<const Point> points, const Loops& loops, const BoxTree& tree, BoundarySummary& summary) {
+    for (std::size_t l = 0; l + 1 < loops.first.size(); ++l) {
+        const std::span loop(loops.edges.data() + loops.first[l], loops.first[l + 1] - loops.first[l]);
+        const bool outer = counter_clockwise(points, loop);
+        summary.outer_loops += outer;
+        if (winding_of_others(points, loops, tree, l) != (outer ? 0 : 1))
+            summary.defects.add([&] {
+                return MeshDefect{fmt::format("the boundary loop through vertex {} bounds cells that overlap others",
+                                              loop[0].a.value),
+                                  points[loop[0].a.index()]};
+            });
+    }
+}
+
+void add_areas(std::span<const Point> points, const Loops& loops, BoundarySummary& summary) {
+    Box box;
+    for (const Segment& e : loops.edges) box.include(points[e.a.index()]);
+    const Point center = box.center();
+    for (const Segment& e : loops.edges) {
+        const double part = 0.5 * cross(points[e.a.index()] - center, points[e.b.index()] - center);
+        summary.area += part;
+        summary.area_magnitude += std::abs(part);
+    }
+}
+
+}  // namespace
+
+BoundarySummary check_boundary(std::span<const Point> points, std::vector<Segment> edges) {
+    BoundarySummary summary;
+    if (edges.empty()) return summary;
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 1; i < edges.size(); ++i)
+        if (edges[i].a == edges[i - 1].a)
+            summary.defects.add([&] {
+                return MeshDefect{fmt::format("the boundary passes twice through vertex {}", edges[i].a.value),
+                                  points[edges[i].a.index()]};
+            });
+    if (!summary.defects.empty()) return summary;  // which edge follows which is not defined
+
+    const Loops loops = trace_loops(points, edges);
+    const BoxTree tree = make_tree(points, loops.edges);
+    summary.loops = loops.first.size() - 1;
+    add_areas(points, loops, summary);
+    check_contacts(points, loops, tree, summary.defects);
+    if (summary.defects.empty()) check_nesting(points, loops, tree, summary);
+    return summary;
+}
+
+}  // namespace lamina::detail

@@ -1,0 +1,353 @@
+// Is a mesh valid? All decisions are exact; see boundary.hpp for why simple, well nested boundary loops, positive cells
+// and matching edges together mean that the domain is covered exactly once.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include <lamina/mesh.hpp>
+#include <lamina/predicates.hpp>
+
+#include "core/parallel.hpp"
+#include "core/predicates.hpp"
+#include "mesh/adjacency.hpp"
+#include "mesh/boundary.hpp"
+#include "mesh/defects.hpp"
+#include "mesh/quality.hpp"
+
+namespace lamina {
+
+namespace {
+
+using detail::Adjacency;
+using detail::CellEdges;
+using detail::CellShape;
+using detail::DefectList;
+using detail::QualityCollector;
+
+constexpr std::size_t grain = 1 << 14;
+
+/// "triangle 7 (3, 5, 9)"
+std::string name_of(const Mesh& mesh, std::size_t cell) {
+    if (cell < mesh.triangles.size()) {
+        const VertexId* v = mesh.triangles[cell].v;
+        return fmt::format("triangle {} ({}, {}, {})", cell, v[0].value, v[1].value, v[2].value);
+    }
+    const VertexId* v = mesh.quads[cell - mesh.triangles.size()].v;
+    return fmt::format("quad {} ({}, {}, {}, {})", cell - mesh.triangles.size(), v[0].value, v[1].value, v[2].value,
+                       v[3].value);
+}
+
+std::string name_of(const Segment& edge) { return fmt::format("{}-{}", edge.a.value, edge.b.value); }
+
+template <class F>
+void check_blocks(std::size_t n, DefectList& defects, F&& check_one) {
+    const auto check_block = [&](std::size_t begin, std::size_t end) {
+        DefectList found;
+        for (std::size_t i = begin; i < end; ++i) check_one(i, found);
+        return found;
+    };
+    for (DefectList& found : parallel_blocks(n, grain, check_block)) defects.append(std::move(found));
+}
+
+// --- Arrays: whatever comes after may index and compute without looking.
+
+void check_arrays(const Mesh& mesh, DefectList& defects) {
+    const std::size_t vertices = mesh.points.size();
+    const CellEdges edges(mesh);
+    const auto in_range = [&](const Segment& s) { return s.a.index() < vertices && s.b.index() < vertices; };
+
+    if (edges.cells() == 0) defects.add([] { return MeshDefect{"no cells", {}}; });
+    const auto check_size = [&](const char* array, std::size_t size) {
+        if (size != 0 && size != edges.cells())
+            defects.add([&] {
+                return MeshDefect{fmt::format("{} entries in '{}' for {} cells", size, array, edges.cells()), {}};
+            });
+    };
+    check_size("region", mesh.region.size());
+    check_size("piece", mesh.piece.size());
+    check_size("layer", mesh.layer.size());
+
+    check_blocks(vertices, defects, [&](std::size_t v, DefectList& found) {
+        const Point p = mesh.points[v];
+        if (!in_exact_range(p))
+            found.add([&] {
+                return MeshDefect{fmt::format("vertex {} ({}, {}) is not a number or out of range", v, p.x, p.y), p};
+            });
+    });
+    check_blocks(edges.cells(), defects, [&](std::size_t cell, DefectList& found) {
+        for (std::size_t i = 0; i < edges.corners(cell); ++i)
+            if (edges.corner(cell, i).index() >= vertices) {
+                found.add([&] {
+                    return MeshDefect{fmt::format("{} has an index out of range", name_of(mesh, cell)), {}};
+                });
+                return;
+            }
+    });
+    for (const Marker& marker : mesh.markers)
+        for (const Segment& edge : marker.edges)
+            if (!in_range(edge))
+                defects.add([&] {
+                    return MeshDefect{
+                        fmt::format("edge {} of marker '{}' has an index out of range", name_of(edge), marker.name),
+                        {}};
+                });
+    for (const Segment& edge : mesh.constraints)
+        if (!in_range(edge))
+            defects.add([&] {
+                return MeshDefect{fmt::format("constraint {} has an index out of range", name_of(edge)), {}};
+            });
+}
+
+// --- Cells: orientation, area, shape.
+
+struct CellsSummary {
+    double area = 0;
+    QualityCollector layer, isotropic;
+    DefectList defects;
+
+    explicit CellsSummary(double bound = 0) : layer(bound), isotropic(bound) {}
+    void append(CellsSummary&& part) {
+        area += part.area;
+        layer.append(part.layer);
+        isotropic.append(part.isotropic);
+        defects.append(std::move(part.defects));
+    }
+};
+
+bool is_isotropic(const Mesh& mesh, std::size_t cell) {
+    return mesh.region.empty() || mesh.region[cell] == Region::isotropic;
+}
+
+/// > 0 for counter-clockwise, 0 for flat. A quad is simple and counter-clockwise if one of its diagonals splits it in
+/// two such triangles.
+double cell_orientation(const Point* p, std::size_t corners) {
+    using detail::inline_orient2d;
+    if (corners == 3) return inline_orient2d(p[0], p[1], p[2]);
+    return std::max(std::min(inline_orient2d(p[0], p[1], p[2]), inline_orient2d(p[0], p[2], p[3])),
+                    std::min(inline_orient2d(p[0], p[1], p[3]), inline_orient2d(p[1], p[2], p[3])));
+}
+
+CellsSummary check_cells(const Mesh& mesh, std::size_t begin, std::size_t end, const MeshCheckOptions& options) {
+    CellsSummary summary(options.min_angle_deg);
+    const CellEdges edges(mesh);
+    for (std::size_t cell = begin; cell < end; ++cell) {
+        Point p[4];
+        const std::size_t corners = edges.corners(cell);
+        for (std::size_t i = 0; i < corners; ++i) p[i] = mesh.points[edges.corner(cell, i).index()];
+        if (const double sign = cell_orientation(p, corners); !(sign > 0))
+            summary.defects.add([&] {
+                return MeshDefect{fmt::format("{} {}", sign < 0 ? "clockwise or folded" : "flat", name_of(mesh, cell)),
+                                  p[0]};
+            });
+        const CellShape shape =
+            corners == 3 ? detail::measure_triangle(p[0], p[1], p[2]) : detail::measure_quad(p[0], p[1], p[2], p[3]);
+        summary.area += shape.area;
+        (is_isotropic(mesh, cell) ? summary.isotropic : summary.layer).add(shape);
+    }
+    return summary;
+}
+
+// --- Interior edges: Delaunay property, areas of neighbours.
+
+struct EdgesSummary {
+    std::size_t interior_edges = 0;
+    std::size_t delaunay_violations = 0;
+    QualityCollector isotropic{0};
+};
+
+bool is_isotropic_triangle(const Mesh& mesh, std::size_t cell) {
+    return cell < mesh.triangles.size() && is_isotropic(mesh, cell);
+}
+
+/// Exact; counter-clockwise a, b, c.
+bool strictly_in_circle(Point a, Point b, Point c, Point d) {
+    const detail::RoundedIncircle rounded = detail::rounded_incircle(a, b, c, d);
+    return (rounded.certain() ? rounded.det : incircle(a, b, c, d)) > 0;
+}
+
+/// Is the vertex opposite to the directed edge's twin strictly inside the circle of the edge's own triangle?
+bool violates_delaunay(const Mesh& mesh, std::size_t edge, std::size_t twin) {
+    const VertexId* v = mesh.triangles[edge / 3].v;
+    const VertexId opposite = mesh.triangles[twin / 3].v[(twin + 2) % 3];
+    return strictly_in_circle(mesh.points[v[0].index()], mesh.points[v[1].index()], mesh.points[v[2].index()],
+                              mesh.points[opposite.index()]);
+}
+
+double area_of(const Mesh& mesh, const CellEdges& edges, std::size_t cell) {
+    const auto corner = [&](std::size_t i) { return mesh.points[edges.corner(cell, i).index()]; };
+    return edges.corners(cell) == 3 ? 0.5 * cross(corner(1) - corner(0), corner(2) - corner(0))
+                                    : 0.5 * cross(corner(2) - corner(0), corner(3) - corner(1));
+}
+
+/// Constraints included: they are taken out afterwards.
+EdgesSummary check_edges(const Mesh& mesh, const Adjacency& adjacency, std::size_t begin, std::size_t end) {
+    EdgesSummary summary;
+    const CellEdges edges(mesh);
+    for (std::size_t cell = begin; cell < end; ++cell) {
+        if (!is_isotropic(mesh, cell)) continue;
+        const double area = area_of(mesh, edges, cell);
+        const std::size_t first = edges.first(cell);
+        for (std::size_t e = first; e < first + edges.corners(cell); ++e) {
+            const std::uint32_t twin = adjacency.twin[e];
+            if (twin == detail::no_edge || twin < e) continue;  // each pair once
+            const std::size_t other = edges.cell_of(twin);
+            if (!is_isotropic(mesh, other)) continue;
+            summary.isotropic.add_neighbours(area, area_of(mesh, edges, other));
+            if (!is_isotropic_triangle(mesh, cell) || !is_isotropic_triangle(mesh, other)) continue;
+            ++summary.interior_edges;
+            summary.delaunay_violations += violates_delaunay(mesh, e, twin);
+        }
+    }
+    return summary;
+}
+
+/// Takes constraints between isotropic triangles out of the count again: they are few.
+void exempt_constraints(const Mesh& mesh, const Adjacency& adjacency, EdgesSummary& summary, DefectList& defects) {
+    std::vector<Segment> constraints = mesh.constraints;
+    for (Segment& edge : constraints)
+        if (edge.b < edge.a) std::swap(edge.a, edge.b);
+    std::sort(constraints.begin(), constraints.end());
+    constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+    const CellEdges edges(mesh);
+    for (const Segment& constraint : constraints) {
+        const std::uint32_t found = adjacency.find(constraint.a, constraint.b);
+        if (found == detail::no_edge) {
+            defects.add([&] {
+                return MeshDefect{fmt::format("constraint {} is no edge of the mesh", name_of(constraint)),
+                                  mesh.points[constraint.a.index()]};
+            });
+            continue;
+        }
+        if (adjacency.twin[found] == detail::no_edge) continue;
+        const std::size_t edge = std::min(found, adjacency.twin[found]), twin = adjacency.twin[edge];
+        if (!is_isotropic_triangle(mesh, edges.cell_of(edge)) || !is_isotropic_triangle(mesh, edges.cell_of(twin)))
+            continue;
+        --summary.interior_edges;
+        summary.delaunay_violations -= violates_delaunay(mesh, edge, twin);
+    }
+}
+
+// --- Topology and markers.
+
+void report_topology(const Mesh& mesh, const Adjacency& adjacency, DefectList& defects) {
+    const CellEdges edges(mesh);
+    for (const std::uint32_t e : adjacency.overused)
+        defects.add([&] {
+            return MeshDefect{
+                fmt::format("{} shares its edge {} with more than one cell or with one on the same side",
+                            name_of(mesh, edges.cell_of(e)), name_of(Segment{edges.origin(e), edges.target(e)})),
+                mesh.points[edges.origin(e).index()]};
+        });
+    for (const VertexId v : adjacency.orphans)
+        defects.add([&] {
+            return MeshDefect{fmt::format("vertex {} belongs to no cell", v.value), mesh.points[v.index()]};
+        });
+}
+
+std::vector<Segment> boundary_edges(const Mesh& mesh, const Adjacency& adjacency) {
+    const CellEdges edges(mesh);
+    std::vector<Segment> boundary;
+    boundary.reserve(adjacency.boundary.size());
+    for (const std::uint32_t e : adjacency.boundary) boundary.push_back({edges.origin(e), edges.target(e)});
+    std::sort(boundary.begin(), boundary.end());
+    return boundary;
+}
+
+/// Every boundary edge in exactly one marker, and nothing else in any. `boundary` is sorted.
+void check_markers(const Mesh& mesh, const std::vector<Segment>& boundary, DefectList& defects) {
+    std::vector<std::uint8_t> marked(boundary.size(), 0);
+    const auto report = [&](const Segment& edge, const std::string& what) {
+        defects.add([&] { return MeshDefect{what, mesh.points[edge.a.index()]}; });
+    };
+    for (const Marker& marker : mesh.markers) {
+        const auto same_name = [&](const Marker& other) { return &other < &marker && other.name == marker.name; };
+        if (std::any_of(mesh.markers.begin(), mesh.markers.end(), same_name))
+            defects.add([&] { return MeshDefect{fmt::format("two markers are named '{}'", marker.name), {}}; });
+        for (const Segment& edge : marker.edges) {
+            const auto found = std::lower_bound(boundary.begin(), boundary.end(), edge);
+            if (found == boundary.end() || *found != edge) {
+                const bool reversed = std::binary_search(boundary.begin(), boundary.end(), Segment{edge.b, edge.a});
+                report(edge, fmt::format("edge {} of marker '{}' {}", name_of(edge), marker.name,
+                                         reversed ? "has the mesh on its right" : "is not on the boundary"));
+            } else if (std::exchange(marked[static_cast<std::size_t>(found - boundary.begin())], 1)) {
+                report(edge, fmt::format("boundary edge {} is marked twice, once as '{}'", name_of(edge), marker.name));
+            }
+        }
+    }
+    for (std::size_t i = 0; i < boundary.size(); ++i)
+        if (!marked[i]) report(boundary[i], fmt::format("boundary edge {} is in no marker", name_of(boundary[i])));
+}
+
+/// What holds for every valid mesh; a second look at what check_boundary proves.
+void check_totals(const MeshCheck& check, const detail::BoundarySummary& boundary, DefectList& defects) {
+    // A connected planar domain with k holes has characteristic 1 - k, one outer loop and k inner ones.
+    const long expected = 2 * static_cast<long>(boundary.outer_loops) - static_cast<long>(boundary.loops);
+    if (check.euler_characteristic != expected)
+        defects.add([&] {
+            return MeshDefect{fmt::format("Euler characteristic {} where the boundary loops ask for {}",
+                                          check.euler_characteristic, expected),
+                              {}};
+        });
+    constexpr double rounding = 1e-9;  // generous for 1e9 cells, too small for a cell to hide in
+    if (!(std::abs(check.area - boundary.area) <= rounding * boundary.area_magnitude))
+        defects.add([&] {
+            return MeshDefect{
+                fmt::format("the cells' areas sum to {}, the boundary encloses {}", check.area, boundary.area), {}};
+        });
+}
+
+}  // namespace
+
+MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
+    MeshCheck check;
+    DefectList defects;
+    const auto finish = [&] {
+        check.defects = std::move(defects.kept);
+        check.defect_count = defects.count;
+        return std::move(check);
+    };
+    check_arrays(mesh, defects);
+    if (!defects.empty()) return finish();
+    const std::size_t cells = CellEdges(mesh).cells();
+
+    CellsSummary all_cells(options.min_angle_deg);
+    const auto cell_block = [&](std::size_t begin, std::size_t end) { return check_cells(mesh, begin, end, options); };
+    for (CellsSummary& part : parallel_blocks(cells, grain, cell_block)) all_cells.append(std::move(part));
+    defects.append(std::move(all_cells.defects));
+    check.area = all_cells.area;
+
+    const Adjacency adjacency = detail::find_adjacency(mesh);
+    report_topology(mesh, adjacency, defects);
+    check.euler_characteristic = static_cast<long>(mesh.points.size() - adjacency.orphans.size()) -
+                                 static_cast<long>(adjacency.edges) + static_cast<long>(cells);
+
+    EdgesSummary all_edges;
+    const auto edge_block = [&](std::size_t begin, std::size_t end) {
+        return check_edges(mesh, adjacency, begin, end);
+    };
+    for (const EdgesSummary& part : parallel_blocks(cells, grain, edge_block)) {
+        all_edges.interior_edges += part.interior_edges;
+        all_edges.delaunay_violations += part.delaunay_violations;
+        all_cells.isotropic.append(part.isotropic);
+    }
+    exempt_constraints(mesh, adjacency, all_edges, defects);
+    check.interior_edges = all_edges.interior_edges;
+    check.delaunay_violations = all_edges.delaunay_violations;
+    check.layer = all_cells.layer.summary();
+    check.isotropic = all_cells.isotropic.summary();
+
+    const std::vector<Segment> edges = boundary_edges(mesh, adjacency);
+    check_markers(mesh, edges, defects);
+    if (adjacency.overused.empty()) {
+        detail::BoundarySummary boundary = detail::check_boundary(mesh.points, edges);
+        check.boundary_loops = boundary.loops;
+        defects.append(std::move(boundary.defects));
+        if (defects.empty()) check_totals(check, boundary, defects);
+    }
+    return finish();
+}
+
+}  // namespace lamina

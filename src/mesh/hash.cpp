@@ -1,0 +1,114 @@
+// The recipe, for those who want to compute the hash of a mesh elsewhere:
+//  - a cell contributes the bytes of its vertices' x, y, x, y ..., 8 each, IEEE 754 binary64, little-endian, -0 written
+//    as +0, in counter-clockwise order from the lexicographically smallest vertex (x, then y);
+//  - a marker edge contributes the bytes of x, y of its first and its last vertex in the same way, in the edge's
+//    direction, then the bytes of the marker's name (UTF-8);
+//  - each such string of bytes is hashed by MurmurHash3_x64_128 with seed 0, giving h1 and h2;
+//  - the mesh's hash is the sum over all of h1 2^64 + h2, modulo 2^128, printed as 32 hexadecimal digits.
+// Source: A. Appleby, MurmurHash3 (2011), public domain; the 128-bit variant for 64-bit machines.
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstring>
+#include <span>
+
+#include <lamina/mesh.hpp>
+
+#include "core/parallel.hpp"
+
+namespace lamina {
+
+namespace {
+
+__extension__ using Sum = unsigned __int128;
+
+std::uint64_t finalize(std::uint64_t k) {
+    k = (k ^ (k >> 33)) * 0xff51afd7ed558ccdU;
+    k = (k ^ (k >> 33)) * 0xc4ceb9fe1a85ec53U;
+    return k ^ (k >> 33);
+}
+
+/// MurmurHash3_x64_128 with seed 0 of `length` bytes, given as little-endian words and padded with zeros to a multiple
+/// of 16.
+Sum murmur3(std::span<const std::uint64_t> words, std::size_t length) {
+    constexpr std::uint64_t c1 = 0x87c37b91114253d5U, c2 = 0x4cf5ad432745937fU;
+    const auto mix1 = [&](std::uint64_t k) { return std::rotl(k * c1, 31) * c2; };
+    const auto mix2 = [&](std::uint64_t k) { return std::rotl(k * c2, 33) * c1; };
+    std::uint64_t h1 = 0, h2 = 0;
+    const std::size_t blocks = length / 16;
+    for (std::size_t i = 0; i < blocks; ++i) {
+        h1 = (std::rotl(h1 ^ mix1(words[2 * i]), 27) + h2) * 5 + 0x52dce729;
+        h2 = (std::rotl(h2 ^ mix2(words[2 * i + 1]), 31) + h1) * 5 + 0x38495ab5;
+    }
+    if (length % 16 != 0) {  // zeros mix to zero
+        h1 ^= mix1(words[2 * blocks]);
+        h2 ^= mix2(words[2 * blocks + 1]);
+    }
+    h1 ^= length;
+    h2 ^= length;
+    h1 += h2;
+    h2 += h1;
+    h1 = finalize(h1);
+    h2 = finalize(h2);
+    h1 += h2;
+    h2 += h1;
+    return Sum{h1} << 64 | h2;
+}
+
+std::uint64_t bits(double c) { return std::bit_cast<std::uint64_t>(c + 0.0); }  // -0 + 0 is +0
+
+/// The vertices of a cell from its smallest on.
+template <std::size_t corners>
+Sum hash_cell(const Mesh& mesh, const VertexId (&v)[corners]) {
+    Point p[corners];
+    std::size_t smallest = 0;
+    for (std::size_t i = 0; i < corners; ++i) {
+        p[i] = mesh.points[v[i].index()];
+        if (lexicographically_less(p[i], p[smallest])) smallest = i;
+    }
+    std::uint64_t words[2 * corners];
+    for (std::size_t i = 0; i < corners; ++i) {
+        const Point q = p[(smallest + i) % corners];
+        words[2 * i] = bits(q.x);
+        words[2 * i + 1] = bits(q.y);
+    }
+    return murmur3(words, sizeof words);
+}
+
+Sum hash_marker(const Mesh& mesh, const Marker& marker) {
+    std::vector<std::uint64_t> words(4 + 2 * ((marker.name.size() + 15) / 16), 0);
+    static_assert(std::endian::native == std::endian::little, "words are taken from the name's bytes as they lie");
+    std::memcpy(words.data() + 4, marker.name.data(), marker.name.size());
+    Sum sum = 0;
+    for (const Segment& edge : marker.edges) {
+        const Point a = mesh.points[edge.a.index()], b = mesh.points[edge.b.index()];
+        words[0] = bits(a.x);
+        words[1] = bits(a.y);
+        words[2] = bits(b.x);
+        words[3] = bits(b.y);
+        sum += murmur3(words, 32 + marker.name.size());
+    }
+    return sum;
+}
+
+template <class Cell>
+Sum hash_cells(const Mesh& mesh, const std::vector<Cell>& cells) {
+    const auto hash_block = [&](std::size_t begin, std::size_t end) {
+        Sum sum = 0;
+        for (std::size_t i = begin; i < end; ++i) sum += hash_cell(mesh, cells[i].v);
+        return sum;
+    };
+    Sum sum = 0;
+    for (const Sum part : parallel_blocks(cells.size(), std::size_t{1} << 14, hash_block)) sum += part;
+    return sum;
+}
+
+}  // namespace
+
+std::string mesh_hash(const Mesh& mesh) {
+    Sum sum = hash_cells(mesh, mesh.triangles) + hash_cells(mesh, mesh.quads);
+    for (const Marker& marker : mesh.markers) sum += hash_marker(mesh, marker);
+    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(sum >> 64), static_cast<std::uint64_t>(sum));
+}
+
+}  // namespace lamina

@@ -1,0 +1,94 @@
+#include "mesh/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace lamina::detail {
+
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr CellShape flat{0, 0, 180, std::numeric_limits<double>::infinity()};
+
+}  // namespace
+
+CellShape measure_triangle(Point a, Point b, Point c) {
+    const double twice_area = cross(b - a, c - a);
+    if (!(twice_area > 0)) return flat;
+    double shortest = squared_length(c - b), middle = squared_length(a - c), longest = squared_length(b - a);
+    if (middle < shortest) std::swap(shortest, middle);
+    if (longest < middle) std::swap(middle, longest);
+    if (middle < shortest) std::swap(shortest, middle);
+    // Law of cosines: half of the sums below is the scalar product of the edges at the angle.
+    return {.area = 0.5 * twice_area,
+            .min_angle_deg = degrees * std::atan2(twice_area, 0.5 * (longest + middle - shortest)),
+            .max_angle_deg = degrees * std::atan2(twice_area, 0.5 * (shortest + middle - longest)),
+            .aspect_ratio = longest / twice_area};
+}
+
+CellShape measure_quad(Point a, Point b, Point c, Point d) {
+    const double twice_area = cross(c - a, d - b);
+    if (!(twice_area > 0)) return flat;
+    const Point corner[4] = {a, b, c, d};
+    CellShape shape{.area = 0.5 * twice_area, .min_angle_deg = 360};
+    for (int i = 0; i < 4; ++i) {
+        const Point ahead = corner[(i + 1) % 4] - corner[i], back = corner[(i + 3) % 4] - corner[i];
+        double angle = degrees * std::atan2(cross(ahead, back), dot(ahead, back));
+        if (angle < 0) angle += 360;
+        shape.min_angle_deg = std::min(shape.min_angle_deg, angle);
+        shape.max_angle_deg = std::max(shape.max_angle_deg, angle);
+        shape.aspect_ratio = std::max(shape.aspect_ratio, squared_length(ahead) / shape.area);
+    }
+    return shape;
+}
+
+void QualityCollector::add(const CellShape& shape) {
+    ++cells_;
+    min_angle_ = std::min(min_angle_, shape.min_angle_deg);
+    max_angle_ = std::max(max_angle_, shape.max_angle_deg);
+    min_angle_sum_ += shape.min_angle_deg;
+    max_aspect_ = std::max(max_aspect_, shape.aspect_ratio);
+    below_bound_ += shape.min_angle_deg < bound_;
+    ++histogram_[std::min<std::size_t>(histogram_.size() - 1, static_cast<std::size_t>(shape.min_angle_deg / 5))];
+}
+
+void QualityCollector::add_neighbours(double area, double other_area) {
+    area_ratios_.push_back(static_cast<float>(std::max(area, other_area) / std::min(area, other_area)));
+}
+
+void QualityCollector::append(const QualityCollector& part) {
+    cells_ += part.cells_;
+    below_bound_ += part.below_bound_;
+    min_angle_ = std::min(min_angle_, part.min_angle_);
+    max_angle_ = std::max(max_angle_, part.max_angle_);
+    min_angle_sum_ += part.min_angle_sum_;
+    max_aspect_ = std::max(max_aspect_, part.max_aspect_);
+    for (std::size_t i = 0; i < histogram_.size(); ++i) histogram_[i] += part.histogram_[i];
+    area_ratios_.insert(area_ratios_.end(), part.area_ratios_.begin(), part.area_ratios_.end());
+}
+
+QualitySummary QualityCollector::summary() const {
+    QualitySummary summary;
+    if (cells_ == 0) return summary;
+    summary.cells = cells_;
+    summary.min_angle_deg = min_angle_;
+    summary.max_angle_deg = max_angle_;
+    summary.mean_min_angle_deg = min_angle_sum_ / static_cast<double>(cells_);
+    summary.angles_below_bound = below_bound_;
+    summary.max_aspect_ratio = max_aspect_;
+    summary.angle_histogram = histogram_;
+    if (!area_ratios_.empty()) {
+        std::vector<float> ratios = area_ratios_;
+        const std::size_t rank = (ratios.size() - 1) - (ratios.size() - 1) / 1000;
+        std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(rank), ratios.end());
+        summary.p999_neighbour_area_ratio = ratios[rank];
+        summary.max_neighbour_area_ratio =
+            *std::max_element(ratios.begin() + static_cast<std::ptrdiff_t>(rank), ratios.end());
+    }
+    return summary;
+}
+
+}  // namespace lamina::detail

@@ -1,0 +1,40 @@
+// Shape of cells, and its summary over many.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <lamina/mesh.hpp>
+
+namespace lamina::detail {
+
+struct CellShape {
+    double area = 0;
+    double min_angle_deg = 0;
+    double max_angle_deg = 0;
+    double aspect_ratio = 0;  ///< longest edge over the height on it; for a quad, squared longest edge over area
+};
+
+/// Of counter-clockwise cells; one whose area rounds to zero or less has angles 0 and 180 and an infinite aspect ratio.
+CellShape measure_triangle(Point a, Point b, Point c);
+CellShape measure_quad(Point a, Point b, Point c, Point d);
+
+/// Collects shapes of a part of the cells; parts are added in a fixed order.
+class QualityCollector {
+public:
+    explicit QualityCollector(double min_angle_bound_deg) : bound_(min_angle_bound_deg) {}
+
+    void add(const CellShape& shape);
+    void add_neighbours(double area, double other_area);
+    void append(const QualityCollector& part);
+    QualitySummary summary() const;
+
+private:
+    double bound_;
+    std::size_t cells_ = 0, below_bound_ = 0;
+    double min_angle_ = 180, max_angle_ = 0, min_angle_sum_ = 0, max_aspect_ = 0;
+    std::array<std::size_t, 18> histogram_{};
+    std::vector<float> area_ratios_;
+};
+
+}  // namespace lamina::detail

@@ -1,0 +1,141 @@
+// Small meshes with every feature a mesh can have, for tests of whatever takes a mesh.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <lamina/mesh.hpp>
+
+namespace lamina::test {
+
+struct AnnulusOptions {
+    std::size_t around = 24;
+    std::size_t rings = 5;
+    std::size_t layer_rings = 2;  ///< the innermost ones: region `layer`, numbered from the wall
+    bool quads_in_layer = false;
+};
+
+/// Annulus of inner radius 1 round the origin with markers 'wall' and 'farfield', regions, pieces (one a ring), layers,
+/// and the layer's outer border as constraints. Points ring by ring, the wall first.
+inline Mesh annulus(const AnnulusOptions& options = {}) {
+    Mesh mesh;
+    const std::size_t n = options.around;
+    const auto vertex = [n](std::size_t ring, std::size_t i) { return VertexId(ring * n + i % n); };
+    for (std::size_t ring = 0; ring <= options.rings; ++ring)
+        for (std::size_t i = 0; i < n; ++i) {
+            const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+            const double radius = std::pow(1.2, static_cast<double>(ring));
+            mesh.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+        }
+    struct Attributes {
+        Region region;
+        std::uint32_t piece;
+        std::uint16_t layer;
+    };
+    std::vector<Attributes> of_triangles, of_quads;
+    for (std::size_t ring = 0; ring < options.rings; ++ring) {
+        const bool layer = ring < options.layer_rings;
+        const Attributes attributes{layer ? Region::layer : Region::isotropic, static_cast<std::uint32_t>(ring),
+                                    static_cast<std::uint16_t>(layer ? ring + 1 : 0)};
+        for (std::size_t i = 0; i < n; ++i) {
+            const VertexId a = vertex(ring, i), b = vertex(ring + 1, i), c = vertex(ring + 1, i + 1),
+                           d = vertex(ring, i + 1);
+            if (layer && options.quads_in_layer) {
+                mesh.quads.push_back({{a, b, c, d}});
+                of_quads.push_back(attributes);
+            } else {
+                mesh.triangles.push_back({{a, b, c}});
+                mesh.triangles.push_back({{a, c, d}});
+                of_triangles.insert(of_triangles.end(), 2, attributes);
+            }
+        }
+    }
+    of_triangles.insert(of_triangles.end(), of_quads.begin(), of_quads.end());
+    for (const Attributes& attributes : of_triangles) {
+        mesh.region.push_back(attributes.region);
+        mesh.piece.push_back(attributes.piece);
+        mesh.layer.push_back(attributes.layer);
+    }
+    mesh.markers = {{"wall", MarkerKind::wall, {}}, {"farfield", MarkerKind::far_field, {}}};
+    for (std::size_t i = 0; i < n; ++i) {
+        mesh.markers[0].edges.push_back({vertex(0, i + 1), vertex(0, i)});
+        mesh.markers[1].edges.push_back({vertex(options.rings, i), vertex(options.rings, i + 1)});
+        const VertexId a = vertex(options.layer_rings, i), b = vertex(options.layer_rings, i + 1);
+        if (options.layer_rings < options.rings) mesh.constraints.push_back({std::min(a, b), std::max(a, b)});
+    }
+    std::sort(mesh.constraints.begin(), mesh.constraints.end());
+    return mesh;
+}
+
+/// The square [0, n] x [0, n] of unit squares split in two, without the middle one (n odd): all coordinates integer,
+/// no regions, markers 'hole' and 'box'.
+inline Mesh box_with_hole(std::size_t n = 5) {
+    Mesh mesh;
+    const auto vertex = [n](std::size_t i, std::size_t j) { return VertexId(j * (n + 1) + i); };
+    for (std::size_t j = 0; j <= n; ++j)
+        for (std::size_t i = 0; i <= n; ++i) mesh.points.push_back({static_cast<double>(i), static_cast<double>(j)});
+    const std::size_t m = n / 2;
+    for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) {
+            if (i == m && j == m) continue;
+            mesh.triangles.push_back({{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)}});
+            mesh.triangles.push_back({{vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)}});
+        }
+    const VertexId hole[4] = {vertex(m, m), vertex(m, m + 1), vertex(m + 1, m + 1), vertex(m + 1, m)};
+    mesh.markers = {{"hole", MarkerKind::wall, {}}, {"box", MarkerKind::far_field, {}}};
+    for (int i = 0; i < 4; ++i) mesh.markers[0].edges.push_back({hole[i], hole[(i + 1) % 4]});
+    for (std::size_t i = 0; i < n; ++i) {
+        mesh.markers[1].edges.push_back({vertex(i, 0), vertex(i + 1, 0)});
+        mesh.markers[1].edges.push_back({vertex(n, i), vertex(n, i + 1)});
+        mesh.markers[1].edges.push_back({vertex(i + 1, n), vertex(i, n)});
+        mesh.markers[1].edges.push_back({vertex(0, i + 1), vertex(0, i)});
+    }
+    return mesh;
+}
+
+/// The same mesh with points and cells in another order and cells starting at other corners.
+inline Mesh shuffled(const Mesh& mesh, unsigned seed) {
+    std::mt19937 random(seed);
+    const auto permutation = [&](std::size_t n) {
+        std::vector<std::size_t> order(n);
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+        return order;
+    };
+    Mesh result = mesh;
+    const std::vector<std::size_t> place = permutation(mesh.points.size());
+    for (std::size_t i = 0; i < place.size(); ++i) result.points[place[i]] = mesh.points[i];
+    const auto moved = [&](VertexId v) { return VertexId(place[v.index()]); };
+    const auto move_cells = [&](auto& to, const auto& from, std::size_t first) {
+        const std::vector<std::size_t> order = permutation(from.size());
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const std::size_t corners = std::size(from[i].v), turn = random() % corners;
+            for (std::size_t k = 0; k < corners; ++k) to[order[i]].v[k] = moved(from[i].v[(k + turn) % corners]);
+            if (!mesh.region.empty()) result.region[first + order[i]] = mesh.region[first + i];
+            if (!mesh.piece.empty()) result.piece[first + order[i]] = mesh.piece[first + i];
+            if (!mesh.layer.empty()) result.layer[first + order[i]] = mesh.layer[first + i];
+        }
+    };
+    move_cells(result.triangles, mesh.triangles, 0);
+    move_cells(result.quads, mesh.quads, mesh.triangles.size());
+    const auto move_edges = [&](std::vector<Segment>& edges) {
+        for (Segment& edge : edges) edge = {moved(edge.a), moved(edge.b)};
+    };
+    for (Marker& marker : result.markers) {
+        move_edges(marker.edges);
+        std::reverse(marker.edges.begin(), marker.edges.end());
+    }
+    std::reverse(result.markers.begin(), result.markers.end());
+    move_edges(result.constraints);
+    for (Segment& edge : result.constraints) edge = {std::min(edge.a, edge.b), std::max(edge.a, edge.b)};
+    std::sort(result.constraints.begin(), result.constraints.end());
+    return result;
+}
+
+}  // namespace lamina::test
