@@ -1,0 +1,106 @@
+// The outer region cut into pieces: near-body box, rings of trapezoids, cuts between layer and box; then every face of
+// that subdivision becomes a self-contained Subdomain.
+// Source: J. K. Pardue, thesis (2015), chapter 5.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <lamina/decoupling.hpp>
+#include <lamina/error.hpp>
+
+#include "core/parallel.hpp"
+#include "outer/faces.hpp"
+#include "outer/separators.hpp"
+#include "outer/skeleton.hpp"
+
+namespace lamina {
+
+namespace outer {
+namespace {
+
+Box box_around(std::span<const Point> points, std::span<const std::vector<VertexId>> borders) {
+    Box box;
+    for (const auto& border : borders)
+        for (VertexId v : border) box.include(points[v.index()]);
+    return box;
+}
+
+Box far_field_box(const DecouplingOptions& options) {
+    const double half = options.far_field * options.chord;
+    return {options.center - Point{half, half}, options.center + Point{half, half}};
+}
+
+/// The near-body box stands half a chord away from the layers, nearer where the far field leaves less room.
+Box near_body_box(const Box& bodies, const Box& far_field, const DecouplingOptions& options) {
+    const double room = std::min({bodies.lower.x - far_field.lower.x, bodies.lower.y - far_field.lower.y,
+                                  far_field.upper.x - bodies.upper.x, far_field.upper.y - bodies.upper.y});
+    const double extent = std::max(bodies.width(), bodies.height());
+    if (!(room > 0.1 * extent))
+        throw UsageError(
+            fmt::format("far field of {} chords leaves no room around the bodies and their layers", options.far_field));
+    const double margin = std::min(0.5 * extent, 0.4 * room);
+    return {bodies.lower - Point{margin, margin}, bodies.upper + Point{margin, margin}};
+}
+
+Subdomain make_subdomain(const Skeleton& skeleton, const Face& face, const SizeField& size, double min_angle_deg) {
+    Subdomain s;
+    s.min_angle_deg = min_angle_deg;
+    s.segments = face.edges;
+    for (const Segment& e : face.edges) s.global.push_back(e.a);
+    std::sort(s.global.begin(), s.global.end());
+    s.global.erase(std::unique(s.global.begin(), s.global.end()), s.global.end());
+    const auto local = [&](VertexId v) {
+        return VertexId{
+            static_cast<std::size_t>(std::lower_bound(s.global.begin(), s.global.end(), v) - s.global.begin())};
+    };
+    for (Segment& e : s.segments) e = {local(e.a), local(e.b)};
+    Box box;
+    for (VertexId v : s.global) {
+        s.points.push_back(skeleton.points[v.index()]);
+        box.include(s.points.back());
+    }
+    s.size = size.restricted_to(box);
+    s.estimated_triangles = estimate_triangles(s.points, s.segments, s.size);
+    return s;
+}
+
+}  // namespace
+}  // namespace outer
+
+Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
+                    const SizeField& size, const DecouplingOptions& options) {
+    const Box far_field = outer::far_field_box(options);
+    const Box near_body = outer::near_body_box(outer::box_around(points, borders), far_field, options);
+
+    outer::Skeleton skeleton;
+    skeleton.points.assign(points.begin(), points.end());
+    for (const auto& border : borders)
+        for (std::size_t i = 0; i < border.size(); ++i)
+            skeleton.edges.push_back({border[i + 1 < border.size() ? i + 1 : 0], border[i]});
+    const auto rings = outer::plan_rings(near_body, far_field, size, options.pieces_target);
+    const auto vertices = outer::add_rings(skeleton, rings, near_body, far_field, size, options.rule);
+    // Between several bodies the near-body region stays one piece.
+    if (borders.size() == 1)
+        outer::cut_near_body(skeleton, borders.front(), vertices.near_body, size, options.rule, options.pieces_target);
+
+    Decoupling result;
+    const auto faces = outer::trace_faces(skeleton.points, skeleton.edges);
+    result.subdomains.resize(faces.size());
+    parallel_for(faces.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            result.subdomains[i] = outer::make_subdomain(skeleton, faces[i], size, options.min_angle_deg);
+    });
+    result.separator_vertices = skeleton.points.size() - points.size();
+    result.points = std::move(skeleton.points);
+    result.far_field = vertices.far_field;
+    return result;
+}
+
+Refinement refine(const Subdomain& subdomain) {
+    return refine(subdomain.points, subdomain.segments, subdomain.size,
+                  {.min_angle_deg = subdomain.min_angle_deg,
+                   .expected_triangles = static_cast<std::size_t>(subdomain.estimated_triangles)});
+}
+
+}  // namespace lamina

@@ -1,0 +1,142 @@
+// Rings of geometrically similar trapezoids from the near-body box to the far field.
+// Source: J. K. Pardue, thesis (2015), chapter 5.
+#include <algorithm>
+#include <cmath>
+
+#include "outer/separators.hpp"
+#include "outer/skeleton.hpp"
+
+namespace lamina::outer {
+
+namespace {
+
+Box box_at(const Box& near_body, const Box& far_field, double t) {
+    return {near_body.lower + t * (far_field.lower - near_body.lower),
+            near_body.upper + t * (far_field.upper - near_body.upper)};
+}
+
+/// What a quarter of the ring between two parameters holds, on the average over the four sides.
+struct QuarterRing {
+    double triangles = 0;
+    double radial = 0;      ///< extent outwards, in edge lengths
+    double tangential = 0;  ///< extent along the side, in edge lengths
+};
+
+/// Integrates from `inner` to `outer` in steps that grow with the box, sampling each side at its quarters.
+QuarterRing measure(const Box& near_body, const Box& far_field, const SizeField& size, double inner, double outer) {
+    QuarterRing quarter;
+    const double extent = std::max(near_body.width(), near_body.height());
+    const double growth = std::max(far_field.width(), far_field.height()) - extent;
+    double t = inner;
+    while (t < outer) {
+        const double step = std::min(0.1 * (extent / growth + t), outer - t);
+        const double next = t + step < outer * (1 - 1e-12) ? t + step : outer;
+        const auto from = corners_of(box_at(near_body, far_field, t));
+        const auto to = corners_of(box_at(near_body, far_field, next));
+        const auto middle = corners_of(box_at(near_body, far_field, 0.5 * (t + next)));
+        for (int side = 0; side < 4; ++side) {
+            const int end = (side + 1) % 4;
+            const Point a = middle[side], b = middle[end];
+            const double area = 0.5 * (cross(from[side] - to[end], from[end] - to[side]));
+            const double width = distance(midpoint(from[side], from[end]), midpoint(to[side], to[end]));
+            constexpr int samples = 4;
+            for (int i = 0; i < samples; ++i) {
+                const double h = size(a + ((i + 0.5) / samples) * (b - a));
+                quarter.triangles += estimated_triangles(std::abs(area), 1 / (h * h)) / (4 * samples);
+                quarter.radial += width / h / (4 * samples);
+                quarter.tangential += distance(a, b) * (next - t) / ((outer - inner) * h) / (4 * samples);
+            }
+        }
+        t = next;
+    }
+    return quarter;
+}
+
+void plan(const Box& near_body, const Box& far_field, const SizeField& size, double pieces_target, double inner,
+          double outer, std::size_t per_side, std::vector<Ring>& rings) {
+    const QuarterRing quarter = measure(near_body, far_field, size, inner, outer);
+    const auto n = static_cast<double>(per_side);
+    constexpr double fewest_segments = 8;  // no side of a piece gets shorter than this when it is halved
+    const bool wide = quarter.tangential / n > quarter.radial;
+    const double longer = wide ? quarter.tangential / n : quarter.radial;
+    if (quarter.triangles <= pieces_target * n || longer < 2 * fewest_segments) {
+        rings.push_back({inner, outer, per_side});
+    } else if (wide) {
+        plan(near_body, far_field, size, pieces_target, inner, outer, 2 * per_side, rings);
+    } else {
+        // The box grows linearly with t: halve the logarithm of its extent, along which edge lengths are even.
+        const double extent = std::max(near_body.width(), near_body.height());
+        const double s = extent / (std::max(far_field.width(), far_field.height()) - extent);
+        const double cut = std::sqrt((s + inner) * (s + outer)) - s;
+        plan(near_body, far_field, size, pieces_target, inner, cut, per_side, rings);
+        plan(near_body, far_field, size, pieces_target, cut, outer, per_side, rings);
+    }
+}
+
+/// The line from u to v as a chain of vertices, its interior ones new.
+std::vector<VertexId> add_line(Skeleton& skeleton, VertexId u, VertexId v, const SizeField& size, SeparatorRule rule) {
+    constexpr std::size_t fewest = 3;
+    std::vector<VertexId> chain{u};
+    for (Point p : separate(skeleton.points[u.index()], skeleton.points[v.index()], size, rule, fewest))
+        chain.push_back(skeleton.add_point(p));
+    chain.push_back(v);
+    return chain;
+}
+
+}  // namespace
+
+std::array<Point, 4> corners_of(const Box& box) {
+    return {box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}};
+}
+
+void Skeleton::add_chain(std::span<const VertexId> chain, bool both_directions) {
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        edges.push_back({chain[i], chain[i + 1]});
+        if (both_directions) edges.push_back({chain[i + 1], chain[i]});
+    }
+}
+
+std::vector<Ring> plan_rings(const Box& near_body, const Box& far_field, const SizeField& size, double pieces_target) {
+    std::vector<Ring> rings;
+    plan(near_body, far_field, size, pieces_target, 0, 1, 1, rings);
+    return rings;
+}
+
+RingVertices add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body, const Box& far_field,
+                       const SizeField& size, SeparatorRule rule) {
+    RingVertices result;
+    // junctions[level][side * per_side + j]: where separators meet the box between two rings.
+    std::vector<std::vector<VertexId>> junctions(rings.size() + 1);
+    std::vector<std::size_t> per_side(rings.size() + 1);
+    for (std::size_t level = 0; level <= rings.size(); ++level) {
+        const std::size_t below = level > 0 ? rings[level - 1].per_side : 1;
+        const std::size_t above = level < rings.size() ? rings[level].per_side : 1;
+        const std::size_t n = per_side[level] = std::max(below, above);
+        const auto corner =
+            corners_of(box_at(near_body, far_field, level < rings.size() ? rings[level].inner : rings.back().outer));
+        for (std::size_t side = 0; side < 4; ++side)
+            for (std::size_t j = 0; j < n; ++j)
+                junctions[level].push_back(
+                    skeleton.add_point(corner[side] + (static_cast<double>(j) / static_cast<double>(n)) *
+                                                          (corner[(side + 1) % 4] - corner[side])));
+        const bool outermost = level == rings.size();
+        for (std::size_t j = 0; j < 4 * n; ++j) {
+            const auto chain = add_line(skeleton, junctions[level][j], junctions[level][(j + 1) % (4 * n)], size, rule);
+            skeleton.add_chain(chain, !outermost);
+            if (level == 0) result.near_body.insert(result.near_body.end(), chain.begin(), chain.end() - 1);
+            if (outermost)
+                for (std::size_t i = 0; i + 1 < chain.size(); ++i) result.far_field.push_back({chain[i], chain[i + 1]});
+        }
+    }
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+        const std::size_t n = rings[ring].per_side;
+        for (std::size_t j = 0; j < 4 * n; ++j) {
+            const VertexId inner = junctions[ring][j * (per_side[ring] / n)];
+            const VertexId outer = junctions[ring + 1][j * (per_side[ring + 1] / n)];
+            skeleton.add_chain(add_line(skeleton, inner, outer, size, rule), true);
+        }
+    }
+    return result;
+}
+
+}  // namespace lamina::outer

@@ -1,0 +1,129 @@
+// Sources: J. K. Pardue, thesis (2015), chapter 5, equation 1; L. Linardakis, N. Chrisochoides, Graded Delaunay
+// decoupling method for parallel guaranteed quality planar mesh generation, SIAM J. Sci. Comput. 30 (2008).
+#include "outer/separators.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lamina::outer {
+
+namespace {
+
+constexpr double largest_share = 0.8;
+constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4
+/// Mean area of the triangles that refinement makes, as a share of the bound (measured: docs/decisions/0002).
+constexpr double mean_area_share = 0.67;
+
+/// Equal shares of the integral of ds / h along the line. The integral is the trapezoidal sum over steps of about h
+/// / 8.
+std::vector<Point> equidistribute(Point u, Point v, const SizeField& size, std::size_t fewest) {
+    const double total = distance(u, v);
+    std::vector<double> at{0}, integral{0};  // arc length, integral up to there
+    double h = size(u);
+    while (at.back() < total) {
+        const double step = std::min(h / 8, total - at.back());
+        // The last step would otherwise be lost to rounding.
+        const double s = at.back() + step < total * (1 - 1e-12) ? at.back() + step : total;
+        const double ahead = size(u + (s / total) * (v - u));
+        integral.push_back(integral.back() + 0.5 * (s - at.back()) * (1 / h + 1 / ahead));
+        at.push_back(s);
+        h = ahead;
+    }
+    const auto n = std::max(fewest, static_cast<std::size_t>(std::ceil(integral.back() / largest_share)));
+    std::vector<Point> points;
+    points.reserve(n - 1);
+    std::size_t i = 0;
+    for (std::size_t k = 1; k < n; ++k) {
+        const double wanted = integral.back() * (static_cast<double>(k) / static_cast<double>(n));
+        while (integral[i + 1] < wanted) ++i;
+        const double share = (wanted - integral[i]) / (integral[i + 1] - integral[i]);
+        const double s = at[i] + share * (at[i + 1] - at[i]);
+        points.push_back(u + (s / total) * (v - u));
+    }
+    return points;
+}
+
+double k_value(double h) { return 0.5 * std::sqrt(equilateral_area * h * h / std::sqrt(2.0)); }
+
+/// The number of segments the k rule gives to a stretch between ends of these k values, 0 if it gives none.
+double k_rule_count(double stretch, double k_u, double k_v) {
+    const double n = std::ceil(stretch / (2 * std::min(k_u, k_v)));
+    return n <= std::sqrt(3.0) * stretch / (2 * std::max(k_u, k_v)) ? n : 0;
+}
+
+std::vector<Point> cut_by_k_rule(Point u, Point v, const SizeField& size, std::size_t fewest) {
+    std::vector<Point> points;
+    const double total = distance(u, v);
+    const auto at = [&](double s) { return u + (s / total) * (v - u); };
+    double from = 0;
+    while (from < total) {
+        const double k_u = k_value(size(at(from)));
+        double stretch = total - from;
+        double n = k_rule_count(stretch, k_u, k_value(size(at(from + stretch))));
+        // Choose a nearer v until there is an integer in the range. A stretch of one segment always ends the search.
+        while (n == 0 && stretch > 4 * k_u) {
+            stretch *= 0.9;
+            n = k_rule_count(stretch, k_u, k_value(size(at(from + stretch))));
+        }
+        if (n == 0) {
+            stretch = std::min(1.9 * k_u, total - from);
+            n = 1;
+        }
+        if (from == 0 && stretch == total) n = std::max(n, static_cast<double>(fewest));
+        for (double i = 1; i <= n; ++i) points.push_back(at(from + stretch * (i / n)));
+        from += stretch;
+        // A remainder far below one segment is joined to the last.
+        if (total - from < k_u / 4) {
+            break;
+        }
+    }
+    points.pop_back();
+    return points;
+}
+
+/// Integral of 1 / h^2 over a triangle with h linear between its corners, by halving the longest-graded way until the
+/// sizes at the corners differ little.
+double inverse_square_integral(double area, double ha, double hb, double hc, int depth) {
+    const double low = std::min({ha, hb, hc}), high = std::max({ha, hb, hc});
+    if (depth == 0 || high < 1.5 * low) {
+        const double h = (ha + hb + hc) / 3;
+        return area / (h * h);
+    }
+    // Cut the edge between the finest and the coarsest corner in two.
+    const double mid = 0.5 * (low + high);
+    const double third = ha + hb + hc - low - high;
+    return inverse_square_integral(0.5 * area, low, mid, third, depth - 1) +
+           inverse_square_integral(0.5 * area, mid, high, third, depth - 1);
+}
+
+}  // namespace
+
+std::vector<Point> separate(Point u, Point v, const SizeField& size, SeparatorRule rule, std::size_t fewest) {
+    // Always from the finer end (ties: the smaller point), so that both directions give the same points.
+    const double hu = size(u), hv = size(v);
+    const bool forward = hu != hv ? hu < hv : lexicographically_less(u, v);
+    const Point from = forward ? u : v, to = forward ? v : u;
+    std::vector<Point> points =
+        rule == SeparatorRule::k_rule ? cut_by_k_rule(from, to, size, fewest) : equidistribute(from, to, size, fewest);
+    if (!forward) std::reverse(points.begin(), points.end());
+    return points;
+}
+
+double estimated_triangles(double area, double mean_inverse_square_size) {
+    return area * mean_inverse_square_size / (equilateral_area * mean_area_share);
+}
+
+double estimate_triangles(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size) {
+    const auto triangles = constrained_delaunay(points, segments, {.keep = Keep::left_of_segments}).triangles;
+    std::vector<double> sizes(points.size());
+    std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return size(p); });
+    double integral = 0;
+    for (const Triangle& t : triangles) {
+        const std::size_t a = t.v[0].index(), b = t.v[1].index(), c = t.v[2].index();
+        const double area = 0.5 * cross(points[b] - points[a], points[c] - points[a]);
+        integral += inverse_square_integral(area, sizes[a], sizes[b], sizes[c], 12);
+    }
+    return estimated_triangles(1, integral);
+}
+
+}  // namespace lamina::outer

@@ -1,0 +1,29 @@
+// Straight lines cut into segments that follow the size field.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+#include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
+
+namespace lamina::outer {
+
+/// Interior points of the line from u to v, in that order; at least `fewest` - 1 of them.
+///
+/// equidistributed: every segment gets the same share of the integral of ds / h, at most 0.8, so that segments have the
+/// length of the edges that refinement makes on either side (0.82 h on average), stay under the 1.24 sqrt(A) = 0.82 h
+/// up to which no refinement vertex encroaches (docs/decisions/0003), and grow as the field does.
+/// k_rule: thesis ch. 5: with k = 1/2 sqrt(A / sqrt 2), from the finer end u the farthest v with an integer number of
+/// equal segments in [|uv| / (2 k_u), sqrt 3 |uv| / (2 k_v)], then on from v.
+/// Both directions of a line give the same points.
+std::vector<Point> separate(Point u, Point v, const SizeField& size, SeparatorRule rule, std::size_t fewest = 1);
+
+/// Triangles that refinement will make in the region left of `segments`, from the integral of 1 / area bound.
+double estimate_triangles(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size);
+
+/// The same from an area and the mean of 1 / h^2 over it.
+double estimated_triangles(double area, double mean_inverse_square_size);
+
+}  // namespace lamina::outer

@@ -1,0 +1,194 @@
+#include <lamina/pipeline.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "core/parallel.hpp"
+#include "pipeline/assemble.hpp"
+#include "pipeline/layer_region.hpp"
+
+namespace lamina {
+
+namespace {
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Announces stages and takes their times.
+class Clock {
+public:
+    explicit Clock(const Progress& progress) : progress_(progress), start_(seconds_now()), last_(start_) {}
+    void begin(const std::string& stage) const {
+        if (progress_) progress_(stage);
+    }
+    double lap() {
+        const double now = seconds_now();
+        const double lap = now - last_;
+        last_ = now;
+        return lap;
+    }
+    double total() const { return seconds_now() - start_; }
+
+private:
+    const Progress& progress_;
+    double start_, last_;
+};
+
+Box box_of(const Pslg& pslg) {
+    Box box;
+    for (const Element& e : pslg.elements)
+        for (Point p : e.points) box.include(p);
+    return box;
+}
+
+DecouplingOptions decoupling_options(const Pslg& pslg, const CaseOptions& options) {
+    const Box bodies = box_of(pslg);
+    DecouplingOptions d;
+    d.far_field = options.far_field;
+    d.chord = bodies.width();
+    d.center = bodies.center();
+    d.rule = options.separators;
+    d.pieces_target = options.pieces_target;
+    d.min_angle_deg = options.min_angle_deg;
+    return d;
+}
+
+/// The edges of the layers' outer borders ask for their own length, or all for `wall_size`.
+SizeField make_size_field(const Layer& layer, const CaseOptions& options, const DecouplingOptions& decoupling) {
+    std::vector<SizeSource> sources;
+    for (const auto& border : layer.borders)
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            const Point a = layer.points[border[i].index()];
+            const Point b = layer.points[border[i + 1 < border.size() ? i + 1 : 0].index()];
+            sources.push_back({a, b, options.wall_size.value_or(distance(a, b))});
+        }
+    const double half = decoupling.far_field * decoupling.chord;
+    const Box domain{decoupling.center - Point{half, half}, decoupling.center + Point{half, half}};
+    return SizeField(sources, {.gradation = options.gradation, .max_size = options.far_size.value_or(HUGE_VAL)},
+                     domain);
+}
+
+struct RefinedPieces {
+    std::vector<Refinement> pieces;
+    std::vector<ThreadSeconds> threads;
+};
+
+/// Largest first, each on whichever thread is free; every piece depends on its subdomain alone.
+RefinedPieces refine_all(const std::vector<Subdomain>& subdomains) {
+    std::vector<std::size_t> order(subdomains.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return subdomains[a].estimated_triangles > subdomains[b].estimated_triangles;
+    });
+    RefinedPieces result;
+    result.pieces.resize(subdomains.size());
+    result.threads.resize(thread_count());
+    const double start = seconds_now();
+    parallel_for(order.size(), 1, [&](std::size_t begin, std::size_t end) {
+        const double begun = seconds_now();
+        for (std::size_t i = begin; i < end; ++i) result.pieces[order[i]] = refine(subdomains[order[i]]);
+        result.threads[thread_index()].busy += seconds_now() - begun;
+    });
+    const double elapsed = seconds_now() - start;
+    for (ThreadSeconds& t : result.threads) t.idle = std::max(0.0, elapsed - t.busy);
+    return result;
+}
+
+void add(RefineStats& sum, const RefineStats& stats) {
+    sum.refused += stats.refused;
+    sum.below_bound += stats.below_bound;
+    sum.exempt += stats.exempt;
+    sum.oversized += stats.oversized;
+}
+
+void demand_valid(const MeshCheck& check) {
+    if (check.valid()) return;
+    const MeshDefect& first = check.defects.front();
+    throw MeshError(fmt::format("the mesh made is not valid: {} near ({}, {}){}", first.what, first.at.x, first.at.y,
+                                check.defect_count > 1 ? fmt::format(", and {} more", check.defect_count - 1) : ""));
+}
+
+MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geometry_seconds) {
+    MeshResult result;
+    StageSeconds& seconds = result.seconds;
+    seconds.geometry = geometry_seconds;
+    const DecouplingOptions outer_options = decoupling_options(pslg, options);
+    clock.lap();
+
+    clock.begin("layers");
+    LayerOptions layer_options = options.layer;
+    layer_options.border_gradation = options.gradation;
+    const Layer layer = make_layer(pslg, layer_options);
+    const LayerEdges edges = layer_edges(layer);
+    seconds.layers = clock.lap();
+
+    clock.begin("layer triangulation");
+    std::vector<Triangle> layer_triangles = triangulate_layer(layer, edges);
+    seconds.layer_triangulation = clock.lap();
+
+    clock.begin("sizing");
+    const SizeField size = make_size_field(layer, options, outer_options);
+    seconds.sizing = clock.lap();
+
+    clock.begin("decoupling");
+    Decoupling decoupling = decouple(layer.points, layer.borders, size, outer_options);
+    seconds.decoupling = clock.lap();
+
+    clock.begin("refinement");
+    RefinedPieces refined = refine_all(decoupling.subdomains);
+    seconds.refinement = clock.lap();
+
+    clock.begin("assembly");
+    result.refinement_threads = std::move(refined.threads);
+    result.threads = thread_count();
+    result.layer_pieces = layer_triangles.empty() ? 0 : 1;
+    result.inviscid_pieces = refined.pieces.size();
+    for (const Refinement& piece : refined.pieces) add(result.refinement, piece.stats);
+    for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
+    result.incomplete_rays = layer.incomplete_rays;
+    result.requested_layer_cells = layer.requested_cells;
+    result.made_layer_cells = layer.made_cells;
+    result.mesh =
+        assemble(pslg, layer, edges, std::move(layer_triangles), std::move(decoupling), std::move(refined.pieces));
+    seconds.assembly = clock.lap();
+
+    clock.begin("check");
+    result.check = check_mesh(result.mesh, {.min_angle_deg = options.min_angle_deg});
+    demand_valid(result.check);
+    seconds.check = clock.lap();
+
+    result.pslg = std::move(pslg);
+    seconds.total = clock.total();
+    return result;
+}
+
+}  // namespace
+
+MeshResult generate_mesh(Pslg pslg, const CaseOptions& options, const Progress& progress) {
+    MeshResult result;
+    with_threads(options.threads, [&] {
+        Clock clock(progress);
+        result = run(std::move(pslg), options, clock, 0);
+    });
+    return result;
+}
+
+MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const Progress& progress) {
+    MeshResult result;
+    with_threads(options.threads, [&] {
+        Clock clock(progress);
+        clock.begin("geometry");
+        Pslg pslg = read_geometry(inputs, options.geometry);
+        const double geometry_seconds = clock.lap();
+        result = run(std::move(pslg), options, clock, geometry_seconds);
+    });
+    return result;
+}
+
+}  // namespace lamina
