@@ -49,28 +49,27 @@ using Leaf = std::array<float, 4>;
 struct Cone {
     Point a, along;
     double inverse_squared_length;  // 0 for a point
-    double size;
 
-    double distance_to(Point p) const {
+    double squared_distance_to(Point p) const {
         const Point ap = p - a;
         const double t = std::clamp(dot(ap, along) * inverse_squared_length, 0.0, 1.0);
-        return length(ap - t * along);
+        return squared_length(ap - t * along);
     }
 };
 
 Cone make_cone(const SizeSource& s) {
     const Point along = s.b - s.a;
     const double squared = squared_length(along);
-    return {s.a, along, squared > 0 ? 1.0 / squared : 0.0, s.size};
+    return {s.a, along, squared > 0 ? 1.0 / squared : 0.0};
 }
 
-double box_distance(const Box& box, Point p) {
+double squared_distance(const Box& box, Point p) {
     const double x = std::max({box.lower.x - p.x, p.x - box.upper.x, 0.0});
     const double y = std::max({box.lower.y - p.y, p.y - box.upper.y, 0.0});
-    return std::sqrt(x * x + y * y);
+    return x * x + y * y;
 }
 
-double box_distance(const Box& a, const Box& b) {
+double distance(const Box& a, const Box& b) {
     const double x = std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, 0.0});
     const double y = std::max({a.lower.y - b.upper.y, b.lower.y - a.upper.y, 0.0});
     return std::sqrt(x * x + y * y);
@@ -140,7 +139,12 @@ class Builder {
 public:
     Builder(std::vector<SizeSource> sources, const SizingOptions& options, Point lower, double side,
             std::vector<Slots>& nodes, std::vector<Leaf>& leaves)
-        : gradation_(options.gradation), max_size_(options.max_size), unit_(side), nodes_(nodes), leaves_(leaves) {
+        : gradation_(options.gradation),
+          inverse_gradation_(1 / std::max(options.gradation, 1e-300)),
+          max_size_(options.max_size),
+          unit_(side),
+          nodes_(nodes),
+          leaves_(leaves) {
         if (!sources.empty()) {
             groups_.reserve(2 * sources.size());
             cones_.reserve(sources.size());
@@ -164,12 +168,19 @@ private:
                 const std::uint32_t index = pending_.back();
                 const Group& group = groups_[index];
                 pending_.pop_back();
+                // Only what is nearer than this can lower the best value so far.
+                const double reach = (best - group.smallest) * inverse_gradation_;
+                if (reach <= 0) continue;
                 if (group.single()) {
-                    const Cone& cone = cones_[group.cone];
-                    best = std::min(best, cone.size + gradation_ * cone.distance_to(p));
-                } else if (group.smallest + gradation_ * box_distance(group.box, p) < best) {
-                    pending_.push_back(group.right);
-                    pending_.push_back(index + 1);
+                    const double squared = cones_[group.cone].squared_distance_to(p);
+                    if (squared < reach * reach)
+                        best = std::min(best, group.smallest + gradation_ * std::sqrt(squared));
+                } else if (squared_distance(group.box, p) < reach * reach) {
+                    std::uint32_t near = index + 1, far = group.right;
+                    if (squared_distance(groups_[far].box, p) < squared_distance(groups_[near].box, p))
+                        std::swap(near, far);
+                    pending_.push_back(far);
+                    pending_.push_back(near);
                 }
             }
         }
@@ -198,22 +209,28 @@ private:
         const double highest = std::min(c.largest() + gradation_ * radius, c.smallest() + 2 * gradation_ * radius);
         const Box box = c.box();
         Candidates result{candidates_.size(), 0, HUGE_VAL};
+        double lowest = HUGE_VAL;
         for (std::size_t i = parent.begin; i < parent.end; ++i) {
             pending_.push_back(candidates_[i]);
             while (!pending_.empty()) {
                 const std::uint32_t index = pending_.back();
                 const Group& group = groups_[index];
                 pending_.pop_back();
-                double distance = box_distance(group.box, box);
+                double apart = distance(group.box, box);
                 if (group.single())
-                    distance = std::max(distance, cones_[group.cone].distance_to(box.center()) - radius);
-                if (group.smallest + gradation_ * distance > highest) continue;
+                    apart = std::max(apart, std::sqrt(cones_[group.cone].squared_distance_to(box.center())) - radius);
+                const double low = group.smallest + gradation_ * apart;
+                if (low > highest) continue;
                 if (!group.single() && group.extent() > 0.5 * c.side) {
                     pending_.push_back(group.right);
                     pending_.push_back(index + 1);
                 } else {
                     candidates_.push_back(index);
-                    result.nearest = std::min(result.nearest, distance);
+                    result.nearest = std::min(result.nearest, apart);
+                    if (low < lowest) {  // the likeliest first: evaluation then skips most others
+                        lowest = low;
+                        std::swap(candidates_[result.begin], candidates_.back());
+                    }
                 }
             }
         }
@@ -226,8 +243,8 @@ private:
                sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.smallest();
     }
 
-    // Bilinear interpolation is good enough where the samples say so. Their word is taken only away from the sources;
-    // where ridges and bends may cancel out at the five samples, four more are asked.
+    // Whether the samples say that bilinear interpolation will do. Their word is taken only away from the sources;
+    // where ridges and bends might cancel out at the five samples, four more are asked.
     bool smooth(const Cell& c, const Candidates& in, const Samples& s) {
         const auto close = [](double interpolated, double exact) {
             return std::abs(interpolated - exact) <= sample_tolerance * exact;
@@ -237,7 +254,9 @@ private:
         if (!(in.nearest >= 0.5 * c.side && close(mean(c.h[0], c.h[1]), s.south) && close(west, s.west) &&
               close(east, s.east) && close(mean(c.h[2], c.h[3]), s.north) && close(mean(west, east), s.center)))
             return false;
-        if (in.end - in.begin == 1 && groups_[candidates_[in.begin]].single()) return true;
+        const bool one_cone = in.end - in.begin == 1 && groups_[candidates_[in.begin]].single();
+        const double bend = gradation_ * c.side * c.side / (8 * in.nearest);
+        if (one_cone || bend <= sample_tolerance * c.smallest()) return true;
         for (int q = 0; q < 4; ++q) {
             const double u = (q & 1) != 0 ? 0.75 : 0.25, v = (q >> 1) != 0 ? 0.75 : 0.25;
             const double low = c.h[0] + u * (c.h[1] - c.h[0]), high = c.h[2] + u * (c.h[3] - c.h[2]);
@@ -307,7 +326,7 @@ private:
         return node;
     }
 
-    double gradation_, max_size_, unit_;
+    double gradation_, inverse_gradation_, max_size_, unit_;
     std::vector<Slots>& nodes_;
     std::vector<Leaf>& leaves_;
     std::vector<Group> groups_;
