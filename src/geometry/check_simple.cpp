@@ -105,9 +105,9 @@ public:
         boxes_.resize(2 * leaves_);  // empty boxes overlap nothing
         for (std::size_t i = 0; i < edges.size(); ++i) boxes_[leaves_ + i] = box_of(edges[i]);
         for (std::size_t k = leaves_ - 1; k > 0; --k) {
-            boxes_[k] = boxes_[2 * k];
-            boxes_[k].include(boxes_[2 * k + 1].lower);
-            boxes_[k].include(boxes_[2 * k + 1].upper);
+            const Box &a = boxes_[2 * k], &b = boxes_[2 * k + 1];
+            boxes_[k] = {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y)},
+                         {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y)}};
         }
     }
 
