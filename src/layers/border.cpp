@@ -243,7 +243,9 @@ std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::
                                                            const GradingOptions& options) {
     const std::vector<Edge> edges = edges_of(borders);
     const BoxTree tree = tree_of(edges);
-    const TargetLength target(edges, tree, source_sizes(edges, tree), options.gradation);
+    // Pieces of one edge grow by a factor of about exp(size_slack x gradation): never by more than the ratio.
+    const double gradation = std::min(options.gradation, (1 - 1 / options.ratio) / size_slack);
+    const TargetLength target(edges, tree, source_sizes(edges, tree), gradation);
     std::vector<Division> divisions(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         Division& division = divisions[i];

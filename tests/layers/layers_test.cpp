@@ -1,0 +1,418 @@
+// Properties of the boundary layer on parametric outlines; validate() judges every layer made here.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include <lamina/error.hpp>
+#include <lamina/geometry.hpp>
+#include <lamina/layers.hpp>
+#include <lamina/predicates.hpp>
+
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+using shapes::Outline;
+
+LayerOptions thin() {
+    LayerOptions options;
+    options.first_height = 2.5e-5;
+    options.growth = 1.15;
+    options.layers = 30;
+    options.max_ray_angle_deg = 4;
+    return options;
+}
+
+LayerOptions scaled(LayerOptions options, double scale) {
+    options.first_height *= scale;
+    if (options.thickness) *options.thickness *= scale;
+    return options;
+}
+
+Layer sound_layer(const Pslg& pslg, const LayerOptions& options) {
+    Layer layer = make_layer(pslg, options);
+    for (const std::string& finding : validate(layer, options)) ADD_FAILURE() << finding;
+    return layer;
+}
+Layer sound_layer(const Outline& outline, const LayerOptions& options) {
+    return sound_layer(shapes::pslg({outline}), options);
+}
+
+/// Heights of the layers of full rays, measured between the points themselves.
+void expect_heights(const Layer& layer, const LayerOptions& options) {
+    double scale = 0;
+    for (Point p : layer.points) scale = std::max({scale, std::abs(p.x), std::abs(p.y)});
+    for (const auto& rays : layer.rays) {
+        for (const Ray& ray : rays) {
+            if (ray.layers == 0) continue;
+            Point below = layer.points[ray.origin.index()];
+            double step_below = 0;
+            for (std::uint32_t n = 0; n < ray.layers; ++n) {
+                const Point p = layer.points[ray.first_point + n];
+                const double step = distance(below, p);
+                const double rounding = 1e-15 * scale / options.first_height;
+                if (n == 0) {
+                    ASSERT_NEAR(step / options.first_height, 1, 1e-9 + rounding);
+                } else {
+                    ASSERT_NEAR(step / step_below, options.growth, 1e-9 + 4 * rounding);
+                }
+                below = p;
+                step_below = step;
+            }
+        }
+    }
+}
+
+std::size_t full_rays(const Layer& layer) {
+    std::size_t count = 0;
+    for (const auto& rays : layer.rays)
+        for (const Ray& ray : rays) count += ray.layers == ray.requested;
+    return count;
+}
+
+TEST(LayerHeight, IsTheGeometricSum) {
+    LayerOptions options = thin();
+    EXPECT_EQ(layer_height(options, 0), 0);
+    EXPECT_EQ(layer_height(options, 1), options.first_height);
+    for (std::uint32_t n = 1; n < 60; ++n) {
+        const double lower = layer_height(options, n) - layer_height(options, n - 1);
+        const double upper = layer_height(options, n + 1) - layer_height(options, n);
+        EXPECT_NEAR(upper / lower, options.growth, 1e-11);
+        const double closed = options.first_height * (std::pow(options.growth, n) - 1) / (options.growth - 1);
+        EXPECT_NEAR(layer_height(options, n) / closed, 1, 1e-12);
+    }
+}
+
+TEST(Layer, SmoothSectionsCarryTheFullStack) {
+    for (const Outline& outline : {shapes::section(0.12, 0, 100), shapes::section(0.12, 0.01, 80),
+                                   shapes::joukowski(0.1, 0, 200), shapes::joukowski(0.08, 0.15, 200),
+                                   shapes::circle(0.5, 60), shapes::ellipse(1, 0.05, 150), shapes::plate(0.05, 16)}) {
+        const Layer layer = sound_layer(outline, thin());
+        EXPECT_EQ(layer.incomplete_rays, 0u);
+        EXPECT_EQ(layer.made_cells, layer.requested_cells);
+        EXPECT_EQ(full_rays(layer), layer.rays[0].size());
+        expect_heights(layer, thin());
+    }
+}
+
+TEST(Layer, KeepsEveryVertexOfTheWallInOrder) {
+    for (const Outline& outline : {shapes::section(0.12, 0, 60), shapes::l_shape(), shapes::c_shape(0.05)}) {
+        for (Corners corners : {Corners::fan, Corners::refine}) {
+            LayerOptions options = thin();
+            options.corners = corners;
+            const Layer layer = sound_layer(outline, options);
+            std::size_t found = 0;
+            for (VertexId v : layer.walls[0]) {
+                ASSERT_LT(v.index(), layer.wall_points);
+                if (found < outline.size() && layer.points[v.index()] == outline[found]) ++found;
+            }
+            EXPECT_EQ(found, outline.size());
+        }
+    }
+}
+
+TEST(Layer, FansStandAtSharpCornersOnly) {
+    const Layer fans = sound_layer(shapes::box(), thin());
+    std::set<VertexId> origins;
+    for (const Ray& ray : fans.rays[0]) origins.insert(ray.origin);
+    EXPECT_EQ(origins.size(), 4u);
+    EXPECT_EQ(fans.rays[0].size(), 4u * 24u);  // 90 degrees by steps of at most 4
+
+    LayerOptions refine = thin();
+    refine.corners = Corners::refine;
+    const Layer refined = sound_layer(shapes::box(), refine);
+    origins.clear();
+    for (const Ray& ray : refined.rays[0]) origins.insert(ray.origin);
+    EXPECT_EQ(origins.size(), refined.rays[0].size());
+    EXPECT_GT(refined.wall_points, 4u * 20u);
+
+    // A polygon of 10 corners turns by 36 degrees at each: smooth, as far as fans go.
+    const Layer smooth = sound_layer(shapes::circle(1, 10), thin());
+    origins.clear();
+    for (const Ray& ray : smooth.rays[0]) origins.insert(ray.origin);
+    EXPECT_EQ(origins.size(), smooth.rays[0].size());
+}
+
+TEST(Layer, AngleBetweenRaysKeepsItsLimitForAnyLimit) {
+    for (double limit : {0.7, 4.0, 10.0, 36.0, 90.0}) {
+        for (Corners corners : {Corners::fan, Corners::refine}) {
+            LayerOptions options = thin();
+            options.max_ray_angle_deg = limit;
+            options.corners = corners;
+            sound_layer(shapes::section(0.12, 0, 30), options);  // validate() looks at the angles
+            sound_layer(shapes::l_shape(), options);
+        }
+    }
+}
+
+TEST(Layer, ThicknessCutsTheStack) {
+    LayerOptions options = thin();
+    options.thickness = layer_height(options, 12);
+    Layer layer = sound_layer(shapes::circle(1, 50), options);
+    for (const Ray& ray : layer.rays[0]) EXPECT_EQ(ray.layers, 12u);
+    options.thickness = 0.999 * layer_height(options, 12);
+    layer = sound_layer(shapes::circle(1, 50), options);
+    for (const Ray& ray : layer.rays[0]) EXPECT_EQ(ray.layers, 11u);
+    EXPECT_EQ(layer.incomplete_rays, 0u);
+}
+
+TEST(Layer, MovesWithItsInput) {
+    const Outline outline = shapes::refined(shapes::l_shape(), 8);
+    LayerOptions options = thin();
+    options.first_height = 1e-3;
+    options.layers = 15;
+    const Layer here = sound_layer(outline, options);
+    for (double scale : {1e-3, 1.0, 1e3}) {
+        for (double angle : {0.3, 1.5, 4.0}) {
+            const Point shift{3 * scale, -2 * scale};
+            const LayerOptions there_options = scaled(options, scale);
+            const Layer there = sound_layer(shapes::moved(outline, angle, scale, shift), there_options);
+            ASSERT_EQ(there.rays[0].size(), here.rays[0].size());
+            const Outline expected = shapes::moved(here.points, angle, scale, shift);
+            for (std::size_t i = 0; i < here.rays[0].size(); ++i)
+                EXPECT_LE(
+                    std::abs(static_cast<int>(there.rays[0][i].layers) - static_cast<int>(here.rays[0][i].layers)), 1);
+            for (std::size_t i = 0; i < here.wall_points; ++i)
+                ASSERT_LT(distance(there.points[i], expected[i]), 1e-13 * scale);
+        }
+    }
+}
+
+std::vector<Point> sorted_points(std::vector<Point> points, bool mirror) {
+    if (mirror)
+        for (Point& p : points) p.y = -p.y;
+    std::sort(points.begin(), points.end(), lexicographically_less);
+    return points;
+}
+
+/// Largest distance from a point of one set to the nearest of the other; the sets are small.
+double set_distance(const std::vector<Point>& a, const std::vector<Point>& b) {
+    double largest = 0;
+    for (Point p : a) {
+        auto at = std::lower_bound(b.begin(), b.end(), Point{p.x - 1e-9, -HUGE_VAL}, lexicographically_less);
+        double nearest = HUGE_VAL;
+        for (; at != b.end() && at->x <= p.x + 1e-9; ++at) nearest = std::min(nearest, distance(p, *at));
+        largest = std::max(largest, nearest);
+    }
+    return largest;
+}
+
+TEST(Layer, MirroredInputGivesMirroredPoints) {
+    std::mt19937 random(7);
+    for (const Outline& outline : {shapes::section(0.12, 0, 60), shapes::section(0.12, 0.02, 60),
+                                   shapes::joukowski(0.1, 0.1, 90), shapes::refined(shapes::star(9, 0.3, random), 5)}) {
+        LayerOptions options = thin();
+        options.layers = 45;
+        const Layer layer = sound_layer(outline, options);
+        const Layer mirror = sound_layer(shapes::mirrored(outline), options);
+        ASSERT_EQ(layer.points.size(), mirror.points.size());
+        const auto a = sorted_points(layer.points, false), b = sorted_points(mirror.points, true);
+        EXPECT_LT(std::max(set_distance(a, b), set_distance(b, a)), 1e-11);
+    }
+}
+
+TEST(Layer, SymmetricSectionHasSymmetricLayer) {
+    const Layer layer = sound_layer(shapes::section(0.12, 0, 70), thin());
+    EXPECT_LT(set_distance(sorted_points(layer.points, true), sorted_points(layer.points, false)), 1e-12);
+}
+
+TEST(Layer, StartOfTheLoopDoesNotMatter) {
+    const Outline outline = shapes::refined(shapes::l_shape(), 6);
+    LayerOptions options = thin();
+    options.first_height = 2e-3;
+    const auto reference = sorted_points(sound_layer(outline, options).points, false);
+    for (std::size_t first : {1u, 7u, 20u, 35u}) {
+        const auto points = sorted_points(sound_layer(shapes::started_at(outline, first), options).points, false);
+        ASSERT_EQ(points.size(), reference.size());
+        EXPECT_LT(set_distance(points, reference), 1e-12);
+    }
+}
+
+TEST(Layer, ThinsInAVNotchAndRecovers) {
+    LayerOptions options = thin();
+    options.first_height = 1e-3;
+    const Layer layer = sound_layer(shapes::refined(shapes::v_notch(0.4), 20), options);
+    EXPECT_GT(layer.incomplete_rays, 0u);
+    EXPECT_GT(full_rays(layer), 20u);
+    const auto bottom = std::find_if(layer.rays[0].begin(), layer.rays[0].end(), [&](const Ray& ray) {
+        return layer.points[ray.origin.index()] == Point{2, 0.2};
+    });
+    ASSERT_NE(bottom, layer.rays[0].end());
+    EXPECT_LT(bottom->layers, 5u);
+    EXPECT_LT(bottom->height_limit, 0.01);
+    expect_heights(layer, options);
+}
+
+TEST(Layer, LipsThatNearlyTouchKeepRoomBetweenTheirFronts) {
+    for (double lips : {0.2, 0.02, 1e-3}) {
+        LayerOptions options = thin();
+        options.first_height = 1e-4;
+        const Layer layer = sound_layer(shapes::refined(shapes::c_shape(lips), 20), options);
+        // The slot runs along y = 1; nothing comes nearer to its middle than an eighth of its width.
+        for (Point p : layer.points) {
+            if (p.x > 1.85 && p.x < 1.95) {
+                EXPECT_GE(std::abs(p.y - 1), 0.12 * lips);
+            }
+        }
+    }
+}
+
+TEST(Layer, VeryThickLayersStaySound) {
+    for (std::uint32_t layers : {40u, 60u}) {
+        LayerOptions options = thin();
+        options.layers = layers;
+        options.first_height = 1e-4;
+        for (const Outline& outline :
+             {shapes::l_shape(), shapes::c_shape(0.3), shapes::v_notch(1), shapes::comb(4, 0.1), shapes::wedge(),
+              shapes::diamond(), shapes::joukowski(0.1, 0.3, 100)}) {
+            for (std::size_t pieces : {1u, 7u}) {
+                for (Corners corners : {Corners::fan, Corners::refine}) {
+                    options.corners = corners;
+                    sound_layer(shapes::refined(outline, pieces), options);
+                }
+            }
+        }
+    }
+}
+
+TEST(Layer, RandomStarsStaySound) {
+    std::mt19937 random(20);
+    for (int k = 0; k < 400; ++k) {
+        const std::size_t corners = 3 + random() % 30;
+        const double least_radius = 0.05 + 0.9 * static_cast<double>(random() % 1000) / 1000;
+        Outline outline = shapes::refined(shapes::star(corners, least_radius, random), 1 + random() % 6);
+        LayerOptions options;
+        options.first_height = std::pow(10, -5 + 4 * static_cast<double>(random() % 1000) / 1000);
+        options.growth = 1.05 + 0.5 * static_cast<double>(random() % 1000) / 1000;
+        options.layers = 1 + random() % 40;
+        options.thickness = std::max(options.first_height, 0.5);
+        options.max_ray_angle_deg = 2 + random() % 20;
+        options.corners = random() % 2 == 0 ? Corners::fan : Corners::refine;
+        options.border_ratio = random() % 2 == 0 ? 1.5 : 2;
+        SCOPED_TRACE(k);
+        sound_layer(outline, options);
+        if (HasFailure()) break;
+    }
+}
+
+TEST(Layer, SeveralBodiesKeepApart) {
+    LayerOptions options = thin();
+    options.first_height = 1e-4;
+    for (double gap : {1.0, 0.1, 0.01, 1e-4}) {
+        const Outline main = shapes::section(0.12, 0, 40);
+        const Outline flap = shapes::moved(shapes::section(0.12, 0.01, 30), -0.5, 0.3, {1 + gap, -0.01});
+        const Layer layer = sound_layer(shapes::pslg({main, flap}), options);
+        ASSERT_EQ(layer.borders.size(), 2u);
+        EXPECT_GT(full_rays(layer), 20u);
+    }
+    // A body between two rays of another, smaller than their distance.
+    const Outline speck = shapes::moved(shapes::circle(0.002, 8), 0, 1, {0.43, 1.05});
+    sound_layer(shapes::pslg({shapes::box(), speck}), options);
+}
+
+TEST(Layer, WithoutLayersTheBorderIsTheWall) {
+    LayerOptions options;
+    options.enabled = false;
+    const Outline outline = shapes::section(0.12, 0.01, 40);
+    const Layer layer = sound_layer(outline, options);
+    EXPECT_EQ(layer.borders, layer.walls);
+    EXPECT_EQ(layer.wall_points, layer.points.size());
+    EXPECT_TRUE(layer.rays[0].empty());
+    std::size_t found = 0;
+    for (VertexId v : layer.walls[0])
+        if (found < outline.size() && layer.points[v.index()] == outline[found]) ++found;
+    EXPECT_EQ(found, outline.size());
+}
+
+TEST(Layer, BorderIsGradedBesideAFineFan) {
+    // Fan edges of a tenth of the box's side: along the side the pieces grow at the gradation asked for.
+    LayerOptions options = thin();
+    for (double gradation : {0.05, 0.1, 0.2}) {
+        options.border_gradation = gradation;
+        const Layer layer = sound_layer(shapes::box(), options);
+        const auto& border = layer.borders[0];
+        double shortest = HUGE_VAL, longest = 0;
+        for (std::size_t k = 0; k < border.size(); ++k) {
+            const double edge =
+                distance(layer.points[border[k].index()], layer.points[border[(k + 1) % border.size()].index()]);
+            shortest = std::min(shortest, edge);
+            longest = std::max(longest, edge);
+        }
+        EXPECT_LE(longest, 1.4 * (shortest + 0.5 * gradation));
+        EXPECT_GE(longest, 0.3 * (shortest + 0.5 * gradation));
+    }
+}
+
+TEST(Layer, RefusesOptionsThatMakeNoSense) {
+    const Pslg circle = shapes::pslg({shapes::circle(1, 20)});
+    const auto refused = [&](auto change) {
+        LayerOptions options = thin();
+        change(options);
+        EXPECT_THROW(make_layer(circle, options), UsageError);
+    };
+    refused([](LayerOptions& o) { o.first_height = 0; });
+    refused([](LayerOptions& o) { o.first_height = -1e-5; });
+    refused([](LayerOptions& o) { o.first_height = NAN; });
+    refused([](LayerOptions& o) { o.first_height = 1e-18; });
+    refused([](LayerOptions& o) { o.growth = 1; });
+    refused([](LayerOptions& o) { o.growth = NAN; });
+    refused([](LayerOptions& o) { o.layers = 0; });
+    refused([](LayerOptions& o) { o.layers = 100000; });
+    refused([](LayerOptions& o) { o.layers = 5000; });
+    refused([](LayerOptions& o) { o.max_ray_angle_deg = 0; });
+    refused([](LayerOptions& o) { o.max_ray_angle_deg = 180; });
+    refused([](LayerOptions& o) { o.thickness = 1e-6; });
+    refused([](LayerOptions& o) { o.border_ratio = 1; });
+    refused([](LayerOptions& o) { o.border_gradation = 0; });
+}
+
+TEST(Validate, SeesWhatIsWrong) {
+    const LayerOptions options = thin();
+    const Layer sound = sound_layer(shapes::circle(1, 40), options);
+    const auto expect_finding = [&](auto spoil) {
+        Layer layer = sound;
+        spoil(layer);
+        EXPECT_FALSE(validate(layer, options).empty());
+    };
+    const std::size_t ray_point = sound.rays[0][3].first_point + 4;
+    expect_finding([&](Layer& l) { l.points[ray_point] = {2, 0}; });
+    expect_finding([&](Layer& l) { l.points[ray_point] = {0, 0}; });
+    expect_finding([&](Layer& l) { l.points[ray_point] = l.points[ray_point + 1]; });
+    expect_finding([&](Layer& l) { std::swap(l.borders[0][3], l.borders[0][4]); });
+    expect_finding([&](Layer& l) { std::reverse(l.borders[0].begin(), l.borders[0].end()); });
+    expect_finding([&](Layer& l) { l.borders[0].erase(l.borders[0].begin() + 5); });
+    expect_finding([&](Layer& l) { l.rays[0][5].layers -= 2; });
+    expect_finding([&](Layer& l) { std::swap(l.rays[0][5], l.rays[0][6]); });
+    expect_finding([&](Layer& l) { l.points[l.borders[0][2].index()] = {5, 5}; });
+}
+
+/// Real sections where the shared folder is at hand.
+TEST(Layer, RealSections) {
+    const char* shared = std::getenv("LAMINA_SHARED");
+    const std::filesystem::path folder =
+        (shared != nullptr ? std::filesystem::path(shared) : std::filesystem::path(LAMINA_SOURCE_DIR) / "../shared") /
+        "geometry/uiuc/selig";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+    for (const char* name : {"rae2822", "e387", "s1223", "naca63a210", "n0012", "goe417a"}) {
+        SCOPED_TRACE(name);
+        const std::vector<std::string> inputs{(folder / (std::string(name) + ".dat")).string()};
+        const Pslg pslg = read_geometry(inputs);
+        LayerOptions options = thin();
+        const Layer layer = sound_layer(pslg, options);
+        expect_heights(layer, options);
+        // The file of naca63a210 holds a step of 0.3 % chord at mid-chord; the others are smooth.
+        if (std::string(name) != "naca63a210") {
+            EXPECT_EQ(layer.incomplete_rays, 0u);
+        }
+        options.layers = 60;
+        sound_layer(pslg, options);
+    }
+}
+
+}  // namespace
+}  // namespace lamina
