@@ -12,15 +12,16 @@ namespace lamina {
 
 /// Formats by extension: .su2 (ASCII, 17 significant digits), .vtu (appended raw binary; cell data region, piece,
 /// layer, marker names in field data). Writes to a temporary name beside the target and renames, so that a failure
-/// leaves nothing half-written. Throws IoError; UsageError for an unknown extension.
-void write_mesh(const Mesh& mesh, const std::filesystem::path& file);
+/// leaves nothing half-written. `format` ("su2", "vtu") goes over the extension where it is not empty.
+/// Throws IoError; UsageError for an unknown format or extension.
+void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const std::string& format = {});
 
 /// Throws IoError where the file cannot be read, InputError (with the line, for text formats) where it is malformed.
 Mesh read_mesh(const std::filesystem::path& file);
 
 /// Throws UsageError now rather than after minutes of meshing if write_mesh knows no format of this name, IoError if
 /// its folder does not exist or is not writable.
-void check_writable(const std::filesystem::path& file);
+void check_writable(const std::filesystem::path& file, const std::string& format = {});
 
 enum class PlotColor { none, quality, size, piece, layer };
 

@@ -14,6 +14,7 @@ enum class ProgressShown { automatic, always, never };
 struct MeshCase {
     std::vector<std::string> inputs;  ///< airfoil files and NACA names; never a case file
     std::vector<std::string> outputs;
+    std::string format;  ///< of every output; empty = by extension
     std::string report;  ///< empty = none
     Surface surface = Surface::keep;
     CaseOptions options;

@@ -90,10 +90,7 @@ MeshCase read_case_file(const std::filesystem::path& file) {
         }
         assign(*option, mesh_case, value, origin);
     }
-    if (std::any_of(mesh_case.inputs.begin(), mesh_case.inputs.end(),
-                    [](const std::string& input) { return input.ends_with(".toml"); })) {
-        throw UsageError(file.string() + ": a case file cannot be the input of another");
-    }
+    if (mesh_case.inputs.empty()) throw UsageError(file.string() + ": no input");
     return mesh_case;
 }
 

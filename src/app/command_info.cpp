@@ -15,7 +15,7 @@ namespace lamina::app {
 void add_info_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "what was read, detected and repaired");
     auto inputs = std::make_shared<std::vector<std::string>>();
-    command->add_option("INPUT", *inputs, "airfoil files, naca:DIGITS[:POINTS], or one case file (.toml)");
+    command->add_option("INPUT", *inputs, "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)");
     command->callback([inputs] {
         const MeshCase mesh_case = case_of_inputs(*inputs);
         fmt::print("{}", describe(read_geometry(mesh_case.inputs, mesh_case.options.geometry)));

@@ -21,6 +21,7 @@
 #include "app/options.hpp"
 #include "app/report.hpp"
 #include "core/atomic_file.hpp"
+#include "io/formats.hpp"
 
 namespace lamina::app {
 
@@ -69,7 +70,8 @@ Progress progress_printer(const MeshCase& mesh_case) {
 /// Everything that can be refused before the work begins.
 void require_outputs(const MeshCase& mesh_case) {
     if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
-    for (const std::string& output : mesh_case.outputs) check_writable(output);
+    for (const std::string& output : mesh_case.outputs) check_writable(output, mesh_case.format);
+    if (!mesh_case.report.empty()) detail::check_folder_writable(mesh_case.report);
 }
 
 void mesh(const MeshCase& mesh_case) {
@@ -78,7 +80,7 @@ void mesh(const MeshCase& mesh_case) {
 
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output);
+    for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, mesh_case.format);
     const double write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
 
     if (!mesh_case.report.empty()) {

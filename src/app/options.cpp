@@ -165,9 +165,11 @@ std::vector<Option> make_table() {
     };
 
     group = "Files";
-    add(list("input", Kind::paths, "INPUT", "airfoil files, naca:DIGITS[:POINTS], or one case file (.toml)",
+    add(list("input", Kind::paths, "INPUT", "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)",
              member_at(&MeshCase::inputs)));
     add(list("output", Kind::paths, "FILE", "mesh file; may be given several times", member_at(&MeshCase::outputs)));
+    add(text("format", Kind::word, "su2|vtu", "format of every mesh file; else each by its extension",
+             member_at(&MeshCase::format)));
     add(text("report", Kind::path, "FILE", "JSON report of the run", member_at(&MeshCase::report)));
 
     group = "Geometry";

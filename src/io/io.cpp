@@ -31,13 +31,16 @@ constexpr Format formats[] = {
     {".vtu", detail::write_vtu, detail::read_vtu},
 };
 
-const Format& format_of(const fs::path& file) {
-    const std::string extension = detail::extension_of(file);
+/// By its name where one is given, else by the extension of the file.
+const Format& format_of(const fs::path& file, const std::string& name = {}) {
+    const std::string extension = name.empty() ? detail::extension_of(file) : "." + name;
     std::string known;
     for (const Format& format : formats) {
         if (extension == format.extension) return format;
         known += fmt::format("{}{}", known.empty() ? "" : ", ", format.extension);
     }
+    if (!name.empty())
+        throw UsageError(fmt::format("no mesh format is named '{}' (known extensions: {})", name, known));
     throw UsageError(
         fmt::format("{}: no mesh format has the extension '{}' (known: {})", file.string(), extension, known));
 }
@@ -87,10 +90,10 @@ void orient_markers(Mesh& mesh) {
 
 }  // namespace detail
 
-void write_mesh(const Mesh& mesh, const fs::path& file) {
-    const Format& format = format_of(file);
+void write_mesh(const Mesh& mesh, const fs::path& file, const std::string& format) {
+    const Format& found = format_of(file, format);
     detail::check_folder_writable(file);
-    write_stream_atomically(file, [&](std::ostream& out) { format.write(mesh, file, out); });
+    write_stream_atomically(file, [&](std::ostream& out) { found.write(mesh, file, out); });
 }
 
 Mesh read_mesh(const fs::path& file) {
@@ -98,8 +101,8 @@ Mesh read_mesh(const fs::path& file) {
     return format.read(read_whole_file(file), file);
 }
 
-void check_writable(const fs::path& file) {
-    format_of(file);
+void check_writable(const fs::path& file, const std::string& format) {
+    format_of(file, format);
     detail::check_folder_writable(file);
 }
 

@@ -77,6 +77,7 @@ TEST(BadInput, OptionsThatAreNotKnown) {
     expect_refused(folder, mesh_naca_with({"--frist-height", "1e-5"}), usage, "--frist-height");
     expect_refused(folder, mesh_naca_with({"--growth-law", "linear"}), usage, "geometric");
     expect_refused(folder, mesh_naca_with({"--surface", "melt"}), usage, "keep");
+    expect_refused(folder, mesh_naca_with({"--format", "stl"}), usage, "stl");
     expect_refused(folder, mesh_naca_with({"--first-height"}), usage, "--first-height");
     expect_refused(folder, {"plot", "mesh.vtu", "-o", "a.png", "--color", "red"}, usage, "quality");
     expect_refused(folder, {"plot", "mesh.vtu", "-o", "a.png", "--window", "0,1,2"}, usage, "--window");
@@ -89,7 +90,7 @@ TEST(BadInput, OptionsThatAreNotKnown) {
 TEST(BadInput, NacaNamesThatNameNoSection) {
     const TemporaryFolder folder;
     for (const char* name : {"naca:12", "naca:abcd", "naca:", "naca:0012:2", "naca:0012:x"}) {
-        expect_refused(folder, {"mesh", name, "-o", "out.su2"}, usage, name);
+        expect_refused(folder, {"mesh", name, "-o", "out.su2"}, usage, "naca:");
     }
 }
 
@@ -117,8 +118,8 @@ TEST(BadInput, CaseFiles) {
     expect_case_refused("input = [1, 2]\n", usage, "case.toml:1: input");
     expect_case_refused("input = 'naca:0012'\n[layer]\ngrowth = 2\n", usage, "case.toml:2: layer");
     expect_case_refused("input = 'naca:0012'\ngrowth = \n", bad_input, "case.toml:2");
-    expect_case_refused("growth = 1.2\n", usage, "INPUT");
-    expect_case_refused("input = 'case.toml'\n", usage, "case.toml");
+    expect_case_refused("growth = 1.2\n", usage, "case.toml: no input");
+    expect_case_refused("input = 'case.toml'\n", bad_input, "case.toml:1");
 
     folder.write("case.toml", "input = 'naca:0012'\n");
     expect_refused(folder, {"mesh", "case.toml", "naca:0012", "-o", "out.su2"}, usage, "only INPUT");
