@@ -13,6 +13,10 @@
 
 namespace lamina {
 
+/// Frozen edges (separators, outer borders of layers) are at most this share of h long: refinement makes edges of
+/// 0.82 h on average, and up to 1.24 sqrt(A) = 0.82 h no refinement vertex encroaches (docs/decisions/0003).
+inline constexpr double frozen_share = 0.8;
+
 /// How separators between pieces are discretised.
 enum class SeparatorRule {
     equidistributed,  ///< equal shares of the integral of ds / h: no visible seam

@@ -170,7 +170,7 @@ private:
         // itself is no base for a front: the circumcentre serves.
         const unsigned e = s.shortest();
         const double reach = aimed_area * bound / s.squared[e];
-        insert(t, on_bisector(tri, e, reach > 0.5 ? reach : HUGE_VAL));
+        insert_near(t, e, reach > 0.5 ? reach : HUGE_VAL);
     }
 
     void mend_angle(AngleQueue::Entry entry) {
@@ -181,22 +181,26 @@ private:
         if (static_cast<float>(shortest) != entry.key ||
             !is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2))
             return;
-        insert(entry.triangle, on_bisector(tri, e, off_centre_));
+        insert_near(entry.triangle, e, off_centre_);
+    }
+
+    /// Inserts a point on the bisector of edge e; where it would encroach upon the border, the circumcentre, which
+    /// keeps the distance that the guarantee for frozen borders is about (docs/decisions/0003).
+    void insert_near(Index t, unsigned e, double reach) {
+        const Point p = on_bisector(tris_[t], e, reach);
+        if (insert(t, p)) return;
+        const Point centre = on_bisector(tris_[t], e, HUGE_VAL);
+        if (centre == p || !insert(t, centre)) ++refused_;
     }
 
     /// Inserts p, which lies in the circle of triangle t. False, and nothing changed, where p encroaches upon the
     /// border.
     bool insert(Index t, Point p) {
         const Tri& tri = tris_[t];
-        if (!(detail::inline_incircle_perturbed(points_[tri.v[0]], points_[tri.v[1]], points_[tri.v[2]], p) > 0)) {
-            ++refused_;
+        if (!(detail::inline_incircle_perturbed(points_[tri.v[0]], points_[tri.v[1]], points_[tri.v[2]], p) > 0))
             return false;
-        }
         find_cavity<false>(points_.data(), tris_, t, p, cavity_);
-        if (!rim_is_free(p)) {
-            ++refused_;
-            return false;
-        }
+        if (!rim_is_free(p)) return false;
         if (points_.size() - border_count_ >= options_.max_points)
             throw MeshError(
                 fmt::format("refinement stopped after {} points: the size field is too fine", options_.max_points));

@@ -9,7 +9,6 @@ namespace lamina::outer {
 
 namespace {
 
-constexpr double largest_share = 0.8;
 constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4
 /// Mean area of the triangles that refinement makes, as a share of the bound (measured: docs/decisions/0002).
 constexpr double mean_area_share = 0.67;
@@ -29,7 +28,7 @@ std::vector<Point> equidistribute(Point u, Point v, const SizeField& size, std::
         at.push_back(s);
         h = ahead;
     }
-    const auto n = std::max(fewest, static_cast<std::size_t>(std::ceil(integral.back() / largest_share)));
+    const auto n = std::max(fewest, static_cast<std::size_t>(std::ceil(integral.back() / frozen_share)));
     std::vector<Point> points;
     points.reserve(n - 1);
     std::size_t i = 0;

@@ -12,9 +12,8 @@ namespace lamina::outer {
 
 /// Interior points of the line from u to v, in that order; at least `fewest` - 1 of them.
 ///
-/// equidistributed: every segment gets the same share of the integral of ds / h, at most 0.8, so that segments have the
-/// length of the edges that refinement makes on either side (0.82 h on average), stay under the 1.24 sqrt(A) = 0.82 h
-/// up to which no refinement vertex encroaches (docs/decisions/0003), and grow as the field does.
+/// equidistributed: every segment gets the same share of the integral of ds / h, at most frozen_share: segments have
+/// the length of the edges that refinement makes on either side, and grow as the field does.
 /// k_rule: thesis ch. 5: with k = 1/2 sqrt(A / sqrt 2), from the finer end u the farthest v with an integer number of
 /// equal segments in [|uv| / (2 k_u), sqrt 3 |uv| / (2 k_v)], then on from v.
 /// Both directions of a line give the same points.

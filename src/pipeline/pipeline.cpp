@@ -59,14 +59,14 @@ DecouplingOptions decoupling_options(const Pslg& pslg, const CaseOptions& option
     return d;
 }
 
-/// The edges of the layers' outer borders ask for their own length, or all for `wall_size`.
+/// The edges of the layers' outer borders ask for the size of which they are a fit share, or all for `wall_size`.
 SizeField make_size_field(const Layer& layer, const CaseOptions& options, const DecouplingOptions& decoupling) {
     std::vector<SizeSource> sources;
     for (const auto& border : layer.borders)
         for (std::size_t i = 0; i < border.size(); ++i) {
             const Point a = layer.points[border[i].index()];
             const Point b = layer.points[border[i + 1 < border.size() ? i + 1 : 0].index()];
-            sources.push_back({a, b, options.wall_size.value_or(distance(a, b))});
+            sources.push_back({a, b, options.wall_size.value_or(distance(a, b) / frozen_share)});
         }
     const double half = decoupling.far_field * decoupling.chord;
     const Box domain{decoupling.center - Point{half, half}, decoupling.center + Point{half, half}};

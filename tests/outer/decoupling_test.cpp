@@ -1,0 +1,252 @@
+#include <lamina/decoupling.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
+
+#include "outer/faces.hpp"
+#include "outer/separators.hpp"
+#include "outer/skeleton.hpp"
+#include "support/point_sets.hpp"
+
+namespace lamina::test {
+namespace {
+
+/// A body border: n points on an ellipse of unit length whose spacing shrinks by `ratio`, evenly, from the middle to
+/// the two ends.
+std::vector<Point> ellipse(std::size_t n, double thickness, Point center = {0.5, 0}, double ratio = 1.0) {
+    // Fine polyline of the upper half, weighted by 1 / wanted spacing, then equal shares of the weight.
+    constexpr int fine = 20000;
+    const auto at = [&](double t) { return center + Point{0.5 * std::cos(t), 0.5 * thickness * std::sin(t)}; };
+    std::vector<double> weight{0};
+    for (int i = 0; i < fine; ++i) {
+        const Point a = at(M_PI * i / fine), b = at(M_PI * (i + 1) / fine);
+        const double off = std::abs(midpoint(a, b).x - center.x) / 0.5;
+        weight.push_back(weight.back() + distance(a, b) / (1 + (1 / ratio - 1) * off));
+    }
+    std::vector<Point> points;
+    for (int half = 0; half < 2; ++half)
+        for (std::size_t k = 0; k < n / 2; ++k) {
+            const double wanted = weight.back() * double(k) / double(n / 2);
+            const auto i = std::upper_bound(weight.begin(), weight.end(), wanted) - weight.begin() - 1;
+            const Point p = at(M_PI * double(i) / fine);
+            points.push_back(half == 0 ? p : 2.0 * center - p);
+        }
+    return points;
+}
+
+struct Bodies {
+    std::vector<Point> points;
+    std::vector<std::vector<VertexId>> borders;
+    std::vector<SizeSource> sources;
+    double area = 0;
+
+    void add(const std::vector<Point>& loop) {
+        auto& border = borders.emplace_back();
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Point a = loop[i], b = loop[(i + 1) % loop.size()];
+            border.push_back(VertexId{points.size()});
+            points.push_back(a);
+            sources.push_back({a, b, distance(a, b) / frozen_share});
+            area += 0.5 * cross(a, b);
+        }
+    }
+    SizeField size(double gradation, double half) const {
+        return SizeField(sources, {.gradation = gradation}, {{0.5 - half, -half}, {0.5 + half, half}});
+    }
+};
+
+DecouplingOptions around_unit_chord(double far_field, double pieces_target,
+                                    SeparatorRule rule = SeparatorRule::equidistributed) {
+    DecouplingOptions o;
+    o.far_field = far_field;
+    o.chord = 1;
+    o.center = {0.5, 0};
+    o.pieces_target = pieces_target;
+    o.rule = rule;
+    return o;
+}
+
+/// Refines every piece and checks the union from scratch: valid, of the right area, globally Delaunay.
+/// Returns the number of triangles.
+std::size_t expect_global_delaunay(const Bodies& bodies, const Decoupling& d, double far_field) {
+    std::vector<Point> points = d.points;
+    std::vector<Triangle> triangles;
+    std::size_t below = 0;
+    for (const Subdomain& s : d.subdomains) {
+        const Refinement r = refine(s);
+        EXPECT_EQ(r.stats.refused, 0u);
+        EXPECT_EQ(r.stats.oversized, 0u);
+        for (const Segment& e : s.segments) {
+            const Point a = s.points[e.a.index()], b = s.points[e.b.index()];
+            EXPECT_LT(distance(a, b), 0.85 * s.size(midpoint(a, b))) << "the test's own border is not graded";
+        }
+        below += r.stats.below_bound - r.stats.exempt;
+        const std::size_t first = points.size();
+        points.insert(points.end(), r.added.begin(), r.added.end());
+        for (const Triangle& t : r.triangles) {
+            Triangle global;
+            for (int k = 0; k < 3; ++k)
+                global.v[k] = t.v[k].index() < s.global.size() ? s.global[t.v[k].index()]
+                                                               : VertexId{first + t.v[k].index() - s.global.size()};
+            triangles.push_back(global);
+        }
+    }
+    EXPECT_EQ(below, 0u);
+    // Ties across separators are not in the pieces' hands: demand the Delaunay property without the tie rule.
+    for (const std::string& defect : validate(points, triangles, {}, {.require_delaunay = false}))
+        ADD_FAILURE() << defect;
+    std::map<std::pair<VertexId, VertexId>, VertexId> apex;
+    for (const Triangle& t : triangles)
+        for (int e = 0; e < 3; ++e) apex[{t.v[(e + 1) % 3], t.v[(e + 2) % 3]}] = t.v[e];
+    std::size_t violations = 0;
+    for (const auto& [edge, w] : apex) {
+        const auto other = apex.find({edge.second, edge.first});
+        if (other == apex.end()) continue;
+        violations += incircle(points[edge.first.index()], points[edge.second.index()], points[w.index()],
+                               points[other->second.index()]) > 0;
+    }
+    EXPECT_EQ(violations, 0u);
+    double area = 0;
+    for (const Triangle& t : triangles) {
+        const Point a = points[t.v[0].index()];
+        area += 0.5 * cross(points[t.v[1].index()] - a, points[t.v[2].index()] - a);
+    }
+    EXPECT_NEAR(area, 4 * far_field * far_field - bodies.area, 1e-9 * area);
+    return triangles.size();
+}
+
+TEST(Separators, EquidistributedSegmentsFollowTheField) {
+    const std::vector<SizeSource> sources{{{0, 0}, {0, 0}, 0.01}};
+    const SizeField size(sources, {.gradation = 0.2}, {{-20, -20}, {20, 20}});
+    const Point u{0.3, 0}, v{17, 11};
+    auto points = outer::separate(u, v, size, SeparatorRule::equidistributed);
+    points.insert(points.begin(), u);
+    points.push_back(v);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const double h = size(midpoint(points[i], points[i + 1])), l = distance(points[i], points[i + 1]);
+        EXPECT_LT(l, 0.85 * h);
+        EXPECT_GT(l, 0.6 * h);
+        if (i > 0) EXPECT_LT(l / distance(points[i - 1], points[i]), 1.25);
+    }
+    auto back = outer::separate(v, u, size, SeparatorRule::equidistributed);
+    std::reverse(back.begin(), back.end());
+    EXPECT_TRUE(std::equal(back.begin(), back.end(), points.begin() + 1));
+}
+
+TEST(Separators, KRuleKeepsItsBoundsAtBothEndsOfEverySegment) {
+    const std::vector<SizeSource> sources{{{0, 0}, {0, 0}, 0.01}};
+    const SizeField size(sources, {.gradation = 0.1}, {{-20, -20}, {20, 20}});
+    const Point u{0.3, 0}, v{9, 4};
+    auto points = outer::separate(u, v, size, SeparatorRule::k_rule);
+    points.insert(points.begin(), u);
+    points.push_back(v);
+    ASSERT_GT(points.size(), 10u);
+    for (std::size_t i = 0; i + 2 < points.size(); ++i) {  // the last segment may be a remainder
+        const auto k = [&](Point p) { return 0.5 * std::sqrt(0.4330127 * size(p) * size(p) / std::sqrt(2.0)); };
+        const double l = distance(points[i], points[i + 1]);
+        EXPECT_LE(l, 2 * std::min(k(points[i]), k(points[i + 1])) * 1.08) << i;
+        EXPECT_GE(l, 2 * std::max(k(points[i]), k(points[i + 1])) / std::sqrt(3.0) * 0.92) << i;
+    }
+}
+
+TEST(Faces, SquareWithHoleCutAndIslands) {
+    // A square cut in two by a diagonal chain, with a triangular hole in one half and a diamond loop in the other.
+    std::vector<Point> points{{0, 0},     {4, 0},     {4, 4}, {0, 4},     {2.5, 0.5}, {3.5, 0.5},
+                              {3.5, 1.5}, {0.5, 2.5}, {1, 3}, {0.5, 3.5}, {0.2, 3}};
+    std::vector<Segment> edges;
+    const auto add = [&](std::size_t a, std::size_t b, bool both) {
+        edges.push_back({VertexId{a}, VertexId{b}});
+        if (both) edges.push_back({VertexId{b}, VertexId{a}});
+    };
+    add(0, 1, false), add(1, 2, false), add(2, 3, false), add(3, 0, false), add(0, 2, true);
+    add(4, 6, false), add(6, 5, false), add(5, 4, false);                  // hole: clockwise
+    add(7, 8, true), add(8, 9, true), add(9, 10, true), add(10, 7, true);  // meshed on both sides
+    const auto faces = outer::trace_faces(points, edges);
+    ASSERT_EQ(faces.size(), 3u);
+    std::multiset<std::size_t> sizes;
+    std::size_t used = 0;
+    for (const auto& f : faces) {
+        sizes.insert(f.edges.size());
+        used += f.edges.size();
+    }
+    EXPECT_EQ(used, edges.size());
+    EXPECT_EQ(sizes, (std::multiset<std::size_t>{4, 6, 7}));
+}
+
+TEST(Faces, SlitKeepsOneFaceAndTwoSlitsMakeTwo) {
+    std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 1}, {3, 1}, {3, 3}, {1, 3}};
+    std::vector<Segment> edges;
+    for (std::size_t i = 0; i < 4; ++i) {
+        edges.push_back({VertexId{i}, VertexId{(i + 1) % 4}});
+        edges.push_back({VertexId{4 + (i + 1) % 4}, VertexId{4 + i}});
+    }
+    EXPECT_EQ(outer::trace_faces(points, edges).size(), 1u);
+    edges.push_back({VertexId{0}, VertexId{4}});
+    edges.push_back({VertexId{4}, VertexId{0}});
+    EXPECT_EQ(outer::trace_faces(points, edges).size(), 1u);
+    edges.push_back({VertexId{2}, VertexId{6}});
+    edges.push_back({VertexId{6}, VertexId{2}});
+    EXPECT_EQ(outer::trace_faces(points, edges).size(), 2u);
+}
+
+TEST(Decouple, UnionOfPiecesIsGloballyDelaunay) {
+    Bodies bodies;
+    bodies.add(ellipse(400, 0.15, {0.5, 0}, 10));
+    std::map<double, std::size_t> count;
+    for (double target : {1e9, 20'000.0, 3'000.0, 800.0}) {
+        const SizeField size = bodies.size(0.08, 30);
+        const Decoupling d = decouple(bodies.points, bodies.borders, size, around_unit_chord(30, target));
+        count[target] = expect_global_delaunay(bodies, d, 30);
+    }
+    // Cutting costs few triangles.
+    EXPECT_LT(double(count[3'000.0]), 1.06 * double(count[1e9]));
+}
+
+TEST(Decouple, KRuleIsGloballyDelaunay) {
+    Bodies bodies;
+    bodies.add(ellipse(160, 0.12));
+    const SizeField size = bodies.size(0.05, 20);
+    const Decoupling d =
+        decouple(bodies.points, bodies.borders, size, around_unit_chord(20, 4000, SeparatorRule::k_rule));
+    expect_global_delaunay(bodies, d, 20);
+}
+
+TEST(Decouple, SeveralBodies) {
+    Bodies bodies;
+    bodies.add(ellipse(120, 0.2, {0.5, 0}, 4));
+    bodies.add(ellipse(100, 0.3, {1.7, -0.2}));
+    const SizeField size = bodies.size(0.1, 20);
+    const Decoupling d = decouple(bodies.points, bodies.borders, size, around_unit_chord(20, 5000));
+    expect_global_delaunay(bodies, d, 20);
+}
+
+TEST(Decouple, PiecesStayNearTheirTargetAndEstimatesNearTheOutcome) {
+    Bodies bodies;
+    bodies.add(ellipse(400, 0.12));
+    const SizeField size = bodies.size(0.03, 50);
+    const double target = 8000;
+    const Decoupling d = decouple(bodies.points, bodies.borders, size, around_unit_chord(50, target));
+    EXPECT_GT(d.subdomains.size(), 10u);
+    for (const Subdomain& s : d.subdomains) {
+        const double made = double(refine(s).triangles.size());
+        EXPECT_LT(made, 2 * target);
+        EXPECT_NEAR(s.estimated_triangles / made, 1.0, 0.35);
+    }
+}
+
+TEST(Decouple, RefusesAFarFieldWithoutRoom) {
+    Bodies bodies;
+    bodies.add(ellipse(60, 0.12));
+    const SizeField size = bodies.size(0.1, 5);
+    EXPECT_THROW(decouple(bodies.points, bodies.borders, size, around_unit_chord(0.5, 1e5)), UsageError);
+    EXPECT_NO_THROW(decouple(bodies.points, bodies.borders, size, around_unit_chord(0.8, 1e5)));
+}
+
+}  // namespace
+}  // namespace lamina::test
