@@ -64,9 +64,13 @@ void close_outline(Outline& points, const std::string& file, std::vector<Repair>
     const double neighbour =
         std::min(distance(points[0].at, points[1].at), distance(points[points.size() - 2].at, points.back().at));
     const auto edges = static_cast<std::size_t>(std::clamp(std::floor(base / neighbour + 0.5), 1.0, 64.0));
+    // Each vertex is placed from the nearer end, so that a symmetric base gets symmetric vertices, exactly.
     for (std::size_t i = 1; i < edges; ++i) {
-        const double t = static_cast<double>(i) / static_cast<double>(edges);
-        points.push_back({last.at + t * (first.at - last.at), 0});
+        const auto part = [&](std::size_t k) { return static_cast<double>(k) / static_cast<double>(edges); };
+        const Point at = 2 * i == edges  ? midpoint(last.at, first.at)
+                         : 2 * i < edges ? last.at + part(i) * (first.at - last.at)
+                                         : first.at + part(edges - i) * (last.at - first.at);
+        points.push_back({at, 0});
     }
     repairs.push_back(
         {fmt::format("lines {} and {}: open end closed from {} to {} by {} edge{}, {:.4g} long", last.line, first.line,

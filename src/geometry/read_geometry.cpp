@@ -10,6 +10,7 @@
 #include "geometry/coordinate_text.hpp"
 #include "geometry/outline_repair.hpp"
 #include "geometry/outlines.hpp"
+#include "geometry/parse_airfoil.hpp"
 
 namespace lamina {
 
@@ -109,15 +110,17 @@ void name_elements(std::vector<Element>& elements, const GeometryOptions& option
 
 }  // namespace
 
-std::vector<Element> read_airfoil(const std::filesystem::path& file) {
-    const std::string name = file.string();
-    const std::vector<Row> rows = read_rows(read_whole_file(file), name);
+std::vector<Element> parse_airfoil(std::string_view text, const std::string& file) {
     Pslg pslg;
-    for (const RawOutline& outline : assemble_outlines(rows, name))
-        pslg.elements.push_back(repair_outline(outline, name));
+    for (const RawOutline& outline : assemble_outlines(read_rows(text, file), file))
+        pslg.elements.push_back(repair_outline(outline, file));
     name_elements(pslg.elements, {});
     check_simple(pslg);
     return std::move(pslg.elements);
+}
+
+std::vector<Element> read_airfoil(const std::filesystem::path& file) {
+    return parse_airfoil(read_whole_file(file), file.string());
 }
 
 Pslg read_geometry(std::span<const std::string> inputs, const GeometryOptions& options) {

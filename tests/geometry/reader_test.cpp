@@ -1,0 +1,208 @@
+// Formats and quirks of files, and the repairs the reader makes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <clocale>
+#include <lamina/geometry.hpp>
+
+#include "support/geometry_fixtures.hpp"
+#include "support/shapes.hpp"
+
+#include <fmt/format.h>
+
+namespace lamina {
+namespace {
+
+using fixtures::read;
+
+bool has_repair(const Element& e, const std::string& part) {
+    return std::any_of(e.repairs.begin(), e.repairs.end(),
+                       [&](const Repair& r) { return r.text.find(part) != std::string::npos; });
+}
+
+std::string as_file(const std::vector<Point>& points) {
+    std::string text = "title\n";
+    for (Point p : points) text += fmt::format("{} {}\n", p.x, p.y);
+    return text;
+}
+
+TEST(Reader, EveryFormatGivesTheSameLoop) {
+    for (const std::string& content : fixtures::same_loop) {
+        SCOPED_TRACE(content);
+        const Pslg pslg = read(content);
+        ASSERT_EQ(pslg.elements.size(), 1u);
+        const Element& e = pslg.elements[0];
+        EXPECT_EQ(e.name, "airfoil");
+        EXPECT_EQ(e.points, fixtures::loop);
+        ASSERT_EQ(e.lines.size(), e.points.size());
+        EXPECT_TRUE(std::all_of(e.lines.begin(), e.lines.end(), [](std::size_t line) { return line > 0; }));
+    }
+}
+
+TEST(Reader, NamesTheFormat) {
+    EXPECT_EQ(read(fixtures::selig).elements[0].format, "selig");
+    EXPECT_EQ(read(fixtures::no_title).elements[0].format, "xy");
+    EXPECT_EQ(read(fixtures::csv).elements[0].format, "csv");
+    EXPECT_EQ(read(fixtures::csv_semicolon).elements[0].format, "csv");
+    EXPECT_EQ(read(fixtures::lednicer).elements[0].format, "lednicer");
+    EXPECT_EQ(read(fixtures::lednicer_one_run).elements[0].format, "lednicer");
+    EXPECT_EQ(read(fixtures::two_surfaces).elements[0].format, "lednicer");
+    EXPECT_EQ(read(fixtures::two_surfaces_one_run).elements[0].format, "lednicer");
+}
+
+TEST(Reader, KeepsTitlesAsPrintableText) {
+    EXPECT_EQ(read(fixtures::selig).elements[0].title, "SAMPLE 12");
+    EXPECT_EQ(read(fixtures::digits_title).elements[0].title, "23012 at 12 degrees");
+    EXPECT_EQ(read(fixtures::two_numbers_title).elements[0].title, "63 212 modified");
+    EXPECT_EQ(read(fixtures::latin1_title).elements[0].title, "G\xC3\xB6ttingen 417\xC2\xB0");
+    EXPECT_EQ(read("\xEF\xBB\xBF" + fixtures::selig).elements[0].title, "SAMPLE 12");
+    EXPECT_EQ(read("# only a comment\n" + fixtures::no_title).elements[0].title, "only a comment");
+}
+
+TEST(Reader, LinesAreThoseOfTheFile) {
+    const Element e = read(fixtures::lednicer).elements[0];
+    // The lower surface's leading edge (line 10) is that of the upper one (line 4).
+    EXPECT_EQ(e.lines, (std::vector<std::size_t>{8, 7, 6, 5, 4, 11, 12, 13}));
+    EXPECT_EQ(e.points_read, 9u);
+}
+
+TEST(Reader, NumbersAreExactWhateverTheLocale) {
+    const std::string content =
+        "0.1 -.3333333333333333333333\n1e-3 2.2250738585072014e-16\n-0.30000000000000004 1\n0.1 "
+        "-.3333333333333333333333\n";
+    const char* comma_locale = std::setlocale(LC_ALL, "de_DE.UTF-8");  // absent on most machines
+    const Element e = read(content).elements[0];
+    if (comma_locale) std::setlocale(LC_ALL, "C");
+    for (Point p :
+         {Point{0.1, -0.3333333333333333}, Point{1e-3, 2.2250738585072014e-16}, Point{-0.30000000000000004, 1}})
+        EXPECT_EQ(std::count(e.points.begin(), e.points.end(), p), 1) << p.x << ' ' << p.y;
+}
+
+TEST(Reader, SeveralElementsInOneFile) {
+    for (const std::string& content :
+         {fixtures::two_999, fixtures::two_blank, fixtures::two_labelled, fixtures::two_lednicer}) {
+        SCOPED_TRACE(content);
+        const Pslg pslg = read(content);
+        ASSERT_EQ(pslg.elements.size(), 2u);
+        EXPECT_EQ(pslg.elements[0].points, fixtures::loop);
+        EXPECT_EQ(pslg.elements[1].points.size(), 5u);
+        EXPECT_EQ(pslg.elements[0].name, "sample_1");
+        EXPECT_EQ(pslg.elements[1].name, "sample_2");
+    }
+    EXPECT_EQ(read(fixtures::two_labelled).elements[1].title, "Flap");
+    EXPECT_EQ(read(fixtures::two_lednicer).elements[1].title, "Flap");
+}
+
+TEST(Reader, LonePointsAreLeftOutAndReported) {
+    const Element before =
+        read("201 NumCoords ! count\n! reference\n0.25 0\n! outline\n" + fixtures::no_title).elements[0];
+    EXPECT_EQ(before.points, fixtures::loop);
+    EXPECT_TRUE(has_repair(before, "line 3: lone point left out, not part of an outline (0.25, 0)"));
+    const Element after = read(fixtures::selig + "\n\n0.99 -0.001\n").elements[0];
+    EXPECT_EQ(after.points, fixtures::loop);
+    EXPECT_TRUE(has_repair(after, "line 13: lone point"));
+}
+
+TEST(Reader, RemovesDuplicatesAndSaysSo) {
+    std::string content = fixtures::selig;
+    content.insert(content.find("0.5 0.07"), "0.5 0.07\n");
+    const Element e = read(content).elements[0];
+    EXPECT_EQ(e.points, fixtures::loop);
+    EXPECT_TRUE(has_repair(e, "line 5: duplicate of line 4 removed (0.5, 0.07)"));
+    EXPECT_TRUE(has_repair(e, "line 11: closing point merged with line 2 (1, 0)"));
+    EXPECT_EQ(e.points_read, 10u);
+}
+
+TEST(Reader, MergesATrailingEdgeClosedButForRounding) {
+    std::string content = fixtures::selig;
+    content.replace(content.rfind("1.0 0.0"), 7, "1.0 -0.000000000000000019");
+    const Element e = read(content).elements[0];
+    EXPECT_EQ(e.points, fixtures::loop);
+    EXPECT_TRUE(has_repair(e, "closing point merged"));
+}
+
+TEST(Reader, ReversesClockwiseOrderFromTheSamePoint) {
+    const Element e = read(fixtures::clockwise).elements[0];
+    EXPECT_EQ(e.points.front(), (Point{1, 0}));
+    EXPECT_TRUE(has_repair(e, "line 2: clockwise order reversed"));
+    EXPECT_FALSE(has_repair(read(fixtures::selig).elements[0], "clockwise"));
+}
+
+TEST(Reader, ClosesAnOpenTrailingEdgeByABase) {
+    const Element e = read(fixtures::open_base).elements[0];
+    // Base 0.02; the shorter neighbour is hypot(0.01, 0.001): two edges.
+    ASSERT_EQ(e.points.size(), 12u);
+    EXPECT_EQ(e.points.back(), (Point{1, 0}));
+    EXPECT_EQ(e.lines.back(), 0u);
+    EXPECT_EQ(e.lines.front(), 2u);
+    EXPECT_TRUE(has_repair(e, "lines 12 and 2: open end closed from (1, -0.01) to (1, 0.01) by 2 edges, 0.02 long"));
+    EXPECT_TRUE(summarize(e).blunt_trailing_edge);
+}
+
+TEST(Reader, NeverScalesOrMoves) {
+    std::vector<Point> points;
+    for (Point p : fixtures::loop) points.push_back({100 * p.x - 30, 100 * p.y + 7});
+    const Element e = read(as_file(points)).elements[0];
+    for (Point p : points) EXPECT_EQ(std::count(e.points.begin(), e.points.end(), p), 1);
+}
+
+TEST(Reader, PerCentFilesAreNotMistakenForCounts) {
+    // First point (100, 2): looks like Lednicer's counts.
+    const Element e = read("100.0 2.0\n50 9\n20 8\n0 0\n20 -3\n50 -4\n100 2\n").elements[0];
+    EXPECT_EQ(e.points.size(), 6u);
+    EXPECT_EQ(e.points[0], (Point{100, 2}));
+}
+
+/// The loop that is read is the image of the loop that is read from the original, for rotations and scalings too.
+TEST(Reader, MappedInputGivesTheMappedLoop) {
+    std::mt19937 random(3);
+    for (const shapes::Outline& shape : {shapes::joukowski(0.1, 0.05, 40), shapes::ellipse(1, 0.2, 31),
+                                         shapes::c_shape(0.2), shapes::star(50, 0.3, random)}) {
+        for (double angle : {0.0, 0.7, 2.0, 3.9}) {
+            for (double scale : {1.0, 1e-6, 3e7}) {
+                shapes::Outline image = shapes::moved(shape, angle, scale, {scale * 3, -scale});
+                shapes::Outline closed = image;
+                closed.push_back(image[0]);
+                EXPECT_EQ(read(as_file(closed)).elements[0].points, image);
+                std::reverse(closed.begin(), closed.end());
+                EXPECT_EQ(read(as_file(closed)).elements[0].points, image);
+                const shapes::Outline mirror = shapes::mirrored(image);
+                EXPECT_EQ(read(as_file(mirror)).elements[0].points.front(), mirror[0]);
+                const shapes::Outline shifted = shapes::started_at(image, image.size() / 3);
+                shapes::Outline shifted_closed = shifted;
+                shifted_closed.push_back(shifted[0]);
+                EXPECT_EQ(read(as_file(shifted_closed)).elements[0].points, shifted);
+            }
+        }
+    }
+}
+
+TEST(Names, ComeFromFileStemsOrTheUser) {
+    const test::TemporaryFolder folder;
+    const std::string main = folder.write("main element (v2).dat", fixtures::selig).string();
+    const std::string flap = folder.write(std::string(60, 'f') + ".dat", fixtures::second_body).string();
+    const std::vector<std::string> inputs{main, flap};
+    const Pslg pslg = read_geometry(inputs);
+    EXPECT_EQ(pslg.elements[0].name, "main_element__v2_");
+    EXPECT_EQ(pslg.elements[1].name, std::string(32, 'f'));
+    EXPECT_EQ(pslg.elements[0].file, main);
+
+    GeometryOptions options;
+    options.names = {"wing", "flap"};
+    EXPECT_EQ(read_geometry(inputs, options).elements[1].name, "flap");
+    for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
+             {"wing"}, {"a", "a"}, {"a b", "c"}, {"", "b"}, {"farfield", "b"}, {std::string(33, 'x'), "b"}}) {
+        options.names = bad;
+        EXPECT_THROW(read_geometry(inputs, options), UsageError);
+    }
+}
+
+TEST(Names, NeverTakeThatOfTheOuterBoundary) {
+    const test::TemporaryFolder folder;
+    const std::vector<std::string> inputs{folder.write("farfield.dat", fixtures::selig).string(),
+                                          folder.write("flap.dat", fixtures::second_body).string()};
+    EXPECT_EQ(read_geometry(inputs).elements[0].name, "farfield_1");
+}
+
+}  // namespace
+}  // namespace lamina
