@@ -163,14 +163,11 @@ private:
     double evaluate(Point p, const Candidates& in, double bound) {
         double best = std::min(bound, max_size_);
         for (std::size_t i = in.begin; i < in.end; ++i) {
-            pending_.push_back(candidates_[i]);
-            while (!pending_.empty()) {
-                const std::uint32_t index = pending_.back();
+            std::uint32_t index = candidates_[i];
+            for (;;) {
                 const Group& group = groups_[index];
-                pending_.pop_back();
                 // Only what is nearer than this can lower the best value so far.
-                const double reach = (best - group.smallest) * inverse_gradation_;
-                if (reach <= 0) continue;
+                const double reach = std::max((best - group.smallest) * inverse_gradation_, 0.0);
                 if (group.single()) {
                     const double squared = cones_[group.cone].squared_distance_to(p);
                     if (squared < reach * reach)
@@ -180,8 +177,12 @@ private:
                     if (squared_distance(groups_[far].box, p) < squared_distance(groups_[near].box, p))
                         std::swap(near, far);
                     pending_.push_back(far);
-                    pending_.push_back(near);
+                    index = near;
+                    continue;
                 }
+                if (pending_.empty()) break;
+                index = pending_.back();
+                pending_.pop_back();
             }
         }
         return best;
@@ -211,20 +212,19 @@ private:
         Candidates result{candidates_.size(), 0, HUGE_VAL};
         double lowest = HUGE_VAL;
         for (std::size_t i = parent.begin; i < parent.end; ++i) {
-            pending_.push_back(candidates_[i]);
-            while (!pending_.empty()) {
-                const std::uint32_t index = pending_.back();
+            std::uint32_t index = candidates_[i];
+            for (;;) {
                 const Group& group = groups_[index];
-                pending_.pop_back();
                 double apart = distance(group.box, box);
                 if (group.single())
                     apart = std::max(apart, std::sqrt(cones_[group.cone].squared_distance_to(box.center())) - radius);
                 const double low = group.smallest + gradation_ * apart;
-                if (low > highest) continue;
-                if (!group.single() && group.extent() > 0.5 * c.side) {
+                if (low <= highest && !group.single() && group.extent() > 0.5 * c.side) {
                     pending_.push_back(group.right);
-                    pending_.push_back(index + 1);
-                } else {
+                    ++index;
+                    continue;
+                }
+                if (low <= highest) {
                     candidates_.push_back(index);
                     result.nearest = std::min(result.nearest, apart);
                     if (low < lowest) {  // the likeliest first: evaluation then skips most others
@@ -232,6 +232,9 @@ private:
                         std::swap(candidates_[result.begin], candidates_.back());
                     }
                 }
+                if (pending_.empty()) break;
+                index = pending_.back();
+                pending_.pop_back();
             }
         }
         result.end = candidates_.size();
