@@ -28,7 +28,7 @@ enum class PlotColor { none, quality, size, piece, layer };
 struct PlotOptions {
     PlotColor color = PlotColor::none;
     /// x0, x1, y0, y1; empty = the whole mesh.
-    std::optional<std::array<double, 4>> window;
+    std::optional<std::array<double, 4>> window{};
     int width_px = 1600;  ///< of the longer side of the picture
 };
 

@@ -52,8 +52,8 @@ struct QualitySummary {
     double min_angle_deg = 0;
     double max_angle_deg = 0;
     double mean_min_angle_deg = 0;
-    std::size_t angles_below_bound = 0;  ///< triangles whose smallest angle is under the bound asked about
-    double max_neighbour_area_ratio = 0;
+    std::size_t angles_below_bound = 0;             ///< triangles whose smallest angle is under the bound asked about
+    double max_neighbour_area_ratio = 0;            ///< over edges between two isotropic cells; 0 for the layer
     double p999_neighbour_area_ratio = 0;           ///< 99.9th percentile
     double max_aspect_ratio = 0;                    ///< longest edge over the height on it
     std::array<std::size_t, 18> angle_histogram{};  ///< smallest angles in classes of 5 degrees... [0,5), [5,10), ...
@@ -85,6 +85,7 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
 /// 128-bit sum modulo 2^128 of one hash per cell and per marker edge, each over the IEEE bits of its vertices'
 /// coordinates (-0 as +0), cells rotated to their lexicographically smallest vertex, and the marker's name.
 /// Independent of numbering, hence of the file format. 32 lower-case hexadecimal digits.
+/// Precondition: indices in range. The bytes hashed are spelt out in src/mesh/hash.cpp.
 std::string mesh_hash(const Mesh& mesh);
 
 }  // namespace lamina

@@ -62,7 +62,7 @@ Color distinct(std::uint32_t number) {
     const double hue = std::fmod(number * 0.6180339887498949, 1.0);
     const auto channel = [&](double shift) {
         const double distance = std::abs(std::fmod(hue + shift, 1.0) * 6 - 3) - 1;
-        return 1 - 0.45 * (1 - std::clamp(distance, 0.0, 1.0));
+        return 1 - 0.34 * (1 - std::clamp(distance, 0.0, 1.0));
     };
     return {channel(0), channel(2.0 / 3), channel(1.0 / 3)};
 }

@@ -1,0 +1,299 @@
+// Meshes to files and back, files that are broken, and pictures.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <set>
+#include <string>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+
+#include "core/parallel.hpp"
+#include "io/formats.hpp"
+#include "support/sample_meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lamina {
+namespace {
+
+using test::annulus;
+using test::box_with_hole;
+using test::shuffled;
+using test::TemporaryFolder;
+
+Mesh tiny() {
+    Mesh mesh;
+    mesh.points = {{0, 0}, {1, 0}, {0.1, 1e-5}, {-0.0, 1}, {-1, 1.0 / 3}};
+    mesh.triangles = {{{VertexId(0), VertexId(1), VertexId(2)}}};
+    mesh.quads = {{{VertexId(0), VertexId(2), VertexId(3), VertexId(4)}}};
+    mesh.markers = {{"wall", MarkerKind::wall, {{VertexId(0), VertexId(1)}, {VertexId(1), VertexId(2)}}},
+                    {"farfield",
+                     MarkerKind::far_field,
+                     {{VertexId(2), VertexId(3)}, {VertexId(3), VertexId(4)}, {VertexId(4), VertexId(0)}}}};
+    return mesh;
+}
+
+constexpr const char* tiny_su2 =
+    "NDIME= 2\n"
+    "NELEM= 2\n"
+    "5 0 1 2 0\n"
+    "9 0 2 3 4 1\n"
+    "NPOIN= 5\n"
+    "0.0000000000000000e+00 0.0000000000000000e+00 0\n"
+    "1.0000000000000000e+00 0.0000000000000000e+00 1\n"
+    "1.0000000000000001e-01 1.0000000000000001e-05 2\n"
+    "-0.0000000000000000e+00 1.0000000000000000e+00 3\n"
+    "-1.0000000000000000e+00 3.3333333333333331e-01 4\n"
+    "NMARK= 2\n"
+    "MARKER_TAG= wall\n"
+    "MARKER_ELEMS= 2\n"
+    "3 0 1\n"
+    "3 1 2\n"
+    "MARKER_TAG= farfield\n"
+    "MARKER_ELEMS= 3\n"
+    "3 2 3\n"
+    "3 3 4\n"
+    "3 4 0\n";
+
+void expect_same_cells(const Mesh& a, const Mesh& b) {
+    EXPECT_EQ(a.points, b.points);
+    EXPECT_EQ(a.triangles, b.triangles);
+    ASSERT_EQ(a.quads.size(), b.quads.size());
+    for (std::size_t q = 0; q < a.quads.size(); ++q)
+        for (int i = 0; i < 4; ++i) EXPECT_EQ(a.quads[q].v[i], b.quads[q].v[i]);
+    ASSERT_EQ(a.markers.size(), b.markers.size());
+    for (std::size_t m = 0; m < a.markers.size(); ++m) {
+        EXPECT_EQ(a.markers[m].name, b.markers[m].name);
+        EXPECT_EQ(a.markers[m].edges, b.markers[m].edges);
+    }
+}
+
+/// Reading must succeed or throw one of lamina's errors that is one line long.
+bool reads_or_complains(const std::string& name, const std::string& bytes) {
+    try {
+        const Mesh mesh = name.ends_with(".su2") ? detail::read_su2(bytes, name) : detail::read_vtu(bytes, name);
+        check_mesh(mesh);  // whatever was read can be looked at
+        return true;
+    } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        return false;
+    }
+}
+
+TEST(Su2, WritesTheGoldenFile) {
+    const TemporaryFolder folder;
+    write_mesh(tiny(), folder / "m.su2");
+    EXPECT_EQ(folder.read("m.su2"), tiny_su2);
+}
+
+TEST(MeshFiles, ComeBackAsTheyWere) {
+    const TemporaryFolder folder;
+    for (const Mesh& mesh : {tiny(), annulus(), annulus({.quads_in_layer = true}), shuffled(annulus(), 1),
+                             box_with_hole(), shuffled(annulus({.around = 300, .rings = 40}), 2)})
+        for (const char* name : {"m.su2", "m.VTU"}) {
+            write_mesh(mesh, folder / name);
+            const Mesh back = read_mesh(folder / name);
+            expect_same_cells(mesh, back);
+            EXPECT_EQ(mesh_hash(mesh), mesh_hash(back));
+        }
+}
+
+TEST(MeshFiles, VtuHoldsEverything) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.quads_in_layer = true});
+    write_mesh(mesh, folder / "m.vtu");
+    const Mesh back = read_mesh(folder / "m.vtu");
+    EXPECT_EQ(mesh.region, back.region);
+    EXPECT_EQ(mesh.piece, back.piece);
+    EXPECT_EQ(mesh.layer, back.layer);
+    EXPECT_EQ(mesh.constraints, back.constraints);
+    EXPECT_EQ(back.markers[0].kind, MarkerKind::wall);
+    EXPECT_EQ(back.markers[1].kind, MarkerKind::far_field);
+    write_mesh(back, folder / "again.vtu");
+    EXPECT_EQ(folder.read("m.vtu"), folder.read("again.vtu"));
+}
+
+TEST(MeshFiles, AreTheSameForAnyNumberOfThreads) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.around = 500, .rings = 100});
+    for (const std::string extension : {".su2", ".vtu"}) {
+        with_threads(1, [&] { write_mesh(mesh, folder / ("one" + extension)); });
+        with_threads(4, [&] { write_mesh(mesh, folder / ("four" + extension)); });
+        EXPECT_EQ(folder.read("one" + extension), folder.read("four" + extension));
+    }
+}
+
+TEST(Su2, ReadsOtherPrograms) {
+    const TemporaryFolder folder;
+    // Sections in another order, comments, no trailing indices, CRLF, boundary edges the wrong way round.
+    const auto file = folder.write("m.su2",
+                                   "% by hand\r\n"
+                                   "NPOIN=5\r\n0 0\r\n1 0\r\n0.1 1e-5 \r\n+0 1\r\n-1 0.33333333333333331\r\n\r\n"
+                                   "NDIME = 2 % plane\r\nNMARK= 2\r\n"
+                                   "MARKER_TAG=\twall \r\nMARKER_ELEMS= 2\r\n3 1 0\r\n3\t2 1 \r\n"
+                                   "MARKER_TAG= farfield\r\nMARKER_ELEMS=3\r\n3 2 3 0\r\n3 3 4 1\r\n3 0 4 2\r\n"
+                                   "NELEM= 2\r\n9 0 2 3 4\r\n% between\r\n5 0 1 2\r\n");
+    const Mesh mesh = read_mesh(file);
+    EXPECT_EQ(mesh_hash(mesh), mesh_hash(tiny()));
+    EXPECT_EQ(mesh.markers[1].kind, MarkerKind::far_field);
+    EXPECT_TRUE(mesh.region.empty());
+}
+
+TEST(Su2, SaysWhereAFileIsMalformed) {
+    const TemporaryFolder folder;
+    const auto expect_complaint = [&](const std::string& from, const std::string& to, std::size_t line,
+                                      const std::string& what) {
+        std::string text = tiny_su2;
+        const std::size_t at = text.find(from);
+        ASSERT_NE(at, std::string::npos) << from;
+        text.replace(at, from.size(), to);
+        try {
+            read_mesh(folder.write("m.su2", text));
+            ADD_FAILURE() << "no error for " << to;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.place().line, line) << error.what();
+            EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+        }
+    };
+    expect_complaint("NDIME= 2", "NDIME= 3", 1, "two-dimensional");
+    expect_complaint("NELEM= 2", "NELEM= two", 2, "count expected, found 'two'");
+    expect_complaint("NELEM= 2", "NELEM= 99999999999", 2, "shorter");
+    expect_complaint("NELEM= 2", "NELEM= 3", 5, "cell type expected");
+    expect_complaint("NELEM= 2", "NELEM= 1", 4, "belongs to no section");
+    expect_complaint("5 0 1 2 0", "5 0 1 5 0", 3, "vertex index 5 where NPOIN= 5");
+    expect_complaint("5 0 1 2 0", "5 0 1", 3, "vertex index expected");
+    expect_complaint("5 0 1 2 0", "5 0 1 -2", 3, "vertex index expected");
+    expect_complaint("5 0 1 2 0", "5 0 1 2 0 0", 3, "end of line expected");
+    expect_complaint("5 0 1 2 0", "10 0 1 2 3", 3, "cell type 10");
+    expect_complaint("1.0000000000000001e-01", "nan", 8, "finite");
+    expect_complaint("1.0000000000000001e-01", "1e999", 8, "coordinate expected");
+    expect_complaint("1.0000000000000001e-01", "0.1,", 8, "coordinate expected");
+    expect_complaint("NPOIN= 5", "POINTS= 5", 20, "without NPOIN=");
+    expect_complaint("NMARK= 2\n", "", 19, "without NMARK=");
+    expect_complaint("NMARK= 2", "NMARK= 3", 20, "2 markers follow");
+    expect_complaint("MARKER_TAG= wall", "MARKER_TAG= ", 12, "without a name");
+    expect_complaint("MARKER_TAG= wall\n", "", 12, "without a MARKER_TAG=");
+    expect_complaint("3 0 1\n", "1 0\n", 14, "type 1");
+}
+
+TEST(MeshFiles, CutShortAnywhere) {
+    const TemporaryFolder folder;
+    for (const std::string name : {"m.su2", "m.vtu"}) {
+        write_mesh(tiny(), folder / name);
+        const std::string whole = folder.read(name);
+        // The last number and the closing tags may be shortened without harm.
+        const std::size_t needed = name == "m.su2" ? whole.size() - 2 : whole.find("\n  </AppendedData>");
+        for (std::size_t length = 0; length < needed; ++length)
+            EXPECT_FALSE(reads_or_complains(name, whole.substr(0, length))) << length;
+        EXPECT_TRUE(reads_or_complains(name, whole.substr(0, needed + 1)));
+    }
+}
+
+TEST(MeshFiles, RandomDamage) {
+    const TemporaryFolder folder;
+    std::mt19937 random(7);
+    for (const std::string name : {"m.su2", "m.vtu"}) {
+        write_mesh(annulus({.around = 6, .rings = 2, .layer_rings = 1, .quads_in_layer = true}), folder / name);
+        const std::string whole = folder.read(name);
+        for (int trial = 0; trial < 3000; ++trial) {
+            std::string damaged = whole;
+            for (unsigned hits = 1 + random() % 4; hits > 0; --hits) {
+                const std::size_t at = random() % damaged.size();
+                switch (random() % 4) {
+                    case 0:
+                        damaged[at] = static_cast<char>(random());
+                        break;
+                    case 1:
+                        damaged[at] = "0123456789-= <>\"\n%"[random() % 18];
+                        break;
+                    case 2:
+                        damaged.erase(at, 1 + random() % 9);
+                        break;
+                    default:
+                        damaged.insert(at, damaged.substr(random() % damaged.size(), 1 + random() % 20));
+                }
+            }
+            reads_or_complains(name, damaged);
+        }
+    }
+}
+
+TEST(MeshFiles, ThatCannotBeReadOrWritten) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus();
+    EXPECT_THROW(read_mesh(folder / "none.su2"), IoError);
+    EXPECT_THROW(read_mesh(folder / "none.vtu"), IoError);
+    EXPECT_THROW(read_mesh(folder / "mesh.xyz"), UsageError);
+    EXPECT_THROW(read_mesh(folder.write("empty.su2", "")), InputError);
+    EXPECT_THROW(read_mesh(folder.write("empty.vtu", "")), InputError);
+    std::filesystem::create_directory(folder / "folder.su2");
+    EXPECT_THROW(read_mesh(folder / "folder.su2"), IoError);
+
+    folder.write("file", "");
+    const auto before = folder.names();
+    for (const std::string name : {"none/m.su2", "file/m.vtu", "folder.su2"}) {
+        EXPECT_THROW(check_writable(folder / name), IoError) << name;
+        EXPECT_THROW(write_mesh(mesh, folder / name), IoError) << name;
+    }
+    EXPECT_THROW(plot_mesh(mesh, folder / "none/m.png"), IoError);
+    EXPECT_THROW(check_writable(folder / "m.msh5"), UsageError);
+    EXPECT_THROW(check_writable(folder / "m"), UsageError);
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.gif"), UsageError);
+    Mesh named = mesh;
+    named.markers[0].name = "main wing";
+    EXPECT_THROW(write_mesh(named, folder / "m.su2"), UsageError);
+    EXPECT_EQ(folder.names(), before);
+
+    EXPECT_NO_THROW(check_writable(folder / "m.su2"));
+    EXPECT_EQ(folder.names(), before);
+    write_mesh(named, folder / "m.vtu");
+    EXPECT_EQ(read_mesh(folder / "m.vtu").markers[0].name, "main wing");
+}
+
+/// Width and height from the header of a PNG file.
+std::pair<unsigned, unsigned> png_size(const std::string& png) {
+    const auto number = [&](std::size_t at) {
+        unsigned value = 0;
+        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(png[at + i]);
+        return value;
+    };
+    return {number(16), number(20)};
+}
+
+TEST(Plot, WritesEveryFormatAndColor) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.quads_in_layer = true});
+    std::set<std::string> pictures;
+    for (const PlotColor color :
+         {PlotColor::none, PlotColor::quality, PlotColor::size, PlotColor::piece, PlotColor::layer}) {
+        plot_mesh(mesh, folder / "m.png", {.color = color, .width_px = 300});
+        pictures.insert(folder.read("m.png"));
+        EXPECT_EQ(png_size(folder.read("m.png")), std::pair(300u, 300u));
+        plot_mesh(box_with_hole(), folder / "plain.png", {.color = color, .width_px = 50});  // without any cell data
+    }
+    EXPECT_EQ(pictures.size(), 5u);
+    plot_mesh(mesh, folder / "m.svg");
+    EXPECT_EQ(folder.read("m.svg").substr(0, 5), "<?xml");
+    plot_mesh(mesh, folder / "m.PDF");
+    EXPECT_EQ(folder.read("m.PDF").substr(0, 5), "%PDF-");
+}
+
+TEST(Plot, KeepsTheAspectOfTheWindow) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus();
+    plot_mesh(mesh, folder / "m.png", {.window = {{0, 2, 0, 0.5}}, .width_px = 400});
+    EXPECT_EQ(png_size(folder.read("m.png")), std::pair(400u, 100u));
+    plot_mesh(mesh, folder / "m.png", {.window = {{0, 0.5, 0, 2}}, .width_px = 400});
+    EXPECT_EQ(png_size(folder.read("m.png")), std::pair(100u, 400u));
+    // Far inside one cell, and far away from all.
+    plot_mesh(mesh, folder / "m.png", {.window = {{1.1, 1.1 + 1e-12, 0.1, 0.1 + 1e-12}}, .width_px = 40});
+    plot_mesh(mesh, folder / "m.png", {.window = {{1e6, 1e6 + 1, 0, 1}}, .width_px = 40});
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{1, 1, 0, 1}}}), UsageError);
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{0, NAN, 0, 1}}}), UsageError);
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.width_px = 0}), UsageError);
+    EXPECT_NO_THROW(plot_mesh(Mesh{}, folder / "empty.png", {.width_px = 10}));
+}
+
+}  // namespace
+}  // namespace lamina
