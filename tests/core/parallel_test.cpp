@@ -1,0 +1,71 @@
+// The parallel loop: every block once, results in order, failures that do not depend on timing.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/parallel.hpp"
+
+namespace lamina {
+namespace {
+
+TEST(ParallelFor, VisitsEveryIndexOnce) {
+    for (const unsigned threads : {1u, 2u, 5u})
+        for (const std::size_t n :
+             {std::size_t{0}, std::size_t{1}, std::size_t{99}, std::size_t{100}, std::size_t{101}}) {
+            std::vector<std::atomic<int>> visits(n);
+            with_threads(threads, [&] {
+                parallel_for(n, 10, [&](std::size_t begin, std::size_t end) {
+                    EXPECT_EQ(begin % 10, 0u);
+                    EXPECT_LE(end - begin, 10u);
+                    EXPECT_LT(thread_index(), threads);
+                    for (std::size_t i = begin; i < end; ++i) ++visits[i];
+                });
+            });
+            for (const auto& count : visits) EXPECT_EQ(count, 1);
+        }
+}
+
+TEST(ParallelFor, Nests) {
+    std::atomic<int> calls = 0;
+    with_threads(4, [&] {
+        parallel_for(8, 1,
+                     [&](std::size_t, std::size_t) { parallel_for(8, 1, [&](std::size_t, std::size_t) { ++calls; }); });
+    });
+    EXPECT_EQ(calls, 64);
+}
+
+TEST(ParallelFor, ThrowsTheFailureOfTheLowestBlock) {
+    for (int repeat = 0; repeat < 50; ++repeat)
+        for (const unsigned threads : {1u, 4u}) {
+            std::string caught;
+            try {
+                with_threads(threads, [&] {
+                    parallel_for(1000, 1, [&](std::size_t i, std::size_t) {
+                        if (i % 100 == 17) throw std::runtime_error(std::to_string(i));
+                    });
+                });
+            } catch (const std::runtime_error& error) {
+                caught = error.what();
+            }
+            EXPECT_EQ(caught, "17");
+        }
+}
+
+TEST(ParallelBlocks, ComeInOrder) {
+    with_threads(4, [&] {
+        const auto first = parallel_blocks(1000, 7, [](std::size_t begin, std::size_t) { return begin; });
+        ASSERT_EQ(first.size(), 143u);
+        for (std::size_t b = 0; b < first.size(); ++b) EXPECT_EQ(first[b], 7 * b);
+    });
+}
+
+TEST(WithThreads, SetsTheirNumber) {
+    for (const unsigned threads : {1u, 3u, 7u}) with_threads(threads, [&] { EXPECT_EQ(thread_count(), threads); });
+    with_threads(0, [&] { EXPECT_GE(thread_count(), 1u); });
+}
+
+}  // namespace
+}  // namespace lamina
