@@ -42,7 +42,8 @@ void write_stream_atomically(const fs::path& target, const std::function<void(st
 }
 
 std::string read_whole_file(const fs::path& file) {
-    if (fs::is_directory(file)) throw IoError(file.string(), "cannot read: is a directory");
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot read: is a directory");
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     std::string bytes;

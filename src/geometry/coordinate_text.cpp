@@ -185,8 +185,8 @@ Row read_row(std::string_view line, std::size_t number, bool first_content) {
     if (line.empty()) return row;
     if (line[0] == '#' || line[0] == '!' || line[0] == ';' || line[0] == '%' || line.starts_with("//")) {
         row.kind = RowKind::comment;
-        row.text = printable(line.substr(
-            line.find_first_not_of("#!;%/ \t") == line.npos ? line.size() : line.find_first_not_of("#!;%/ \t")));
+        const std::size_t start = line.find_first_not_of("#!;%/ \t");
+        if (start != line.npos) row.text = printable(line.substr(start));
         return row;
     }
     const Fields found = split_fields(trimmed(line.substr(0, line.find_first_of("#!"))));

@@ -59,9 +59,9 @@ Document split_blocks(const std::vector<Row>& rows, const std::string& file) {
         const Row& row = rows[i];
         if (row.kind == RowKind::numbers) {
             // "12 34 revised" on top is a title; "1.0 0.0 revised" is a point with a remark.
-            const bool is_title = !any_numbers && row.remark && !row.points_written;
+            const bool is_title = !any_numbers && label.empty() && row.remark && !row.points_written;
             if (is_title) {
-                if (label.empty()) label = row.text;
+                label = row.text;
                 document.titled = true;
                 continue;
             }
@@ -80,7 +80,7 @@ Document split_blocks(const std::vector<Row>& rows, const std::string& file) {
                                              smallest_exact_coordinate, largest_exact_coordinate));
             any_numbers = true;
             document.csv |= row.separated;
-            if (row.decimal_comma && (document.notes.empty()))
+            if (row.decimal_comma && document.notes.empty())
                 document.notes.push_back({fmt::format("line {}: decimal commas read as points", row.line)});
             if (!in_run) document.sections.back().push_back({{}, std::exchange(label, {})});
             document.sections.back().back().points.push_back({{at, row.line}, row.count, row.values[2]});

@@ -59,6 +59,12 @@ TEST(Reader, KeepsTitlesAsPrintableText) {
     EXPECT_EQ(read("# only a comment\n" + fixtures::no_title).elements[0].title, "only a comment");
 }
 
+TEST(Reader, RemarksBehindCoordinatesAreIgnored) {
+    std::string content = fixtures::selig;
+    content.replace(content.find("1.0 0.0"), 7, "1 0 trailing edge");
+    EXPECT_EQ(read(content).elements[0].points, fixtures::loop);
+}
+
 TEST(Reader, LinesAreThoseOfTheFile) {
     const Element e = read(fixtures::lednicer).elements[0];
     // The lower surface's leading edge (line 10) is that of the upper one (line 4).
