@@ -27,7 +27,8 @@ struct LayerOptions {
     /// Convex corners that turn by more than 60 degrees: a fan from the vertex, or refining rays beside it.
     Corners corners = Corners::fan;
     /// Largest ratio of the lengths of adjacent edges of the outer border; 1.4 serves angle bounds up to 30 degrees.
-    /// Below 2 an edge that must be halved often makes its neighbours follow, all along the border.
+    /// Below 2 an edge that must be halved often makes its neighbours follow, all along the border. Exceeded only
+    /// where division points would cross something by rounding.
     double border_ratio = 1.4;
     /// Edges of the outer border are split until none is much longer than (length of any other) + gradation x distance.
     double border_gradation = 0.1;

@@ -21,6 +21,8 @@ constexpr double interval = 0.25;
 constexpr std::size_t most_refined = 6;
 /// Direction cosine below which two edges that see each other form a gap rather than a corner.
 constexpr double facing = -0.3;
+/// Gaps narrower than this share of an edge do not divide it further.
+constexpr double narrowest_gap = 1.0 / 128;
 
 struct Edge {
     Point a, b;
@@ -40,40 +42,58 @@ std::vector<Edge> edges_of(std::span<const std::vector<Point>> borders) {
     return edges;
 }
 
-BoxTree tree_of(std::span<const Edge> edges) {
+template <class Segments>
+BoxTree tree_of(const Segments& segments) {
     std::vector<Box> boxes;
-    boxes.reserve(edges.size());
-    for (const Edge& edge : edges) boxes.push_back(box_of(edge.a, edge.b));
+    boxes.reserve(segments.size());
+    for (const auto& segment : segments) boxes.push_back(box_of(segment.a, segment.b));
     return BoxTree(std::move(boxes));
 }
 
 /// Distance of two segments that do not cross.
-double gap_between(const Edge& s, const Edge& t) {
-    return std::min({distance_to_segment(s.a, t.a, t.b), distance_to_segment(s.b, t.a, t.b),
-                     distance_to_segment(t.a, s.a, s.b), distance_to_segment(t.b, s.a, s.b)});
+double gap_between(Point a, Point b, const Edge& other) {
+    return std::min({distance_to_segment(a, other.a, other.b), distance_to_segment(b, other.a, other.b),
+                     distance_to_segment(other.a, a, b), distance_to_segment(other.b, a, b)});
 }
 
-/// Length each edge counts with: its own, or the gap to an edge it faces.
-std::vector<double> source_sizes(std::span<const Edge> edges, const BoxTree& tree) {
-    std::vector<double> sizes(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const Edge& edge = edges[i];
-        sizes[i] = edge.length;
-        Box near = box_of(edge.a, edge.b);
-        near.lower = near.lower - Point{edge.length, edge.length};
-        near.upper = near.upper + Point{edge.length, edge.length};
-        tree.overlaps(near, [&](std::size_t j) {
-            const Edge& other = edges[j];
-            if (j == i || j == edge.previous || j == edge.next) return;
-            const Point u = edge.b - edge.a, v = other.b - other.a;
-            if (dot(u, v) > facing * edge.length * other.length) return;
-            // The outside lies on the right of both.
-            const Point between = midpoint(other.a, other.b) - midpoint(edge.a, edge.b);
-            if (cross(u, between) >= 0 || cross(v, between) <= 0) return;
-            sizes[i] = std::min(sizes[i], gap_between(edge, other));
-        });
+/// A part of an edge and the length it asks for.
+struct Source {
+    Point a, b;
+    double size;
+};
+
+/// Edges that lie across a gap from this one and no farther than its length.
+std::vector<const Edge*> edges_across(std::span<const Edge> edges, const BoxTree& tree, std::size_t i) {
+    std::vector<const Edge*> across;
+    const Edge& edge = edges[i];
+    Box near = box_of(edge.a, edge.b);
+    near.lower = near.lower - Point{edge.length, edge.length};
+    near.upper = near.upper + Point{edge.length, edge.length};
+    tree.overlaps(near, [&](std::size_t j) {
+        const Edge& other = edges[j];
+        if (j == i || j == edge.previous || j == edge.next) return;
+        const Point u = edge.b - edge.a, v = other.b - other.a;
+        if (dot(u, v) > facing * edge.length * other.length) return;
+        // The outside lies on the right of both.
+        const Point between = midpoint(other.a, other.b) - midpoint(edge.a, edge.b);
+        if (cross(u, between) < 0 && cross(v, between) > 0) across.push_back(&other);
+    });
+    return across;
+}
+
+/// A gap counts where it is: the edge is halved until its parts are no longer than the gap they face.
+void add_sources(Point a, Point b, double edge_length, std::span<const Edge* const> across,
+                 std::vector<Source>& sources) {
+    const double length = distance(a, b);
+    double gap = HUGE_VAL;
+    for (const Edge* other : across) gap = std::min(gap, gap_between(a, b, *other));
+    if (gap < edge_length && gap < length && length > narrowest_gap * edge_length) {
+        const Point middle = midpoint(a, b);
+        add_sources(a, middle, edge_length, across, sources);
+        add_sources(middle, b, edge_length, across, sources);
+        return;
     }
-    return sizes;
+    sources.push_back({a, b, std::clamp(gap, narrowest_gap * edge_length, edge_length)});
 }
 
 /// The target length along one edge, as a step function: symmetric in the edge's direction.
@@ -83,14 +103,20 @@ struct Interval {
 
 class TargetLength {
 public:
-    TargetLength(std::span<const Edge> edges, const BoxTree& tree, const std::vector<double>& sizes, double gradation)
-        : edges_(edges),
-          tree_(tree),
-          gradation_(gradation),
-          values_(tree.least_values(sizes)),
-          at_start_(edges.size()) {
+    TargetLength(std::span<const Edge> edges, double gradation)
+        : edges_(edges), gradation_(gradation), tree_({}), at_start_(edges.size(), HUGE_VAL) {
+        const BoxTree edge_tree = tree_of(edges);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const std::size_t first = sources_.size();
+            add_sources(edges[i].a, edges[i].b, edges[i].length, edges_across(edges, edge_tree, i), sources_);
+            at_start_[i] = std::min(at_start_[i], sources_[first].size);
+            at_start_[edges[i].next] = std::min(at_start_[edges[i].next], sources_.back().size);
+        }
+        tree_ = tree_of(sources_);
+        std::vector<double> sizes;
+        for (const Source& source : sources_) sizes.push_back(source.size);
+        values_ = tree_.least_values(std::move(sizes));
         // Along a border first: a good bound makes the search in the tree short.
-        for (std::size_t i = 0; i < edges.size(); ++i) at_start_[i] = std::min(sizes[edges[i].previous], sizes[i]);
         for (int round = 0; round < 2; ++round) {
             for (std::size_t i = 0; i < edges.size(); ++i) pass_on(i, i, edges[i].next);
             for (std::size_t i = edges.size(); i-- > 0;) pass_on(i, edges[i].next, i);
@@ -101,14 +127,15 @@ public:
     std::vector<Interval> along(std::size_t i) const {
         const Edge& edge = edges_[i];
         std::vector<Interval> intervals;
-        divide(edge.a, edge.b, edge.length, at_start_[i], at_start_[edge.next], values_[0][i], intervals);
+        divide(edge.a, edge.b, edge.length, at_start_[i], at_start_[edge.next], edge.length, intervals);
         return intervals;
     }
 
 private:
     std::span<const Edge> edges_;
-    const BoxTree& tree_;
     double gradation_;
+    std::vector<Source> sources_;
+    BoxTree tree_;  ///< of the sources
     std::vector<std::vector<double>> values_;
     std::vector<double> at_start_;
 
@@ -118,7 +145,7 @@ private:
 
     double at(Point p, double start) const {
         return tree_.least(p, gradation_, start, values_,
-                           [&](std::size_t i) { return distance_to_segment(p, edges_[i].a, edges_[i].b); });
+                           [&](std::size_t i) { return distance_to_segment(p, sources_[i].a, sources_[i].b); });
     }
 
     /// Between the ends the target rises from both until it meets or reaches `cap`, unless something near the middle
@@ -237,15 +264,65 @@ void balance(std::span<const Edge> edges, double ratio, std::vector<Division>& d
     }
 }
 
+/// A straight piece of a divided border.
+struct Piece {
+    Point a, b;
+    std::size_t edge;  ///< that it is part of
+};
+
+/// Division points lie on their edge to rounding only. Where a border all but touches a wall or itself that can make it
+/// cross: such edges are left whole. cuts: per edge.
+void undo_crossing_cuts(std::span<const Edge> edges, std::span<const Edge> walls,
+                        std::vector<std::vector<Point>>& cuts) {
+    const BoxTree wall_tree = tree_of(walls);
+    for (bool changed = true; changed;) {
+        changed = false;
+        std::vector<Piece> pieces;
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            Point from = edges[i].a;
+            for (Point p : cuts[i]) {
+                pieces.push_back({from, p, i});
+                from = p;
+            }
+            pieces.push_back({from, edges[i].b, i});
+        }
+        const BoxTree tree = tree_of(pieces);
+        const auto conflict = [](const Piece& piece, Point p, Point q) {
+            if (piece.a == q) return segments_fold(q, p, piece.b);
+            if (piece.b == p) return segments_fold(p, piece.a, q);
+            if (piece.a == p) return segments_fold(p, piece.b, q);
+            if (piece.b == q) return segments_fold(q, piece.a, p);
+            return segments_meet(piece.a, piece.b, p, q);
+        };
+        const auto undo = [&](std::size_t edge) {
+            changed |= !cuts[edge].empty();
+            cuts[edge].clear();
+        };
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            const Piece& piece = pieces[k];
+            const Box box = box_of(piece.a, piece.b);
+            tree.overlaps(box, [&](std::size_t other) {
+                if (other <= k || !conflict(piece, pieces[other].a, pieces[other].b)) return;
+                undo(piece.edge);
+                undo(pieces[other].edge);
+            });
+            wall_tree.overlaps(box, [&](std::size_t w) {
+                const bool along = edges[piece.edge].a == walls[w].a && edges[piece.edge].b == walls[w].b;
+                if (!along && conflict(piece, walls[w].a, walls[w].b)) undo(piece.edge);
+            });
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::vector<Point>> borders,
+                                                           std::span<const std::vector<Point>> walls,
                                                            const GradingOptions& options) {
     const std::vector<Edge> edges = edges_of(borders);
-    const BoxTree tree = tree_of(edges);
     // Pieces of one edge grow by a factor of about exp(size_slack x gradation): never by more than the ratio.
     const double gradation = std::min(options.gradation, (1 - 1 / options.ratio) / size_slack);
-    const TargetLength target(edges, tree, source_sizes(edges, tree), gradation);
+    const TargetLength target(edges, gradation);
     std::vector<Division> divisions(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         Division& division = divisions[i];
@@ -256,17 +333,24 @@ std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::
     }
     balance(edges, options.ratio, divisions);
 
-    std::vector<std::vector<std::vector<Point>>> cuts(borders.size());
-    std::size_t i = 0;
-    for (std::size_t e = 0; e < borders.size(); ++e) {
-        cuts[e].resize(borders[e].size());
-        for (std::vector<Point>& inside : cuts[e]) {
-            const Edge& edge = edges[i];
-            for (double at : divisions[i].cuts()) inside.push_back(edge.a + (at / edge.length) * (edge.b - edge.a));
-            ++i;
+    std::vector<std::vector<Point>> cuts(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const Edge& edge = edges[i];
+        Point before = edge.a;
+        for (double at : divisions[i].cuts()) {
+            const Point p = edge.a + (at / edge.length) * (edge.b - edge.a);
+            if (p == before || p == edge.b) continue;  // too short for floating point
+            cuts[i].push_back(p);
+            before = p;
         }
     }
-    return cuts;
+    undo_crossing_cuts(edges, edges_of(walls), cuts);
+
+    std::vector<std::vector<std::vector<Point>>> by_border(borders.size());
+    std::size_t i = 0;
+    for (std::size_t e = 0; e < borders.size(); ++e)
+        for (std::size_t k = 0; k < borders[e].size(); ++k) by_border[e].push_back(std::move(cuts[i++]));
+    return by_border;
 }
 
 }  // namespace lamina

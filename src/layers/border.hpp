@@ -14,11 +14,14 @@ struct GradingOptions {
     double gradation = 0.1;  ///< growth of the target length per unit of distance
 };
 
+/// Preconditions: borders are simple and disjoint; they meet walls in vertices and whole edges of both only. What comes
+/// out is so too: an edge whose division would cross something by rounding stays whole.
 /// Points that divide the edges of closed borders so that lengths vary gradually along and between the borders.
 /// Result: per border and edge (edge k runs from corner k to corner k + 1) the points inside it, in order; corners stay
-/// and no edge is merged. Target length at x: min over all edges j of (length_j + gradation x distance(x, j)), where an
-/// edge that faces another one across a gap narrower than itself counts with the width of the gap.
+/// and no edge is merged. Target length at x: min over all edges j of (length_j + gradation x distance(x, j)), where
+/// the parts of an edge that face another one across a gap narrower than the edge count with the width of the gap.
 std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::vector<Point>> borders,
+                                                           std::span<const std::vector<Point>> walls,
                                                            const GradingOptions& options);
 
 }  // namespace lamina

@@ -111,7 +111,11 @@ public:
         std::vector<std::vector<Point>> borders(corners.size());
         for (std::size_t e = 0; e < corners.size(); ++e)
             for (const BorderCorner& corner : corners[e]) borders[e].push_back(tip(corner.ray));
-        const auto cuts = grade_borders(borders, grading);
+        std::vector<std::vector<Point>> walls(set_.bodies());
+        for (std::size_t e = 0; e < set_.bodies(); ++e)
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i)
+                if (walls[e].empty() || walls[e].back() != set_.rays[i].origin) walls[e].push_back(set_.rays[i].origin);
+        const auto cuts = grade_borders(borders, walls, grading);
         place_walls(corners, cuts);
         place_ray_points();
         place_borders(corners, cuts);
@@ -239,12 +243,10 @@ private:
 }  // namespace
 
 double layer_height(const LayerOptions& options, std::uint32_t n) {
-    double height = 0, step = options.first_height;
-    for (std::uint32_t k = 0; k < n; ++k) {
-        height += step;
-        step *= options.growth;
-    }
-    return height;
+    LayerOptions uncut = options;
+    uncut.layers = n;
+    uncut.thickness.reset();
+    return heights_of(uncut).back();
 }
 
 Layer make_layer(const Pslg& pslg, const LayerOptions& options) {
