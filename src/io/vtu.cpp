@@ -6,7 +6,8 @@
 //   cell data    region (0 layer, 1 isotropic), piece, layer, where the mesh has them; marker
 //   cells        triangles, quads, then each marker's edges as lines: their `marker` is 1 for the first name, ...; 0 on
 //                triangles and quads. Lines repeat nothing else: their region is 2, their piece and layer 0
-//   field data   marker_names (strings), marker_kinds (as MarkerKind), constraints (pairs of points)
+//   field data   marker_names (UTF-8, a zero byte behind each: not every reader knows strings), marker_kinds (as
+//   MarkerKind), constraints (pairs of points)
 // Read back: little-endian files of one piece with raw appended, uncompressed arrays of any numeric type, of triangles
 // (5), quads (9) and lines (3); z and other arrays are ignored; lines with marker 0 or without the array, too.
 #include <fmt/format.h>
@@ -70,11 +71,6 @@ public:
             flush();
         });
     }
-    /// Each string ends with a zero byte.
-    void strings(const char* name, std::size_t count, const std::string& bytes) {
-        announce("String", name, count, 1, true);
-        append(bytes.size(), [bytes](std::ostream& out) { out << bytes; });
-    }
     void write(std::ostream& out) const {
         out << xml << "  <AppendedData encoding=\"raw\">\n_";
         for (const Appended& data : appended_) {
@@ -125,8 +121,13 @@ void put_field_data(const Mesh& mesh, VtuWriter& vtu) {
     std::string names;
     for (const Marker& marker : mesh.markers) names += marker.name + '\0';
     vtu.xml += "    <FieldData>\n";
-    vtu.strings("marker_names", mesh.markers.size(), names);
     constexpr bool in_field_data = true;
+    vtu.array<std::uint8_t>(
+        "marker_names", names.size(), 1,
+        [names](auto emit) {
+            for (const char c : names) emit(c);
+        },
+        in_field_data);
     vtu.array<std::uint8_t>(
         "marker_kinds", mesh.markers.size(), 1,
         [&mesh](auto emit) {
