@@ -124,6 +124,7 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     clock.begin("layers");
     LayerOptions layer_options = options.layer;
     layer_options.border_gradation = options.gradation;
+    layer_options.border_ratio = 2.25;
     const Layer layer = make_layer(pslg, layer_options);
     const LayerEdges edges = layer_edges(layer);
     seconds.layers = clock.lap();
