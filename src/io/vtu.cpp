@@ -128,16 +128,16 @@ void put_field_data(const Mesh& mesh, VtuWriter& vtu) {
             for (const char c : names) emit(c);
         },
         in_field_data);
-    vtu.array<std::uint8_t>(
-        "marker_kinds", mesh.markers.size(), 1,
-        [&mesh](auto emit) {
-            for (const Marker& marker : mesh.markers) emit(marker.kind);
-        },
-        in_field_data);
     vtu.array<std::uint32_t>(
         "constraints", mesh.constraints.size(), 2,
         [&mesh](auto emit) {
             for (const Segment& edge : mesh.constraints) emit(edge.a.value), emit(edge.b.value);
+        },
+        in_field_data);
+    vtu.array<std::uint8_t>(
+        "marker_kinds", mesh.markers.size(), 1,
+        [&mesh](auto emit) {
+            for (const Marker& marker : mesh.markers) emit(marker.kind);
         },
         in_field_data);
     vtu.xml += "    </FieldData>\n";
