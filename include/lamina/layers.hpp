@@ -32,6 +32,8 @@ struct LayerOptions {
     double border_ratio = 1.4;
     /// Edges of the outer border are split until none is much longer than (length of any other) + gradation x distance.
     double border_gradation = 0.1;
+    /// Edges of the outer border are split until none is longer than this.
+    double longest_border_edge = HUGE_VAL;
 };
 
 /// A line of layer points that leaves the wall.

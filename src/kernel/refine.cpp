@@ -70,7 +70,7 @@ public:
     Refiner(std::span<const Point> border, std::span<const Segment> segments, const SizeField& size,
             const RefineOptions& options)
         : size_(size), options_(options), border_count_(border.size()), points_(border.begin(), border.end()) {
-        const double bound = options.min_angle_deg * (pi / 180);
+        const double bound = radians(options.min_angle_deg);
         const double s = sin_reproducible(bound);
         squared_sine_ = s * s;
         // An apex of the bound's angle over the shortest edge, 5 % nearer so that rounding leaves the angle above it.
@@ -110,8 +110,6 @@ public:
     }
 
 private:
-    static constexpr double pi = 3.14159265358979323846;
-
     /// A triangle with its edges as the decisions need them.
     struct Shape {
         std::array<double, 3> squared;  ///< squared length of edge e

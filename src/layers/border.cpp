@@ -103,8 +103,8 @@ struct Interval {
 
 class TargetLength {
 public:
-    TargetLength(std::span<const Edge> edges, double gradation)
-        : edges_(edges), gradation_(gradation), tree_({}), at_start_(edges.size(), HUGE_VAL) {
+    TargetLength(std::span<const Edge> edges, double gradation, double longest)
+        : edges_(edges), gradation_(gradation), longest_(longest), tree_({}), at_start_(edges.size(), longest) {
         const BoxTree edge_tree = tree_of(edges);
         for (std::size_t i = 0; i < edges.size(); ++i) {
             const std::size_t first = sources_.size();
@@ -127,13 +127,14 @@ public:
     std::vector<Interval> along(std::size_t i) const {
         const Edge& edge = edges_[i];
         std::vector<Interval> intervals;
-        divide(edge.a, edge.b, edge.length, at_start_[i], at_start_[edge.next], edge.length, intervals);
+        const double cap = std::min(edge.length, longest_);
+        divide(edge.a, edge.b, edge.length, at_start_[i], at_start_[edge.next], cap, intervals);
         return intervals;
     }
 
 private:
     std::span<const Edge> edges_;
-    double gradation_;
+    double gradation_, longest_;
     std::vector<Source> sources_;
     BoxTree tree_;  ///< of the sources
     std::vector<std::vector<double>> values_;
@@ -322,7 +323,7 @@ std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::
     const std::vector<Edge> edges = edges_of(borders);
     // Pieces of one edge grow by a factor of about exp(size_slack x gradation): never by more than the ratio.
     const double gradation = std::min(options.gradation, (1 - 1 / options.ratio) / size_slack);
-    const TargetLength target(edges, gradation);
+    const TargetLength target(edges, gradation, options.longest / size_slack);
     std::vector<Division> divisions(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         Division& division = divisions[i];

@@ -10,8 +10,9 @@
 namespace lamina {
 
 struct GradingOptions {
-    double ratio = 1.4;      ///< largest ratio of the lengths of adjacent edges
-    double gradation = 0.1;  ///< growth of the target length per unit of distance
+    double ratio = 1.4;         ///< largest ratio of the lengths of adjacent edges
+    double gradation = 0.1;     ///< growth of the target length per unit of distance
+    double longest = HUGE_VAL;  ///< no piece is longer
 };
 
 /// Preconditions: borders are simple and disjoint; they meet walls in vertices and whole edges of both only. What comes

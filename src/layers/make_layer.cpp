@@ -29,6 +29,8 @@ void require(bool condition, const std::string& message) {
 void check_options(const LayerOptions& o) {
     require(o.border_ratio > 1 && std::isfinite(o.border_ratio),
             fmt::format("border ratio must be greater than 1, not {}", o.border_ratio));
+    require(o.longest_border_edge > 0,
+            fmt::format("longest border edge must be greater than 0, not {}", o.longest_border_edge));
     require(o.border_gradation > 0 && std::isfinite(o.border_gradation),
             fmt::format("border gradation must be greater than 0, not {}", o.border_gradation));
     if (!o.enabled) return;
@@ -251,7 +253,7 @@ double layer_height(const LayerOptions& options, std::uint32_t n) {
 
 Layer make_layer(const Pslg& pslg, const LayerOptions& options) {
     check_options(options);
-    const GradingOptions grading{options.border_ratio, options.border_gradation};
+    const GradingOptions grading{options.border_ratio, options.border_gradation, options.longest_border_edge};
     if (!options.enabled) {
         const RaySet walls = bare_walls(pslg);
         const std::vector<std::uint32_t> none(walls.rays.size(), 0);

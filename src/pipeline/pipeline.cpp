@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
+#include "core/reproducible_math.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/layer_region.hpp"
 
@@ -57,6 +59,18 @@ DecouplingOptions decoupling_options(const Pslg& pslg, const CaseOptions& option
     d.pieces_target = options.pieces_target;
     d.min_angle_deg = options.min_angle_deg;
     return d;
+}
+
+/// The layer with an outer border fit to be frozen for refinement to the angle and sizes asked for.
+LayerOptions layer_options(const CaseOptions& options) {
+    LayerOptions layer = options.layer;
+    layer.border_gradation = options.gradation;
+    layer.longest_border_edge =
+        frozen_share * std::min(options.wall_size.value_or(HUGE_VAL), options.far_size.value_or(HUGE_VAL));
+    // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
+    // (docs/decisions/0003); a tenth more saves many splits and is never seen to.
+    layer.border_ratio = 1.1 * std::sqrt(2.0) / (2 * sin_reproducible(radians(options.min_angle_deg)));
+    return layer;
 }
 
 /// The edges of the layers' outer borders ask for the size of which they are a fit share, or all for `wall_size`.
@@ -122,10 +136,7 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     clock.lap();
 
     clock.begin("layers");
-    LayerOptions layer_options = options.layer;
-    layer_options.border_gradation = options.gradation;
-    layer_options.border_ratio = 2.25;
-    const Layer layer = make_layer(pslg, layer_options);
+    const Layer layer = make_layer(pslg, layer_options(options));
     const LayerEdges edges = layer_edges(layer);
     seconds.layers = clock.lap();
 
