@@ -1,7 +1,8 @@
 // Frozen borders must be graded before they are frozen (design 2): no Delaunay refinement mends a long edge beside a
-// short one. First every edge gets the number of pieces that its target length asks for; then, wherever the pieces on
-// both sides of a corner differ by more than the allowed ratio, the edge of the longer piece gets one more, until
-// nothing changes. Both steps treat the two directions of a border alike.
+// short one. First every edge gets the number of pieces that its target length asks for, and divided edges shift their
+// cuts towards their neighbours' lengths; then, wherever the pieces on both sides of a corner still differ by more than
+// the allowed ratio, the edge of the longer piece gets one more, until nothing changes. Both steps treat the two
+// directions of a border alike.
 #include "layers/border.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace lamina {
 namespace {
 
 /// An edge up to this much longer than its target is left alone.
-constexpr double size_slack = 1.25;
+constexpr double size_slack = 1.1;
 /// Length of the intervals of the sums over ds / h, in units of h.
 constexpr double interval = 0.25;
 /// Edges are divided for the ratio's sake into at most this many times the pieces that size asks for.
@@ -191,9 +192,23 @@ private:
 
 /// One edge with its step function and the pieces it is cut into.
 struct Division {
-    std::vector<Interval> intervals;
-    double total = 0;  ///< sum of length / size
+    std::vector<Interval> field;      ///< as the target length asks
+    std::vector<Interval> intervals;  ///< and tilted towards the neighbours
+    double total = 0;                 ///< sum of length / size over intervals
     std::size_t least_pieces = 1, pieces = 1;
+
+    /// Scales the sizes by a factor that runs linearly from `first` at the edge's start to `last` at its end.
+    void tilt(double first, double last) {
+        double length = 0, done = 0;
+        for (const Interval& i : field) length += i.length;
+        intervals = field;
+        total = 0;
+        for (Interval& i : intervals) {
+            i.size *= first + (last - first) * ((done + 0.5 * i.length) / length);
+            done += i.length;
+            total += i.length / i.size;
+        }
+    }
 
     /// Distances from the edge's start of the ends of the pieces, the last one (the edge's end) left out.
     std::vector<double> cuts() const {
@@ -234,15 +249,44 @@ struct Division {
     }
 };
 
+/// By how much the sizes at one end of a divided edge are scaled, given the first piece there and the piece beyond:
+/// halfway where the neighbour is divided and gives way as well, and beyond the neighbour where it cannot. With
+///
+///     |-------- 1 --------|---- 0.61 ---|-- 0.39 --|-- 0.5 --|-- 0.5 --|
+///
+/// a whole edge meets edges cut in two at a ratio of 1.64 instead of 2.
+double tilt_towards(double own, double beyond, bool divided) {
+    const double q = std::clamp(beyond / own, 0.25, 4.0);
+    return divided ? std::sqrt(q) : q * std::sqrt(std::sqrt(q));
+}
+
 /// Adds pieces where neighbours differ too much. All corners are judged by one state, then changed together: the
 /// result does not depend on where a border starts or which way it runs.
 void balance(std::span<const Edge> edges, double ratio, std::vector<Division>& divisions) {
-    std::vector<Division::Ends> ends(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) ends[i] = divisions[i].ends(edges[i].length);
+    std::vector<Division::Ends> untilted(edges.size()), ends(edges.size());
+    const auto measure = [&](std::size_t i) {
+        divisions[i].tilt(1, 1);
+        untilted[i] = divisions[i].ends(edges[i].length);
+    };
+    const auto tilt = [&](std::size_t i) {
+        Division& division = divisions[i];
+        const std::size_t before = edges[i].previous, after = edges[i].next;
+        if (division.pieces > 1)
+            division.tilt(tilt_towards(untilted[i].first, untilted[before].last, divisions[before].pieces > 1),
+                          tilt_towards(untilted[i].last, untilted[after].first, divisions[after].pieces > 1));
+        ends[i] = division.ends(edges[i].length);
+    };
+    for (std::size_t i = 0; i < edges.size(); ++i) measure(i);
+    for (std::size_t i = 0; i < edges.size(); ++i) tilt(i);
+
     std::vector<std::size_t> active(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) active[i] = i;
     const double limit = ratio * (1 + 1e-9);
     std::vector<std::size_t> longer;
+    const auto sort_out = [](std::vector<std::size_t>& places) {
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+    };
     while (!active.empty()) {
         longer.clear();
         const auto compare = [&](std::size_t i, std::size_t j) {
@@ -253,15 +297,17 @@ void balance(std::span<const Edge> edges, double ratio, std::vector<Division>& d
             compare(edges[i].previous, i);
             compare(i, edges[i].next);
         }
-        std::sort(longer.begin(), longer.end());
-        longer.erase(std::unique(longer.begin(), longer.end()), longer.end());
+        sort_out(longer);
         std::erase_if(longer,
                       [&](std::size_t i) { return divisions[i].pieces >= most_refined * divisions[i].least_pieces; });
+        active.clear();
         for (std::size_t i : longer) {
             ++divisions[i].pieces;
-            ends[i] = divisions[i].ends(edges[i].length);
+            measure(i);
+            active.insert(active.end(), {edges[i].previous, i, edges[i].next});
         }
-        std::swap(active, longer);
+        sort_out(active);
+        for (std::size_t i : active) tilt(i);
     }
 }
 
@@ -321,14 +367,15 @@ std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::
                                                            std::span<const std::vector<Point>> walls,
                                                            const GradingOptions& options) {
     const std::vector<Edge> edges = edges_of(borders);
-    // Pieces of one edge grow by a factor of about exp(size_slack x gradation): never by more than the ratio.
-    const double gradation = std::min(options.gradation, (1 - 1 / options.ratio) / size_slack);
+    // The slack included, lengths grow by no more than the gradation asked for; and pieces of one edge, which grow by a
+    // factor of about exp(size_slack x gradation), by no more than the ratio.
+    const double gradation = std::min(options.gradation, 1 - 1 / options.ratio) / size_slack;
     const TargetLength target(edges, gradation, options.longest / size_slack);
     std::vector<Division> divisions(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         Division& division = divisions[i];
-        division.intervals = target.along(i);
-        for (const auto& [length, size] : division.intervals) division.total += length / size;
+        division.field = target.along(i);
+        division.tilt(1, 1);
         division.least_pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(division.total / size_slack)));
         division.pieces = division.least_pieces;
     }

@@ -64,7 +64,7 @@ DecouplingOptions decoupling_options(const Pslg& pslg, const CaseOptions& option
 /// The layer with an outer border fit to be frozen for refinement to the angle and sizes asked for.
 LayerOptions layer_options(const CaseOptions& options) {
     LayerOptions layer = options.layer;
-    layer.border_gradation = options.gradation;
+    layer.border_gradation = frozen_share * options.gradation;
     layer.longest_border_edge =
         frozen_share * std::min(options.wall_size.value_or(HUGE_VAL), options.far_size.value_or(HUGE_VAL));
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
@@ -73,15 +73,33 @@ LayerOptions layer_options(const CaseOptions& options) {
     return layer;
 }
 
-/// The edges of the layers' outer borders ask for the size of which they are a fit share, or all for `wall_size`.
+/// The size that each edge of a closed border asks for: that of which it is a fit share, or more beside a longer edge,
+/// so that no edge is too long for the field that its neighbours make: the largest of (size - gradation x distance
+/// along the border). A graded border makes that a little more at most (LayerOptions::border_gradation).
+std::vector<double> border_sizes(std::span<const double> lengths, double gradation) {
+    std::vector<double> sizes;
+    for (double l : lengths) sizes.push_back(l / frozen_share);
+    const std::size_t n = lengths.size();
+    const auto spread = [&](std::size_t from, std::size_t to) {
+        sizes[to] = std::max(sizes[to], sizes[from] - gradation * 0.5 * (lengths[from] + lengths[to]));
+    };
+    // Twice round in both directions: what the first round brings to the loop's start goes on in the second.
+    for (std::size_t i = 0; i < 2 * n; ++i) spread(i % n, (i + 1) % n);
+    for (std::size_t i = 2 * n; i > 0; --i) spread(i % n, (i - 1) % n);
+    return sizes;
+}
+
+/// The edges of the layers' outer borders ask for sizes, each for its own or all for `wall_size`.
 SizeField make_size_field(const Layer& layer, const CaseOptions& options, const DecouplingOptions& decoupling) {
     std::vector<SizeSource> sources;
-    for (const auto& border : layer.borders)
-        for (std::size_t i = 0; i < border.size(); ++i) {
-            const Point a = layer.points[border[i].index()];
-            const Point b = layer.points[border[i + 1 < border.size() ? i + 1 : 0].index()];
-            sources.push_back({a, b, options.wall_size.value_or(distance(a, b) / frozen_share)});
-        }
+    for (const auto& border : layer.borders) {
+        const auto point = [&](std::size_t i) { return layer.points[border[i < border.size() ? i : 0].index()]; };
+        std::vector<double> lengths;
+        for (std::size_t i = 0; i < border.size(); ++i) lengths.push_back(distance(point(i), point(i + 1)));
+        const std::vector<double> sizes = border_sizes(lengths, options.gradation);
+        for (std::size_t i = 0; i < border.size(); ++i)
+            sources.push_back({point(i), point(i + 1), options.wall_size.value_or(sizes[i])});
+    }
     const double half = decoupling.far_field * decoupling.chord;
     const Box domain{decoupling.center - Point{half, half}, decoupling.center + Point{half, half}};
     return SizeField(sources, {.gradation = options.gradation, .max_size = options.far_size.value_or(HUGE_VAL)},
