@@ -229,6 +229,20 @@ struct Division {
         return result;
     }
 
+    /// The largest ratio of the lengths of two pieces side by side.
+    double largest_ratio(double edge_length) const {
+        double largest = 1, from = 0, before = 0;
+        std::vector<double> to = cuts();
+        to.push_back(edge_length);
+        for (double at : to) {
+            const double piece = at - from;
+            if (before > 0) largest = std::max({largest, piece / before, before / piece});
+            before = piece;
+            from = at;
+        }
+        return largest;
+    }
+
     struct Ends {
         double first, last;
     };
@@ -263,6 +277,7 @@ double tilt_towards(double own, double beyond, bool divided) {
 /// Adds pieces where neighbours differ too much. All corners are judged by one state, then changed together: the
 /// result does not depend on where a border starts or which way it runs.
 void balance(std::span<const Edge> edges, double ratio, std::vector<Division>& divisions) {
+    const double limit = ratio * (1 + 1e-9);
     std::vector<Division::Ends> untilted(edges.size()), ends(edges.size());
     const auto measure = [&](std::size_t i) {
         divisions[i].tilt(1, 1);
@@ -271,9 +286,17 @@ void balance(std::span<const Edge> edges, double ratio, std::vector<Division>& d
     const auto tilt = [&](std::size_t i) {
         Division& division = divisions[i];
         const std::size_t before = edges[i].previous, after = edges[i].next;
-        if (division.pieces > 1)
-            division.tilt(tilt_towards(untilted[i].first, untilted[before].last, divisions[before].pieces > 1),
-                          tilt_towards(untilted[i].last, untilted[after].first, divisions[after].pieces > 1));
+        if (division.pieces > 1) {
+            double first = tilt_towards(untilted[i].first, untilted[before].last, divisions[before].pieces > 1);
+            double last = tilt_towards(untilted[i].last, untilted[after].first, divisions[after].pieces > 1);
+            division.tilt(first, last);
+            // No more than the pieces inside the edge can bear.
+            for (int tries = 0; tries < 4 && division.largest_ratio(edges[i].length) > limit; ++tries) {
+                first = tries < 3 ? std::sqrt(first) : 1;
+                last = tries < 3 ? std::sqrt(last) : 1;
+                division.tilt(first, last);
+            }
+        }
         ends[i] = division.ends(edges[i].length);
     };
     for (std::size_t i = 0; i < edges.size(); ++i) measure(i);
@@ -281,7 +304,6 @@ void balance(std::span<const Edge> edges, double ratio, std::vector<Division>& d
 
     std::vector<std::size_t> active(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) active[i] = i;
-    const double limit = ratio * (1 + 1e-9);
     std::vector<std::size_t> longer;
     const auto sort_out = [](std::vector<std::size_t>& places) {
         std::sort(places.begin(), places.end());

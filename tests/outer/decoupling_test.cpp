@@ -132,7 +132,9 @@ TEST(Separators, EquidistributedSegmentsFollowTheField) {
         const double h = size(midpoint(points[i], points[i + 1])), l = distance(points[i], points[i + 1]);
         EXPECT_LT(l, 0.85 * h);
         EXPECT_GT(l, 0.6 * h);
-        if (i > 0) EXPECT_LT(l / distance(points[i - 1], points[i]), 1.25);
+        if (i > 0) {
+            EXPECT_LT(l / distance(points[i - 1], points[i]), 1.25);
+        }
     }
     auto back = outer::separate(v, u, size, SeparatorRule::equidistributed);
     std::reverse(back.begin(), back.end());
