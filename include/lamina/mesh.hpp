@@ -52,7 +52,10 @@ struct QualitySummary {
     double min_angle_deg = 0;
     double max_angle_deg = 0;
     double mean_min_angle_deg = 0;
-    std::size_t angles_below_bound = 0;             ///< triangles whose smallest angle is under the bound asked about
+    std::size_t angles_below_bound = 0;  ///< cells whose smallest angle is under the bound asked about
+    /// Of those, isotropic ones that no refinement could mend: at a corner below 60 degrees between two frozen edges
+    /// (boundary, layer, another piece, constraints), as far as the mesh tells them.
+    std::size_t exempt = 0;
     double max_neighbour_area_ratio = 0;            ///< over edges between two isotropic cells; 0 for the layer
     double p999_neighbour_area_ratio = 0;           ///< 99.9th percentile
     double max_aspect_ratio = 0;                    ///< longest edge over the height on it

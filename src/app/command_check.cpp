@@ -100,6 +100,17 @@ std::string check_summary(const std::string& file, const Mesh& mesh, const MeshC
     return text + quality_summary(check);
 }
 
+/// Corners below 60 degrees between frozen edges are excused, as long as they are few.
+void require_angles(const QualitySummary& isotropic, double min_angle_deg, Shortcomings& shortcomings) {
+    constexpr double largest_exempt_share = 0.001;
+    if (const std::size_t narrow = isotropic.angles_below_bound - isotropic.exempt; narrow > 0)
+        shortcomings.push_back(fmt::format("{} triangles have an angle below {} degrees", narrow, min_angle_deg));
+    if (static_cast<double>(isotropic.exempt) > largest_exempt_share * static_cast<double>(isotropic.cells))
+        shortcomings.push_back(
+            fmt::format("{} of {} triangles have an angle below {} degrees at a sharp corner of frozen edges",
+                        isotropic.exempt, isotropic.cells, min_angle_deg));
+}
+
 void check(const CheckArguments& arguments) {
     MeshCheckOptions options;
     if (!arguments.min_angle.empty()) {
@@ -119,10 +130,7 @@ void check(const CheckArguments& arguments) {
     if (arguments.require_delaunay && result.delaunay_violations > 0) {
         shortcomings.push_back(fmt::format("{} edges are not Delaunay", result.delaunay_violations));
     }
-    if (!arguments.min_angle.empty() && result.isotropic.angles_below_bound > 0) {
-        shortcomings.push_back(fmt::format("{} triangles have an angle below {} degrees",
-                                           result.isotropic.angles_below_bound, options.min_angle_deg));
-    }
+    if (!arguments.min_angle.empty()) require_angles(result.isotropic, options.min_angle_deg, shortcomings);
 
     fmt::print("{}", arguments.json ? to_text(check_report(mesh, result, shortcomings))
                                     : check_summary(arguments.mesh, mesh, result, shortcomings));

@@ -21,7 +21,6 @@
 #include "app/options.hpp"
 #include "app/report.hpp"
 #include "core/atomic_file.hpp"
-#include "io/formats.hpp"
 
 namespace lamina::app {
 
@@ -71,7 +70,7 @@ Progress progress_printer(const MeshCase& mesh_case) {
 void require_outputs(const MeshCase& mesh_case) {
     if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
     for (const std::string& output : mesh_case.outputs) check_writable(output, mesh_case.format);
-    if (!mesh_case.report.empty()) detail::check_folder_writable(mesh_case.report);
+    if (!mesh_case.report.empty()) check_folder_writable(mesh_case.report);
 }
 
 void mesh(const MeshCase& mesh_case) {

@@ -65,6 +65,7 @@ Json quality_report(const MeshCheck& check) {
               {"mean_min_angle_deg", isotropic.mean_min_angle_deg},
               {"max_angle_deg", isotropic.max_angle_deg},
               {"angles_below_bound", isotropic.angles_below_bound},
+              {"exempt", isotropic.exempt},
               {"max_neighbour_area_ratio", isotropic.max_neighbour_area_ratio},
               {"p999_neighbour_area_ratio", isotropic.p999_neighbour_area_ratio},
               {"angle_histogram", isotropic.angle_histogram}}},
@@ -78,7 +79,6 @@ Json quality_report(const MeshCheck& check) {
 Json mesh_report(const MeshResult& result, double write_seconds) {
     Json quality = quality_report(result.check);
     quality["layer"]["incomplete_rays"] = result.incomplete_rays;
-    quality["isotropic"]["exempt"] = result.refinement.exempt;
     quality["isotropic"]["oversized"] = result.refinement.oversized;
     quality["isotropic"]["refused_points"] = result.refinement.refused;
     return {{"version", LAMINA_VERSION},
@@ -107,10 +107,10 @@ std::string quality_summary(const MeshCheck& check) {
     std::string text;
     if (check.isotropic.cells > 0) {
         text += fmt::format(
-            "  isotropic {} cells, angles {:.2f} to {:.2f} deg, mean smallest {:.2f} deg, {} below bound, "
+            "  isotropic {} cells, angles {:.2f} to {:.2f} deg, mean smallest {:.2f} deg, {} below bound ({} exempt), "
             "neighbour areas within {:.2f}\n",
             check.isotropic.cells, check.isotropic.min_angle_deg, check.isotropic.max_angle_deg,
-            check.isotropic.mean_min_angle_deg, check.isotropic.angles_below_bound,
+            check.isotropic.mean_min_angle_deg, check.isotropic.angles_below_bound, check.isotropic.exempt,
             check.isotropic.max_neighbour_area_ratio);
     }
     if (check.layer.cells > 0) {

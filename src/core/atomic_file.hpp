@@ -8,6 +8,9 @@
 
 namespace lamina {
 
+/// Throws IoError unless a file can be created in its folder and the name is not that of a folder.
+void check_folder_writable(const std::filesystem::path& file);
+
 /// Lets `write` fill a temporary file beside `target`, then renames it to `target`. On any failure the temporary is
 /// removed and IoError thrown; an existing target stays as it was. Binary mode, no newline translation.
 void write_atomically(const std::filesystem::path& target,

@@ -21,9 +21,6 @@ Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
 /// Lower case, with the dot.
 std::string extension_of(const std::filesystem::path& file);
 
-/// Throws IoError unless a file can be created in its folder and the name is not that of a folder.
-void check_folder_writable(const std::filesystem::path& file);
-
 /// Some programs write boundary edges either way round: turns those that no cell has in this direction, but one has
 /// in the other. Precondition: indices in range.
 void orient_markers(Mesh& mesh);

@@ -2,12 +2,9 @@
 #include <lamina/io.hpp>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 
 #include <lamina/error.hpp>
 
@@ -55,16 +52,6 @@ std::string extension_of(const fs::path& file) {
     return extension;
 }
 
-void check_folder_writable(const fs::path& file) {
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    std::error_code ignored;
-    if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot write: is a directory");
-    if (!fs::exists(folder, ignored)) throw IoError(file.string(), "cannot write: its folder does not exist");
-    if (!fs::is_directory(folder, ignored)) throw IoError(file.string(), "cannot write: its folder is a file");
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
-}
-
 void orient_markers(Mesh& mesh) {
     // Cells have far more edges than the boundary: look only at those with both ends on a marker.
     std::vector<bool> on_marker(mesh.points.size(), false);
@@ -92,7 +79,7 @@ void orient_markers(Mesh& mesh) {
 
 void write_mesh(const Mesh& mesh, const fs::path& file, const std::string& format) {
     const Format& found = format_of(file, format);
-    detail::check_folder_writable(file);
+    check_folder_writable(file);
     write_stream_atomically(file, [&](std::ostream& out) { found.write(mesh, file, out); });
 }
 
@@ -103,7 +90,7 @@ Mesh read_mesh(const fs::path& file) {
 
 void check_writable(const fs::path& file, const std::string& format) {
     format_of(file, format);
-    detail::check_folder_writable(file);
+    check_folder_writable(file);
 }
 
 }  // namespace lamina

@@ -369,7 +369,7 @@ void plot_mesh(const Mesh& mesh, const fs::path& file, const PlotOptions& option
         throw UsageError(fmt::format("picture of {} pixels: 1 to 32767 can be drawn", options.width_px));
     const PictureFormat& format = picture_format_of(file);
     const View view = make_view(mesh, options);
-    detail::check_folder_writable(file);
+    check_folder_writable(file);
     write_stream_atomically(file, [&](std::ostream& out) {
         const Surface surface = format.make(out, view);
         draw(surface.get(), mesh, view, options.color);

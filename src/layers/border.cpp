@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "layers/box_tree.hpp"
+#include "core/box_tree.hpp"
 #include "layers/segments.hpp"
 
 namespace lamina {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "layers/box_tree.hpp"
+#include "core/box_tree.hpp"
 #include "layers/front.hpp"
 #include "layers/segments.hpp"
 

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "layers/box_tree.hpp"
+#include "core/box_tree.hpp"
 #include "layers/front.hpp"
 #include "layers/segments.hpp"
 

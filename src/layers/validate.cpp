@@ -8,7 +8,7 @@
 #include <lamina/layers.hpp>
 
 #include "core/reproducible_math.hpp"
-#include "layers/box_tree.hpp"
+#include "core/box_tree.hpp"
 #include "layers/segments.hpp"
 
 namespace lamina {

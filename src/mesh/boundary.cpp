@@ -9,7 +9,7 @@
 
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
-#include "layers/box_tree.hpp"
+#include "core/box_tree.hpp"
 
 namespace lamina::detail {
 

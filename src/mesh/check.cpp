@@ -106,6 +106,7 @@ void check_arrays(const Mesh& mesh, DefectList& defects) {
 struct CellsSummary {
     double area = 0;
     QualityCollector layer, isotropic;
+    std::vector<std::uint32_t> narrow;  ///< isotropic cells with an angle below the bound
     DefectList defects;
 
     explicit CellsSummary(double bound = 0) : layer(bound), isotropic(bound) {}
@@ -113,6 +114,7 @@ struct CellsSummary {
         area += part.area;
         layer.append(part.layer);
         isotropic.append(part.isotropic);
+        narrow.insert(narrow.end(), part.narrow.begin(), part.narrow.end());
         defects.append(std::move(part.defects));
     }
 };
@@ -145,7 +147,10 @@ CellsSummary check_cells(const Mesh& mesh, std::size_t begin, std::size_t end, c
         const CellShape shape =
             corners == 3 ? detail::measure_triangle(p[0], p[1], p[2]) : detail::measure_quad(p[0], p[1], p[2], p[3]);
         summary.area += shape.area;
-        (is_isotropic(mesh, cell) ? summary.isotropic : summary.layer).add(shape);
+        const bool isotropic = is_isotropic(mesh, cell);
+        (isotropic ? summary.isotropic : summary.layer).add(shape);
+        if (isotropic && shape.min_angle_deg < options.min_angle_deg)
+            summary.narrow.push_back(static_cast<std::uint32_t>(cell));
     }
     return summary;
 }
@@ -204,13 +209,19 @@ EdgesSummary check_edges(const Mesh& mesh, const Adjacency& adjacency, std::size
     return summary;
 }
 
-/// Takes constraints between isotropic triangles out of the count again: they are few.
-void exempt_constraints(const Mesh& mesh, const Adjacency& adjacency, EdgesSummary& summary, DefectList& defects) {
+/// Each with its smaller vertex first, sorted, once.
+std::vector<Segment> sorted_constraints(const Mesh& mesh) {
     std::vector<Segment> constraints = mesh.constraints;
     for (Segment& edge : constraints)
         if (edge.b < edge.a) std::swap(edge.a, edge.b);
     std::sort(constraints.begin(), constraints.end());
     constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+    return constraints;
+}
+
+/// Takes constraints between isotropic triangles out of the count again: they are few.
+void exempt_constraints(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
+                        EdgesSummary& summary, DefectList& defects) {
     const CellEdges edges(mesh);
     for (const Segment& constraint : constraints) {
         const std::uint32_t found = adjacency.find(constraint.a, constraint.b);
@@ -228,6 +239,79 @@ void exempt_constraints(const Mesh& mesh, const Adjacency& adjacency, EdgesSumma
         --summary.interior_edges;
         summary.delaunay_violations -= violates_delaunay(mesh, edge, twin);
     }
+}
+
+// --- Angles below the bound that no refinement could mend.
+
+/// The two frozen edges between which a corner of an isotropic cell lies, as far as the mesh tells.
+class FrozenCorners {
+public:
+    FrozenCorners(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints)
+        : mesh_(mesh), edges_(mesh), adjacency_(adjacency), constraints_(constraints) {}
+
+    /// Does a corner of the cell lie between two frozen edges that enclose less than 60 degrees?
+    bool excuse(std::size_t cell) const {
+        for (std::size_t i = 0; i < edges_.corners(cell); ++i)
+            if (is_sharp(edges_.first(cell) + i)) return true;
+        return false;
+    }
+
+private:
+    const Mesh& mesh_;
+    CellEdges edges_;
+    const Adjacency& adjacency_;
+    const std::vector<Segment>& constraints_;
+
+    std::size_t next(std::size_t edge) const { return turned(edge, 1); }
+    std::size_t previous(std::size_t edge) const { return turned(edge, edges_.corners(edges_.cell_of(edge)) - 1); }
+    std::size_t turned(std::size_t edge, std::size_t steps) const {
+        const std::size_t cell = edges_.cell_of(edge), first = edges_.first(cell);
+        return first + (edge - first + steps) % edges_.corners(cell);
+    }
+
+    /// Of an edge of an isotropic cell: on the boundary, on the layer or another piece, or a constraint.
+    bool is_frozen(std::size_t edge) const {
+        const std::uint32_t twin = adjacency_.twin[edge];
+        if (twin == detail::no_edge) return true;
+        const std::size_t cell = edges_.cell_of(edge), other = edges_.cell_of(twin);
+        if (!is_isotropic(mesh_, other)) return true;
+        if (!mesh_.piece.empty() && mesh_.piece[cell] != mesh_.piece[other]) return true;
+        const auto [low, high] = std::minmax(edges_.origin(edge), edges_.target(edge));
+        return std::binary_search(constraints_.begin(), constraints_.end(), Segment{low, high});
+    }
+
+    /// Cells round the origin of `edge` are walked until both ways end at a frozen edge.
+    ///
+    ///      b   .          edge: from v, the cell on its left; to a and b go the frozen edges
+    ///       \ .  cell
+    ///        v-----> edge
+    ///         \  .
+    ///          a
+    bool is_sharp(std::size_t edge) const {
+        std::size_t right = edge;  // leaves v
+        while (!is_frozen(right)) {
+            right = next(adjacency_.twin[right]);
+            if (right == edge) return false;  // nothing is frozen round v
+        }
+        std::size_t left = previous(edge);  // arrives at v
+        while (!is_frozen(left)) left = previous(adjacency_.twin[left]);
+        const Point v = mesh_.points[edges_.origin(edge).index()];
+        const Point a = mesh_.points[edges_.target(right).index()] - v;
+        const Point b = mesh_.points[edges_.origin(left).index()] - v;
+        const double d = dot(a, b);
+        return cross(a, b) > 0 && d > 0 && 4 * d * d > squared_length(a) * squared_length(b);
+    }
+};
+
+std::size_t count_exempt(const FrozenCorners& corners, const std::vector<std::uint32_t>& narrow) {
+    std::size_t exempt = 0;
+    const auto count = [&](std::size_t begin, std::size_t end) {
+        return std::count_if(narrow.begin() + static_cast<std::ptrdiff_t>(begin),
+                             narrow.begin() + static_cast<std::ptrdiff_t>(end),
+                             [&](std::uint32_t cell) { return corners.excuse(cell); });
+    };
+    for (const auto part : parallel_blocks(narrow.size(), grain, count)) exempt += static_cast<std::size_t>(part);
+    return exempt;
 }
 
 // --- Topology and markers.
@@ -333,11 +417,13 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
         all_edges.delaunay_violations += part.delaunay_violations;
         all_cells.isotropic.append(part.isotropic);
     }
-    exempt_constraints(mesh, adjacency, all_edges, defects);
+    const std::vector<Segment> constraints = sorted_constraints(mesh);
+    exempt_constraints(mesh, adjacency, constraints, all_edges, defects);
     check.interior_edges = all_edges.interior_edges;
     check.delaunay_violations = all_edges.delaunay_violations;
     check.layer = all_cells.layer.summary();
     check.isotropic = all_cells.isotropic.summary();
+    check.isotropic.exempt = count_exempt({mesh, adjacency, constraints}, all_cells.narrow);
 
     const std::vector<Segment> edges = boundary_edges(mesh, adjacency);
     check_markers(mesh, edges, defects);
