@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Makes the pictures of the documentation, docs/images/*.png, with the program itself.
+#   tools/pictures.sh [PROGRAM]     the program is build/release/src/app/lamina unless given
+# Needs the Debian package pngquant, which makes the pictures a fifth as large.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
+lamina=$(readlink -f "${1:-build/release/src/app/lamina}")
+images=docs/images
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir -p "$images"
+
+# mesh NAME INPUT [options]: the layer of the README's example, over a far field of 50 chords.
+mesh() {
+    local name=$1
+    shift
+    "$lamina" mesh "$@" --first-height 2.5e-5 --growth 1.15 --layers 30 --max-ray-angle 4 --far-field 50 --quiet \
+        -o "$scratch/$name.vtu"
+}
+
+# picture NAME MESH WINDOW [options]
+picture() {
+    local name=$1 mesh=$2 window=$3
+    shift 3
+    "$lamina" plot "$scratch/$mesh.vtu" -o "$scratch/$name.png" --window "$window" --width 1000 "$@"
+    pngquant --force --speed 1 --nofs -o "$images/$name.png" 16 "$scratch/$name.png"
+    echo "$images/$name.png"
+}
+
+mesh sharp naca:0012
+mesh blunt naca:0012:200:blunt
+mesh pieces naca:0012 --pieces-target 1000
+mesh k-rule naca:0012 --pieces-target 1000 --separators k-rule
+
+picture airfoil sharp -0.3,1.3,-0.55,0.55
+picture leading-edge sharp -0.02,0.06,-0.03,0.03
+picture nose-size sharp -0.06,0.18,-0.09,0.09 --color size
+picture trailing-edge sharp 0.96,1.04,-0.03,0.03
+picture trailing-edge-tip sharp 0.9992,1.0008,-0.0006,0.0006
+picture blunt-trailing-edge blunt 0.995,1.007,-0.0045,0.0045
+picture hand-over sharp 0.30,0.54,0.04,0.22
+picture quality sharp -0.6,1.6,-0.75,0.75 --color quality
+picture pieces-near pieces -0.8,1.8,-0.9,0.9 --color piece
+picture pieces-rings pieces -12,13,-9,9 --color piece
+picture separators-equidistributed pieces -1.3,0.3,0.1,1.3
+picture separators-k-rule k-rule -1.3,0.3,0.1,1.3
