@@ -1,7 +1,7 @@
 // N. Amenta, S. Choi, G. Rote, Incremental constructions con BRIO, SoCG 2003: random rounds keep cavities small on any
 // input, a space-filling curve inside each round keeps the walk from point to point short.
-// Hilbert keys by the four-state table of the curve, two bits a step; keys sorted by a least-significant-digit radix
-// sort.
+// Hilbert keys by the four-state table of the curve, four bits of each coordinate a step; all points are sorted along
+// the curve at once by a least-significant-digit radix sort, then dealt to their rounds.
 #include "kernel/insertion_order.hpp"
 
 #include <algorithm>
@@ -13,25 +13,37 @@ namespace lamina::kernel {
 namespace {
 
 constexpr unsigned hilbert_bits = 20;  // per axis: layer points stand 1e-6 of the extent apart
-constexpr unsigned max_round = 15;
-
-struct Keyed {
-    std::uint64_t key;
-    Index point;
-};
+constexpr unsigned rounds = 16;
 
 // State = orientation of the curve in the current square; quadrant = 2 x-bit + y-bit.
 //   state 0: visits (0,0) (0,1) (1,1) (1,0); 1: transposed; 2: transposed in the other diagonal; 3: turned by 180
 constexpr std::uint8_t curve_position[4][4] = {{0, 1, 3, 2}, {0, 3, 1, 2}, {2, 1, 3, 0}, {2, 3, 1, 0}};
 constexpr std::uint8_t next_state[4][4] = {{1, 0, 2, 0}, {0, 3, 1, 1}, {2, 2, 0, 3}, {3, 1, 3, 2}};
 
+// Four steps at once: [state << 8 | four bits of x << 4 | four bits of y] is position << 2 | state afterwards.
+constexpr unsigned table_bits = 4;
+constexpr auto curve_table = [] {
+    std::array<std::uint16_t, 4 << (2 * table_bits)> table{};
+    for (unsigned i = 0; i < table.size(); ++i) {
+        unsigned state = i >> (2 * table_bits), position = 0;
+        for (unsigned bit = table_bits; bit-- > 0;) {
+            const unsigned quadrant = (i >> (table_bits + bit) & 1u) << 1 | (i >> bit & 1u);
+            position = position << 2 | curve_position[state][quadrant];
+            state = next_state[state][quadrant];
+        }
+        table[i] = static_cast<std::uint16_t>(position << 2 | state);
+    }
+    return table;
+}();
+
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
+    static_assert(hilbert_bits % table_bits == 0);
     std::uint64_t key = 0;
     unsigned state = 0;
-    for (int bit = hilbert_bits - 1; bit >= 0; --bit) {
-        const unsigned quadrant = ((x >> bit) & 1u) << 1 | ((y >> bit) & 1u);
-        key = key << 2 | curve_position[state][quadrant];
-        state = next_state[state][quadrant];
+    for (int bit = hilbert_bits - table_bits; bit >= 0; bit -= table_bits) {
+        const unsigned entry = curve_table[state << 8 | (x >> bit & 15u) << 4 | (y >> bit & 15u)];
+        key = key << 8 | entry >> 2;
+        state = entry & 3u;
     }
     return key;
 }
@@ -44,48 +56,54 @@ std::uint64_t scramble(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
-// Round counted from the last: three quarters of all points are in round 0, three sixteenths in round 1, ...
-unsigned round_from_last(Index point) {
-    return std::min(static_cast<unsigned>(std::countr_zero(scramble(point) | 1ull << 63)) / 2, max_round);
+// Three quarters of all points are in the last round, three sixteenths in the one before, ...
+unsigned round_of(Index point) {
+    return rounds - 1 - static_cast<unsigned>(std::countr_zero(scramble(point) | 1ull << 2 * (rounds - 1))) / 2;
 }
 
-void radix_sort(std::vector<Keyed>& items, unsigned key_bits) {
+void radix_sort(std::vector<std::uint64_t>& items, unsigned first_bit) {
     constexpr unsigned digit_bits = 11;
     constexpr std::size_t digits = std::size_t{1} << digit_bits;
-    std::vector<Keyed> other(items.size());
-    for (unsigned shift = 0; shift < key_bits; shift += digit_bits) {
-        std::array<std::size_t, digits + 1> start{};
-        for (const Keyed& k : items) ++start[(k.key >> shift & (digits - 1)) + 1];
+    std::vector<std::uint64_t> other(items.size());
+    for (unsigned shift = first_bit; shift < 64; shift += digit_bits) {
+        std::array<std::uint32_t, digits + 1> start{};
+        for (const std::uint64_t k : items) ++start[(k >> shift & (digits - 1)) + 1];
         for (std::size_t d = 1; d < digits; ++d) start[d] += start[d - 1];
-        for (const Keyed& k : items) other[start[k.key >> shift & (digits - 1)]++] = k;
+        for (const std::uint64_t k : items) other[start[k >> shift & (digits - 1)]++] = k;
         items.swap(other);
     }
 }
 
 }  // namespace
 
-std::vector<Index> insertion_order(std::span<const Point> points) {
-    Box box;
-    for (Point p : points) box.include(p);
+std::vector<Index> insertion_order(std::span<const Point> points, const Box& box) {
     const double extent = std::max(box.width(), box.height());
     const double scale = extent > 0 ? ((1u << hilbert_bits) - 1) / extent : 0.0;
 
-    std::vector<Keyed> items(points.size());
-    for (Index i = 0; i < items.size(); ++i) {
+    // The key above, the index below; more than 2^24 points leave less of the key.
+    const auto index_bits = static_cast<unsigned>(std::bit_width(points.size()));
+    const unsigned key_bits = std::min(2 * hilbert_bits, 64 - index_bits);
+    std::vector<std::uint64_t> items(points.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
         const auto x = static_cast<std::uint32_t>((points[i].x - box.lower.x) * scale);
         const auto y = static_cast<std::uint32_t>((points[i].y - box.lower.y) * scale);
-        const std::uint64_t round = max_round - round_from_last(i);
-        items[i] = {round << (2 * hilbert_bits) | hilbert_key(x, y), i};
+        items[i] = hilbert_key(x, y) >> (2 * hilbert_bits - key_bits) << (64 - key_bits) | i;
     }
-    const auto less = [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.point < b.point; };
     constexpr std::size_t radix_pays = 2000;
     if (items.size() < radix_pays)
-        std::sort(items.begin(), items.end(), less);
+        std::sort(items.begin(), items.end());
     else
-        radix_sort(items, 2 * hilbert_bits + 4);
+        radix_sort(items, 64 - key_bits);
 
+    const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
+    std::array<std::size_t, rounds + 1> start{};
+    for (std::size_t i = 0; i < items.size(); ++i) ++start[round_of(static_cast<Index>(i)) + 1];
+    for (unsigned r = 1; r < rounds; ++r) start[r] += start[r - 1];
     std::vector<Index> order(items.size());
-    std::transform(items.begin(), items.end(), order.begin(), [](const Keyed& k) { return k.point; });
+    for (const std::uint64_t item : items) {
+        const auto point = static_cast<Index>(item & index_mask);
+        order[start[round_of(point)]++] = point;
+    }
     return order;
 }
 

@@ -1,6 +1,9 @@
 // Plain Delaunay triangulation by cavity insertion in biased randomised order.
 // Sources: N. Amenta, S. Choi, G. Rote, SoCG 2003 (order); A. Bowyer, D. F. Watson, The Computer Journal 24 (1981)
 // (cavities); the tie rule makes every intermediate triangulation the unique one of its points (docs/decisions/0001).
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,9 +19,23 @@ namespace lamina::kernel {
 
 namespace {
 
-[[noreturn]] void fail_duplicate(Index a, Index b, Point p) {
-    throw InputError({.file = {}, .line = 0, .at = p},
+[[noreturn]] void fail_duplicate(std::span<const Point> points, Index a, Index b) {
+    throw InputError({.file = {}, .line = 0, .at = points[a]},
                      fmt::format("points {} and {} are the same", std::min(a, b), std::max(a, b)));
+}
+
+/// The box of points that are all in the exact range.
+Box checked_box(std::span<const Point> points) {
+    Box box;
+    bool in_range = true;
+    for (const Point p : points) {
+        box.include(p);
+        in_range &= in_exact_range(p);
+    }
+    if (in_range) return box;
+    const auto bad = std::find_if_not(points.begin(), points.end(), [](Point p) { return in_exact_range(p); });
+    throw InputError({.file = {}, .line = 0, .at = *bad},
+                     fmt::format("point {} is outside the range of exact arithmetic", bad - points.begin()));
 }
 
 /// Three points of the order that are not on one line, moved to its front. False if there are none.
@@ -32,6 +49,25 @@ bool bring_triangle_to_front(std::span<const Point> points, std::vector<Index>& 
     return false;
 }
 
+void refuse_duplicates_on_line(std::span<const Point> points, std::vector<Index> order) {
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        return points[a] == points[b] ? a < b : lexicographically_less(points[a], points[b]);
+    });
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (points[order[i - 1]] == points[order[i]]) fail_duplicate(points, order[i - 1], order[i]);
+}
+
+/// Vertices are numbered from 1 in the order of insertion while the triangulation grows, so that what is near in the
+/// plane is near in memory; number 0 is the ghost.
+std::vector<Point> vertices_in_order(std::span<const Point> points, const std::vector<Index>& order) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Point> vertices;
+    vertices.reserve(order.size() + 1);
+    vertices.push_back({nan, nan});
+    for (const Index i : order) vertices.push_back(points[i]);
+    return vertices;
+}
+
 /// One triangle and its three ghosts:
 ///
 ///      ghost 2 \    / ghost 1       real edge of the ghost across edge e: v[e+2] -> v[e+1],
@@ -39,81 +75,105 @@ bool bring_triangle_to_front(std::span<const Point> points, std::vector<Index>& 
 ///              /    \.
 ///         v[1] ------ v[2]
 ///             ghost 0
-Tris first_triangle(std::span<const Point> points, Index a, Index b, Index c) {
-    if (orient2d(points[a], points[b], points[c]) < 0) std::swap(b, c);
-    Tris tris(4);
-    const Index v[3] = {a, b, c};
+void add_first_triangle(const Point* points, Tris& tris) {
+    Index v[3] = {1, 2, 3};
+    if (orient2d(points[1], points[2], points[3]) < 0) std::swap(v[1], v[2]);
+    tris.resize(4);
     for (unsigned e = 0; e < 3; ++e) {
         tris[0].v[e] = v[e];
-        Tri& ghost = tris[1 + e];
-        ghost.v[0] = v[previous(e)];
-        ghost.v[1] = v[next(e)];
-        ghost.v[2] = ghost_vertex;
+        Tri& outside = tris[1 + e];
+        outside.v[0] = v[previous(e)];
+        outside.v[1] = v[next(e)];
+        outside.v[2] = ghost;
         connect(tris, 0, e, Link(1 + e, 2));
     }
     for (unsigned e = 0; e < 3; ++e) {
         // Ghost edge 0 runs v[e+1] -> infinity; its neighbour is the ghost across edge e + 2, which starts there.
         connect(tris, 1 + e, 0, Link(1 + previous(e), 1));
     }
-    return tris;
+}
+
+/// Is p strictly on the right of edge e of t? a and b are its ends relative to p.
+inline bool right_of(const Point* points, const Tri& t, unsigned e, Point a, Point b, Point p) {
+    const double left = a.x * b.y, right = a.y * b.x;
+    const double area2 = left - right;
+    if (std::abs(area2) > detail::orient2d_bound * (std::abs(left) + std::abs(right))) return area2 < 0;
+    return detail::orient2d_after_filter(points[t.v[next(e)]], points[t.v[previous(e)]], p) < 0;
 }
 
 /// A triangle in conflict with p, found by walking from `start` (no ghost) towards p; or the triangle of which p is a
 /// vertex. The walk ends because the triangulation is Delaunay.
-Index locate(const Point* points, const Tris& tris, Index start, Point p) {
-    Index t = start;
-    unsigned entered = 3;
+Index locate(const Point* points, const Tri* tris, Index start, Point p) {
+    unsigned e = 0;
+    Point a, b;
+    for (;; ++e) {
+        if (e == 3) return start;
+        a = points[tris[start].v[next(e)]] - p;
+        b = points[tris[start].v[previous(e)]] - p;
+        if (right_of(points, tris[start], e, a, b, p)) break;
+    }
+    Link across = tris[start].n[e];
     for (;;) {
-        const Tri& tri = tris[t];
-        unsigned e = 0;
-        for (; e < 3; ++e) {
-            if (e == entered) continue;
-            if (detail::inline_orient2d(points[tri.v[next(e)]], points[tri.v[previous(e)]], p) < 0) break;
+        // Entered (b, a, w) through its edge k, p being on its side of a -> b:
+        //        a
+        //      / | \      p is on the right of a -> w: go on there; of w -> b: there; of neither: found
+        //     o  |  w
+        //      \ | /
+        //        b
+        const Tri& t = tris[across.triangle()];
+        const unsigned k = across.edge();
+        if (t.v[k] == ghost) return across.triangle();
+        const Point w = points[t.v[k]] - p;
+        if (right_of(points, t, next(k), a, w, p)) {
+            across = t.n[next(k)];
+            b = w;
+        } else if (right_of(points, t, previous(k), w, b, p)) {
+            across = t.n[previous(k)];
+            a = w;
+        } else {
+            return across.triangle();
         }
-        if (e == 3) return t;
-        const Link across = tri.n[e];
-        t = across.triangle();
-        entered = across.edge();
-        if (tris[t].is_ghost()) return t;
+    }
+}
+
+/// Inserts the vertices from number 4 on.
+void insert_vertices(std::span<const Point> vertices, std::span<const Point> points, const std::vector<Index>& order,
+                     Tris& tris) {
+    Cavity cavity;
+    Index recent = 0;
+    for (Index vertex = 4; vertex < vertices.size(); ++vertex) {
+        const Point p = vertices[vertex];
+        const Index start = locate(vertices.data(), tris.data(), recent, p);
+        const SeenTriangle seen = see(vertices.data(), tris[start], p);
+        for (unsigned i = 0; i < 3; ++i)
+            if (seen.r[i] == Point{}) fail_duplicate(points, order[tris[start].v[i] - 1], order[vertex - 1]);
+        find_cavity<true>(vertices.data(), tris.data(), start, seen, p, cavity);
+        fill_cavity(tris, cavity, vertex);
+        // A real triangle of the fan: ghosts hold the ghost at 1 or 2.
+        for (std::size_t i = 0;; ++i) {
+            recent = cavity.triangles.data()[i];
+            if (tris[recent].v[1] != ghost && tris[recent].v[2] != ghost) break;
+        }
     }
 }
 
 }  // namespace
 
 Tris triangulate_points(std::span<const Point> points) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!in_exact_range(points[i]))
-            throw InputError({.file = {}, .line = 0, .at = points[i]},
-                             fmt::format("point {} is outside the range of exact arithmetic", i));
-    }
-    std::vector<Index> order = insertion_order(points);
+    std::vector<Index> order = insertion_order(points, checked_box(points));
     if (order.size() < 3 || !bring_triangle_to_front(points, order)) {
-        for (std::size_t i = 1; i < order.size(); ++i) {
-            // On a line the order along the curve brings equal points together only per round: compare all.
-            for (std::size_t j = 0; j < i; ++j)
-                if (points[order[i]] == points[order[j]]) fail_duplicate(order[i], order[j], points[order[i]]);
-        }
+        refuse_duplicates_on_line(points, std::move(order));
         return {};
     }
-
-    Tris tris = first_triangle(points, order[0], order[1], order[2]);
-    tris.reserve(2 * points.size() + 8);
-    Cavity cavity;
-    Index recent = 0;
-    for (std::size_t i = 3; i < order.size(); ++i) {
-        const Index vertex = order[i];
-        const Point p = points[vertex];
-        const Index start = locate(points.data(), tris, recent, p);
-        for (Index v : tris[start].v)
-            if (v != ghost_vertex && points[v] == p) fail_duplicate(v, vertex, p);
-        find_cavity<true>(points.data(), tris, start, p, cavity);
-        const std::size_t before = tris.size();
-        fill_cavity(tris, cavity, vertex);
-        for (std::size_t k = 0; k < cavity.rim.size(); ++k) {
-            recent = cavity.created(k, before);
-            if (!tris[recent].is_ghost()) break;
-        }
+    Tris tris;
+    tris.reserve(2 * points.size());
+    {
+        const std::vector<Point> vertices = vertices_in_order(points, order);
+        add_first_triangle(vertices.data(), tris);
+        insert_vertices(vertices, points, order, tris);
     }
+    for (Tri& t : tris)
+        for (Index& v : t.v) v = v == ghost ? ghost_vertex : order[v - 1];
     return tris;
 }
 
