@@ -1,0 +1,47 @@
+// The case files of examples/ as a reader of the documentation runs them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Runs a case file of examples/ and expects its mesh to be valid, Delaunay and within the angle bound.
+Json mesh_of_example(const std::string& name) {
+    const TemporaryFolder folder;
+    const ProgramRun mesh = run_lamina(
+        folder, {"mesh", std::string(LAMINA_SOURCE "/examples/") + name, "-o", "m.vtu", "--report", "r.json"});
+    EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+    if (mesh.exit_code != 0) return {};
+    const ProgramRun check = run_lamina(folder, {"check", "m.vtu", "--require-delaunay", "--min-angle", "20.7",
+                                                 "--wall", "airfoil", "--far", "farfield"});
+    EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+    return Json::parse(folder.read("r.json"));
+}
+
+TEST(Examples, TheCaseOfTheReadmeIsMeshed) {
+    const Json report = mesh_of_example("case.toml");
+    ASSERT_TRUE(report.is_object());
+    EXPECT_GT(report["triangles"].get<double>(), 10'000);
+    EXPECT_EQ(report["layer_cells"]["share"], 1);
+}
+
+TEST(Examples, Fig27OfTheThesisHasItsNumberOfTriangles) {
+    const Json report = mesh_of_example("thesis/fig27.toml");
+    ASSERT_TRUE(report.is_object());
+    constexpr double in_the_thesis = 451'091;
+    const auto triangles = report["triangles"].get<double>();
+    EXPECT_LT(std::abs(triangles - in_the_thesis), 0.05 * in_the_thesis) << triangles;
+    EXPECT_EQ(report["layer_cells"]["share"], 1);
+    EXPECT_EQ(report["quality"]["isotropic"]["oversized"], 0);
+    EXPECT_EQ(report["quality"]["isotropic"]["refused_points"], 0);
+}
+
+}  // namespace
+}  // namespace lamina::test
