@@ -48,6 +48,9 @@ struct RefineOptions {
     double min_angle_deg = 20.7;  ///< proved to terminate up to 20.7, measured up to 33
     /// The most points that may be added before giving up with MeshError.
     std::size_t max_points = 200'000'000;
+    /// Fill large, evenly sized parts with patches of equilateral lattice and refine only the seams between them. Same
+    /// guarantees; several times faster, and fewer triangles. Where it does not pay nothing changes.
+    bool lattice = true;
     /// How many triangles to reserve memory for; a guess never changes the result.
     std::size_t expected_triangles = 0;
 };

@@ -36,7 +36,14 @@ public:
     /// The same field, faster inside a box: evaluation starts at the smallest cell that holds it. Points outside get
     /// the same value as before, too.
     SizeField restricted_to(const Box& box) const;
+    /// Smallest and largest value inside a box. The search ends early, with the range so far, once high exceeds
+    /// `enough` x low.
+    struct Range {
+        double low, high;
+    };
+    Range range(const Box& box, double enough = HUGE_VAL) const;
     std::size_t cells() const;
+    bool is_uniform() const { return tree_ == nullptr; }
 
     static constexpr double relative_error = 0.05;
 

@@ -17,6 +17,7 @@
 
 #include "core/reproducible_math.hpp"
 #include "kernel/cavity.hpp"
+#include "kernel/lattice.hpp"
 #include "kernel/triangulator.hpp"
 
 namespace lamina {
@@ -29,27 +30,28 @@ namespace {
 constexpr double aimed_area = 0.9;
 constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4: area over squared edge
 
+/// A triangle that waits to be mended. Triangles are made with the new vertex first, so a slot that was reused since
+/// has another one: such entries are stale and dropped.
+struct Waiting {
+    Index triangle;
+    Index newest;  ///< its first vertex
+};
+
 /// Triangles that wait for their angle to be mended, by shortest edge: buckets of a factor 2^(1/4) in squared length.
-/// An entry is stale, and dropped at the pop, when the triangle in its slot no longer has the recorded key.
 class AngleQueue {
 public:
-    struct Entry {
-        Index triangle;
-        float key;  ///< squared length of the shortest edge
-    };
-
-    void push(Entry e) {
-        const std::size_t b = bucket(e.key);
-        buckets_[b].push_back(e);
+    void push(Waiting w, double squared_shortest) {
+        const std::size_t b = bucket(static_cast<float>(squared_shortest));
+        buckets_[b].push_back(w);
         occupied_[b / 64] |= std::uint64_t{1} << (b % 64);
     }
 
     /// The most recent entry of the lowest bucket; false where none is left.
-    bool pop(Entry& e) {
+    bool pop(Waiting& w) {
         for (std::size_t word = 0; word < occupied_.size(); ++word) {
             if (occupied_[word] == 0) continue;
             const std::size_t b = word * 64 + static_cast<std::size_t>(std::countr_zero(occupied_[word]));
-            e = buckets_[b].back();
+            w = buckets_[b].back();
             buckets_[b].pop_back();
             if (buckets_[b].empty()) occupied_[word] &= occupied_[word] - 1;
             return true;
@@ -61,9 +63,13 @@ private:
     static constexpr std::size_t bucket_count = 1024;  // 8 exponent bits, 2 bits of mantissa
     static std::size_t bucket(float key) { return std::bit_cast<std::uint32_t>(key) >> 21; }
 
-    std::array<std::vector<Entry>, bucket_count> buckets_;
+    std::array<std::vector<Waiting>, bucket_count> buckets_;
     std::array<std::uint64_t, bucket_count / 64> occupied_{};
 };
+
+[[noreturn]] void fail_too_many(std::size_t points) {
+    throw MeshError(fmt::format("refinement stopped after {} points: the size field is too fine", points));
+}
 
 class Refiner {
 public:
@@ -88,14 +94,15 @@ public:
     void run() {
         for (Index t = 0; t < tris_.size(); ++t) classify(t);
         for (;;) {
+            Waiting w;
             if (!oversized_.empty()) {
-                const Index t = oversized_.back();
+                w = oversized_.back();
                 oversized_.pop_back();
-                mend_size(t);
+                if (is_current(w)) mend_size(w.triangle);
+            } else if (narrow_.pop(w)) {
+                if (is_current(w)) mend_angle(w.triangle);
             } else {
-                AngleQueue::Entry e;
-                if (!narrow_.pop(e)) return;
-                mend_angle(e);
+                return;
             }
         }
     }
@@ -138,11 +145,14 @@ private:
     void classify(Index t) {
         const Shape s = shape_of(tris_[t]);
         const double shortest = s.squared[s.shortest()];
+        const Waiting w{t, tris_[t].v[0]};
         if (s.area2 > area2_bound(tris_[t]))
-            oversized_.push_back(t);
+            oversized_.push_back(w);
         else if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2))
-            narrow_.push({t, static_cast<float>(shortest)});
+            narrow_.push(w, shortest);
     }
+
+    bool is_current(Waiting w) const { return tris_[w.triangle].v[0] == w.newest; }
 
     /// Where a point on the perpendicular bisector of edge e stands, `reach` edge lengths inside from its middle, but
     /// never beyond the circumcentre. The segment from the middle to the circumcentre lies in the circumscribed circle.
@@ -162,25 +172,14 @@ private:
     void mend_size(Index t) {
         const Tri& tri = tris_[t];
         const Shape s = shape_of(tri);
-        const double bound = area2_bound(tri);
-        if (!(s.area2 > bound)) return;  // the slot was reused
         // Height of a triangle of the aimed area over the shortest edge, in lengths of that edge. An edge that is long
         // itself is no base for a front: the circumcentre serves.
         const unsigned e = s.shortest();
-        const double reach = aimed_area * bound / s.squared[e];
+        const double reach = aimed_area * area2_bound(tri) / s.squared[e];
         insert_near(t, e, reach > 0.5 ? reach : HUGE_VAL);
     }
 
-    void mend_angle(AngleQueue::Entry entry) {
-        const Tri& tri = tris_[entry.triangle];
-        const Shape s = shape_of(tri);
-        const unsigned e = s.shortest();
-        const double shortest = s.squared[e];
-        if (static_cast<float>(shortest) != entry.key ||
-            !is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2))
-            return;
-        insert_near(entry.triangle, e, off_centre_);
-    }
+    void mend_angle(Index t) { insert_near(t, shape_of(tris_[t]).shortest(), off_centre_); }
 
     /// Inserts a point on the bisector of edge e; where it would encroach upon the border, the circumcentre, which
     /// keeps the distance that the guarantee for frozen borders is about (docs/decisions/0003).
@@ -194,14 +193,11 @@ private:
     /// Inserts p, which lies in the circle of triangle t. False, and nothing changed, where p encroaches upon the
     /// border.
     bool insert(Index t, Point p) {
-        const Tri& tri = tris_[t];
-        if (!(detail::inline_incircle_perturbed(points_[tri.v[0]], points_[tri.v[1]], points_[tri.v[2]], p) > 0))
-            return false;
-        find_cavity<false>(points_.data(), tris_, t, p, cavity_);
+        const SeenTriangle seen = see(points_.data(), tris_[t], p);
+        if (!in_circle(tris_[t], seen, p)) return false;
+        find_cavity<false>(points_.data(), tris_.data(), t, seen, p, cavity_);
         if (!rim_is_free(p)) return false;
-        if (points_.size() - border_count_ >= options_.max_points)
-            throw MeshError(
-                fmt::format("refinement stopped after {} points: the size field is too fine", options_.max_points));
+        if (points_.size() - border_count_ >= options_.max_points) fail_too_many(options_.max_points);
         const Index vertex = static_cast<Index>(points_.size());
         points_.push_back(p);
         sizes_.push_back(size_(p));
@@ -209,6 +205,18 @@ private:
         fill_cavity(tris_, cavity_, vertex);
         classify_fan(vertex, before);
         return true;
+    }
+
+    /// Does p lie in the circle of t? Rounding may have moved it out.
+    bool in_circle(const Tri& t, const SeenTriangle& seen, Point p) const {
+        double det = 0, sum = 0;
+        for (unsigned i = 0; i < 3; ++i) {
+            const double rr = squared_length(seen.r[i]);
+            det += rr * seen.area2[i];
+            sum += rr;
+        }
+        // The error bound of find_cavity().
+        return det > 4e-16 * (sum * sum) || in_circle_after_filter<false>(points_.data(), t, p);
     }
 
     /// Every rim edge sees p on its inner side, and no border edge of the rim has p in its diametral circle.
@@ -235,16 +243,12 @@ private:
             const double sum = h + sizes_[a.a] + sizes_[b.a];
             const double ex = b.ax - a.ax, ey = b.ay - a.ay;
             const double ab = ex * ex + ey * ey;
+            const Waiting w{cavity_.created(i, before), vertex};
             if (a.area2 > (2 * equilateral_area / 9) * (sum * sum)) {
-                oversized_.push_back(cavity_.created(i, before));
+                oversized_.push_back(w);
             } else {
                 const double shortest = std::min(std::min(a.aa, b.aa), ab);
-                if (is_narrow(a.aa, b.aa, ab, shortest, a.area2)) {
-                    const Index t = cavity_.created(i, before);
-                    // The key must be the one a later look computes from the coordinates.
-                    const Shape s = shape_of(tris_[t]);
-                    narrow_.push({t, static_cast<float>(s.squared[s.shortest()])});
-                }
+                if (is_narrow(a.aa, b.aa, ab, shortest, a.area2)) narrow_.push(w, shortest);
             }
         }
     }
@@ -264,7 +268,7 @@ private:
     std::vector<double> sizes_;  ///< h at each point
     Tris tris_;
     double squared_sine_ = 0, off_centre_ = 0;
-    std::vector<Index> oversized_;
+    std::vector<Waiting> oversized_;
     AngleQueue narrow_;
     Cavity cavity_;
     std::size_t refused_ = 0;
@@ -311,11 +315,70 @@ RefineStats Refiner::count_leftovers() const {
 
 }  // namespace kernel
 
-Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
-                  const RefineOptions& options) {
+namespace {
+
+Refinement refine_all(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
+                      const RefineOptions& options) {
     kernel::Refiner refiner(points, segments, size, options);
     refiner.run();
     return refiner.result();
+}
+
+/// Refines the seam between border and patches, the rims of the patches being frozen like the border, and joins both.
+Refinement refine_seam(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
+                       const RefineOptions& options, kernel::LatticePatches patches) {
+    if (patches.points.size() > options.max_points) kernel::fail_too_many(options.max_points);
+    // Seam: border points, then the rim's and the collar's.
+    std::vector<Point> seam_points(points.begin(), points.end());
+    std::vector<Segment> seam_segments(segments.begin(), segments.end());
+    std::vector<VertexId> shared;
+    std::vector<VertexId> in_seam(patches.points.size());
+    const auto seam_vertex = [&](VertexId v) {
+        VertexId& s = in_seam[v.index()];
+        if (!s.valid()) {
+            s = VertexId{seam_points.size()};
+            seam_points.push_back(patches.points[v.index()]);
+            shared.push_back(v);
+        }
+        return s;
+    };
+    for (const Segment& s : patches.rim) seam_segments.push_back({seam_vertex(s.a), seam_vertex(s.b)});
+    for (VertexId v : patches.collar) seam_vertex(v);
+    RefineOptions seam_options = options;
+    seam_options.expected_triangles = 3 * seam_points.size();
+    Refinement seam = refine_all(seam_points, seam_segments, size, seam_options);
+
+    // Result: border, patches, what the seam added.
+    Refinement result;
+    result.stats = seam.stats;
+    const std::size_t border = points.size(), lattice = patches.points.size();
+    result.added = std::move(patches.points);
+    result.added.insert(result.added.end(), seam.added.begin(), seam.added.end());
+    result.triangles = std::move(patches.triangles);
+    for (Triangle& t : result.triangles)
+        for (VertexId& v : t.v) v = VertexId{border + v.index()};
+    result.triangles.reserve(result.triangles.size() + seam.triangles.size());
+    for (const Triangle& t : seam.triangles) {
+        Triangle& joined = result.triangles.emplace_back(t);
+        for (VertexId& v : joined.v) {
+            if (v.index() >= seam_points.size())
+                v = VertexId{v.index() - seam_points.size() + border + lattice};
+            else if (v.index() >= border)
+                v = VertexId{border + shared[v.index() - border].index()};
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
+                  const RefineOptions& options) {
+    if (options.lattice) {
+        kernel::LatticePatches patches = kernel::fill_with_lattice(points, segments, size, options.max_points);
+        if (!patches.empty()) return refine_seam(points, segments, size, options, std::move(patches));
+    }
+    return refine_all(points, segments, size, options);
 }
 
 }  // namespace lamina

@@ -373,6 +373,19 @@ struct SizeField::Tree {
                 std::min(static_cast<std::uint64_t>(static_cast<std::int64_t>(y)), last)};
     }
 
+    /// The field at a point of a leaf, found in a slot of side 2^shift.
+    double value(std::uint32_t entry, int shift, Key key) const {
+        const int bits = shift + ((entry & half_bit) != 0);
+        const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+        const auto scale = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - bits) << 52);  // 2^-bits
+        const double u = static_cast<double>(static_cast<std::int64_t>(key.x & mask)) * scale;
+        const double v = static_cast<double>(static_cast<std::int64_t>(key.y & mask)) * scale;
+        const Leaf& h = leaves[entry & index_mask];
+        const double south = h[0] + u * (static_cast<double>(h[1]) - h[0]);
+        const double north = h[2] + u * (static_cast<double>(h[3]) - h[2]);
+        return side * (south + v * (north - south));
+    }
+
     static std::size_t slot(Key k, int shift) { return ((k.y >> shift) & 3) * 4 + ((k.x >> shift) & 3); }
 };
 
@@ -406,15 +419,7 @@ double SizeField::operator()(Point p) const {
         shift -= 2;
         entry = tree.nodes[entry][Tree::slot(key, shift)];
     }
-    const int bits = shift + ((entry & half_bit) != 0);
-    const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
-    const auto scale = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - bits) << 52);  // 2^-bits
-    const double u = static_cast<double>(static_cast<std::int64_t>(key.x & mask)) * scale;
-    const double v = static_cast<double>(static_cast<std::int64_t>(key.y & mask)) * scale;
-    const Leaf& h = tree.leaves[entry & index_mask];
-    const double south = h[0] + u * (static_cast<double>(h[1]) - h[0]);
-    const double north = h[2] + u * (static_cast<double>(h[3]) - h[2]);
-    return tree.side * (south + v * (north - south));
+    return tree.value(entry, shift, key);
 }
 
 SizeField SizeField::restricted_to(const Box& box) const {
@@ -431,6 +436,40 @@ SizeField SizeField::restricted_to(const Box& box) const {
     }
     result.start_ = start;
     return result;
+}
+
+SizeField::Range SizeField::range(const Box& box, double enough) const {
+    if (!tree_) return {uniform_, uniform_};
+    const Tree& tree = *tree_;
+    const Tree::Key lower = tree.key(box.lower), upper = tree.key(box.upper);
+    struct Place {
+        std::uint32_t node;
+        int shift;
+        std::uint64_t x, y;
+    };
+    std::vector<Place> open{{0, root_shift, 0, 0}};
+    Range range{HUGE_VAL, 0};
+    while (!open.empty() && !(range.high > enough * range.low)) {
+        const Place place = open.back();
+        open.pop_back();
+        for (std::uint64_t slot = 0; slot < 16; ++slot) {
+            const std::uint64_t x = place.x + ((slot & 3) << place.shift), y = place.y + ((slot >> 2) << place.shift);
+            const std::uint64_t last = (std::uint64_t{1} << place.shift) - 1;
+            if (x > upper.x || x + last < lower.x || y > upper.y || y + last < lower.y) continue;
+            const std::uint32_t entry = tree.nodes[place.node][slot];
+            if ((entry & leaf_bit) == 0) {
+                open.push_back({entry, place.shift - 2, x, y});
+                continue;
+            }
+            // Bilinear: the extremes over a rectangle are at its corners.
+            for (std::uint64_t at_x : {std::max(x, lower.x), std::min(x + last, upper.x)})
+                for (std::uint64_t at_y : {std::max(y, lower.y), std::min(y + last, upper.y)}) {
+                    const double h = tree.value(entry, place.shift, {at_x, at_y});
+                    range = {std::min(range.low, h), std::max(range.high, h)};
+                }
+        }
+    }
+    return range;
 }
 
 std::size_t SizeField::cells() const { return tree_ ? tree_->leaves.size() : 1; }

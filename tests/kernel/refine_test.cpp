@@ -5,6 +5,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
+#include "outer/separators.hpp"
 #include "support/point_sets.hpp"
 
 namespace lamina::test {
@@ -87,6 +88,100 @@ TEST(Refine, GradedBorderMeetsBounds) {
         expect_promises(border, r, size, options, 1.0);
         EXPECT_EQ(r.stats.below_bound, 0u) << angle;
         EXPECT_EQ(r.stats.oversized, 0u) << angle;
+    }
+}
+
+/// Mean of the smallest angles.
+double mean_smallest_angle(const Border& border, const Refinement& r) {
+    const auto points = all_points(border, r);
+    double sum = 0;
+    for (const Triangle& t : r.triangles) sum += smallest_angle_deg(points, t);
+    return sum / double(r.triangles.size());
+}
+
+TEST(Refine, LatticePatchesKeepEveryPromise) {
+    for (double angle : {20.7, 30.0}) {
+        const double h = 0.008;
+        const Border border = square_border(1, 0.8 * h);
+        const SizeField size(h);
+        const RefineOptions with{.min_angle_deg = angle}, without{.min_angle_deg = angle, .lattice = false};
+        const Refinement r = refine(border.points, border.segments, size, with);
+        expect_promises(border, r, size, with, 1.0);
+        EXPECT_EQ(r.stats.below_bound, 0u);
+        EXPECT_EQ(r.stats.oversized, 0u);
+        EXPECT_EQ(r.stats.refused, 0u);
+        EXPECT_GT(mean_smallest_angle(border, r), 57);
+        const Refinement pure = refine(border.points, border.segments, size, without);
+        expect_promises(border, pure, size, without, 1.0);
+        EXPECT_LT(double(r.triangles.size()), 0.85 * double(pure.triangles.size()));
+        EXPECT_GT(mean_smallest_angle(border, pure), 46);
+    }
+}
+
+TEST(Refine, LatticePatchesOfManyLevelsKeepEveryPromise) {
+    // Sizes grow from a corner by a factor of 8, under one percent an edge.
+    const std::vector<SizeSource> sources{{{-0.1, -0.2}, {-0.1, -0.2}, 1e-3}};
+    const SizeField size(sources, {.gradation = 0.006}, {{-1, -1}, {2, 2}});
+    const std::vector<Point> corners{{0, 0}, {0.9, -0.1}, {1.2, 0.8}, {0.3, 1}, {0.1, 0.5}};
+    Border border;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        border.points.push_back(corners[i]);
+        for (Point p :
+             outer::separate(corners[i], corners[(i + 1) % corners.size()], size, SeparatorRule::equidistributed))
+            border.points.push_back(p);
+    }
+    double area = 0;
+    for (std::size_t i = 0; i < border.points.size(); ++i) {
+        const std::size_t next = (i + 1) % border.points.size();
+        border.segments.push_back({VertexId{i}, VertexId{next}});
+        area += 0.5 * cross(border.points[i], border.points[next]);
+    }
+    const RefineOptions with, without{.lattice = false};
+    const Refinement r = refine(border.points, border.segments, size, with);
+    expect_promises(border, r, size, with, area);
+    EXPECT_EQ(r.stats.below_bound, 0u);
+    EXPECT_EQ(r.stats.oversized, 0u);
+    EXPECT_EQ(r.stats.refused, 0u);
+    EXPECT_GT(mean_smallest_angle(border, r), 54);
+    EXPECT_LT(r.triangles.size(), refine(border.points, border.segments, size, without).triangles.size());
+}
+
+TEST(Refine, LatticePatchesStayOutOfHolesNotchesAndThinParts) {
+    const double h = 0.01;
+    Border border;
+    border.add_loop({{0, 0}, {2, 0}, {2, 0.05}, {1.2, 0.06}, {1.2, 1}, {1.02, 0.1}, {1, 1}, {0.5, 1.2}, {0, 1}},
+                    0.8 * h);
+    border.add_loop({{0.3, 0.3}, {0.35, 0.7}, {0.7, 0.75}, {0.6, 0.3}}, 0.8 * h);
+    double area = 0;
+    for (const Segment& s : border.segments)
+        area += 0.5 * cross(border.points[s.a.index()], border.points[s.b.index()]);
+    const SizeField size(h);
+    const RefineOptions options;
+    const Refinement r = refine(border.points, border.segments, size, options);
+    expect_promises(border, r, size, options, area);
+    // The needle's tip leaves what it leaves without patches, too.
+    const Refinement pure = refine(border.points, border.segments, size, {.lattice = false});
+    EXPECT_EQ(r.stats.below_bound, pure.stats.below_bound);
+    EXPECT_GT(mean_smallest_angle(border, r), 52);
+}
+
+TEST(Refine, LatticePatchesOfRandomPolygons) {
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        Random random(seed);
+        std::vector<Point> corners;
+        const int n = 3 + int(random.below(9));
+        for (int i = 0; i < n; ++i) {
+            const double t = 2 * M_PI * (i + 0.5 * random.real()) / n, radius = random.real(0.4, 1);
+            corners.push_back({radius * std::cos(t), radius * std::sin(t)});
+        }
+        const double h = random.real(0.008, 0.03);
+        Border border;
+        border.add_loop(corners, 0.8 * h);
+        double area = 0;
+        for (int i = 0; i < n; ++i) area += 0.5 * cross(corners[i], corners[(i + 1) % n]);
+        const SizeField size(h);
+        const RefineOptions options;
+        expect_promises(border, refine(border.points, border.segments, size, options), size, options, area);
     }
 }
 

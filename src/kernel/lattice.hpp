@@ -1,0 +1,31 @@
+// Patches of equilateral lattice for the smooth inside of large regions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <lamina/ids.hpp>
+#include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
+
+namespace lamina::kernel {
+
+/// Triangulated patches strictly inside a region, and the collar of loose lattice points round each of them; what lies
+/// between the patches and the border is the seam.
+struct LatticePatches {
+    std::vector<Point> points;
+    std::vector<Triangle> triangles;  ///< equilateral up to rounding, counter-clockwise, into points
+    std::vector<Segment> rim;         ///< border of the patches, the seam on the left, into points
+    std::vector<VertexId> collar;     ///< points that belong to the seam alone
+    bool empty() const { return triangles.empty(); }
+};
+
+/// Fills the region left of `segments` with patches wherever the size field is so even that a patch pays; empty where
+/// it does not, or would go far beyond `max_points`. Triangles obey the size bound of refine(). Collars keep the
+/// distance of about a lattice row from the border and from each other. Rim edges are longer than frozen edges may be
+/// (0.93 h): it is the collar, one row of points that refinement may connect as it likes, that keeps new points away
+/// from them.
+LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const Segment> segments,
+                                 const SizeField& size, std::size_t max_points);
+
+}  // namespace lamina::kernel
