@@ -28,10 +28,11 @@ namespace lamina {
 struct CaseOptions {
     GeometryOptions geometry;
     LayerOptions layer;
-    double far_field = 100;           ///< half-width of the far-field box, chords
-    double gradation = 0.1;           ///< growth of the target edge length per unit of distance (docs/decisions)
-    std::optional<double> wall_size;  ///< target edge length at the layer's outer border instead of its own edges
-    std::optional<double> far_size;   ///< cap of the target edge length
+    double far_field = 100;  ///< half-width of the far-field box, chords
+    double gradation = 0.1;  ///< growth of the target edge length per unit of distance (docs/decisions)
+    std::optional<double>
+        wall_size;                   ///< longest target edge length at the layer's outer border: its edges ask for less
+    std::optional<double> far_size;  ///< cap of the target edge length
     double min_angle_deg = 20.7;
     SeparatorRule separators = SeparatorRule::equidistributed;
     double pieces_target = 50'000;

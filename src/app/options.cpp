@@ -200,8 +200,8 @@ std::vector<Option> make_table() {
              positive, of_case(&CaseOptions::far_field)));
     add(real("gradation", "G", "growth of the edge length per unit of distance", above_up_to(0, 1),
              of_case(&CaseOptions::gradation)));
-    add(real("wall-size", "H", "edge length at the layer's outer border, in units of the input, instead of its own",
-             positive, of_case(&CaseOptions::wall_size)));
+    add(real("wall-size", "H", "longest edge length at the layer's outer border, in units of the input", positive,
+             of_case(&CaseOptions::wall_size)));
     add(real("far-size", "H", "largest edge length, in units of the input", positive, of_case(&CaseOptions::far_size)));
     add(real("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees", above_up_to(0, 33),
              of_case(&CaseOptions::min_angle_deg)));

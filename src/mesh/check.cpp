@@ -276,8 +276,8 @@ private:
         const std::size_t cell = edges_.cell_of(edge), other = edges_.cell_of(twin);
         if (!is_isotropic(mesh_, other)) return true;
         if (!mesh_.piece.empty() && mesh_.piece[cell] != mesh_.piece[other]) return true;
-        const auto [low, high] = std::minmax(edges_.origin(edge), edges_.target(edge));
-        return std::binary_search(constraints_.begin(), constraints_.end(), Segment{low, high});
+        const VertexId a = edges_.origin(edge), b = edges_.target(edge);
+        return std::binary_search(constraints_.begin(), constraints_.end(), Segment{std::min(a, b), std::max(a, b)});
     }
 
     /// Cells round the origin of `edge` are walked until both ways end at a frozen edge.

@@ -31,7 +31,8 @@ Box far_field_box(const DecouplingOptions& options) {
     return {options.center - Point{half, half}, options.center + Point{half, half}};
 }
 
-/// The near-body box stands half a chord away from the layers, nearer where the far field leaves less room.
+/// The near-body box stands half the bodies' extent away from the layers. Where the far field leaves little room it is
+/// the far field itself: the corners of rings between boxes so near would be sharp.
 Box near_body_box(const Box& bodies, const Box& far_field, const DecouplingOptions& options) {
     const double room = std::min({bodies.lower.x - far_field.lower.x, bodies.lower.y - far_field.lower.y,
                                   far_field.upper.x - bodies.upper.x, far_field.upper.y - bodies.upper.y});
@@ -39,7 +40,8 @@ Box near_body_box(const Box& bodies, const Box& far_field, const DecouplingOptio
     if (!(room > 0.1 * extent))
         throw UsageError(
             fmt::format("far field of {} chords leaves no room around the bodies and their layers", options.far_field));
-    const double margin = std::min(0.5 * extent, 0.4 * room);
+    if (room < 1.5 * extent) return far_field;
+    const double margin = 0.5 * extent;
     return {bodies.lower - Point{margin, margin}, bodies.upper + Point{margin, margin}};
 }
 

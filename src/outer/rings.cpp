@@ -98,7 +98,7 @@ void Skeleton::add_chain(std::span<const VertexId> chain, bool both_directions) 
 
 std::vector<Ring> plan_rings(const Box& near_body, const Box& far_field, const SizeField& size, double pieces_target) {
     std::vector<Ring> rings;
-    plan(near_body, far_field, size, pieces_target, 0, 1, 1, rings);
+    if (near_body.width() < far_field.width()) plan(near_body, far_field, size, pieces_target, 0, 1, 1, rings);
     return rings;
 }
 
@@ -113,7 +113,7 @@ RingVertices add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Bo
         const std::size_t above = level < rings.size() ? rings[level].per_side : 1;
         const std::size_t n = per_side[level] = std::max(below, above);
         const auto corner =
-            corners_of(box_at(near_body, far_field, level < rings.size() ? rings[level].inner : rings.back().outer));
+            corners_of(level < rings.size() ? box_at(near_body, far_field, rings[level].inner) : far_field);
         for (std::size_t side = 0; side < 4; ++side)
             for (std::size_t j = 0; j < n; ++j)
                 junctions[level].push_back(

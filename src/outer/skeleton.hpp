@@ -34,7 +34,7 @@ struct Ring {
 
 /// Rings from near_body to far_field such that no trapezoid has more than about `pieces_target` triangles.
 /// Trapezoids are halved along their longer extent as measured in edge lengths; powers of two keep junctions of
-/// neighbouring rings in common.
+/// neighbouring rings in common. None where the near-body box is the far field.
 std::vector<Ring> plan_rings(const Box& near_body, const Box& far_field, const SizeField& size, double pieces_target);
 
 /// Adds near-body box, rings and far field to the skeleton.

@@ -64,7 +64,9 @@ DecouplingOptions decoupling_options(const Pslg& pslg, const CaseOptions& option
 /// The layer with an outer border fit to be frozen for refinement to the angle and sizes asked for.
 LayerOptions layer_options(const CaseOptions& options) {
     LayerOptions layer = options.layer;
-    layer.border_gradation = frozen_share * options.gradation;
+    // Edges are divided into whole numbers of pieces: graded as steeply as the field, some would be too long for it.
+    constexpr double rounding_of_pieces = 1.15;
+    layer.border_gradation = frozen_share * options.gradation / rounding_of_pieces;
     layer.longest_border_edge =
         frozen_share * std::min(options.wall_size.value_or(HUGE_VAL), options.far_size.value_or(HUGE_VAL));
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
@@ -73,15 +75,20 @@ LayerOptions layer_options(const CaseOptions& options) {
     return layer;
 }
 
+/// A border edge asks for at most this many times the size of which it is a fit share. Without a bound a long edge's
+/// excess of a few per cent would be a multiple of the size at a fine edge far away.
+constexpr double largest_raise = 2.5;
+
 /// The size that each edge of a closed border asks for: that of which it is a fit share, or more beside a longer edge,
 /// so that no edge is too long for the field that its neighbours make: the largest of (size - gradation x distance
-/// along the border). A graded border makes that a little more at most (LayerOptions::border_gradation).
+/// along the border), within the bound.
 std::vector<double> border_sizes(std::span<const double> lengths, double gradation) {
     std::vector<double> sizes;
     for (double l : lengths) sizes.push_back(l / frozen_share);
     const std::size_t n = lengths.size();
     const auto spread = [&](std::size_t from, std::size_t to) {
-        sizes[to] = std::max(sizes[to], sizes[from] - gradation * 0.5 * (lengths[from] + lengths[to]));
+        const double passed_on = sizes[from] - gradation * 0.5 * (lengths[from] + lengths[to]);
+        sizes[to] = std::max(sizes[to], std::min(passed_on, largest_raise * lengths[to] / frozen_share));
     };
     // Twice round in both directions: what the first round brings to the loop's start goes on in the second.
     for (std::size_t i = 0; i < 2 * n; ++i) spread(i % n, (i + 1) % n);
@@ -89,7 +96,8 @@ std::vector<double> border_sizes(std::span<const double> lengths, double gradati
     return sizes;
 }
 
-/// The edges of the layers' outer borders ask for sizes, each for its own or all for `wall_size`.
+/// The edges of the layers' outer borders ask for sizes: each for its own, or for `wall_size` where that is less. More
+/// than its own would be a jump from frozen edges to triangles many times as large.
 SizeField make_size_field(const Layer& layer, const CaseOptions& options, const DecouplingOptions& decoupling) {
     std::vector<SizeSource> sources;
     for (const auto& border : layer.borders) {
@@ -98,7 +106,7 @@ SizeField make_size_field(const Layer& layer, const CaseOptions& options, const 
         for (std::size_t i = 0; i < border.size(); ++i) lengths.push_back(distance(point(i), point(i + 1)));
         const std::vector<double> sizes = border_sizes(lengths, options.gradation);
         for (std::size_t i = 0; i < border.size(); ++i)
-            sources.push_back({point(i), point(i + 1), options.wall_size.value_or(sizes[i])});
+            sources.push_back({point(i), point(i + 1), std::min(sizes[i], options.wall_size.value_or(HUGE_VAL))});
     }
     const double half = decoupling.far_field * decoupling.chord;
     const Box domain{decoupling.center - Point{half, half}, decoupling.center + Point{half, half}};

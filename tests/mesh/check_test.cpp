@@ -351,5 +351,48 @@ TEST(CheckMesh, ManySmallLoops) {
     EXPECT_EQ(check.euler_characteristic, 3600);
 }
 
+/// A square of two triangles; the diagonal makes corners of 45 degrees at vertices 0 and 2.
+Mesh halved_square() {
+    Mesh mesh;
+    mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    mesh.triangles = {{{VertexId(0), VertexId(1), VertexId(2)}}, {{VertexId(0), VertexId(2), VertexId(3)}}};
+    Marker& box = mesh.markers.emplace_back(Marker{"box", MarkerKind::far_field, {}});
+    for (std::uint32_t i = 0; i < 4; ++i) box.edges.push_back({VertexId(i), VertexId((i + 1) % 4)});
+    return mesh;
+}
+
+TEST(CheckExempt, SharpCornersBetweenFrozenEdgesAlone) {
+    const auto exempt = [](const Mesh& mesh, double bound = 50) {
+        const MeshCheck check = check_mesh(mesh, {.min_angle_deg = bound});
+        EXPECT_TRUE(check.valid());
+        EXPECT_EQ(check.isotropic.angles_below_bound, bound > 45 ? check.isotropic.cells : 0);
+        return check.isotropic.exempt;
+    };
+    Mesh mesh = halved_square();
+    EXPECT_EQ(exempt(mesh), 0u);  // the boundary's corners are right angles
+    mesh.piece = {1, 2};
+    EXPECT_EQ(exempt(mesh), 2u);
+    EXPECT_EQ(exempt(mesh, 40), 0u);
+    mesh.piece = {1, 1};
+    EXPECT_EQ(exempt(mesh), 0u);
+    mesh.constraints = {{VertexId(0), VertexId(2)}};
+    EXPECT_EQ(exempt(mesh), 2u);
+    mesh.constraints.clear();
+    mesh.region = {Region::layer, Region::isotropic};
+    EXPECT_EQ(exempt(mesh), 1u);
+}
+
+TEST(CheckExempt, SharpCornerOfTheBoundarySharedByTwoTriangles) {
+    Mesh mesh;  // 45 degrees at the origin, cut in two
+    mesh.points = {{0, 0}, {2, 0}, {2, 1}, {2, 2}};
+    mesh.triangles = {{{VertexId(0), VertexId(1), VertexId(2)}}, {{VertexId(0), VertexId(2), VertexId(3)}}};
+    mesh.markers = {{"all", MarkerKind::other, {}}};
+    for (std::uint32_t i = 0; i < 4; ++i) mesh.markers[0].edges.push_back({VertexId(i), VertexId((i + 1) % 4)});
+    const MeshCheck check = check_mesh(mesh, {.min_angle_deg = 30});
+    EXPECT_TRUE(check.valid());
+    EXPECT_EQ(check.isotropic.angles_below_bound, 2u);
+    EXPECT_EQ(check.isotropic.exempt, 2u);
+}
+
 }  // namespace
 }  // namespace lamina

@@ -1,0 +1,148 @@
+// Several elements, concavities, and sections as they were measured.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include <lamina/error.hpp>
+
+#include "pipeline/cases.hpp"
+
+namespace lamina::test {
+namespace {
+
+using shapes::Outline;
+
+CaseOptions options_with(std::uint32_t layers) {
+    CaseOptions options = judged_options();
+    options.far_field = 15;
+    options.layer.layers = layers;
+    return options;
+}
+
+/// Fronts that face each other across a narrow gap may leave a few triangles too large; they are counted.
+constexpr std::size_t most_oversized = 5;
+
+/// A flap below and behind a main section of unit chord; the gap is about `gap` wide.
+Outline flap(double gap) { return shapes::moved(naca("0012", 80), -0.4, 0.3, {1.0 - 0.02, -0.01 - gap}); }
+/// A slat before its nose.
+Outline slat(double gap) { return shapes::moved(naca("0010", 60), 0.5, 0.15, {-0.13 - gap, -0.1}); }
+
+TEST(SeveralBodies, FarApart) {
+    const CaseOptions options = options_with(30);
+    const MeshResult two = mesh_of({naca("0012"), shapes::moved(naca("4412"), 0.1, 0.7, {2, 0.6})}, options);
+    expect_sound(two, options);
+    expect_nothing_left_over(two);
+    EXPECT_EQ(two.incomplete_rays, 0u);
+    const MeshResult three = mesh_of({naca("0012"), shapes::moved(naca("4412"), 0.1, 0.7, {2, 0.6}),
+                                      shapes::moved(shapes::circle(0.1, 60), 0, 1, {0, 1})},
+                                     options);
+    expect_sound(three, options);
+    expect_nothing_left_over(three);
+}
+
+TEST(SeveralBodies, CloseTogether) {
+    for (double gap : {0.1, 0.03, 0.01, 0.003}) {
+        SCOPED_TRACE(gap);
+        const CaseOptions options = options_with(30);
+        const MeshResult two = mesh_of({naca("0012"), flap(gap)}, options);
+        expect_sound(two, options);
+        EXPECT_LE(two.refinement.oversized, most_oversized);
+        const MeshResult three = mesh_of({naca("0012"), flap(gap), slat(gap)}, options);
+        expect_sound(three, options);
+        EXPECT_LE(three.refinement.oversized, most_oversized);
+    }
+}
+
+TEST(SeveralBodies, WithoutLayers) {
+    CaseOptions options = options_with(30);
+    options.layer.enabled = false;
+    for (double gap : {0.1, 0.01, 0.003}) {
+        SCOPED_TRACE(gap);
+        const MeshResult result = mesh_of({naca("0012"), flap(gap), slat(gap)}, options);
+        expect_sound(result, options);
+        EXPECT_EQ(result.refinement.oversized, 0u);
+    }
+}
+
+TEST(SeveralBodies, InSmallPieces) {
+    CaseOptions options = options_with(30);
+    options.pieces_target = 1000;
+    const MeshResult result = mesh_of({naca("0012"), flap(0.02), slat(0.02)}, options);
+    expect_sound(result, options);
+    EXPECT_EQ(result.refinement.oversized, 0u);
+    EXPECT_GT(result.inviscid_pieces, 10u);
+}
+
+TEST(Concavities, LayersThatFillThem) {
+    const std::map<const char*, Outline> outlines{{"L", shapes::refined(shapes::l_shape(), 20)},
+                                                  {"C", shapes::refined(shapes::c_shape(0.3), 10)},
+                                                  {"V", shapes::refined(shapes::v_notch(0.6), 20)},
+                                                  {"comb", shapes::refined(shapes::comb(3, 0.2), 20)}};
+    for (const auto& [name, outline] : outlines)
+        for (std::uint32_t layers : {10u, 50u, 70u}) {
+            SCOPED_TRACE(name + std::to_string(layers));
+            const CaseOptions options = options_with(layers);
+            const MeshResult result = mesh_of({outline}, options);
+            expect_sound(result, options);
+            EXPECT_EQ(result.refinement.oversized, 0u);
+        }
+}
+
+std::filesystem::path shared_geometry() {
+    const char* shared = std::getenv("LAMINA_SHARED");
+    return std::filesystem::path(shared != nullptr ? shared : LAMINA_SOURCE "/../shared") / "geometry";
+}
+
+TEST(MeasuredSections, TheJudgedOnes) {
+    const auto folder = shared_geometry() / "uiuc/selig";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no collection of sections";
+    for (const char* name : {"rae2822.dat", "e387.dat", "s1223.dat", "naca63a210.dat", "n0012.dat", "goe417a.dat"}) {
+        SCOPED_TRACE(name);
+        const MeshResult result = generate_mesh({(folder / name).string()}, judged_options());
+        expect_sound(result, judged_options());
+        expect_nothing_left_over(result);
+        EXPECT_LT(result.check.isotropic.p999_neighbour_area_ratio, 3.5);
+    }
+}
+
+TEST(MeasuredSections, SeveralElementsAreMeshedOrRefusedInWords) {
+    const auto folder = shared_geometry() / "multielement";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no collection of sections";
+    std::size_t meshed = 0;
+    for (const std::vector<std::string>& names : std::initializer_list<std::vector<std::string>>{
+             {"30p30n_main_raw.dat", "30p30n_slat_raw.dat", "30p30n_flap_raw.dat"},
+             {"30p30n_uiuc.dat"},
+             {"crmhl2d_main.dat", "crmhl2d_slat.dat", "crmhl2d_flap.dat"},
+             {"nlr7301_clean_main.dat", "nlr7301_clean_flap.dat"},
+             {"nlr7301_main_sharp.dat", "nlr7301_flap_sharp.dat"},
+             {"nrl071_inverted_two_element.txt"},
+             {"r1145ms_main.dat", "r1145ms_flap.dat"},
+             {"s1210_base.dat", "s1210_slat.dat"},
+             {"s414_main.dat", "s414_aft.dat"},
+             {"ua79sf187_main_open.dat", "ua79sf187_flap.dat"},
+             {"williams_two_element.dat"}}) {
+        SCOPED_TRACE(names.front());
+        std::vector<std::string> files;
+        for (const std::string& name : names) files.push_back((folder / name).string());
+        try {
+            CaseOptions options = options_with(30);
+            const Pslg pslg = read_geometry(files);
+            Box box;
+            for (const Element& element : pslg.elements)
+                for (const Point p : element.points) box.include(p);
+            options.layer.first_height = 2.5e-5 * box.width();
+            const MeshResult result = generate_mesh(pslg, options);
+            expect_sound(result, options);
+            EXPECT_LE(result.refinement.oversized, most_oversized);
+            ++meshed;
+        } catch (const Error& error) {
+            std::printf("%s: %s\n", names.front().c_str(), error.what());
+        }
+    }
+    EXPECT_GE(meshed, 8u);
+}
+
+}  // namespace
+}  // namespace lamina::test

@@ -1,0 +1,110 @@
+// Meshes for the tests of the whole pipeline, and what every one of them must keep.
+#pragma once
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lamina/geometry.hpp>
+#include <lamina/pipeline.hpp>
+
+#include "support/shapes.hpp"
+
+namespace lamina::test {
+
+/// The options of the judged case: a layer of 30, growth 1.15, far field 50 chords away.
+inline CaseOptions judged_options() {
+    CaseOptions options;
+    options.layer.first_height = 2.5e-5;
+    options.layer.growth = 1.15;
+    options.layer.layers = 30;
+    options.layer.max_ray_angle_deg = 4;
+    options.far_field = 50;
+    return options;
+}
+
+inline shapes::Outline naca(const std::string& digits, std::size_t points = 120,
+                            TrailingEdge tail = TrailingEdge::sharp) {
+    return naca_airfoil(digits, points, tail).points;
+}
+
+inline MeshResult mesh_of(std::initializer_list<shapes::Outline> bodies, const CaseOptions& options) {
+    return generate_mesh(shapes::pslg(bodies), options);
+}
+
+/// Lexicographic, for sets of points.
+struct PointLess {
+    bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
+};
+
+inline double enclosed_area(std::span<const Point> loop) {
+    double doubled = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) doubled += cross(loop[i], loop[(i + 1) % loop.size()]);
+    return 0.5 * doubled;
+}
+
+/// The edges of a marker follow each other round one loop, in some order.
+inline void expect_one_loop(const Marker& marker) {
+    std::vector<Segment> by_start = marker.edges;
+    std::sort(by_start.begin(), by_start.end());
+    ASSERT_FALSE(by_start.empty()) << marker.name;
+    std::size_t steps = 0;
+    Segment at = by_start.front();
+    do {
+        const auto next = std::lower_bound(by_start.begin(), by_start.end(), Segment{at.b, VertexId{0}});
+        ASSERT_TRUE(next != by_start.end() && next->a == at.b) << marker.name;
+        at = *next;
+        ASSERT_LE(++steps, by_start.size()) << marker.name;
+    } while (!(at == by_start.front()));
+    EXPECT_EQ(steps, by_start.size()) << marker.name;
+}
+
+/// Valid, markers complete, every wall point of the input a vertex of its wall exactly, the domain covered, Delaunay
+/// across the borders of pieces too, and no angle below the bound but at sharp corners of frozen edges.
+inline void expect_sound(const MeshResult& result, const CaseOptions& options) {
+    const Mesh& mesh = result.mesh;
+    const MeshCheck check = check_mesh(mesh, {.min_angle_deg = options.min_angle_deg});
+    EXPECT_EQ(check.defect_count, 0u) << check.defects.front().what;
+    EXPECT_EQ(check.boundary_loops, result.pslg.elements.size() + 1);
+    EXPECT_EQ(check.delaunay_violations, 0u);
+    EXPECT_EQ(check.isotropic.angles_below_bound, check.isotropic.exempt);
+    EXPECT_LT(double(check.isotropic.exempt), 0.001 * double(check.isotropic.cells));
+    // Refinement and check judge alike.
+    EXPECT_EQ(check.isotropic.exempt, result.refinement.exempt);
+    EXPECT_EQ(check.isotropic.angles_below_bound, result.refinement.below_bound);
+
+    ASSERT_EQ(mesh.markers.size(), result.pslg.elements.size() + 1);
+    Box box;
+    for (std::size_t e = 0; e < result.pslg.elements.size(); ++e) {
+        const Element& element = result.pslg.elements[e];
+        const Marker& marker = mesh.markers[e];
+        EXPECT_EQ(marker.name, element.name);
+        EXPECT_EQ(marker.kind, MarkerKind::wall);
+        expect_one_loop(marker);
+        std::set<Point, PointLess> wall;
+        for (const Segment& edge : marker.edges) wall.insert(mesh.points[edge.a.index()]);
+        for (const Point p : element.points) {
+            EXPECT_TRUE(wall.contains(p)) << p.x << ' ' << p.y;
+            box.include(p);
+        }
+    }
+    EXPECT_EQ(mesh.markers.back().kind, MarkerKind::far_field);
+    expect_one_loop(mesh.markers.back());
+
+    const double side = 2 * options.far_field * box.width();
+    double area = side * side;
+    for (const Element& element : result.pslg.elements) area -= enclosed_area(element.points);
+    EXPECT_NEAR(check.area, area, 1e-9 * side * side);
+}
+
+/// Nothing that refinement had to leave undone.
+inline void expect_nothing_left_over(const MeshResult& result) {
+    EXPECT_EQ(result.refinement.refused, 0u);
+    EXPECT_EQ(result.refinement.oversized, 0u);
+    EXPECT_EQ(result.refinement.below_bound, 0u);
+}
+
+}  // namespace lamina::test

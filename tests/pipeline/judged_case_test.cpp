@@ -1,0 +1,111 @@
+// The judged case through the library: NACA 0012, a layer of 30, far field 50 chords away.
+#include <gtest/gtest.h>
+
+#include <lamina/io.hpp>
+#include <lamina/predicates.hpp>
+
+#include "pipeline/cases.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lamina::test {
+namespace {
+
+class JudgedCase : public testing::Test {
+protected:
+    static void SetUpTestSuite() { result_ = new MeshResult(generate_mesh({"naca:0012"}, judged_options())); }
+    static void TearDownTestSuite() { delete result_; }
+    static const MeshResult& result() { return *result_; }
+    static const Mesh& mesh() { return result_->mesh; }
+
+private:
+    static inline const MeshResult* result_ = nullptr;
+};
+
+TEST_F(JudgedCase, IsSoundAndLeavesNothingOver) {
+    expect_sound(result(), judged_options());
+    expect_nothing_left_over(result());
+    EXPECT_GE(result().check.isotropic.min_angle_deg, 20.7);
+    EXPECT_EQ(mesh().markers[0].name, "airfoil");
+    EXPECT_EQ(mesh().markers[1].name, "farfield");
+}
+
+TEST_F(JudgedCase, NoCellIsInvertedOrFlat) {
+    for (const Triangle& t : mesh().triangles)
+        ASSERT_GT(orient2d(mesh().points[t.v[0].index()], mesh().points[t.v[1].index()], mesh().points[t.v[2].index()]),
+                  0);
+}
+
+TEST_F(JudgedCase, WallPointsComeFirstInTheOrderOfTheInput) {
+    std::size_t next = 0;
+    for (std::size_t v = 0; v < result().surface_vertices && next < 200; ++v)
+        next += mesh().points[v] == result().pslg.elements[0].points[next];
+    EXPECT_EQ(next, 200u);
+}
+
+TEST_F(JudgedCase, FarFieldIsTheSquareAskedFor) {
+    Box box;
+    for (const Segment& edge : mesh().markers.back().edges) box.include(mesh().points[edge.a.index()]);
+    const Box body{{0, -0.1}, {1, 0.1}};
+    EXPECT_NEAR(box.lower.x, body.center().x - 50, 1e-9);
+    EXPECT_NEAR(box.upper.x, body.center().x + 50, 1e-9);
+    EXPECT_NEAR(box.lower.y, -50, 1e-9);
+    EXPECT_NEAR(box.upper.y, 50, 1e-9);
+}
+
+TEST_F(JudgedCase, HeightsAreTheRequestedOnesOnFullRays) {
+    const LayerOptions options = judged_options().layer;
+    const std::set<Point, PointLess> vertices(mesh().points.begin(), mesh().points.end());
+    const Layer layer = make_layer(result().pslg, options);
+    EXPECT_EQ(layer.incomplete_rays, result().incomplete_rays);
+    std::size_t full = 0;
+    for (const Ray& ray : layer.rays[0]) {
+        if (ray.layers < options.layers) continue;
+        ++full;
+        Point below = layer.points[ray.origin.index()];
+        double expected = options.first_height;
+        for (std::size_t n = 0; n < ray.layers; ++n) {
+            const Point p = layer.points[ray.first_point + n];
+            EXPECT_TRUE(vertices.contains(p));
+            EXPECT_NEAR(distance(below, p), expected, 0.01 * expected);
+            expected = options.growth * distance(below, p);
+            below = p;
+        }
+    }
+    EXPECT_EQ(full, layer.rays[0].size());  // nothing is in the way of a convex section
+}
+
+TEST_F(JudgedCase, LayerCellsKnowTheirLayer) {
+    std::vector<std::size_t> cells(31, 0);
+    for (std::size_t t = 0; t < mesh().triangles.size(); ++t) {
+        ASSERT_EQ(mesh().region[t] == Region::layer, mesh().layer[t] > 0);
+        ASSERT_LE(mesh().layer[t], 30);
+        ++cells[mesh().layer[t]];
+    }
+    for (std::size_t n = 2; n <= 30; ++n) EXPECT_GT(cells[n], 300u) << n;
+}
+
+TEST_F(JudgedCase, NeighboursDifferLittleInSize) {
+    EXPECT_LT(result().check.isotropic.p999_neighbour_area_ratio, 3);
+    EXPECT_LT(result().check.isotropic.max_neighbour_area_ratio, 4);
+}
+
+TEST_F(JudgedCase, ThreadsDoNotChangeAByte) {
+    const TemporaryFolder folder;
+    const auto bytes = [&](unsigned threads) {
+        CaseOptions options = judged_options();
+        options.threads = threads;
+        const MeshResult again = generate_mesh({"naca:0012"}, options);
+        std::vector<std::string> files;
+        for (const char* name : {"n.su2", "n.vtu"}) {
+            write_mesh(again.mesh, folder / name);
+            files.push_back(folder.read(name));
+        }
+        return files;
+    };
+    const auto one = bytes(1);
+    EXPECT_TRUE(bytes(2) == one);
+    EXPECT_TRUE(bytes(4) == one);
+}
+
+}  // namespace
+}  // namespace lamina::test
