@@ -1,73 +1,200 @@
-// The Delaunay kernel on point sets like those of the program: random, layered, refined.
-#include <benchmark/benchmark.h>
-
+// The Delaunay kernel: predicates stage by stage, plain triangulation, constraints, refinement; beside CGAL and
+// Triangle where the builder has them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 #include <vector>
+
+#include <benchmark/benchmark.h>
 
 #include <lamina/delaunay.hpp>
 #include <lamina/predicates.hpp>
-#include <lamina/sizing.hpp>
 
-#include "support/point_sets.hpp"
+#include "inputs.hpp"
+#include "paired.hpp"
 
-namespace lamina::test {
+namespace lamina::bench {
 namespace {
 
-void count_points(benchmark::State& state, std::size_t points) {
-    state.counters["points/s"] =
-        benchmark::Counter(static_cast<double>(points), benchmark::Counter::kIsIterationInvariantRate);
+using Quadruple = std::array<Point, 4>;
+constexpr std::size_t quadruple_count = 1024;
+
+/// The filter decides.
+std::vector<Quadruple> random_quadruples() {
+    const std::vector<Point> p = test::random_points(4 * quadruple_count, 1);
+    std::vector<Quadruple> result(quadruple_count);
+    for (std::size_t i = 0; i < quadruple_count; ++i) result[i] = {p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
+    return result;
 }
 
-void orient2d_random(benchmark::State& state) {
-    const std::vector<Point> points = random_points(1024, 1);
+/// Corners of a lattice's cells, as incircle sees them or, first three on one line, as orient2d does: integers decide.
+std::vector<Quadruple> lattice_quadruples(bool on_line) {
+    test::Random random(2);
+    std::vector<Quadruple> result;
+    for (std::size_t i = 0; i < quadruple_count; ++i) {
+        const auto x = static_cast<double>(random.below(1000)), y = static_cast<double>(random.below(1000));
+        if (on_line)
+            result.push_back({Point{x, y}, {x + 1, y + 1}, {x + 2, y + 2}, {x, y + 1}});
+        else
+            result.push_back({Point{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}});
+        for (Point& p : result.back()) p = 0.001 * p;
+        if (!on_line) {  // rounding must not break the tie
+            Quadruple& q = result.back();
+            q[1] = {q[1].x, q[0].y};
+            q[2] = {q[1].x, q[3].y};
+            q[3] = {q[0].x, q[3].y};
+        }
+    }
+    return result;
+}
+
+/// Rectangles and lines with one end near the origin: differences beyond the reach of integers, expansions decide.
+std::vector<Quadruple> wide_quadruples(bool on_line) {
+    test::Random random(3);
+    std::vector<Quadruple> result;
+    for (std::size_t i = 0; i < quadruple_count; ++i) {
+        const double x = 1e-9 * random.real(), y = 1e-9 * random.real(), u = random.real(), v = random.real();
+        if (on_line)
+            result.push_back({Point{x, y}, {-x, -y}, {0x1p30 * x, 0x1p30 * y}, {u, v}});
+        else
+            result.push_back({Point{x, y}, {u, y}, {u, v}, {x, v}});
+    }
+    return result;
+}
+
+void orient2d_of(benchmark::State& state, const std::vector<Quadruple>& quadruples) {
     std::size_t i = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(orient2d(points[i], points[(i + 1) & 1023], points[(i + 2) & 1023]));
-        i = (i + 1) & 1023;
+        const Quadruple& q = quadruples[i++ % quadruple_count];
+        benchmark::DoNotOptimize(orient2d(q[0], q[1], q[2]));
     }
 }
-BENCHMARK(orient2d_random);
+BENCHMARK_CAPTURE(orient2d_of, filter, random_quadruples());
+BENCHMARK_CAPTURE(orient2d_of, integers, lattice_quadruples(true));
+BENCHMARK_CAPTURE(orient2d_of, expansions, wide_quadruples(true));
 
-void incircle_random(benchmark::State& state) {
-    const std::vector<Point> points = random_points(1024, 2);
+void incircle_of(benchmark::State& state, const std::vector<Quadruple>& quadruples) {
     std::size_t i = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(
-            incircle_perturbed(points[i], points[(i + 1) & 1023], points[(i + 2) & 1023], points[(i + 3) & 1023]));
-        i = (i + 1) & 1023;
+        const Quadruple& q = quadruples[i++ % quadruple_count];
+        benchmark::DoNotOptimize(incircle_perturbed(q[0], q[1], q[2], q[3]));
     }
 }
-BENCHMARK(incircle_random);
+BENCHMARK_CAPTURE(incircle_of, filter, random_quadruples());
+BENCHMARK_CAPTURE(incircle_of, integers_and_tie, lattice_quadruples(false));
+BENCHMARK_CAPTURE(incircle_of, expansions_and_tie, wide_quadruples(false));
 
-void delaunay_random(benchmark::State& state) {
-    const std::vector<Point> points = random_points(static_cast<std::size_t>(state.range(0)), 3);
-    for (auto _ : state) benchmark::DoNotOptimize(delaunay(points).triangles.data());
-    count_points(state, points.size());
+std::vector<Point> uniform(std::size_t n) { return test::random_points(n, 3); }
+std::vector<Point> square_lattice(std::size_t n) {
+    const int side = static_cast<int>(std::sqrt(static_cast<double>(n)));
+    return test::square_lattice(side, side);
 }
-BENCHMARK(delaunay_random)->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMillisecond);
+std::vector<Point> hexagonal_lattice(std::size_t n) {
+    const int side = static_cast<int>(std::sqrt(static_cast<double>(n)));
+    return test::hexagonal_lattice(side, side);
+}
+std::vector<Point> flat_plate(std::size_t n) { return flat_plate_points(n, 1, 0); }
+std::vector<Point> flat_plate_at_10_degrees(std::size_t n) {
+    return flat_plate_points(n, 0.984807753012208, 0.17364817766693033);
+}
 
-void delaunay_lattice(benchmark::State& state) {
-    const std::vector<Point> points = square_lattice(300, 300);
-    for (auto _ : state) benchmark::DoNotOptimize(delaunay(points).triangles.data());
-    count_points(state, points.size());
+void triangulate(benchmark::State& state, std::vector<Point> (*make)(std::size_t)) {
+    const std::vector<Point> points = make(static_cast<std::size_t>(state.range(0)));
+    std::vector<Reference> references;
+#ifdef LAMINA_BENCH_TRIANGLE
+    references.push_back({"triangle", triangle_delaunay(points)});
+#endif
+#ifdef LAMINA_BENCH_CGAL
+    references.push_back({"cgal", cgal_delaunay(points)});
+#endif
+    measure(
+        state, "triangles", [&] { return delaunay(points).triangles.size(); }, references);
+    state.counters["points/s"] = static_cast<double>(points.size()) / state.counters["median_s"].value;
 }
-BENCHMARK(delaunay_lattice)->Unit(benchmark::kMillisecond);
 
-void delaunay_layer(benchmark::State& state) {
-    const std::vector<Point> points = layer_points(1000, 40);
-    for (auto _ : state) benchmark::DoNotOptimize(delaunay(points).triangles.data());
-    count_points(state, points.size());
+/// Medians of five; of three where one takes many seconds.
+void usual(benchmark::internal::Benchmark* b) {
+    b->Arg(100'000)->Arg(1'000'000)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
 }
-BENCHMARK(delaunay_layer)->Unit(benchmark::kMillisecond);
+void large(benchmark::internal::Benchmark* b) {
+    b->Arg(10'000'000)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(triangulate, uniform, uniform)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, layer, naca_layer_points)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, square_lattice, square_lattice)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, hexagonal_lattice, hexagonal_lattice)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, flat_plate, flat_plate)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, flat_plate_at_10_degrees, flat_plate_at_10_degrees)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, uniform, uniform)->Apply(large);
+BENCHMARK_CAPTURE(triangulate, layer, naca_layer_points)->Apply(large);
 
-void refine_square(benchmark::State& state) {
-    const double spacing = 1.0 / static_cast<double>(state.range(0));
-    const Border border = square_border(1, spacing);
-    const SizeField size(spacing);
-    std::size_t added = 0;
-    for (auto _ : state) added = refine(border.points, border.segments, size).added.size();
-    count_points(state, added);
+/// One edge in `one_edge_in` of a triangulation that is not Delaunay, together with the points.
+void constrain(benchmark::State& state, std::size_t one_edge_in) {
+    const ConstrainedCase c = stretched_edges_case(static_cast<std::size_t>(state.range(0)), one_edge_in);
+    std::vector<Reference> references;
+#ifdef LAMINA_BENCH_TRIANGLE
+    references.push_back({"triangle", triangle_constrained(c.points, c.segments)});
+#endif
+#ifdef LAMINA_BENCH_CGAL
+    references.push_back({"cgal", cgal_constrained(c.points, c.segments)});
+#endif
+    measure(
+        state, "triangles", [&] { return constrained_delaunay(c.points, c.segments).triangles.size(); }, references);
+    state.counters["segments"] = static_cast<double>(c.segments.size());
 }
-BENCHMARK(refine_square)->Arg(100)->Arg(300)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(constrain, some, 30)->Apply(usual);
+BENCHMARK_CAPTURE(constrain, every_third, 3)->Apply(usual);
+
+/// The unit square, border frozen. With patches as the library does it; without for the refinement itself.
+void refine_square(benchmark::State& state, double area_ratio, double min_angle_deg, bool patches) {
+    const RefinementCase c = unit_square_case(static_cast<double>(state.range(0)), area_ratio);
+    RefineOptions options;
+    options.min_angle_deg = min_angle_deg;
+    options.lattice = patches;
+    std::vector<Reference> references;
+#ifdef LAMINA_BENCH_TRIANGLE
+    references.push_back(
+        {"triangle", triangle_refine(c.border.points, c.border.segments, c.size, c.gradation, min_angle_deg)});
+#endif
+    std::vector<Point> added;
+    std::vector<Triangle> triangles;
+    measure(
+        state, "triangles",
+        [&] {
+            Refinement r = refine(c.border.points, c.border.segments, c.field, options);
+            added = std::move(r.added);
+            triangles = std::move(r.triangles);
+            state.counters["below_bound"] = static_cast<double>(r.stats.below_bound);
+            state.counters["oversized"] = static_cast<double>(r.stats.oversized);
+            return triangles.size();
+        },
+        references);
+
+    std::vector<Point> points = c.border.points;
+    points.insert(points.end(), added.begin(), added.end());
+    double smallest = 180, sum = 0;
+    for (const Triangle& t : triangles) {
+        const double angle = test::smallest_angle_deg(points, t);
+        smallest = std::min(smallest, angle);
+        sum += angle;
+    }
+    state.counters["min_angle"] = smallest;
+    state.counters["mean_min_angle"] = sum / static_cast<double>(triangles.size());
+}
+void refinement_sizes(benchmark::internal::Benchmark* b) {
+    usual(b);
+    b->Arg(5'000'000);
+}
+constexpr double graded = 1000;
+BENCHMARK_CAPTURE(refine_square, uniform_20_7_pure, 1, 20.7, false)->Apply(refinement_sizes);
+BENCHMARK_CAPTURE(refine_square, uniform_20_7_patches, 1, 20.7, true)->Apply(refinement_sizes);
+BENCHMARK_CAPTURE(refine_square, uniform_30_pure, 1, 30, false)->Apply(refinement_sizes);
+BENCHMARK_CAPTURE(refine_square, uniform_30_patches, 1, 30, true)->Apply(refinement_sizes);
+BENCHMARK_CAPTURE(refine_square, graded_20_7_pure, graded, 20.7, false)->Apply(refinement_sizes);
+BENCHMARK_CAPTURE(refine_square, graded_20_7_patches, graded, 20.7, true)->Apply(refinement_sizes);
+BENCHMARK_CAPTURE(refine_square, graded_30_pure, graded, 30, false)->Apply(refinement_sizes);
+BENCHMARK_CAPTURE(refine_square, graded_30_patches, graded, 30, true)->Apply(refinement_sizes);
 
 }  // namespace
-}  // namespace lamina::test
+}  // namespace lamina::bench
