@@ -27,22 +27,46 @@ struct Triangulation {
 /// (Bowyer 1981, Watson 1981).
 Triangulation delaunay(std::span<const Point> points);
 
-/// What is kept of a constrained triangulation.
+/// What is kept of a constrained triangulation, before holes are cut.
 enum class Keep {
     convex_hull,       ///< everything
+    inside_segments,   ///< what cannot be reached from outside the hull without crossing a segment
     left_of_segments,  ///< what can be reached from the left side of a segment without crossing one: segments bound the
                        ///< region counter-clockwise outside and clockwise round holes
 };
 
-struct ConstrainedOptions {
-    Keep keep = Keep::convex_hull;
+/// What happens where segments cross in their interiors.
+enum class Crossings {
+    refuse,  ///< InputError that names both
+    insert,  ///< a point is added at each crossing, rounded to doubles; pieces bend by a rounding error and stay planar
 };
 
-/// Constrained Delaunay triangulation: every segment is an edge; other edges are locally Delaunay by the tie rule.
-/// Segments may meet at end points only. Throws InputError for duplicates, crossing segments and segments through
-/// vertices (naming their indices).
-Triangulation constrained_delaunay(std::span<const Point> points, std::span<const Segment> segments,
-                                   const ConstrainedOptions& options = {});
+struct ConstrainedOptions {
+    Keep keep = Keep::convex_hull;
+    Crossings crossings = Crossings::refuse;
+    /// A point in each hole: what can be reached from it without crossing a segment is removed. Points outside the hull
+    /// have no effect; one on a vertex or segment is an InputError.
+    std::vector<Point> holes{};
+};
+
+/// Triangles and segments index the points handed in, then `added`.
+struct ConstrainedTriangulation {
+    std::vector<Point> added;         ///< crossing points
+    std::vector<Triangle> triangles;  ///< counter-clockwise
+    /// The edges of the triangles that are parts of segments, each once, directed as its segment is; in the order of
+    /// the segments, each chain from a to b.
+    std::vector<Segment> segments;
+    std::vector<std::uint32_t> parents;  ///< for each of them the segment it is a part of, the first if several are
+};
+
+/// Constrained Delaunay triangulation: every segment is an edge or, where it runs through points, a chain of edges;
+/// other edges are locally Delaunay by the tie rule. Segments may overlap or repeat. The set of triangles is unique: it
+/// depends on neither the order of the points (except for how crossing points are numbered) nor that of the segments.
+/// Throws InputError for duplicate points, crossing segments (naming their indices) unless they are to be resolved,
+/// and segments where all points lie on one line.
+/// Source: M. V. Anglada, Computers & Graphics 21 (1997).
+ConstrainedTriangulation constrained_delaunay(std::span<const Point> points, std::span<const Segment> segments,
+                                              const ConstrainedOptions& options = {});
 
 struct RefineOptions {
     double min_angle_deg = 20.7;  ///< proved to terminate up to 20.7, measured up to 33
@@ -77,6 +101,44 @@ struct Refinement {
 /// 2004.
 Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
                   const RefineOptions& options = {});
+
+/// Size field of the region that holds the seed, in the place of the general one.
+struct RegionSize {
+    Point seed;
+    SizeField size;
+};
+
+struct ConstrainedRefineOptions {
+    RefineOptions refine{};
+    /// Split segments and the rim where the angle or size bound asks for it; otherwise they stay as they are, and
+    /// triangles beside coarse ones may stay under the bounds.
+    bool split_segments = true;
+    std::vector<RegionSize> regions{};  ///< where several seeds lie in one region, the first counts
+};
+
+struct ConstrainedRefinement {
+    /// Those of the triangulation, then points on segments and the rim (`added_on_edges` of them), then the rest.
+    std::vector<Point> added;
+    std::size_t added_on_edges = 0;
+    std::vector<Triangle> triangles;     ///< index i < points: point i; else added[i - points]
+    std::vector<std::uint32_t> regions;  ///< for each triangle the index of its RegionSize, or no_region
+    std::vector<Segment> segments;       ///< as in ConstrainedTriangulation, split
+    std::vector<std::uint32_t> parents;
+    RefineStats stats;
+
+    static constexpr std::uint32_t no_region = 0xffffffffu;
+};
+
+/// Refines a constrained triangulation of the points, inner segments and holes included: each part that segments
+/// separate is refined by itself (in parallel; the result never depends on it) against borders that were split before:
+/// until none exceeds the size field, none has a vertex it sees in its diametral circle, and no triangle is kept under
+/// the bounds by one. Segments that meet at less than 90 degrees are split on common circles of powers of two round
+/// their vertex. Triangles in a corner where segments meet at less than 60 degrees, and those whose shortest edge joins
+/// two such segments, are exempt from the angle bound (stats.exempt).
+/// Source: J. Ruppert, J. Algorithms 18 (1995), section 3 and "corner lopping"; G. Miller, S. Pav, N. Walkington, Int.
+/// J. Comput. Geom. Appl. 15 (2005) for what is exempt.
+ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                             const SizeField& size, const ConstrainedRefineOptions& options = {});
 
 struct ValidateOptions {
     bool require_delaunay = true;  ///< locally Delaunay by the tie rule, but for edges in `constraints`

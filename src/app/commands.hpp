@@ -9,5 +9,6 @@ void add_mesh_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_info_command(CLI::App& app);
+void add_delaunay_command(CLI::App& app);
 
 }  // namespace lamina::app

@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
         add_check_command(app);
         add_plot_command(app);
         add_info_command(app);
+        add_delaunay_command(app);
         run(app, argc, argv);
         return static_cast<int>(ExitCode::done);
     } catch (const Error& error) {

@@ -1,13 +1,15 @@
 // Constraint insertion: the triangles that a segment crosses are removed and the polygons on its two sides triangulated
-// anew. Source: M. V. Anglada, An improved incremental algorithm for constructing restricted Delaunay triangulations,
-// Computers & Graphics 21 (1997). The opposite vertex of each base is chosen with the perturbed incircle test, so the
-// result obeys the one tie rule.
+// anew; where it runs through a vertex it is split there. Source: M. V. Anglada, An improved incremental algorithm for
+// constructing restricted Delaunay triangulations, Computers & Graphics 21 (1997). The opposite vertex of each base is
+// chosen with the perturbed incircle test, so the result obeys the one tie rule.
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
 
 #include "core/predicates.hpp"
 #include "kernel/triangulator.hpp"
@@ -40,26 +42,42 @@ struct Workspace {
     std::vector<Range> ranges;
 };
 
-std::string segment_name(std::span<const Segment> segments, Index a, Index b) {
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        const Index sa = segments[i].a.value, sb = segments[i].b.value;
-        if ((sa == a && sb == b) || (sa == b && sb == a)) return fmt::format("segment {} ({}-{})", i, sa, sb);
+/// The segments being inserted, for messages.
+struct Input {
+    std::span<const Point> points;
+    std::span<const Segment> segments;
+};
+
+std::string segment_name(const Input& input, std::size_t i) {
+    return fmt::format("segment {} ({}-{})", i, input.segments[i].a.value, input.segments[i].b.value);
+}
+
+/// Where c-d is a part of a segment: that segment.
+std::size_t segment_of_edge(const Input& input, Index c, Index d) {
+    const Point from = input.points[c], to = input.points[d];
+    for (std::size_t i = 0; i < input.segments.size(); ++i) {
+        const Point a = input.points[input.segments[i].a.index()], b = input.points[input.segments[i].b.index()];
+        if (orient2d(a, b, from) == 0 && orient2d(a, b, to) == 0 && dot(from - a, from - b) <= 0 &&
+            dot(to - a, to - b) <= 0)
+            return i;
     }
-    return fmt::format("segment ({}-{})", a, b);
+    assert(false);
+    return 0;
 }
 
-[[noreturn]] void fail_through_vertex(std::span<const Point> points, std::span<const Segment> segments, Index a,
-                                      Index b, Index v) {
-    throw InputError({.file = {}, .line = 0, .at = points[v]},
-                     fmt::format("{} passes through point {}", segment_name(segments, a, b), v));
+[[noreturn]] void fail_through_vertex(const Input& input, std::size_t segment, Index v) {
+    throw InputError({.file = {}, .line = 0, .at = input.points[v]},
+                     fmt::format("{} passes through point {}", segment_name(input, segment), v));
 }
 
-[[noreturn]] void fail_crossing(std::span<const Point> points, std::span<const Segment> segments, Index a, Index b,
-                                Index c, Index d) {
-    const Point p = points[a], q = points[b], r = points[c], s = points[d];
+[[noreturn]] void fail_crossing(const Input& input, std::size_t segment, Index c, Index d) {
+    const Point p = input.points[input.segments[segment].a.index()],
+                q = input.points[input.segments[segment].b.index()];
+    const Point r = input.points[c], s = input.points[d];
     const double t = cross(r - p, s - r) / cross(q - p, s - r);
-    throw InputError({.file = {}, .line = 0, .at = p + t * (q - p)},
-                     fmt::format("{} crosses {}", segment_name(segments, a, b), segment_name(segments, c, d)));
+    throw InputError(
+        {.file = {}, .line = 0, .at = p + t * (q - p)},
+        fmt::format("{} crosses {}", segment_name(input, segment), segment_name(input, segment_of_edge(input, c, d))));
 }
 
 void fix_edge(Tris& tris, Index triangle, unsigned edge) {
@@ -68,35 +86,32 @@ void fix_edge(Tris& tris, Index triangle, unsigned edge) {
     if (!outer.is_border()) tris[outer.triangle()].n[outer.edge()] = Link(triangle, edge, true);
 }
 
-/// Turns round a. If edge a-b is there it is fixed and border() returned; otherwise the edge opposite a through which
-/// the segment leaves, as (triangle, edge).
-Link first_crossing(std::span<const Point> points, std::span<const Segment> segments, Tris& tris, Index at_a, Index a,
-                    Index b) {
+/// How a segment leaves its first vertex.
+struct Departure {
+    Index along = no_index;  ///< the next vertex, where the segment leaves along an edge; the edge is fixed
+    Link exit;               ///< otherwise the edge, opposite a, through which it leaves: (triangle, edge)
+};
+
+Departure depart(std::span<const Point> points, Tris& tris, Index at_a, Index a, Index b) {
     Index t = at_a;
     Link exit = Link::border();
     do {
         const Tri& tri = tris[t];
         const unsigned i = tri.v[0] == a ? 0 : tri.v[1] == a ? 1 : 2;
         const Index u = tri.v[next(i)], w = tri.v[previous(i)];
-        if (u == b) {
-            fix_edge(tris, t, previous(i));
-            return Link::border();
-        }
-        if (w == b) {
-            fix_edge(tris, t, next(i));
-            return Link::border();
-        }
         if (u != ghost_vertex) {
-            const double at_u = detail::inline_orient2d(points[a], points[u], points[b]);
-            if (at_u == 0 && dot(points[u] - points[a], points[b] - points[a]) > 0)
-                fail_through_vertex(points, segments, a, b, u);
+            const double at_u = u == b ? 0 : detail::inline_orient2d(points[a], points[u], points[b]);
+            if (at_u == 0 && dot(points[u] - points[a], points[b] - points[a]) > 0) {
+                fix_edge(tris, t, previous(i));
+                return {u, Link::border()};
+            }
             if (w != ghost_vertex && at_u > 0 && detail::inline_orient2d(points[a], points[w], points[b]) < 0)
                 exit = Link(t, i);
         }
         t = tri.n[next(i)].triangle();  // counter-clockwise, across a-w
     } while (t != at_a);
     assert(!exit.is_border());
-    return exit;
+    return {no_index, exit};
 }
 
 /// Walks along a -> b and collects the crossed triangles and the two chains:
@@ -106,8 +121,11 @@ Link first_crossing(std::span<const Point> points, std::span<const Segment> segm
 ///      a ---\--/----\----/----- b       right chain  a u0 u1 b
 ///       \    \/      \  /      /
 ///        u0 ---------- u1 ----
-void collect_crossed(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris, Link exit,
-                     Index a, Index b, Workspace& work) {
+///
+/// Stops at the first vertex on the segment, at the latest b, and returns it. Nothing is changed.
+Index collect_crossed(const Input& input, std::size_t segment, const Tris& tris, Link exit, Index a, Index b,
+                      Workspace& work) {
+    const std::span<const Point> points = input.points;
     work.crossed.clear();
     work.edges.clear();
     work.left.clear();
@@ -124,18 +142,17 @@ void collect_crossed(std::span<const Point> points, std::span<const Segment> seg
     chain_edge(work.right, t, previous(e));
     for (;;) {
         const Link across = tris[t].n[e];
-        if (across.is_fixed()) fail_crossing(points, segments, a, b, tris[t].v[next(e)], tris[t].v[previous(e)]);
+        if (across.is_fixed()) fail_crossing(input, segment, tris[t].v[next(e)], tris[t].v[previous(e)]);
         t = across.triangle();
         const unsigned k = across.edge();
         work.crossed.push_back(t);
         const Index x = tris[t].v[k];
-        if (x == b) {
+        const double side = x == b ? 0 : detail::inline_orient2d(points[a], points[b], points[x]);
+        if (side == 0) {
             chain_edge(work.left, t, previous(k));
             chain_edge(work.right, t, next(k));
-            return;
+            return x;
         }
-        const double side = detail::inline_orient2d(points[a], points[b], points[x]);
-        if (side == 0) fail_through_vertex(points, segments, a, b, x);
         if (side > 0) {
             chain_edge(work.left, t, previous(k));
             e = next(k);
@@ -242,18 +259,78 @@ Link fill_polygon(std::span<const Point> points, Tris& tris, Workspace& work, st
     return top;
 }
 
-void insert_segment(std::span<const Point> points, std::span<const Segment> segments, Tris& tris,
-                    std::vector<Index>& at_vertex, Index a, Index b, Workspace& work) {
-    const Link exit = first_crossing(points, segments, tris, at_vertex[a], a, b);
-    if (exit.is_border()) return;
-    collect_crossed(points, segments, tris, exit, a, b, work);
+/// fill_polygon() for long chains, where looking at every vertex for every triangle would cost O(k^2): the polygon's
+/// constrained triangulation is a part of that of its vertices. Chain edges were Delaunay edges of more points, or
+/// segments: nearly all stand in the plain triangulation, and inserting the others is a smaller problem of this kind.
+Link fill_long_polygon(std::span<const Point> points, Tris& tris, Workspace& work, std::vector<Index>& at_vertex) {
+    std::vector<Index> chain(1, work.edges[work.chain.front()].b);
+    for (Index e : work.chain) chain.push_back(work.edges[e].a);
+    std::vector<Index> global = chain;
+    std::sort(global.begin(), global.end());
+    global.erase(std::unique(global.begin(), global.end()), global.end());
+    const auto local = [&](Index v) {
+        return VertexId(static_cast<std::size_t>(std::lower_bound(global.begin(), global.end(), v) - global.begin()));
+    };
+    std::vector<Point> vertices;
+    for (Index v : global) vertices.push_back(points[v]);
+    // Directed with the polygon on the left; the base is the last.
+    std::vector<Segment> rim;
+    for (std::size_t i = 0; i < work.chain.size(); ++i) rim.push_back({local(chain[i + 1]), local(chain[i])});
+    rim.push_back({local(chain.front()), local(chain.back())});
+    Tris inside = triangulate_points(vertices);
+    insert_segments(vertices, rim, inside);
+    inside = keep_left_of_segments({&rim.back(), 1}, inside, vertices.size());
+    assert(inside.size() + 1 == work.chain.size());
+
+    std::vector<std::pair<Segment, Index>> rim_places;
+    for (std::size_t i = 0; i < rim.size(); ++i) rim_places.push_back({rim[i], static_cast<Index>(i)});
+    std::sort(rim_places.begin(), rim_places.end());
+    const std::vector<Index> made(work.crossed.end() - static_cast<std::ptrdiff_t>(inside.size()), work.crossed.end());
+    work.crossed.resize(work.crossed.size() - inside.size());
+    for (std::size_t i = 0; i < inside.size(); ++i)
+        for (unsigned e = 0; e < 3; ++e) {
+            const Link n = inside[i].n[e];
+            const Index v = global[inside[i].v[e]];
+            tris[made[i]].v[e] = v;
+            tris[made[i]].n[e] = n.is_fixed() ? Link::border() : Link(made[n.triangle()], n.edge());
+            at_vertex[v] = made[i];
+        }
+    Link top = Link::border();
+    for (std::size_t i = 0; i < inside.size(); ++i)
+        for (unsigned e = 0; e < 3; ++e) {
+            if (!inside[i].n[e].is_fixed()) continue;
+            const Segment edge{VertexId{inside[i].v[next(e)]}, VertexId{inside[i].v[previous(e)]}};
+            const Index place =
+                std::lower_bound(rim_places.begin(), rim_places.end(), std::pair{edge, Index{0}})->second;
+            if (place + 1 == rim.size())
+                top = Link(made[i], e);
+            else
+                attach(tris, work, work.chain[place], made[i], e);
+        }
+    return top;
+}
+
+/// Triangulates the polygon of work.chain. Returns the new triangle at the base and its edge there.
+Link fill(std::span<const Point> points, Tris& tris, Workspace& work, std::vector<Index>& at_vertex) {
+    constexpr std::size_t long_chain = 100;
+    return work.chain.size() < long_chain ? fill_polygon(points, tris, work, at_vertex)
+                                          : fill_long_polygon(points, tris, work, at_vertex);
+}
+
+/// Inserts the segment's part from vertex a to the first vertex on it, at the latest b. Returns that vertex.
+Index insert_piece(const Input& input, std::size_t segment, Tris& tris, std::vector<Index>& at_vertex, Index a, Index b,
+                   Workspace& work) {
+    const Departure departure = depart(input.points, tris, at_vertex[a], a, b);
+    if (departure.along != no_index) return departure.along;
+    const Index end = collect_crossed(input, segment, tris, departure.exit, a, b, work);
     pair_dangling_edges(tris, work);
     work.chain = work.left;
-    const Link left = fill_polygon(points, tris, work, at_vertex);
-    // The right chain, walked from b to a, has its polygon on the left as well.
+    const Link left = fill(input.points, tris, work, at_vertex);
+    // The right chain, walked from end to a, has its polygon on the left as well.
     work.chain.assign(work.right.rbegin(), work.right.rend());
-    const Link right = fill_polygon(points, tris, work, at_vertex);
+    const Link right = fill(input.points, tris, work, at_vertex);
     connect(tris, left.triangle(), left.edge(), right.fixed());
+    return end;
 }
 
 }  // namespace
@@ -278,69 +355,41 @@ Link find_edge(const Tris& tris, const std::vector<Index>& at_vertex, Index a, I
     return Link::border();
 }
 
-void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris) {
+void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris) {
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const auto [a, b] = segments[i];
         if (a.index() >= points.size() || b.index() >= points.size() || a == b)
-            throw InputError({}, fmt::format("segment {} ({}-{}) does not join two of the {} points", i, a.value,
-                                             b.value, points.size()));
+            throw InputError({}, fmt::format("{} does not join two of the {} points",
+                                             segment_name({points, segments}, i), points.size()));
     }
-    if (tris.empty()) {
-        if (!segments.empty()) throw InputError({}, "all points lie on one line: segments cannot be inserted");
-        return;
-    }
-    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
-    Workspace work;
-    for (const Segment& s : segments) insert_segment(points, segments, tris, at_vertex, s.a.value, s.b.value, work);
+    if (tris.empty() && !segments.empty())
+        throw InputError({}, "all points lie on one line: segments cannot be inserted");
 }
 
-Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count) {
-    const std::vector<Index> at_vertex = triangle_at_vertex(tris, point_count);
-    std::vector<char> keep(tris.size(), 0);
-    std::vector<Index> front;
-    const auto reach = [&](Index t) {
-        if (keep[t] || tris[t].is_ghost()) return;
-        keep[t] = 1;
-        front.push_back(t);
-    };
-    for (const Segment& s : segments) {
-        const Link left = find_edge(tris, at_vertex, s.a.value, s.b.value);
-        if (!left.is_border()) reach(left.triangle());
-        while (!front.empty()) {
-            const Tri& t = tris[front.back()];
-            front.pop_back();
-            for (Link n : t.n)
-                if (!n.is_fixed()) reach(n.triangle());
+std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                                    Tris& tris) {
+    const Input input{points, segments};
+    check_segments(points, segments, tris);
+    std::vector<SegmentPiece> pieces;
+    pieces.reserve(segments.size());
+    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
+    Workspace work;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        Index from = segments[i].a.value;
+        while (from != segments[i].b.value) {
+            const Index to = insert_piece(input, i, tris, at_vertex, from, segments[i].b.value, work);
+            pieces.push_back({{VertexId{from}, VertexId{to}}, static_cast<Index>(i)});
+            from = to;
         }
     }
+    return pieces;
+}
 
-    std::vector<Index> renumbered(tris.size(), no_index);
-    Index count = 0;
-    for (Index t = 0; t < tris.size(); ++t)
-        if (keep[t]) renumbered[t] = count++;
-    Tris kept(count);
-    for (Index t = 0; t < tris.size(); ++t) {
-        if (!keep[t]) continue;
-        Tri& copy = kept[renumbered[t]] = tris[t];
-        for (Link& n : copy.n) {
-            if (n.is_border()) continue;
-            const Index other = renumbered[n.triangle()];
-            n = other == no_index ? Link::border() : Link(other, n.edge(), n.is_fixed());
-        }
-    }
-    return kept;
+void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris) {
+    const std::vector<SegmentPiece> pieces = insert_and_split_segments(points, segments, tris);
+    for (const SegmentPiece& piece : pieces)
+        if (piece.segment.b != segments[piece.parent].b)
+            fail_through_vertex({points, segments}, piece.parent, piece.segment.b.value);
 }
 
 }  // namespace lamina::kernel
-
-namespace lamina {
-
-Triangulation constrained_delaunay(std::span<const Point> points, std::span<const Segment> segments,
-                                   const ConstrainedOptions& options) {
-    kernel::Tris tris = kernel::triangulate_points(points);
-    kernel::insert_segments(points, segments, tris);
-    if (options.keep == Keep::left_of_segments) tris = kernel::keep_left_of_segments(segments, tris, points.size());
-    return kernel::without_ghosts(tris);
-}
-
-}  // namespace lamina

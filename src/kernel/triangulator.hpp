@@ -15,13 +15,23 @@ namespace lamina::kernel {
 /// Throws InputError for duplicates and coordinates outside the exact range.
 Tris triangulate_points(std::span<const Point> points);
 
-/// Makes every segment a fixed edge, keeping the constrained Delaunay property (with the tie rule).
-/// Throws InputError where segments cross each other or pass through vertices.
-void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris);
+/// Throws InputError for segments that do not join two of the points, and for any where there are no triangles.
+void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris);
 
-/// Keeps what can be reached from the left of a segment without crossing a fixed edge, in ascending order of the old
-/// indices; the links across segments that remain on the rim become borders.
-Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
+/// What became of a segment: an edge of the triangulation, directed as the segment is.
+struct SegmentPiece {
+    Segment segment;
+    Index parent;  ///< index of the segment
+};
+
+/// Makes every segment a chain of fixed edges, split where it runs through vertices, keeping the constrained Delaunay
+/// property (with the tie rule). The pieces come in the order of the segments, each chain from a to b; overlapping
+/// segments give equal pieces. Throws InputError where segments cross, naming both.
+std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                                    Tris& tris);
+
+/// The same for segments that run through no vertex; throws InputError where one does.
+void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris);
 
 /// A triangle at each vertex (any one), no_index for vertices without.
 std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count);
@@ -29,6 +39,21 @@ std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count)
 /// The link of directed edge a -> b seen from its left triangle, found by turning round a; border() if there is none.
 /// Returned as (triangle on the left, its edge).
 Link find_edge(const Tris& tris, const std::vector<Index>& at_vertex, Index a, Index b);
+
+/// Marks of triangles: 1 = kept. Ghosts are never kept.
+using Marks = std::vector<char>;
+
+/// What can be reached from the left of a segment without crossing a fixed edge. Precondition: segments are edges.
+Marks mark_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
+/// What cannot be reached from the outside of the hull without crossing a fixed edge.
+Marks mark_inside_segments(const Tris& tris);
+Marks mark_all(const Tris& tris);
+/// Unmarks what can be reached from each seed without crossing a fixed edge; seeds outside the hull have no effect.
+/// Throws InputError for seeds on vertices or fixed edges.
+void carve_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris, Marks& marks);
+/// The marked triangles in ascending order of the old indices; links across their rim become borders.
+Tris keep_marked(const Tris& tris, const Marks& marks);
+Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
 
 /// Everything but the ghosts.
 Triangulation without_ghosts(const Tris& tris);

@@ -1,0 +1,279 @@
+// lamina delaunay: plain or constrained Delaunay triangulation of Triangle's files, refined where asked.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
+#include <lamina/mesh.hpp>
+
+#include "app/commands.hpp"
+#include "app/options.hpp"
+#include "app/report.hpp"
+#include "core/atomic_file.hpp"
+#include "core/parallel.hpp"
+#include "io/triangle_files.hpp"
+#include "mesh/quality.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DelaunayArguments {
+    std::string file;
+    std::string stem;
+    std::string min_angle, max_area, threads;
+    std::string report;
+    bool keep_border = false;
+    bool keep_hull = false;
+    bool insert_crossings = false;
+    bool quiet = false;
+};
+
+struct Settings {
+    fs::path stem;
+    double min_angle_deg = 0;  ///< 0 = no bound
+    double max_area = HUGE_VAL;
+    unsigned threads = 0;
+};
+
+/// What is written, with what the report says about it.
+struct Outcome {
+    TriangleOutput output;
+    double triangulation_seconds = 0, refinement_seconds = 0;
+    RefineStats stats;
+};
+
+class Stopwatch {
+public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Settings settings_of(const DelaunayArguments& arguments) {
+    Settings settings;
+    settings.stem = arguments.stem;
+    if (arguments.stem.empty()) {
+        settings.stem = arguments.file;
+        settings.stem.replace_extension();
+        settings.stem += ".1";
+    }
+    if (!arguments.min_angle.empty()) {
+        settings.min_angle_deg = parse_real(arguments.min_angle, "option --min-angle");
+        if (!(settings.min_angle_deg > 0 && settings.min_angle_deg <= 33))
+            throw UsageError("option --min-angle: must be > 0 and <= 33 degrees");
+    }
+    if (!arguments.max_area.empty()) {
+        settings.max_area = parse_real(arguments.max_area, "option --max-area");
+        if (!(settings.max_area > 0)) throw UsageError("option --max-area: must be > 0");
+    }
+    const double threads = arguments.threads.empty() ? 0 : parse_real(arguments.threads, "option --threads");
+    if (!(threads >= 0 && threads <= 1024 && threads == static_cast<unsigned>(threads)))
+        throw UsageError("option --threads: must be a whole number from 0 to 1024");
+    settings.threads = static_cast<unsigned>(threads);
+    return settings;
+}
+
+/// Errors of the kernel know points and segments by index: says in which file they are.
+template <class F>
+auto naming_file(const TriangleInput& input, F&& f) {
+    try {
+        return f();
+    } catch (const InputError& error) {
+        if (!error.place().file.empty()) throw;
+        const fs::path& file = input.segment_file.empty() ? input.point_file : input.segment_file;
+        throw InputError({file.string(), 0, {}}, std::string(error.what()) + " (counted from 0)");
+    }
+}
+
+constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4: area over squared edge
+
+/// The size field whose triangles have at most this area; without a bound, one coarser than anything.
+SizeField size_field(double max_area, const std::vector<Point>& points) {
+    Box extent;
+    for (Point p : points) extent.include(p);
+    const double whole = extent.width() * extent.width() + extent.height() * extent.height();
+    return SizeField(std::sqrt(std::min(max_area, 16 * whole) / equilateral_area));
+}
+
+ConstrainedRefinement refine_input(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
+                                   const Settings& settings, bool keep_border) {
+    ConstrainedRefineOptions options;
+    options.refine.min_angle_deg = settings.min_angle_deg;
+    options.split_segments = !keep_border;
+    for (const TriangleRegion& region : input.regions)
+        options.regions.push_back(
+            {region.at,
+             size_field(region.max_area > 0 ? std::min(region.max_area, settings.max_area) : settings.max_area,
+                        input.points)});
+    return refine(input.points, triangulation, size_field(settings.max_area, input.points), options);
+}
+
+/// Marks of Triangle: a vertex or segment on the rim that has none gets 1.
+void mark_rim(TriangleOutput& output) {
+    std::vector<std::pair<VertexId, VertexId>> edges;
+    for (const Triangle& t : output.triangles)
+        for (int e = 0; e < 3; ++e) edges.push_back({t.v[(e + 1) % 3], t.v[(e + 2) % 3]});
+    std::sort(edges.begin(), edges.end());
+    const auto on_rim = [&](VertexId a, VertexId b) {
+        return std::binary_search(edges.begin(), edges.end(), std::pair{a, b}) !=
+               std::binary_search(edges.begin(), edges.end(), std::pair{b, a});
+    };
+    for (const auto& [a, b] : edges) {
+        if (std::binary_search(edges.begin(), edges.end(), std::pair{b, a})) continue;
+        for (VertexId v : {a, b})
+            if (output.markers[v.index()] == 0) output.markers[v.index()] = 1;
+    }
+    for (std::size_t i = 0; i < output.segments.size(); ++i)
+        if (output.segment_markers[i] == 0 && on_rim(output.segments[i].a, output.segments[i].b))
+            output.segment_markers[i] = 1;
+}
+
+/// Attributes and markers of the input are kept; new vertices have attributes 0 and the marker of their segment.
+Outcome triangulate(const DelaunayArguments& arguments, const Settings& settings, TriangleInput input) {
+    Outcome outcome;
+    Stopwatch watch;
+    ConstrainedOptions options;
+    options.holes = input.holes;
+    options.crossings = arguments.insert_crossings ? Crossings::insert : Crossings::refuse;
+    if (!input.segments.empty() && !arguments.keep_hull) options.keep = Keep::inside_segments;
+    const ConstrainedTriangulation triangulation =
+        naming_file(input, [&] { return constrained_delaunay(input.points, input.segments, options); });
+    outcome.triangulation_seconds = watch.lap();
+
+    TriangleOutput& output = outcome.output;
+    std::vector<Point> added = triangulation.added;
+    std::vector<std::uint32_t> parents = triangulation.parents;
+    output.triangles = triangulation.triangles;
+    output.segments = triangulation.segments;
+    const bool bounded_regions = std::any_of(input.regions.begin(), input.regions.end(),
+                                             [](const TriangleRegion& region) { return region.max_area > 0; });
+    const bool refined = settings.min_angle_deg > 0 || std::isfinite(settings.max_area) || bounded_regions;
+    std::vector<std::uint32_t> regions;
+    if (refined || !input.regions.empty()) {
+        ConstrainedRefinement refinement =
+            naming_file(input, [&] { return refine_input(input, triangulation, settings, arguments.keep_border); });
+        added = std::move(refinement.added);
+        parents = std::move(refinement.parents);
+        output.triangles = std::move(refinement.triangles);
+        output.segments = std::move(refinement.segments);
+        regions = std::move(refinement.regions);
+        outcome.stats = refinement.stats;
+    }
+    outcome.refinement_seconds = watch.lap();
+
+    output.first_index = input.first_index;
+    output.points = std::move(input.points);
+    output.points.insert(output.points.end(), added.begin(), added.end());
+    output.attribute_count = input.attribute_count;
+    output.attributes = std::move(input.attributes);
+    output.attributes.resize(output.points.size() * output.attribute_count, 0.0);
+    output.markers = std::move(input.markers);
+    output.markers.resize(output.points.size(), 0);
+    for (std::size_t i = 0; i < output.segments.size(); ++i) {
+        const long marker = input.segment_markers.empty() ? 0 : input.segment_markers[parents[i]];
+        output.segment_markers.push_back(marker);
+        for (VertexId v : {output.segments[i].a, output.segments[i].b})
+            if (output.markers[v.index()] == 0) output.markers[v.index()] = marker;
+    }
+    mark_rim(output);
+    for (std::uint32_t region : regions)
+        output.regional.push_back(region == ConstrainedRefinement::no_region ? 0 : input.regions[region].attribute);
+    if (input.regions.empty()) output.regional.clear();
+    output.holes = std::move(input.holes);
+    output.regions = std::move(input.regions);
+    return outcome;
+}
+
+double smallest_angle(const TriangleOutput& output) {
+    double smallest = output.triangles.empty() ? 0 : 180;
+    for (const Triangle& t : output.triangles)
+        smallest =
+            std::min(smallest, detail::measure_triangle(output.points[t.v[0].index()], output.points[t.v[1].index()],
+                                                        output.points[t.v[2].index()])
+                                   .min_angle_deg);
+    return smallest;
+}
+
+void run(const DelaunayArguments& arguments) {
+    const Settings settings = settings_of(arguments);
+    check_folder_writable(settings.stem);
+    if (!arguments.report.empty()) check_folder_writable(arguments.report);
+
+    Stopwatch watch, total;
+    TriangleInput input = read_triangle_files(arguments.file);
+    const bool with_poly = !input.segment_file.empty();
+    const double read_seconds = watch.lap();
+    Outcome outcome;
+    with_threads(settings.threads, [&] { outcome = triangulate(arguments, settings, std::move(input)); });
+    const TriangleOutput& output = outcome.output;
+    watch.lap();
+    write_triangle_files(output, settings.stem, with_poly);
+    const double write_seconds = watch.lap();
+    const double angle = smallest_angle(output);
+
+    if (!arguments.report.empty()) {
+        Mesh mesh;
+        mesh.points = output.points;
+        mesh.triangles = output.triangles;
+        const Json report = {{"version", LAMINA_VERSION},
+                             {"threads", settings.threads == 0 ? thread_count() : settings.threads},
+                             {"vertices", output.points.size()},
+                             {"triangles", output.triangles.size()},
+                             {"min_angle_deg", angle},
+                             {"angles_below_bound", outcome.stats.below_bound},
+                             {"angles_exempt", outcome.stats.exempt},
+                             {"oversized", outcome.stats.oversized},
+                             {"seconds",
+                              {{"read", read_seconds},
+                               {"triangulation", outcome.triangulation_seconds},
+                               {"refinement", outcome.refinement_seconds},
+                               {"write", write_seconds},
+                               {"total", total.lap()}}},
+                             {"hash", mesh_hash(mesh)}};
+        write_stream_atomically(arguments.report, [&](std::ostream& out) { out << to_text(report); });
+    }
+    if (arguments.quiet) return;
+    fmt::print("{}.node, .ele{}: {} vertices, {} triangles, smallest angle {:.2f} degrees\n", settings.stem.string(),
+               with_poly ? ", .poly" : "", output.points.size(), output.triangles.size(), angle);
+    if (const auto& stats = outcome.stats; stats.below_bound + stats.oversized > 0)
+        fmt::print("  under the angle bound: {} triangles, {} of them at sharp corners of the input; too large: {}\n",
+                   stats.below_bound, stats.exempt, stats.oversized);
+}
+
+}  // namespace
+
+void add_delaunay_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "delaunay", "Delaunay triangulation of Triangle's files, constrained and refined where asked");
+    auto a = std::make_shared<DelaunayArguments>();
+    command->add_option("FILE", a->file, "FILE.poly (segments, holes, regions) or FILE.node (points)")->required();
+    command->add_option("-o,--output", a->stem, "writes STEM.node, STEM.ele, and STEM.poly for a .poly [FILE.1]")
+        ->type_name("STEM");
+    command->add_option("--min-angle", a->min_angle, "smallest angle, in degrees; > 0, <= 33")->type_name("DEG");
+    command->add_option("--max-area", a->max_area, "largest area of a triangle; > 0")->type_name("A");
+    command->add_flag("--keep-border", a->keep_border, "split no segment and no edge of the rim");
+    command->add_flag("--keep-hull", a->keep_hull, "fill the convex hull, concavities included");
+    command->add_flag("--insert-crossings", a->insert_crossings, "add a vertex where segments cross; else an error");
+    command->add_option("--threads", a->threads, "threads, 0 = all cores; never changes the result [0]")
+        ->type_name("N");
+    command->add_option("--report", a->report, "JSON report of the run")->type_name("FILE");
+    command->add_flag("--quiet", a->quiet, "no summary");
+    command->callback([a] { run(*a); });
+}
+
+}  // namespace lamina::app

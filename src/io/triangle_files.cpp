@@ -1,0 +1,320 @@
+// Reader and writer of Triangle's files; see triangle_files.hpp.
+#include "io/triangle_files.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
+
+#include "core/atomic_file.hpp"
+
+namespace lamina {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// --- Reading
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == '\f' || c == '\v'; }
+
+/// The lines of a file that hold something, and the numbers in them.
+class NumberLines {
+public:
+    NumberLines(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {}
+
+    bool next() {
+        while (!rest_.empty()) {
+            const std::size_t end = rest_.find('\n');
+            line_ = rest_.substr(0, end);
+            rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+            ++number_;
+            line_ = line_.substr(0, line_.find('#'));
+            if (!at_end()) return true;
+        }
+        return false;
+    }
+    void next(const char* what) {
+        if (!next()) fail(fmt::format("the file ends where {} is expected", what));
+    }
+    bool at_end() {
+        while (!line_.empty() && is_blank(line_.front())) line_.remove_prefix(1);
+        return line_.empty();
+    }
+    template <class T>
+    T number(const char* what) {
+        if (at_end()) fail(fmt::format("{} expected", what));
+        if (line_.front() == '+') line_.remove_prefix(1);
+        T value{};
+        const auto [end, error] = std::from_chars(line_.data(), line_.data() + line_.size(), value);
+        const auto used = static_cast<std::size_t>(end - line_.data());
+        if (error != std::errc{} || (used < line_.size() && !is_blank(line_[used])))
+            fail(fmt::format("{} expected, found '{}'", what,
+                             line_.substr(0, std::min<std::size_t>(30, line_.find_first_of(" \t\r,")))));
+        line_.remove_prefix(used);
+        return value;
+    }
+    double real(const char* what) {
+        const auto value = number<double>(what);
+        if (!std::isfinite(value)) fail(fmt::format("{} is not a finite number", what));
+        return value;
+    }
+    Point point() {
+        const double x = real("coordinate"), y = real("coordinate");
+        if (!in_exact_range({x, y})) fail("coordinates outside the exact range");
+        return {x, y};
+    }
+    template <class T>
+    T number_or(T otherwise, const char* what) {
+        return at_end() ? otherwise : number<T>(what);
+    }
+    /// A number of lines to come: each has at least two bytes, so that absurd counts are refused before memory is asked
+    /// for.
+    std::size_t count(const char* what) {
+        const auto n = number<std::size_t>(what);
+        if (n > rest_.size() / 2 + 1) fail(fmt::format("{}: {}, but the file is shorter than that", what, n));
+        return n;
+    }
+    void end_line() {
+        if (!at_end()) fail(fmt::format("end of line expected, found '{}'", line_.substr(0, 30)));
+    }
+    [[noreturn]] void fail(const std::string& reason) const { throw InputError({file_, number_, {}}, reason); }
+    std::size_t line() const { return number_; }
+
+private:
+    std::string_view rest_, line_;
+    std::string file_;
+    std::size_t number_ = 0;
+};
+
+/// "vertices dimension attributes markers", then "index x y [attributes] [marker]" each. False if there are none.
+bool read_vertices(NumberLines& in, TriangleInput& input) {
+    in.next("the number of vertices");
+    const std::size_t n = in.count("number of vertices");
+    if (in.number_or<std::size_t>(2, "dimension") != 2) in.fail("only two-dimensional vertices can be read");
+    input.attribute_count = in.number_or<std::size_t>(0, "number of attributes");
+    if (input.attribute_count > 1000) in.fail("more than 1000 attributes a vertex");
+    const auto markers = in.number_or<std::size_t>(0, "number of boundary markers");
+    if (markers > 1) in.fail("the number of boundary markers must be 0 or 1");
+    in.end_line();
+    for (std::size_t i = 0; i < n; ++i) {
+        in.next("a vertex");
+        const auto index = in.number<std::size_t>("vertex index");
+        if (i == 0) {
+            if (index > 1) in.fail(fmt::format("vertices are numbered from 0 or 1, not from {}", index));
+            input.first_index = index;
+        }
+        if (index != input.first_index + i)
+            in.fail(fmt::format("vertex index {} where {} is expected", index, input.first_index + i));
+        input.points.push_back(in.point());
+        for (std::size_t a = 0; a < input.attribute_count; ++a) input.attributes.push_back(in.real("attribute"));
+        if (markers == 1) input.markers.push_back(in.number<long>("boundary marker"));
+        in.end_line();
+        input.lines.push_back(in.line());
+    }
+    return n > 0;
+}
+
+void refuse_duplicates(const TriangleInput& input) {
+    std::vector<std::size_t> order(input.points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) {
+        const Point a = input.points[l], b = input.points[r];
+        return a == b ? l < r : lexicographically_less(a, b);
+    });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        const std::size_t first = order[i - 1], second = order[i];
+        if (input.points[first] == input.points[second])
+            throw InputError({input.point_file.string(), input.lines[second], input.points[second]},
+                             fmt::format("vertices {} and {} (line {}) are the same", second + input.first_index,
+                                         first + input.first_index, input.lines[first]));
+    }
+}
+
+void read_segments(NumberLines& in, TriangleInput& input) {
+    in.next("the number of segments");
+    const std::size_t n = in.count("number of segments");
+    const auto markers = in.number_or<std::size_t>(0, "number of boundary markers");
+    if (markers > 1) in.fail("the number of boundary markers must be 0 or 1");
+    in.end_line();
+    const auto vertex = [&] {
+        const auto index = in.number<std::size_t>("vertex index");
+        if (index < input.first_index || index - input.first_index >= input.points.size())
+            in.fail(fmt::format("vertex index {}, but vertices are numbered from {} to {}", index, input.first_index,
+                                input.first_index + input.points.size() - 1));
+        return VertexId{index - input.first_index};
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        in.next("a segment");
+        in.number<std::size_t>("segment index");
+        const VertexId a = vertex(), b = vertex();
+        if (a == b) in.fail("a segment from a vertex to itself");
+        input.segments.push_back({a, b});
+        if (markers == 1) input.segment_markers.push_back(in.number<long>("boundary marker"));
+        in.end_line();
+        input.segment_lines.push_back(in.line());
+    }
+}
+
+void read_holes_and_regions(NumberLines& in, TriangleInput& input) {
+    in.next("the number of holes");
+    const std::size_t holes = in.count("number of holes");
+    in.end_line();
+    for (std::size_t i = 0; i < holes; ++i) {
+        in.next("a hole");
+        in.number<std::size_t>("hole index");
+        input.holes.push_back(in.point());
+        in.end_line();
+        input.hole_lines.push_back(in.line());
+    }
+    if (!in.next()) return;
+    const std::size_t regions = in.count("number of regions");
+    in.end_line();
+    for (std::size_t i = 0; i < regions; ++i) {
+        in.next("a region");
+        in.number<std::size_t>("region index");
+        TriangleRegion region;
+        region.at = in.point();
+        // With one number only, it is the attribute and the area bound at once, as Triangle reads it.
+        region.attribute = in.real("regional attribute");
+        region.max_area = in.at_end() ? region.attribute : in.real("area bound");
+        in.end_line();
+        input.regions.push_back(region);
+    }
+    if (in.next()) in.fail("something follows the last region");
+}
+
+// --- Writing
+
+/// Text that grows; numbers with 17 significant digits, so that every double comes back as it was.
+class Text {
+public:
+    Text& operator<<(std::size_t value) {
+        return put([&](char* p, char* end) { return std::to_chars(p, end, value); });
+    }
+    Text& operator<<(long value) {
+        return put([&](char* p, char* end) { return std::to_chars(p, end, value); });
+    }
+    Text& operator<<(double value) {
+        return put([&](char* p, char* end) { return std::to_chars(p, end, value, std::chars_format::general, 17); });
+    }
+    Text& operator<<(Point p) { return *this << p.x << ' ' << p.y; }
+    Text& operator<<(char c) {
+        text_ += c;
+        return *this;
+    }
+    const std::string& str() const { return text_; }
+
+private:
+    template <class Convert>
+    Text& put(Convert&& convert) {
+        char digits[40];
+        text_.append(digits, convert(digits, digits + sizeof digits).ptr);
+        return *this;
+    }
+    std::string text_;
+};
+
+void write_text(const fs::path& file, const Text& text) {
+    write_stream_atomically(file, [&](std::ostream& out) { out << text.str(); });
+}
+
+Text node_text(const TriangleOutput& o) {
+    Text text;
+    text << o.points.size() << ' ' << std::size_t{2} << ' ' << o.attribute_count << ' '
+         << std::size_t{!o.markers.empty()} << '\n';
+    for (std::size_t i = 0; i < o.points.size(); ++i) {
+        text << i + o.first_index << ' ' << o.points[i];
+        for (std::size_t a = 0; a < o.attribute_count; ++a) text << ' ' << o.attributes[i * o.attribute_count + a];
+        if (!o.markers.empty()) text << ' ' << o.markers[i];
+        text << '\n';
+    }
+    return text;
+}
+
+Text ele_text(const TriangleOutput& o) {
+    Text text;
+    text << o.triangles.size() << ' ' << std::size_t{3} << ' ' << std::size_t{!o.regional.empty()} << '\n';
+    for (std::size_t i = 0; i < o.triangles.size(); ++i) {
+        text << i + o.first_index;
+        for (VertexId v : o.triangles[i].v) text << ' ' << v.index() + o.first_index;
+        if (!o.regional.empty()) text << ' ' << o.regional[i];
+        text << '\n';
+    }
+    return text;
+}
+
+/// Vertices stand in the .node file.
+Text poly_text(const TriangleOutput& o) {
+    Text text;
+    text << std::size_t{0} << ' ' << std::size_t{2} << ' ' << o.attribute_count << ' '
+         << std::size_t{!o.markers.empty()} << '\n';
+    text << o.segments.size() << ' ' << std::size_t{!o.segment_markers.empty()} << '\n';
+    for (std::size_t i = 0; i < o.segments.size(); ++i) {
+        text << i + o.first_index << ' ' << o.segments[i].a.index() + o.first_index << ' '
+             << o.segments[i].b.index() + o.first_index;
+        if (!o.segment_markers.empty()) text << ' ' << o.segment_markers[i];
+        text << '\n';
+    }
+    text << o.holes.size() << '\n';
+    for (std::size_t i = 0; i < o.holes.size(); ++i) text << i + o.first_index << ' ' << o.holes[i] << '\n';
+    if (!o.regions.empty()) {
+        text << o.regions.size() << '\n';
+        for (std::size_t i = 0; i < o.regions.size(); ++i)
+            text << i + o.first_index << ' ' << o.regions[i].at << ' ' << o.regions[i].attribute << ' '
+                 << o.regions[i].max_area << '\n';
+    }
+    return text;
+}
+
+fs::path with_suffix(const fs::path& stem, const char* suffix) {
+    fs::path file = stem;
+    file += suffix;
+    return file;
+}
+
+}  // namespace
+
+TriangleInput read_triangle_files(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    if (extension != ".node" && extension != ".poly")
+        throw UsageError(fmt::format("{}: neither a .node nor a .poly file", file.string()));
+    TriangleInput input;
+    const std::string bytes = read_whole_file(file);
+    NumberLines in(bytes, file.string());
+    input.point_file = file;
+    const bool has_vertices = read_vertices(in, input);
+    if (extension == ".poly") {
+        input.segment_file = file;
+        if (!has_vertices) {
+            input.point_file = fs::path(file).replace_extension(".node");
+            const std::string nodes = read_whole_file(input.point_file);
+            NumberLines vertices(nodes, input.point_file.string());
+            read_vertices(vertices, input);
+        }
+        read_segments(in, input);
+        read_holes_and_regions(in, input);
+    } else if (in.next()) {
+        in.fail("something follows the last vertex");
+    }
+    refuse_duplicates(input);
+    return input;
+}
+
+void write_triangle_files(const TriangleOutput& output, const fs::path& stem, bool with_poly) {
+    write_text(with_suffix(stem, ".node"), node_text(output));
+    write_text(with_suffix(stem, ".ele"), ele_text(output));
+    if (with_poly) write_text(with_suffix(stem, ".poly"), poly_text(output));
+}
+
+}  // namespace lamina

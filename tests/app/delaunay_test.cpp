@@ -1,0 +1,83 @@
+// lamina delaunay as a user runs it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+#include "io/triangle_files.hpp"
+
+namespace lamina::test {
+namespace {
+
+/// A square with a square hole, two regions, markers.
+const std::string plate =
+    "9 2 1 1\n1 0 0 1 0\n2 4 0 2 0\n3 4 4 3 0\n4 0 4 4 0\n5 1 1 5 0\n6 2 1 6 0\n7 2 2 7 0\n8 1 2 8 0\n9 3 3 9 0\n"
+    "8 1\n1 1 2 21\n2 2 3 0\n3 3 4 0\n4 4 1 0\n5 5 6 30\n6 6 7 30\n7 7 8 30\n8 8 5 30\n1\n1 1.5 1.5\n"
+    "1\n1 0.1 0.1 42 0.5\n";
+
+TEST(DelaunayCommand, PlainTriangulationOfPoints) {
+    const TemporaryFolder folder;
+    folder.write("p.node", "4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 2\n");
+    const ProgramRun run = run_lamina(folder, {"delaunay", "p.node"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"p.1.ele", "p.1.node", "p.node"}));
+    EXPECT_TRUE(folder.read("p.1.ele").starts_with("2 3 0\n0 ")) << folder.read("p.1.ele");
+}
+
+TEST(DelaunayCommand, ConstrainedAndRefinedWithReport) {
+    const TemporaryFolder folder;
+    folder.write("plate.poly", plate);
+    const auto report_of = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"delaunay", "plate.poly", "-o", "out", "--report", "r.json", "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun run = run_lamina(folder, arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.out, "");
+        return nlohmann::json::parse(folder.read("r.json"));
+    };
+    const auto report = report_of({"--min-angle", "28", "--max-area", "0.1"});
+    EXPECT_GE(report["min_angle_deg"].get<double>(), 28 - 1e-6);
+    EXPECT_GT(report["triangles"].get<int>(), 150);
+    for (const char* stage : {"read", "triangulation", "refinement", "write", "total"})
+        EXPECT_GE(report["seconds"][stage].get<double>(), 0) << stage;
+    EXPECT_EQ(report["hash"].get<std::string>().size(), 32u);
+
+    const TriangleInput out = read_triangle_files(folder / "out.poly");
+    EXPECT_EQ(out.points.size(), report["vertices"].get<std::size_t>());
+    EXPECT_EQ(out.attributes[8], 9);
+    EXPECT_EQ(out.attributes[20], 0);
+    for (std::size_t i = 0; i < out.segments.size(); ++i) {
+        const Point a = out.points[out.segments[i].a.index()], b = out.points[out.segments[i].b.index()];
+        const bool bottom = a.y == 0 && b.y == 0;
+        const bool outer = a.x == b.x ? a.x == 0 || a.x == 4 : a.y == 0 || a.y == 4;
+        EXPECT_EQ(out.segment_markers[i], bottom ? 21 : outer ? 1 : 30);
+    }
+    EXPECT_TRUE(folder.read("out.ele").find(" 42\n") != std::string::npos);
+
+    // The same for any number of threads, and coarser without bounds but that of the region.
+    const auto again = report_of({"--min-angle", "28", "--max-area", "0.1", "--threads", "3"});
+    EXPECT_EQ(again["hash"], report["hash"]);
+    EXPECT_LT(report_of({})["triangles"].get<int>(), 120);
+    const auto kept = report_of({"--min-angle", "20", "--keep-border"});
+    EXPECT_EQ(read_triangle_files(folder / "out.poly").segments.size(), 8u);
+    EXPECT_GT(kept["triangles"].get<int>(), 0);
+}
+
+TEST(DelaunayCommand, Refusals) {
+    const TemporaryFolder folder;
+    folder.write("cross.poly", "4 2\n1 0 0\n2 1 1\n3 0 1\n4 1 0\n2 0\n1 1 2\n2 3 4\n0\n");
+    folder.write("bad.node", "2 2\n1 0 0\n2 0 oops\n");
+    expect_refused(folder, {"delaunay", "cross.poly"}, 3, "segment 1 (2-3) crosses segment 0 (0-1) (at 0.5, 0.5)");
+    expect_refused(folder, {"delaunay", "bad.node"}, 3, "bad.node:3: coordinate expected, found 'oops'");
+    expect_refused(folder, {"delaunay", "none.node"}, 5, "none.node");
+    expect_refused(folder, {"delaunay", "bad.txt"}, 2, "neither a .node nor a .poly file");
+    expect_refused(folder, {"delaunay", "bad.node", "--min-angle", "40"}, 2, "--min-angle");
+    expect_refused(folder, {"delaunay", "bad.node", "--max-area", "-1"}, 2, "--max-area");
+    expect_refused(folder, {"delaunay", "bad.node", "-o", "nowhere/x"}, 5, "nowhere");
+    const ProgramRun run = run_lamina(folder, {"delaunay", "cross.poly", "--insert-crossings", "--keep-hull"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(read_triangle_files(folder / "cross.1.poly").points.size(), 5u);
+}
+
+}  // namespace
+}  // namespace lamina::test
