@@ -11,8 +11,8 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/predicates.hpp>
 
-#include "inputs.hpp"
 #include "paired.hpp"
+#include "support/kernel_families.hpp"
 
 namespace lamina::bench {
 namespace {
@@ -94,9 +94,9 @@ std::vector<Point> hexagonal_lattice(std::size_t n) {
     const int side = static_cast<int>(std::sqrt(static_cast<double>(n)));
     return test::hexagonal_lattice(side, side);
 }
-std::vector<Point> flat_plate(std::size_t n) { return flat_plate_points(n, 1, 0); }
+std::vector<Point> flat_plate(std::size_t n) { return test::flat_plate_points(n, 1, 0); }
 std::vector<Point> flat_plate_at_10_degrees(std::size_t n) {
-    return flat_plate_points(n, 0.984807753012208, 0.17364817766693033);
+    return test::flat_plate_points(n, 0.984807753012208, 0.17364817766693033);
 }
 
 void triangulate(benchmark::State& state, std::vector<Point> (*make)(std::size_t)) {
@@ -121,17 +121,17 @@ void large(benchmark::internal::Benchmark* b) {
     b->Arg(10'000'000)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
 }
 BENCHMARK_CAPTURE(triangulate, uniform, uniform)->Apply(usual);
-BENCHMARK_CAPTURE(triangulate, layer, naca_layer_points)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, layer, test::naca_layer_points)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, square_lattice, square_lattice)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, hexagonal_lattice, hexagonal_lattice)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, flat_plate, flat_plate)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, flat_plate_at_10_degrees, flat_plate_at_10_degrees)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, uniform, uniform)->Apply(large);
-BENCHMARK_CAPTURE(triangulate, layer, naca_layer_points)->Apply(large);
+BENCHMARK_CAPTURE(triangulate, layer, test::naca_layer_points)->Apply(large);
 
 /// One edge in `one_edge_in` of a triangulation that is not Delaunay, together with the points.
 void constrain(benchmark::State& state, std::size_t one_edge_in) {
-    const ConstrainedCase c = stretched_edges_case(static_cast<std::size_t>(state.range(0)), one_edge_in);
+    const test::ConstrainedCase c = test::stretched_edges_case(static_cast<std::size_t>(state.range(0)), one_edge_in);
     std::vector<Reference> references;
 #ifdef LAMINA_BENCH_TRIANGLE
     references.push_back({"triangle", triangle_constrained(c.points, c.segments)});
@@ -148,7 +148,7 @@ BENCHMARK_CAPTURE(constrain, every_third, 3)->Apply(usual);
 
 /// The unit square, border frozen. With patches as the library does it; without for the refinement itself.
 void refine_square(benchmark::State& state, double area_ratio, double min_angle_deg, bool patches) {
-    const RefinementCase c = unit_square_case(static_cast<double>(state.range(0)), area_ratio);
+    const test::RefinementCase c = test::unit_square_case(static_cast<double>(state.range(0)), area_ratio);
     RefineOptions options;
     options.min_angle_deg = min_angle_deg;
     options.lattice = patches;

@@ -24,8 +24,11 @@ namespace {
                      fmt::format("points {} and {} are the same", std::min(a, b), std::max(a, b)));
 }
 
-/// The box of points that are all in the exact range.
+/// The box of points that are all in the exact range and not too many.
 Box checked_box(std::span<const Point> points) {
+    if (points.size() > max_triangles / 2)
+        throw InputError(
+            {}, fmt::format("{} points are more than the {} of one triangulation", points.size(), max_triangles / 2));
     Box box;
     bool in_range = true;
     for (const Point p : points) {

@@ -1,6 +1,7 @@
 #include <lamina/delaunay.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -99,6 +100,38 @@ TEST(Delaunay, RefusesDuplicatesAndCoordinatesOutOfRange) {
         auto some = random_points(10, 1);
         some[4].y = bad;
         EXPECT_THROW(delaunay(some), InputError) << bad;
+    }
+}
+
+TEST(Delaunay, CavityOfEveryTriangle) {
+    // Nothing but a ring and one point in its middle, which comes late or last in the order of insertion.
+    for (std::size_t n = 3000; n < 3008; ++n) {
+        std::vector<Point> points;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double t = 2 * M_PI * double(i) / double(n);
+            points.push_back({std::cos(t), std::sin(t)});
+        }
+        points.push_back({1e-3, 2e-3});
+        const auto triangles = delaunay(points).triangles;
+        expect_valid(points, triangles);
+        EXPECT_GE(triangles.size(), n);
+    }
+}
+
+TEST(Delaunay, ManyPointsOnOneLine) {
+    std::vector<Point> line;
+    for (int i = 0; i < 100'000; ++i) line.push_back({double(i * 7919L % 100'003), 0});
+    EXPECT_TRUE(delaunay(line).triangles.empty());
+    line.push_back(line[5]);
+    EXPECT_THROW(delaunay(line), InputError);
+}
+
+TEST(Delaunay, RefusesDuplicatesOnHullEdgesAndLattices) {
+    auto points = square_lattice(20, 20);
+    for (const std::size_t copied : {0, 7, 19, 190, 399}) {
+        points.push_back(points[copied]);
+        EXPECT_THROW(delaunay(points), InputError) << copied;
+        points.pop_back();
     }
 }
 

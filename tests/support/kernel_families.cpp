@@ -1,8 +1,8 @@
-#include "inputs.hpp"
+#include "support/kernel_families.hpp"
 
 #include <cmath>
 
-namespace lamina::bench {
+namespace lamina::test {
 
 namespace {
 
@@ -81,7 +81,7 @@ RefinementCase unit_square_case(double triangles, double area_ratio) {
 }
 
 ConstrainedCase stretched_edges_case(std::size_t points, std::size_t one_edge_in) {
-    ConstrainedCase c{test::random_points(points, 11), {}};
+    ConstrainedCase c{random_points(points, 11), {}};
     std::vector<Point> stretched = c.points;
     for (Point& p : stretched) p.y *= 16;
     std::size_t edge = 0;
@@ -93,4 +93,4 @@ ConstrainedCase stretched_edges_case(std::size_t points, std::size_t one_edge_in
     return c;
 }
 
-}  // namespace lamina::bench
+}  // namespace lamina::test

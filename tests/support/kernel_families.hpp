@@ -1,4 +1,4 @@
-// Inputs of the benchmarks that tests do not need.
+// Families of inputs that the kernel is both measured and validated on.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 #include "support/point_sets.hpp"
 
-namespace lamina::bench {
+namespace lamina::test {
 
 /// About n points of a layer round NACA 0012: 50 along each ray, the first 1e-5 off the wall.
 std::vector<Point> naca_layer_points(std::size_t n);
@@ -20,7 +20,7 @@ std::vector<Point> flat_plate_points(std::size_t n, double cosine, double sine);
 /// A unit square to be filled with about `triangles` triangles of h(x) = size + gradation x; its border, pre-cut to
 /// 0.8 h.
 struct RefinementCase {
-    test::Border border;
+    Border border;
     double size = 0, gradation = 0;
     SizeField field{1.0};
 };
@@ -35,4 +35,4 @@ struct ConstrainedCase {
 };
 ConstrainedCase stretched_edges_case(std::size_t points, std::size_t one_edge_in);
 
-}  // namespace lamina::bench
+}  // namespace lamina::test
