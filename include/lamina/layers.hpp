@@ -30,7 +30,8 @@ struct LayerOptions {
     /// Below 2 an edge that must be halved often makes its neighbours follow, all along the border. Exceeded only
     /// where division points would cross something by rounding.
     double border_ratio = 1.4;
-    /// Edges of the outer border are split until none is longer than 1.1 x (length of any other) + gradation x distance.
+    /// Edges of the outer border are split until none is longer than 1.1 x (length of any other) + gradation x
+    /// distance.
     double border_gradation = 0.1;
     /// Edges of the outer border are split until none is longer than this.
     double longest_border_edge = HUGE_VAL;
