@@ -21,6 +21,7 @@ struct Triangulation {
 
 /// Delaunay triangulation of distinct points, in any order; O(n log n) in practice. Cocircular points are fanned by
 /// the one tie rule (predicates.hpp), so the set of triangles is unique and does not depend on the order of the points.
+/// Large sets are cut into strips that are triangulated on several threads; the result is the same on any number.
 /// Fewer than three points, or all on one line: no triangles. Throws InputError for duplicates and for coordinates
 /// outside the exact range.
 /// Source: biased randomised insertion order (Amenta, Choi, Rote, SoCG 2003) along a Hilbert curve; cavity insertion

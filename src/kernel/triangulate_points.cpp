@@ -189,11 +189,3 @@ Triangulation without_ghosts(const Tris& tris) {
 }
 
 }  // namespace lamina::kernel
-
-namespace lamina {
-
-Triangulation delaunay(std::span<const Point> points) {
-    return kernel::without_ghosts(kernel::triangulate_points(points));
-}
-
-}  // namespace lamina

@@ -9,6 +9,8 @@
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
+#include "core/parallel.hpp"
+#include "kernel/triangulator.hpp"
 #include "support/point_sets.hpp"
 
 namespace lamina::test {
@@ -73,6 +75,38 @@ TEST(Delaunay, LargeSetsAreValidAndCoverTheirHull) {
     }
     EXPECT_NEAR(covered_area(square_lattice(200, 200), delaunay(square_lattice(200, 200)).triangles), 199.0 * 199.0,
                 1e-6);
+}
+
+/// delaunay() cuts sets of this size into strips; the kernel alone does not.
+TEST(Delaunay, StripsGiveTheSequentialTriangulation) {
+    auto clustered = random_points(250'000, 8);
+    for (std::size_t i = 0; i < clustered.size(); i += 2) clustered[i].x = 0.5 + 1e-4 * clustered[i].x;
+    auto column = random_points(220'000, 9);
+    for (std::size_t i = 0; i < 150'000; ++i) column[i].x = 0.25;  // most points share one x
+    for (const auto& points : {random_points(250'000, 6), square_lattice(500, 450), hexagonal_lattice(480, 480),
+                               layer_points(5000, 45), clustered, column}) {
+        const auto expected = kernel::without_ghosts(kernel::triangulate_points(points)).triangles;
+        EXPECT_EQ(canonical(delaunay(points).triangles), canonical(expected));
+    }
+}
+
+TEST(Delaunay, StripsDoNotDependOnTheNumberOfThreads) {
+    const auto points = random_points(300'000, 10);
+    std::vector<Triangle> one, three;
+    with_threads(1, [&] { one = delaunay(points).triangles; });
+    with_threads(3, [&] { three = delaunay(points).triangles; });
+    EXPECT_EQ(one, three);
+}
+
+TEST(Delaunay, StripsNameDuplicatesByTheirNumbersInTheWhole) {
+    auto points = random_points(250'000, 11);
+    points[200'123] = points[17];
+    try {
+        delaunay(points);
+        FAIL() << "no error";
+    } catch (const InputError& e) {
+        EXPECT_NE(std::string(e.what()).find("points 17 and 200123 are the same"), std::string::npos) << e.what();
+    }
 }
 
 TEST(Delaunay, FewPointsOrOneLineGiveNoTriangles) {
