@@ -23,7 +23,11 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
     }
 
     // Every block below a failing one has been started already, so the lowest failure does not depend on timing.
-    std::atomic<std::size_t> next{0};
+    std::atomic<std::size_t> next, finished;
+    // What the caller wrote happens before the workers' part, and that before the return. The scheduler sees to that;
+    // said once more with `next` and `finished` for the thread sanitizer, which does not know the scheduler.
+    finished.store(0, std::memory_order_relaxed);
+    next.store(0, std::memory_order_release);
     std::mutex failure_mutex;
     std::size_t failed_block = blocks;
     std::exception_ptr failure;
@@ -40,8 +44,11 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
                 }
             }
         }
+        finished.fetch_add(1, std::memory_order_release);
     };
     tbb::parallel_for(std::size_t{0}, workers, run_worker, tbb::simple_partitioner{});
+    [[maybe_unused]] const std::size_t all = finished.load(std::memory_order_acquire);
+    assert(all == workers);
     if (failure) std::rethrow_exception(failure);
 }
 
@@ -51,7 +58,16 @@ void with_threads(unsigned threads, const std::function<void()>& f) {
     // By itself the library never starts more threads than there are cores.
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(threads, cores));
     tbb::task_arena arena(static_cast<int>(threads));
-    arena.execute(f);
+    // The scheduler may hand f to another thread: see parallel_for().
+    std::atomic<bool> handed_over, returned;
+    returned.store(false, std::memory_order_relaxed);
+    handed_over.store(true, std::memory_order_release);
+    arena.execute([&] {
+        if (handed_over.load(std::memory_order_acquire)) f();
+        returned.store(true, std::memory_order_release);
+    });
+    [[maybe_unused]] const bool done = returned.load(std::memory_order_acquire);
+    assert(done);
 }
 
 unsigned thread_count() { return static_cast<unsigned>(tbb::this_task_arena::max_concurrency()); }
