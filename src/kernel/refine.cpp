@@ -17,6 +17,7 @@
 
 #include "core/reproducible_math.hpp"
 #include "kernel/cavity.hpp"
+#include "kernel/estimate.hpp"
 #include "kernel/lattice.hpp"
 #include "kernel/triangulator.hpp"
 
@@ -28,6 +29,9 @@ namespace {
 
 /// Share of the bound that the area of a triangle made by a size-driven point aims at.
 constexpr double aimed_area = 0.9;
+/// Least height of such a triangle over its base, in lengths of the base; a base too long for that is no front, and the
+/// circumcentre serves.
+constexpr double least_front_height = 0.25;
 constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4: area over squared edge
 
 /// A triangle that waits to be mended. Triangles are made with the new vertex first, so a slot that was reused since
@@ -87,7 +91,9 @@ public:
         tris_ = keep_left_of_segments(segments, tris_, border.size());
         sizes_.reserve(border.size());
         for (Point p : border) sizes_.push_back(size(p));
-        reserve(options.expected_triangles);
+        reserve(options.expected_triangles > 0
+                    ? options.expected_triangles
+                    : static_cast<std::size_t>(std::min(estimate_triangles(points_, sizes_, tris_), 1e9)));
     }
 
     /// Size first, from a stack, so that work stays in cache; then angles, shortest edge first.
@@ -107,10 +113,15 @@ public:
         }
     }
 
+    /// To be called once, after run(): gives its memory away as it goes.
     Refinement result() {
         Refinement r;
         r.stats = count_leftovers();
-        r.added.assign(points_.begin() + static_cast<std::ptrdiff_t>(border_count_), points_.end());
+        sizes_ = {};
+        oversized_ = {};
+        narrow_ = {};
+        points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(border_count_));
+        r.added = std::move(points_);
         r.triangles.reserve(tris_.size());
         for (const Tri& t : tris_) r.triangles.push_back({VertexId{t.v[0]}, VertexId{t.v[1]}, VertexId{t.v[2]}});
         return r;
@@ -172,11 +183,10 @@ private:
     void mend_size(Index t) {
         const Tri& tri = tris_[t];
         const Shape s = shape_of(tri);
-        // Height of a triangle of the aimed area over the shortest edge, in lengths of that edge. An edge that is long
-        // itself is no base for a front: the circumcentre serves.
+        // Height of a triangle of the aimed area over the shortest edge, in lengths of that edge.
         const unsigned e = s.shortest();
         const double reach = aimed_area * area2_bound(tri) / s.squared[e];
-        insert_near(t, e, reach > 0.5 ? reach : HUGE_VAL);
+        insert_near(t, e, reach > least_front_height ? reach : HUGE_VAL);
     }
 
     void mend_angle(Index t) { insert_near(t, shape_of(tris_[t]).shortest(), off_centre_); }
@@ -277,6 +287,8 @@ private:
 /// The region's interior angle at a vertex is below 60 degrees where the border turns back sharply: such corners
 /// excuse the triangles in them.
 RefineStats Refiner::count_leftovers() const {
+    // Every triangle was queued as long as something was wrong with it: without a refusal nothing is left.
+    if (refused_ == 0) return {};
     // Border edges into and out of each border vertex (region on their left); a vertex with several of either, where
     // the region touches itself, counts as sharp if any pair is.
     std::vector<char> sharp(border_count_, 0);

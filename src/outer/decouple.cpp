@@ -10,6 +10,7 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
+#include "kernel/estimate.hpp"
 #include "outer/faces.hpp"
 #include "outer/separators.hpp"
 #include "outer/skeleton.hpp"
@@ -63,7 +64,7 @@ Subdomain make_subdomain(const Skeleton& skeleton, const Face& face, const SizeF
         box.include(s.points.back());
     }
     s.size = size.restricted_to(box);
-    s.estimated_triangles = estimate_triangles(s.points, s.segments, s.size);
+    s.estimated_triangles = kernel::estimate_triangles(s.points, s.segments, s.size);
     return s;
 }
 

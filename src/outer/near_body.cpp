@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/predicates.hpp"
+#include "kernel/estimate.hpp"
 #include "outer/separators.hpp"
 #include "outer/skeleton.hpp"
 
@@ -79,7 +80,7 @@ private:
             const std::size_t first = i < split ? 0 : split, last = i < split ? split : ids.size();
             segments.push_back({VertexId{i}, VertexId{i + 1 < last ? i + 1 : first}});
         }
-        return estimate_triangles(points, segments, size_);
+        return kernel::estimate_triangles(points, segments, size_);
     }
 
     std::vector<VertexId> outline(const Strip& s) const {

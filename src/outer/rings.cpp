@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernel/estimate.hpp"
 #include "outer/separators.hpp"
 #include "outer/skeleton.hpp"
 
@@ -42,7 +43,7 @@ QuarterRing measure(const Box& near_body, const Box& far_field, const SizeField&
             constexpr int samples = 4;
             for (int i = 0; i < samples; ++i) {
                 const double h = size(a + ((i + 0.5) / samples) * (b - a));
-                quarter.triangles += estimated_triangles(std::abs(area), 1 / (h * h)) / (4 * samples);
+                quarter.triangles += kernel::estimated_triangles(std::abs(area), 1 / (h * h)) / (4 * samples);
                 quarter.radial += width / h / (4 * samples);
                 quarter.tangential += distance(a, b) * (next - t) / ((outer - inner) * h) / (4 * samples);
             }

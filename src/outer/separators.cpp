@@ -10,8 +10,6 @@ namespace lamina::outer {
 namespace {
 
 constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4
-/// Mean area of the triangles that refinement makes, as a share of the bound (measured: docs/decisions/0002).
-constexpr double mean_area_share = 0.67;
 
 /// Equal shares of the integral of ds / h along the line. The integral is the trapezoidal sum over steps of about h
 /// / 8.
@@ -80,21 +78,6 @@ std::vector<Point> cut_by_k_rule(Point u, Point v, const SizeField& size, std::s
     return points;
 }
 
-/// Integral of 1 / h^2 over a triangle with h linear between its corners, by halving the longest-graded way until the
-/// sizes at the corners differ little.
-double inverse_square_integral(double area, double ha, double hb, double hc, int depth) {
-    const double low = std::min({ha, hb, hc}), high = std::max({ha, hb, hc});
-    if (depth == 0 || high < 1.5 * low) {
-        const double h = (ha + hb + hc) / 3;
-        return area / (h * h);
-    }
-    // Cut the edge between the finest and the coarsest corner in two.
-    const double mid = 0.5 * (low + high);
-    const double third = ha + hb + hc - low - high;
-    return inverse_square_integral(0.5 * area, low, mid, third, depth - 1) +
-           inverse_square_integral(0.5 * area, mid, high, third, depth - 1);
-}
-
 }  // namespace
 
 std::vector<Point> separate(Point u, Point v, const SizeField& size, SeparatorRule rule, std::size_t fewest) {
@@ -106,23 +89,6 @@ std::vector<Point> separate(Point u, Point v, const SizeField& size, SeparatorRu
         rule == SeparatorRule::k_rule ? cut_by_k_rule(from, to, size, fewest) : equidistribute(from, to, size, fewest);
     if (!forward) std::reverse(points.begin(), points.end());
     return points;
-}
-
-double estimated_triangles(double area, double mean_inverse_square_size) {
-    return area * mean_inverse_square_size / (equilateral_area * mean_area_share);
-}
-
-double estimate_triangles(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size) {
-    const auto triangles = constrained_delaunay(points, segments, {.keep = Keep::left_of_segments}).triangles;
-    std::vector<double> sizes(points.size());
-    std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return size(p); });
-    double integral = 0;
-    for (const Triangle& t : triangles) {
-        const std::size_t a = t.v[0].index(), b = t.v[1].index(), c = t.v[2].index();
-        const double area = 0.5 * cross(points[b] - points[a], points[c] - points[a]);
-        integral += inverse_square_integral(area, sizes[a], sizes[b], sizes[c], 12);
-    }
-    return estimated_triangles(1, integral);
 }
 
 }  // namespace lamina::outer

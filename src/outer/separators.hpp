@@ -19,10 +19,4 @@ namespace lamina::outer {
 /// Both directions of a line give the same points.
 std::vector<Point> separate(Point u, Point v, const SizeField& size, SeparatorRule rule, std::size_t fewest = 1);
 
-/// Triangles that refinement will make in the region left of `segments`, from the integral of 1 / area bound.
-double estimate_triangles(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size);
-
-/// The same from an area and the mean of 1 / h^2 over it.
-double estimated_triangles(double area, double mean_inverse_square_size);
-
 }  // namespace lamina::outer
