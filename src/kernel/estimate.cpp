@@ -32,7 +32,7 @@ double estimated_triangles(double area, double mean_inverse_square_size) {
     return area * mean_inverse_square_size / (equilateral_area * mean_area_share);
 }
 
-double estimate_triangles(std::span<const Point> points, std::span<const double> sizes, const Tris& tris) {
+double estimate_triangles(std::span<const Point> points, std::span<const float> sizes, const Tris& tris) {
     double integral = 0;
     for (const Tri& t : tris) {
         const auto [a, b, c] = t.v;
@@ -46,8 +46,8 @@ double estimate_triangles(std::span<const Point> points, std::span<const Segment
     Tris tris = triangulate_points(points);
     insert_segments(points, segments, tris);
     tris = keep_left_of_segments(segments, tris, points.size());
-    std::vector<double> sizes(points.size());
-    std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return size(p); });
+    std::vector<float> sizes(points.size());
+    std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return static_cast<float>(size(p)); });
     return estimate_triangles(points, sizes, tris);
 }
 

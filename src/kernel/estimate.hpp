@@ -16,7 +16,7 @@ namespace lamina::kernel {
 double estimated_triangles(double area, double mean_inverse_square_size);
 
 /// From a triangulation of the region, with h linear in each triangle between its corners.
-double estimate_triangles(std::span<const Point> points, std::span<const double> sizes, const Tris& tris);
+double estimate_triangles(std::span<const Point> points, std::span<const float> sizes, const Tris& tris);
 
 /// The same for the region left of `segments`.
 double estimate_triangles(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size);

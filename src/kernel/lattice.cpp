@@ -231,6 +231,14 @@ Word from_right(const Word* row, std::size_t w, std::size_t words) {
 }
 Word from_left(const Word* row, std::size_t w) { return row[w] << 1 | (w > 0 ? row[w - 1] >> 63 : 0); }
 
+/// No bit in the word of three rows, nor in the columns beside it: most words of a narrow level in a wide box.
+bool is_far_from_all(const Word* here, const Word* below, const Word* above, std::size_t w, std::size_t words) {
+    Word near = here[w] | below[w] | above[w];
+    if (w > 0) near |= (here[w - 1] | below[w - 1] | above[w - 1]) >> 63;
+    if (w + 1 < words) near |= (here[w + 1] | below[w + 1] | above[w + 1]) << 63;
+    return near == 0;
+}
+
 /// Columns of the two neighbours in the rows above and below: i - 1 and i for even rows, i and i + 1 for odd ones.
 enum class Combine { all, any };
 template <Combine combine>
@@ -244,6 +252,7 @@ std::vector<Word> with_neighbours(const Level& level, const std::vector<Word>& b
         const Word* above = j + 1 < level.rows ? here + words : none.data();
         const bool odd = (j & 1) != 0;
         for (std::size_t w = 0; w < words; ++w) {
+            if (combine == Combine::all ? here[w] == 0 : is_far_from_all(here, below, above, w, words)) continue;
             const Word n[6] = {from_left(here, w), from_right(here, w, words),
                                below[w],           odd ? from_right(below, w, words) : from_left(below, w),
                                above[w],           odd ? from_right(above, w, words) : from_left(above, w)};
@@ -270,31 +279,33 @@ Rings open(Level& level) {
     return rings;
 }
 
-/// Clears the rows of one level's patch, with the margin, out of a coarser level.
-void clear_patch(Level& coarser, const Level& level) {
+/// A run of vertices in a row, by its end points.
+struct Run {
+    Point first, last;
+};
+
+std::vector<Run> runs_of(const Level& level) {
+    std::vector<Run> runs;
     for (Row j = 0; j < level.rows; ++j) {
         const Word* row = level.row(j);
-        std::size_t run_start = 0;
+        std::size_t start = 0;
         bool in_run = false;
-        const auto end_run = [&](std::size_t end) {
-            clear_near(coarser, level.point(j, run_start), level.point(j, end - 1));
-            in_run = false;
-        };
         for (std::size_t w = 0; w < level.words; ++w) {
-            // Whole words of the run are passed at once.
-            if (row[w] == (in_run ? ~Word{0} : Word{0})) continue;
-            for (unsigned b = 0; b < 64; ++b) {
-                const bool set = (row[w] >> b & 1) != 0;
-                if (set && !in_run) {
-                    run_start = 64 * w + b;
-                    in_run = true;
-                } else if (!set && in_run) {
-                    end_run(64 * w + b);
-                }
+            // What ends the present state: a bit that is set outside a run, or clear inside one.
+            for (Word change = in_run ? ~row[w] : row[w]; change != 0;) {
+                const auto bit = static_cast<unsigned>(std::countr_zero(change));
+                const std::size_t column = 64 * w + bit;
+                if (in_run)
+                    runs.push_back({level.point(j, start), level.point(j, column - 1)});
+                else
+                    start = column;
+                in_run = !in_run;
+                change = (in_run ? ~row[w] : row[w]) & ~((Word{1} << bit) - 1);
             }
         }
-        if (in_run) end_run(64 * level.words);
+        if (in_run) runs.push_back({level.point(j, start), level.point(j, 64 * level.words - 1)});
     }
+    return runs;
 }
 
 /// Triangles of the patch by their horizontal edge (i, i + 1) of row j: `up` with the apex in row j + 1, `down` with
@@ -315,6 +326,7 @@ TriangleBits triangle_bits(const Level& level, const Rings& rings) {
         const Word* above = j + 1 < level.rows ? here + words : none.data();
         const Word* below = j > 0 ? here - words : none.data();
         for (std::size_t w = 0; w < words; ++w) {
+            if (is_far_from_all(here, below, above, w, words)) continue;
             const Word edge = here[w] | from_right(here, w, words);
             bits.up[base + w] = edge | apex(above, w);
             bits.down[base + w] = edge | apex(below, w);
@@ -361,6 +373,7 @@ void emit_strip(const Level& level, const TriangleBits& bits, Row j, const std::
     };
     const auto rim = [&](VertexId a, VertexId b) { patches.rim.push_back({b, a}); };
     for (std::size_t w = 0; w < words; ++w) {
+        if ((up[w] | down[w]) == 0) continue;
         for_bits(up[w], w, [&](std::size_t i) {
             patches.triangles.push_back({{vertex(here, i), vertex(here, i + 1), vertex(above, i + odd)}});
         });
@@ -428,14 +441,17 @@ LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const 
 
     std::erase_if(levels, [](const Level& level) { return level.is_empty(); });
     std::vector<Rings> rings;
+    std::vector<std::vector<Run>> runs;
     std::size_t vertices = 0;
     for (std::size_t l = 0; l < levels.size(); ++l) {
         Level& level = levels[l];
         clear_outside(level, points, segments);
         for (const Segment& s : segments) clear_near(level, points[s.a.index()], points[s.b.index()]);
         for (std::size_t finer = 0; finer < l; ++finer)
-            if (levels[finer].box.overlaps(level.box)) clear_patch(level, levels[finer]);
+            if (levels[finer].box.overlaps(level.box))
+                for (const Run& run : runs[finer]) clear_near(level, run.first, run.last);
         rings.push_back(open(level));
+        runs.push_back(runs_of(level));
         vertices += count(level.bits);
     }
     patches.points.reserve(vertices);

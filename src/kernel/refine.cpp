@@ -15,6 +15,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
+#include "core/pages.hpp"
 #include "core/reproducible_math.hpp"
 #include "kernel/cavity.hpp"
 #include "kernel/estimate.hpp"
@@ -31,7 +32,7 @@ namespace {
 constexpr double aimed_area = 0.9;
 /// Least height of such a triangle over its base, in lengths of the base; a base too long for that is no front, and the
 /// circumcentre serves.
-constexpr double least_front_height = 0.25;
+constexpr double least_front_height = 0.3;
 constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4: area over squared edge
 
 /// A triangle that waits to be mended. Triangles are made with the new vertex first, so a slot that was reused since
@@ -90,7 +91,7 @@ public:
         insert_segments(border, segments, tris_);
         tris_ = keep_left_of_segments(segments, tris_, border.size());
         sizes_.reserve(border.size());
-        for (Point p : border) sizes_.push_back(size(p));
+        for (Point p : border) sizes_.push_back(static_cast<float>(size(p)));
         reserve(options.expected_triangles > 0
                     ? options.expected_triangles
                     : static_cast<std::size_t>(std::min(estimate_triangles(points_, sizes_, tris_), 1e9)));
@@ -102,6 +103,7 @@ public:
         for (;;) {
             Waiting w;
             if (!oversized_.empty()) {
+                if (oversized_.size() > purge_at_) purge();
                 w = oversized_.back();
                 oversized_.pop_back();
                 if (is_current(w)) mend_size(w.triangle);
@@ -123,7 +125,16 @@ public:
         points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(border_count_));
         r.added = std::move(points_);
         r.triangles.reserve(tris_.size());
-        for (const Tri& t : tris_) r.triangles.push_back({VertexId{t.v[0]}, VertexId{t.v[1]}, VertexId{t.v[2]}});
+        // In blocks whose pages are given back once they are copied: the peak of memory is not here.
+        constexpr std::size_t block = std::size_t{1} << 16;
+        for (std::size_t from = 0; from < tris_.size(); from += block) {
+            const std::size_t to = std::min(from + block, tris_.size());
+            for (std::size_t i = from; i < to; ++i) {
+                const auto& v = tris_[i].v;
+                r.triangles.push_back({VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}});
+            }
+            give_back_pages(&tris_[from], (to - from) * sizeof(Tri));
+        }
         return r;
     }
 
@@ -144,7 +155,7 @@ private:
     }
 
     double area2_bound(const Tri& t) const {
-        const double h = sizes_[t.v[0]] + sizes_[t.v[1]] + sizes_[t.v[2]];
+        const double h = static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]];
         return (2 * equilateral_area / 9) * (h * h);
     }
 
@@ -161,6 +172,12 @@ private:
             oversized_.push_back(w);
         else if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2))
             narrow_.push(w, shortest);
+    }
+
+    /// Stale entries deep in the stack would wait there until the end. The order of the others stays.
+    void purge() {
+        std::erase_if(oversized_, [&](Waiting w) { return !is_current(w); });
+        purge_at_ = std::max(least_purge, 2 * oversized_.size());
     }
 
     bool is_current(Waiting w) const { return tris_[w.triangle].v[0] == w.newest; }
@@ -210,7 +227,7 @@ private:
         if (points_.size() - border_count_ >= options_.max_points) fail_too_many(options_.max_points);
         const Index vertex = static_cast<Index>(points_.size());
         points_.push_back(p);
-        sizes_.push_back(size_(p));
+        sizes_.push_back(static_cast<float>(size_(p)));
         const std::size_t before = tris_.size();
         fill_cavity(tris_, cavity_, vertex);
         classify_fan(vertex, before);
@@ -275,10 +292,12 @@ private:
     const RefineOptions& options_;
     std::size_t border_count_;
     std::vector<Point> points_;
-    std::vector<double> sizes_;  ///< h at each point
+    std::vector<float> sizes_;  ///< h at each point
     Tris tris_;
     double squared_sine_ = 0, off_centre_ = 0;
+    static constexpr std::size_t least_purge = std::size_t{1} << 16;
     std::vector<Waiting> oversized_;
+    std::size_t purge_at_ = least_purge;
     AngleQueue narrow_;
     Cavity cavity_;
     std::size_t refused_ = 0;
