@@ -454,9 +454,15 @@ LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const 
         runs.push_back(runs_of(level));
         vertices += count(level.bits);
     }
-    patches.points.reserve(vertices);
-    patches.triangles.reserve(2 * vertices);
-    for (std::size_t l = 0; l < levels.size(); ++l) emit(levels[l], rings[l], patches);
+    // With room for what the seam will add behind.
+    patches.points.reserve(vertices + vertices / 2);
+    patches.triangles.reserve(3 * vertices);
+    runs = {};
+    for (std::size_t l = 0; l < levels.size(); ++l) {
+        emit(levels[l], rings[l], patches);
+        levels[l] = {};
+        rings[l] = {};
+    }
     // A point of rim or collar costs about as much as two triangles of a patch save.
     if (patches.triangles.size() < 3 * (patches.rim.size() + patches.collar.size())) return {};
     return patches;

@@ -375,6 +375,7 @@ Refinement refine_seam(std::span<const Point> points, std::span<const Segment> s
     };
     for (const Segment& s : patches.rim) seam_segments.push_back({seam_vertex(s.a), seam_vertex(s.b)});
     for (VertexId v : patches.collar) seam_vertex(v);
+    in_seam = {};
     RefineOptions seam_options = options;
     seam_options.expected_triangles = 3 * seam_points.size();
     Refinement seam = refine_all(seam_points, seam_segments, size, seam_options);
@@ -388,7 +389,6 @@ Refinement refine_seam(std::span<const Point> points, std::span<const Segment> s
     result.triangles = std::move(patches.triangles);
     for (Triangle& t : result.triangles)
         for (VertexId& v : t.v) v = VertexId{border + v.index()};
-    result.triangles.reserve(result.triangles.size() + seam.triangles.size());
     for (const Triangle& t : seam.triangles) {
         Triangle& joined = result.triangles.emplace_back(t);
         for (VertexId& v : joined.v) {
