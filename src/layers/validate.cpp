@@ -7,8 +7,8 @@
 
 #include <lamina/layers.hpp>
 
-#include "core/reproducible_math.hpp"
 #include "core/box_tree.hpp"
+#include "core/reproducible_math.hpp"
 #include "layers/segments.hpp"
 
 namespace lamina {

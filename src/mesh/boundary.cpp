@@ -7,9 +7,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
-#include "core/box_tree.hpp"
 
 namespace lamina::detail {
 
