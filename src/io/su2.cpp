@@ -15,6 +15,7 @@
 
 #include "core/parallel.hpp"
 #include "io/formats.hpp"
+#include "io/text_lines.hpp"
 
 namespace lamina::detail {
 
@@ -60,73 +61,11 @@ void write_lines(std::ostream& out, std::size_t n, F&& put_line) {
 
 // --- Reading
 
-/// Lines of a file without comments and blank lines, and the numbers in them.
-class LineReader {
-public:
-    LineReader(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {}
-
-    /// The next line that holds something; false at the end.
-    bool next() {
-        while (!rest_.empty()) {
-            const std::size_t end = rest_.find('\n');
-            line_ = rest_.substr(0, end);
-            rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-            ++number_;
-            line_ = line_.substr(0, line_.find('%'));
-            skip_blanks();
-            if (!line_.empty()) return true;
-        }
-        return false;
-    }
-    /// "KEY = value": KEY if the line reads so, leaving the value.
-    std::optional<std::string_view> key() {
-        const std::size_t equals = line_.find('=');
-        if (equals == std::string_view::npos) return std::nullopt;
-        const std::string_view key = trimmed(line_.substr(0, equals));
-        line_.remove_prefix(equals + 1);
-        return key;
-    }
-    std::string_view text() const { return trimmed(line_); }
-    bool at_end() {
-        skip_blanks();
-        return line_.empty();
-    }
-    template <class T>
-    T number(const char* what) {
-        skip_blanks();
-        if (!line_.empty() && line_.front() == '+') line_.remove_prefix(1);
-        T value{};
-        const auto [end, error] = std::from_chars(line_.data(), line_.data() + line_.size(), value);
-        const auto used = static_cast<std::size_t>(end - line_.data());
-        if (error != std::errc{} || (used < line_.size() && !is_blank(line_[used])))
-            fail(line_.empty() ? fmt::format("{} expected", what)
-                               : fmt::format("{} expected, found '{}'", what, line_.substr(0, 30)));
-        line_.remove_prefix(used);
-        return value;
-    }
-    [[noreturn]] void fail(const std::string& reason) const { throw InputError({file_, number_, {}}, reason); }
-    std::size_t bytes_left() const { return rest_.size(); }
-
-private:
-    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-    static std::string_view trimmed(std::string_view s) {
-        while (!s.empty() && is_blank(s.front())) s.remove_prefix(1);
-        while (!s.empty() && is_blank(s.back())) s.remove_suffix(1);
-        return s;
-    }
-    void skip_blanks() {
-        while (!line_.empty() && is_blank(line_.front())) line_.remove_prefix(1);
-    }
-
-    std::string_view rest_, line_;
-    std::string file_;
-    std::size_t number_ = 0;
-};
-
 /// Sections in any order; NPOIN is looked up first, so that a wrong index is reported with its line.
 class Su2Reader {
 public:
-    Su2Reader(const std::string& bytes, const std::string& file) : in_(bytes, file), points_(find_npoin(bytes, file)) {}
+    Su2Reader(const std::string& bytes, const std::string& file)
+        : in_(bytes, file, '%'), points_(find_npoin(bytes, file)) {}
 
     Mesh read() {
         while (in_.next()) {
@@ -158,7 +97,7 @@ public:
 
 private:
     static std::size_t find_npoin(const std::string& bytes, const std::string& file) {
-        LineReader in(bytes, file);
+        TextLines in(bytes, file, '%');
         while (in.next())
             if (in.key() == "NPOIN") return in.number<std::size_t>("number of points");
         in.fail("the file ends without NPOIN=");
@@ -245,7 +184,7 @@ private:
         return letters == "farfield" || letters == "far" ? MarkerKind::far_field : MarkerKind::other;
     }
 
-    LineReader in_;
+    TextLines in_;
     std::size_t points_;
     Mesh mesh_;
     std::optional<std::size_t> dimension_, cells_, points_read_, announced_;

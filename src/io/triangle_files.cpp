@@ -17,6 +17,7 @@
 #include <lamina/predicates.hpp>
 
 #include "core/atomic_file.hpp"
+#include "io/text_lines.hpp"
 
 namespace lamina {
 
@@ -26,43 +27,14 @@ namespace {
 
 // --- Reading
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == '\f' || c == '\v'; }
-
-/// The lines of a file that hold something, and the numbers in them.
-class NumberLines {
+/// Lines of Triangle's files.
+class NumberLines : public TextLines {
 public:
-    NumberLines(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {}
+    NumberLines(std::string_view bytes, std::string file) : TextLines(bytes, std::move(file), '#', " \t\r,\f\v") {}
 
-    bool next() {
-        while (!rest_.empty()) {
-            const std::size_t end = rest_.find('\n');
-            line_ = rest_.substr(0, end);
-            rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-            ++number_;
-            line_ = line_.substr(0, line_.find('#'));
-            if (!at_end()) return true;
-        }
-        return false;
-    }
+    using TextLines::next;
     void next(const char* what) {
         if (!next()) fail(fmt::format("the file ends where {} is expected", what));
-    }
-    bool at_end() {
-        while (!line_.empty() && is_blank(line_.front())) line_.remove_prefix(1);
-        return line_.empty();
-    }
-    template <class T>
-    T number(const char* what) {
-        if (at_end()) fail(fmt::format("{} expected", what));
-        if (line_.front() == '+') line_.remove_prefix(1);
-        T value{};
-        const auto [end, error] = std::from_chars(line_.data(), line_.data() + line_.size(), value);
-        const auto used = static_cast<std::size_t>(end - line_.data());
-        if (error != std::errc{} || (used < line_.size() && !is_blank(line_[used])))
-            fail(fmt::format("{} expected, found '{}'", what,
-                             line_.substr(0, std::min<std::size_t>(30, line_.find_first_of(" \t\r,")))));
-        line_.remove_prefix(used);
-        return value;
     }
     double real(const char* what) {
         const auto value = number<double>(what);
@@ -82,19 +54,12 @@ public:
     /// for.
     std::size_t count(const char* what) {
         const auto n = number<std::size_t>(what);
-        if (n > rest_.size() / 2 + 1) fail(fmt::format("{}: {}, but the file is shorter than that", what, n));
+        if (n > bytes_left() / 2 + 1) fail(fmt::format("{}: {}, but the file is shorter than that", what, n));
         return n;
     }
     void end_line() {
-        if (!at_end()) fail(fmt::format("end of line expected, found '{}'", line_.substr(0, 30)));
+        if (!at_end()) fail(fmt::format("end of line expected, found '{}'", text().substr(0, 30)));
     }
-    [[noreturn]] void fail(const std::string& reason) const { throw InputError({file_, number_, {}}, reason); }
-    std::size_t line() const { return number_; }
-
-private:
-    std::string_view rest_, line_;
-    std::string file_;
-    std::size_t number_ = 0;
 };
 
 /// "vertices dimension attributes markers", then "index x y [attributes] [marker]" each. False if there are none.

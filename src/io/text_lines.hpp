@@ -1,0 +1,81 @@
+// Text formats made of lines of words and numbers, read with the line number at hand for errors.
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+namespace lamina {
+
+/// Lines of a file without comments and blank lines, and the numbers in them. Independent of the locale.
+class TextLines {
+public:
+    /// `comment` starts a comment that runs to the end of its line; `blanks` separate numbers.
+    TextLines(std::string_view bytes, std::string file, char comment, std::string_view blanks = " \t\r")
+        : rest_(bytes), blanks_(blanks), file_(std::move(file)), comment_(comment) {}
+
+    /// The next line that holds something; false at the end.
+    bool next() {
+        while (!rest_.empty()) {
+            const std::size_t end = rest_.find('\n');
+            line_ = rest_.substr(0, end);
+            rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+            ++number_;
+            line_ = line_.substr(0, line_.find(comment_));
+            if (!at_end()) return true;
+        }
+        return false;
+    }
+    /// "KEY = value": KEY if the line reads so, leaving the value.
+    std::optional<std::string_view> key() {
+        const std::size_t equals = line_.find('=');
+        if (equals == std::string_view::npos) return std::nullopt;
+        const std::string_view key = trimmed(line_.substr(0, equals));
+        line_.remove_prefix(equals + 1);
+        return key;
+    }
+    /// What is left of the line.
+    std::string_view text() const { return trimmed(line_); }
+    bool at_end() {
+        line_.remove_prefix(std::min(line_.find_first_not_of(blanks_), line_.size()));
+        return line_.empty();
+    }
+    template <class T>
+    T number(const char* what) {
+        if (at_end()) fail(fmt::format("{} expected", what));
+        if (line_.front() == '+') line_.remove_prefix(1);
+        T value{};
+        const auto [end, error] = std::from_chars(line_.data(), line_.data() + line_.size(), value);
+        const auto used = static_cast<std::size_t>(end - line_.data());
+        if (error != std::errc{} || (used < line_.size() && blanks_.find(line_[used]) == std::string_view::npos))
+            fail(fmt::format("{} expected, found '{}'", what,
+                             line_.substr(0, std::min<std::size_t>(30, line_.find_first_of(blanks_)))));
+        line_.remove_prefix(used);
+        return value;
+    }
+    [[noreturn]] void fail(const std::string& reason) const { throw InputError({file_, number_, {}}, reason); }
+    std::size_t bytes_left() const { return rest_.size(); }
+    std::size_t line() const { return number_; }
+
+private:
+    std::string_view trimmed(std::string_view s) const {
+        const std::size_t first = s.find_first_not_of(blanks_);
+        if (first == std::string_view::npos) return {};
+        return s.substr(first, s.find_last_not_of(blanks_) - first + 1);
+    }
+
+    std::string_view rest_, line_, blanks_;
+    std::string file_;
+    std::size_t number_ = 0;
+    char comment_;
+};
+
+}  // namespace lamina
