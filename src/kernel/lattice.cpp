@@ -26,8 +26,8 @@ namespace {
 /// Lattice edges are at most this share of h. Below 1, triangles of them obey the size bound wherever they lie; what is
 /// missing to 1 lets refinement close the seams beside them (docs/decisions/0002).
 constexpr double lattice_share = 0.97;
-/// Ratio of the edge lengths of successive levels: sqrt(1.25), a quarter in area.
-constexpr double level_ratio = 1.118033988749895;
+/// Ratio of the edge lengths of successive levels: sqrt(4/3), a third in area.
+constexpr double level_ratio = 1.1547005383792517;
 /// Patches keep this distance from border and other patches, in lattice edges.
 constexpr double seam_margin = 0.75;
 /// Blocks of fewer edges across are not worth a patch.
