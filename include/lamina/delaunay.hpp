@@ -146,7 +146,7 @@ struct ValidateOptions {
 };
 
 /// What is wrong with a triangulation of these points: indices out of range, clockwise or flat triangles, edges used
-/// twice in one direction, overlap (signed area of the boundary), missing constraints, non-Delaunay edges.
+/// twice in one direction, triangles that overlap round a vertex, missing constraints, non-Delaunay edges.
 /// Empty = valid. Exact.
 std::vector<std::string> validate(std::span<const Point> points, std::span<const Triangle> triangles,
                                   std::span<const Segment> constraints = {}, const ValidateOptions& options = {});

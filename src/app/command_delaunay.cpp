@@ -18,6 +18,7 @@
 #include "app/options.hpp"
 #include "app/report.hpp"
 #include "core/atomic_file.hpp"
+#include "core/equilateral.hpp"
 #include "core/parallel.hpp"
 #include "io/triangle_files.hpp"
 #include "mesh/quality.hpp"
@@ -99,8 +100,6 @@ auto naming_file(const TriangleInput& input, F&& f) {
         throw InputError({file.string(), 0, {}}, std::string(error.what()) + " (counted from 0)");
     }
 }
-
-constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4: area over squared edge
 
 /// The size field whose triangles have at most this area; without a bound, one coarser than anything.
 SizeField size_field(double max_area, const std::vector<Point>& points) {

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "core/equilateral.hpp"
 #include "kernel/triangulator.hpp"
 
 namespace lamina::kernel {
 
 namespace {
 
-constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4
 /// Mean area of the triangles that refinement makes, as a share of the bound (measured: docs/decisions/0002).
 constexpr double mean_area_share = 0.69;
 

@@ -15,6 +15,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
+#include "core/equilateral.hpp"
 #include "core/pages.hpp"
 #include "core/reproducible_math.hpp"
 #include "kernel/cavity.hpp"
@@ -33,7 +34,6 @@ constexpr double aimed_area = 0.9;
 /// Least height of such a triangle over its base, in lengths of the base; a base too long for that is no front, and the
 /// circumcentre serves.
 constexpr double least_front_height = 0.3;
-constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4: area over squared edge
 
 /// A triangle that waits to be mended. Triangles are made with the new vertex first, so a slot that was reused since
 /// has another one: such entries are stale and dropped.
@@ -308,8 +308,8 @@ private:
 RefineStats Refiner::count_leftovers() const {
     // Every triangle was queued as long as something was wrong with it: without a refusal nothing is left.
     if (refused_ == 0) return {};
-    // Border edges into and out of each border vertex (region on their left); a vertex with several of either, where
-    // the region touches itself, counts as sharp if any pair is.
+    // A border edge into and one out of each border vertex (region on their left). Where the region touches itself at a
+    // vertex one pair speaks for it.
     std::vector<char> sharp(border_count_, 0);
     std::vector<std::array<Index, 2>> around(border_count_, {no_index, no_index});
     for (const Tri& t : tris_)

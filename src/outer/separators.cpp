@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/equilateral.hpp"
+
 namespace lamina::outer {
 
 namespace {
-
-constexpr double equilateral_area = 0.43301270189221932;  // sqrt(3) / 4
 
 /// Equal shares of the integral of ds / h along the line. The integral is the trapezoidal sum over steps of about h
 /// / 8.
