@@ -61,15 +61,11 @@ const DirectedEdge* find(const std::vector<DirectedEdge>& edges, std::uint32_t a
     return at != edges.end() && at->a == a && at->b == b ? &*at : nullptr;
 }
 
-/// With triangles that are all counter-clockwise and edges used once in each direction, the triangles cover their
-/// region once if the triangles round each interior vertex turn once: the exact test is the count of triangles whose
-/// angular range at the vertex holds the direction of +x.
-void check_turning(std::span<const Point> points, std::span<const Triangle> triangles,
-                   const std::vector<DirectedEdge>& edges, Report& report) {
+/// Round a vertex, inside or on the rim, no direction is covered twice. Between counter-clockwise triangles that use
+/// each edge once in each direction the direction of +x tells for all of them at an inner vertex: the exact test is the
+/// count of triangles whose angular range there holds it.
+void check_turning(std::span<const Point> points, std::span<const Triangle> triangles, Report& report) {
     std::vector<std::uint32_t> covering(points.size(), 0);
-    std::vector<char> on_rim(points.size(), 0);
-    for (const DirectedEdge& e : edges)
-        if (!find(edges, e.b, e.a)) on_rim[e.a] = on_rim[e.b] = 1;
     for (const Triangle& t : triangles) {
         for (int i = 0; i < 3; ++i) {
             const Point p = points[t.v[i].index()], a = points[t.v[(i + 1) % 3].index()],
@@ -81,7 +77,7 @@ void check_turning(std::span<const Point> points, std::span<const Triangle> tria
         }
     }
     for (std::size_t v = 0; v < points.size(); ++v)
-        if (!on_rim[v] && covering[v] > 1)
+        if (covering[v] > 1)
             report.add(fmt::format("the triangles round vertex {} overlap ({} turns)", v, covering[v]));
 }
 
@@ -110,7 +106,7 @@ std::vector<std::string> validate(std::span<const Point> points, std::span<const
                                    edges[i - 1].triangle, edges[i].triangle));
     if (!report.defects.empty()) return report.defects;
 
-    check_turning(points, triangles, edges, report);
+    check_turning(points, triangles, report);
     std::vector<std::uint64_t> fixed;
     for (const Segment& s : constraints) {
         fixed.push_back(key(std::min(s.a, s.b).value, std::max(s.a, s.b).value));
