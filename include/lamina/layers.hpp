@@ -43,6 +43,7 @@ struct Ray {
     Point direction;          ///< unit vector
     std::uint32_t layers;     ///< points made on the ray; less than asked where it was truncated
     std::uint32_t requested;  ///< points asked for
+    double growth;            ///< what LayerOptions::growth is on this ray
     std::size_t first_point;  ///< Layer::points[first_point + n] lies at height n + 1
     double height_limit;      ///< nothing is placed beyond this height; infinite where nothing is in the way
 };

@@ -5,7 +5,6 @@
 // that need be tested, not all pairs of cells. Lowering only ever removes layers, and a layer of nothing is the wall
 // itself: the loop ends.
 #include <algorithm>
-#include <cassert>
 
 #include "core/box_tree.hpp"
 #include "layers/front.hpp"
@@ -27,7 +26,7 @@ struct Node {
 
 class Front {
 public:
-    Front(const RaySet& set, std::span<const double> heights, std::vector<std::uint32_t> counts)
+    Front(const RaySet& set, const Heights& heights, std::vector<std::uint32_t> counts)
         : set_(set), heights_(heights), counts_(std::move(counts)), next_(set.rays.size()), previous_(set.rays.size()) {
         for (std::size_t e = 0; e < set.bodies(); ++e) {
             for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
@@ -49,13 +48,13 @@ public:
 
 private:
     const RaySet& set_;
-    std::span<const double> heights_;
+    const Heights& heights_;
     std::vector<std::uint32_t> counts_;
     std::vector<std::size_t> next_, previous_;
 
     Point point(std::size_t ray, std::uint32_t layer, double factor = 1) const {
         const RayLine& line = set_.rays[ray];
-        return layer == 0 ? line.origin : line.origin + factor * heights_[layer] * line.direction;
+        return layer == 0 ? line.origin : line.origin + factor * heights_.of(ray)[layer] * line.direction;
     }
     Point tip(std::size_t ray, double factor = 1) const { return point(ray, counts_[ray], factor); }
     bool is_wall_edge(std::size_t a, std::size_t b) const { return counts_[a] == 0 && counts_[b] == 0; }
@@ -249,13 +248,12 @@ private:
 
 }  // namespace
 
-std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits,
-                                        std::span<const double> heights) {
-    assert(!heights.empty());
+std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits, const Heights& heights) {
     std::vector<std::uint32_t> counts(set.rays.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        const auto fits = std::upper_bound(heights.begin(), heights.end(), limits[i]);
-        counts[i] = static_cast<std::uint32_t>(fits - heights.begin()) - 1;
+        const std::span<const double> stack = heights.of(i);
+        const auto fits = std::upper_bound(stack.begin(), stack.end(), limits[i]);
+        counts[i] = static_cast<std::uint32_t>(fits - stack.begin()) - 1;
     }
     return Front(set, heights, std::move(counts)).settle();
 }

@@ -1,4 +1,4 @@
-// The rays of all bodies together with the number of layers on each; internal to the layer stage.
+// How far the layers go on each ray; internal to the layer stage.
 #pragma once
 
 #include <cstddef>
@@ -6,28 +6,21 @@
 #include <span>
 #include <vector>
 
+#include "layers/heights.hpp"
 #include "layers/rays.hpp"
 
 namespace lamina {
 
-/// Rays of all bodies one after the other; body e owns [begin[e], begin[e + 1]), closed in itself.
-struct RaySet {
-    std::vector<RayLine> rays;
-    std::vector<std::size_t> begin{0};
-
-    std::size_t bodies() const { return begin.size() - 1; }
-};
-
-/// Height up to which each ray is free, infinite where nothing is in the way up to full_height. Rays end at a fraction
+/// Height up to which each ray is free, infinite where nothing is in the way up to the height of
+/// all its layers. Rays end at a fraction
 /// of the way to what they would meet, early enough that opposing fronts leave room between them, and limits vary
 /// smoothly along the walls.
 /// Source: thesis 3.2, generalised to all rays against all rays and walls (design 2).
-std::vector<double> height_limits(const RaySet& set, double full_height);
+std::vector<double> height_limits(const RaySet& set, const Heights& heights);
 
 /// Number of layers on each ray: as many as fit below its limit, lowered until neighbours differ by at most one, every
 /// cell between neighbouring rays is positively oriented, and the outer borders are simple, disjoint from each other
-/// and from the walls (but for rays without layers). heights[n] is the height of layer n, heights[0] = 0.
-std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits,
-                                        std::span<const double> heights);
+/// and from the walls (but for rays without layers).
+std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits, const Heights& heights);
 
 }  // namespace lamina

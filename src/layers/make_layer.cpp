@@ -34,35 +34,12 @@ void check_options(const LayerOptions& o) {
     require(o.border_gradation > 0 && std::isfinite(o.border_gradation),
             fmt::format("border gradation must be greater than 0, not {}", o.border_gradation));
     if (!o.enabled) return;
-    require(o.first_height > 0 && std::isfinite(o.first_height),
-            fmt::format("first height must be greater than 0, not {}", o.first_height));
-    require(o.growth > 1 && std::isfinite(o.growth),
-            fmt::format("geometric growth must be greater than 1, not {}", o.growth));
-    require(o.layers >= 1 && o.layers <= std::numeric_limits<std::uint16_t>::max(),
-            fmt::format("layers must be from 1 to 65535, not {}", o.layers));
     require(o.max_ray_angle_deg >= 0.01 && o.max_ray_angle_deg <= 90,
             fmt::format("largest angle between rays must be from 0.01 to 90 degrees, not {}", o.max_ray_angle_deg));
-    if (o.thickness) {
-        require(
-            *o.thickness >= o.first_height && std::isfinite(*o.thickness),
-            fmt::format("layer thickness {} must not be less than the first height {}", *o.thickness, o.first_height));
-    }
+    check_growth(o);
 }
 
-/// layer_height() for n = 0 ... as many as are asked for.
-std::vector<double> heights_of(const LayerOptions& options) {
-    std::vector<double> heights{0.0};
-    double step = options.first_height;
-    // A slack of rounding, so that a thickness of exactly n layers gives n.
-    const double most = options.thickness ? *options.thickness * (1 + 1e-12) : HUGE_VAL;
-    for (std::uint32_t n = 0; n < options.layers && heights.back() + step <= most; ++n) {
-        heights.push_back(heights.back() + step);
-        step *= options.growth;
-    }
-    return heights;
-}
-
-void check_scale(const Pslg& pslg, const LayerOptions& options, std::span<const double> heights) {
+void check_scale(const Pslg& pslg, const LayerOptions& options, const Heights& heights) {
     Box box;
     for (const Element& element : pslg.elements)
         for (Point p : element.points) box.include(p);
@@ -72,9 +49,10 @@ void check_scale(const Pslg& pslg, const LayerOptions& options, std::span<const 
     require(options.first_height > least_roundings * std::numeric_limits<double>::epsilon() * largest,
             fmt::format("first height {} is below the resolution of coordinates as large as {}", options.first_height,
                         largest));
-    require(heights.back() <= thickest_layer * extent,
-            fmt::format("{} layers are {:.3g} thick, {:.3g} times the extent of the input", heights.size() - 1,
-                        heights.back(), heights.back() / extent));
+    const double thickness = heights.tallest();
+    require(thickness <= thickest_layer * extent,
+            fmt::format("the layers asked for are {:.3g} thick, {:.3g} times the extent of the input", thickness,
+                        thickness / extent));
 }
 
 RaySet rays_of(const Pslg& pslg, const LayerOptions& options) {
@@ -105,7 +83,7 @@ struct BorderCorner {
 
 class Assembly {
 public:
-    Assembly(const RaySet& set, std::span<const std::uint32_t> counts, std::span<const double> heights)
+    Assembly(const RaySet& set, std::span<const std::uint32_t> counts, const Heights& heights)
         : set_(set), counts_(counts), heights_(heights), wall_of_ray_(set.rays.size()), first_point_(set.rays.size()) {}
 
     Layer build(const GradingOptions& grading, std::span<const double> limits) {
@@ -128,7 +106,7 @@ public:
 private:
     const RaySet& set_;
     std::span<const std::uint32_t> counts_;
-    std::span<const double> heights_;
+    const Heights& heights_;
     std::vector<VertexId> wall_of_ray_;
     std::vector<std::size_t> first_point_;
     std::vector<std::vector<VertexId>> wall_cuts_;  ///< by ray: vertices added to the wall edge behind it
@@ -136,7 +114,7 @@ private:
 
     Point tip(std::size_t ray) const {
         const RayLine& line = set_.rays[ray];
-        return counts_[ray] == 0 ? line.origin : line.origin + heights_[counts_[ray]] * line.direction;
+        return counts_[ray] == 0 ? line.origin : line.origin + heights_.of(ray)[counts_[ray]] * line.direction;
     }
 
     std::vector<std::vector<BorderCorner>> border_corners() const {
@@ -196,8 +174,9 @@ private:
         parallel_for(set_.rays.size(), 4096, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const RayLine& line = set_.rays[i];
+                const std::span<const double> heights = heights_.of(i);
                 for (std::uint32_t n = 1; n <= counts_[i]; ++n) {
-                    layer_.points[first_point_[i] + n - 1] = line.origin + heights_[n] * line.direction;
+                    layer_.points[first_point_[i] + n - 1] = line.origin + heights[n] * line.direction;
                     layer_.layer_of_point[first_point_[i] + n - 1] = static_cast<std::uint16_t>(n);
                 }
             }
@@ -226,17 +205,19 @@ private:
     void describe_rays(std::span<const double> limits) {
         layer_.rays.resize(set_.bodies());
         if (limits.empty()) return;
-        const auto requested = static_cast<std::uint32_t>(heights_.size() - 1);
         for (std::size_t e = 0; e < set_.bodies(); ++e) {
             const std::size_t begin = set_.begin[e], end = set_.begin[e + 1];
             for (std::size_t i = begin; i < end; ++i) {
+                const std::size_t next = i + 1 < end ? i + 1 : begin;
+                const std::span<const double> heights = heights_.of(i);
+                const auto [first, requested, growth] = heights_.stack(i);
                 // A ray that was lowered for its neighbours' sake ends below the layer it did not get.
-                const double limit = counts_[i] < requested ? std::min(limits[i], heights_[counts_[i] + 1]) : limits[i];
+                const double limit = counts_[i] < requested ? std::min(limits[i], heights[counts_[i] + 1]) : limits[i];
                 layer_.rays[e].push_back(
-                    {wall_of_ray_[i], set_.rays[i].direction, counts_[i], requested, first_point_[i], limit});
+                    {wall_of_ray_[i], set_.rays[i].direction, counts_[i], requested, growth, first_point_[i], limit});
                 layer_.incomplete_rays += counts_[i] < requested;
-                layer_.requested_cells += requested;
-                layer_.made_cells += std::min(counts_[i], counts_[i + 1 < end ? i + 1 : begin]);
+                layer_.requested_cells += std::min(requested, heights_.stack(next).layers);
+                layer_.made_cells += std::min(counts_[i], counts_[next]);
             }
         }
     }
@@ -244,25 +225,19 @@ private:
 
 }  // namespace
 
-double layer_height(const LayerOptions& options, std::uint32_t n) {
-    LayerOptions uncut = options;
-    uncut.layers = n;
-    uncut.thickness.reset();
-    return heights_of(uncut).back();
-}
-
 Layer make_layer(const Pslg& pslg, const LayerOptions& options) {
     check_options(options);
     const GradingOptions grading{options.border_ratio, options.border_gradation, options.longest_border_edge};
     if (!options.enabled) {
         const RaySet walls = bare_walls(pslg);
         const std::vector<std::uint32_t> none(walls.rays.size(), 0);
-        return Assembly(walls, none, {}).build(grading, {});
+        const Heights no_layers({0.0}, std::vector<Stack>(walls.rays.size()));
+        return Assembly(walls, none, no_layers).build(grading, {});
     }
-    const std::vector<double> heights = heights_of(options);
-    check_scale(pslg, options, heights);
     const RaySet set = rays_of(pslg, options);
-    const std::vector<double> limits = height_limits(set, heights.back());
+    const Heights heights = make_heights(set, options);
+    check_scale(pslg, options, heights);
+    const std::vector<double> limits = height_limits(set, heights);
     const std::vector<std::uint32_t> counts = layer_counts(set, limits, heights);
     return Assembly(set, counts, heights).build(grading, limits);
 }

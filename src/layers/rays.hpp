@@ -16,6 +16,14 @@ struct RayLine {
     Point direction;  ///< unit vector
 };
 
+/// Rays of all bodies one after the other; body e owns [begin[e], begin[e + 1]), closed in itself.
+struct RaySet {
+    std::vector<RayLine> rays;
+    std::vector<std::size_t> begin{0};
+
+    std::size_t bodies() const { return begin.size() - 1; }
+};
+
 /// Convex vertices that turn by more than this are corners: the same angle as ElementSummary::sharp_corners.
 inline constexpr double sharp_corner_deg = 60;
 

@@ -91,12 +91,14 @@ Crossing cross_lines(Point p, Point d, Point q, Point e) {
 }
 
 /// Looks for what rays meet at heights in (low, high] and lowers their limits.
-void limit_on_scale(const RaySet& set, const Sample& sample, double low, double high, std::vector<double>& limits) {
+void limit_on_scale(const RaySet& set, const Heights& heights, const Sample& sample, double low, double high,
+                    std::vector<double>& limits) {
     const std::vector<double> before = limits;  // all rays are judged by the state at the start: no order matters
+    // A ray that has ended is in nobody's way beyond its end.
+    const auto way = [&](std::size_t i) { return std::min(before[i] / ray_fraction, heights.full(i) / wall_fraction); };
     std::vector<Box> ray_boxes, wall_boxes;
     for (std::size_t i : sample.rays) {
-        // A ray that has ended is in nobody's way beyond its end.
-        const double reach = std::min(high, before[i] / ray_fraction);
+        const double reach = std::min(high, way(i));
         ray_boxes.push_back(box_of(set.rays[i].origin, at_height(set.rays[i], reach)));
     }
     for (auto [a, b] : sample.wall) wall_boxes.push_back(box_of(set.rays[a].origin, set.rays[b].origin));
@@ -112,7 +114,7 @@ void limit_on_scale(const RaySet& set, const Sample& sample, double low, double 
             if (other.origin == ray.origin) return;
             const Crossing at = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
             if (!at.exists || at.first <= low || at.first > high) return;
-            if (at.second < 0 || at.second > at.first * (1 + 1e-9) || at.second > before[j] / ray_fraction) return;
+            if (at.second < 0 || at.second > at.first * (1 + 1e-9) || at.second > way(j)) return;
             limits[i] = std::min(limits[i], ray_fraction * at.first);
         });
         wall_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
@@ -126,9 +128,9 @@ void limit_on_scale(const RaySet& set, const Sample& sample, double low, double 
 }
 
 /// Bounds the slope of the limits along each wall: twice round in both directions.
-void smooth_limits(const RaySet& set, double full_height, std::vector<double>& limits) {
+void smooth_limits(const RaySet& set, const Heights& heights, std::vector<double>& limits) {
     const auto pass_on = [&](std::size_t from, std::size_t to) {
-        const double height = std::min(limits[from], full_height);
+        const double height = std::min(limits[from], heights.full(from));
         const double gap = distance(at_height(set.rays[from], height), at_height(set.rays[to], height));
         limits[to] = std::min(limits[to], limits[from] + limit_slope * gap);
     };
@@ -141,21 +143,21 @@ void smooth_limits(const RaySet& set, double full_height, std::vector<double>& l
 
 }  // namespace
 
-std::vector<double> height_limits(const RaySet& set, double full_height) {
+std::vector<double> height_limits(const RaySet& set, const Heights& heights) {
     std::vector<double> limits(set.rays.size(), HUGE_VAL);
     if (is_one_convex_body(set)) return limits;
-    const double reach = full_height / wall_fraction;
+    const double reach = heights.tallest() / wall_fraction;
     double low = 0;
     double high = set.rays.size() <= single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
     for (;;) {
         const Sample sample = thin_out(set, high, low > 0 ? thinning * high : 0.0);
-        limit_on_scale(set, sample, low, high, limits);
+        limit_on_scale(set, heights, sample, low, high, limits);
         if (high >= reach) break;
         low = high;
         high = std::min(2 * high, reach);
     }
     if (std::all_of(limits.begin(), limits.end(), [](double limit) { return limit == HUGE_VAL; })) return limits;
-    smooth_limits(set, full_height, limits);
+    smooth_limits(set, heights, limits);
     return limits;
 }
 

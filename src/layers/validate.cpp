@@ -9,6 +9,7 @@
 
 #include "core/box_tree.hpp"
 #include "core/reproducible_math.hpp"
+#include "layers/heights.hpp"
 #include "layers/segments.hpp"
 
 namespace lamina {
@@ -152,16 +153,16 @@ private:
     void check_heights(const Ray& ray) {
         const Point origin = at(ray.origin);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
-        double height = 0, step = options_.first_height;
+        const std::vector<double> heights =
+            heights_by_law(options_.growth_law, options_.first_height, ray.growth, ray.layers);
         for (std::uint32_t n = 0; n < ray.layers; ++n) {
-            height += step;
-            step *= options_.growth;
+            const double height = heights[n + 1];
             const Point p = layer_.points[ray.first_point + n];
             if (distance(p, origin + height * ray.direction) > 1e-11 * height + rounding)
                 find(fmt::format("layer {} is not at its height", n + 1), p);
             if (layer_.layer_of_point[ray.first_point + n] != n + 1) find("layer_of_point is wrong", p);
         }
-        if (height > ray.height_limit * (1 + 1e-12)) find("ray is longer than its limit", origin);
+        if (heights[ray.layers] > ray.height_limit * (1 + 1e-12)) find("ray is longer than its limit", origin);
     }
 
     Point on_ray(const Ray& ray, std::uint32_t n) const {

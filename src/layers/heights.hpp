@@ -1,0 +1,50 @@
+// How high the layers asked for lie on each ray; internal to the layer stage.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+#include "layers/rays.hpp"
+
+namespace lamina {
+
+/// The layers asked for on one ray: a part of the table of heights.
+struct Stack {
+    std::size_t first = 0;     ///< where its heights begin in the table
+    std::uint32_t layers = 0;  ///< asked for
+    double growth = 0;         ///< as Ray::growth
+};
+
+/// Heights of the layers asked for, ray by ray. Rays of one law and growth share the same part of the table.
+class Heights {
+public:
+    Heights(std::vector<double> table, std::vector<Stack> stacks)
+        : table_(std::move(table)), stacks_(std::move(stacks)) {}
+
+    const Stack& stack(std::size_t ray) const { return stacks_[ray]; }
+    /// of(ray)[n] is the height of layer n, of(ray)[0] = 0, of(ray).back() that of the last layer asked for.
+    std::span<const double> of(std::size_t ray) const {
+        const Stack& stack = stacks_[ray];
+        return {table_.data() + stack.first, stack.layers + std::size_t{1}};
+    }
+    double full(std::size_t ray) const { return of(ray).back(); }
+    double tallest() const;
+
+private:
+    std::vector<double> table_;
+    std::vector<Stack> stacks_;
+};
+
+/// Heights of layers 0 ... `layers`.
+std::vector<double> heights_by_law(GrowthLaw law, double first_height, double growth, std::uint32_t layers);
+
+/// Throws UsageError where the options of growth make no sense, alone or together.
+void check_growth(const LayerOptions& options);
+
+Heights make_heights(const RaySet& set, const LayerOptions& options);
+
+}  // namespace lamina
