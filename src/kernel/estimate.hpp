@@ -15,8 +15,8 @@ namespace lamina::kernel {
 /// From an area and the mean of 1 / h^2 over it.
 double estimated_triangles(double area, double mean_inverse_square_size);
 
-/// From a triangulation of the region, with h linear in each triangle between its corners.
-double estimate_triangles(std::span<const Point> points, std::span<const float> sizes, const Tris& tris);
+/// From a triangulation of the region.
+double estimate_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size);
 
 /// The same for the region left of `segments`.
 double estimate_triangles(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size);

@@ -242,6 +242,21 @@ TEST(Decouple, PiecesStayNearTheirTargetAndEstimatesNearTheOutcome) {
     }
 }
 
+/// Three borders a thousand times as fine as the space between them: triangles with fine corners and a wide middle.
+TEST(Decouple, EstimatesSeeWideSpacesBetweenFineBorders) {
+    Bodies bodies;
+    const auto small = [](Point center) {
+        std::vector<Point> loop = ellipse(40, 1, {0, 0});
+        for (Point& p : loop) p = center + 2e-4 * p;
+        return loop;
+    };
+    for (Point center : {Point{0, 0}, Point{1, 0}, Point{0.5, 0.8}}) bodies.add(small(center));
+    const SizeField size = bodies.size(0.3, 5);
+    const Decoupling d = decouple(bodies.points, bodies.borders, size, around_unit_chord(5, 1e5));
+    for (const Subdomain& s : d.subdomains)
+        EXPECT_NEAR(s.estimated_triangles / double(refine(s).triangles.size()), 1.0, 0.5);
+}
+
 TEST(Decouple, RefusesAFarFieldWithoutRoom) {
     Bodies bodies;
     bodies.add(ellipse(60, 0.12));
