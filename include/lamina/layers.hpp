@@ -16,6 +16,13 @@ namespace lamina {
 enum class GrowthLaw { geometric };
 enum class Corners { fan, refine };
 
+/// How the layer's points are joined; the points are the same. docs/decisions/0012.
+enum class LayerTopology {
+    delaunay,  ///< constrained Delaunay triangulation
+    layered,   ///< the grid of rays and layers, each cell cut in two
+    quads,     ///< the same grid, its cells whole; triangles in fans, at steps, and where the border is divided
+};
+
 struct LayerOptions {
     bool enabled = true;
     double first_height = 1e-5;  ///< of the first layer, along the ray, in units of the input
@@ -26,6 +33,7 @@ struct LayerOptions {
     double max_ray_angle_deg = 5;     ///< between neighbouring rays
     /// Convex corners that turn by more than 60 degrees: a fan from the vertex, or refining rays beside it.
     Corners corners = Corners::fan;
+    LayerTopology topology = LayerTopology::delaunay;
     /// Largest ratio of the lengths of adjacent edges of the outer border; 1.4 serves angle bounds up to 30 degrees.
     /// Below 2 an edge that must be halved often makes its neighbours follow, all along the border. Exceeded only
     /// where division points would cross something by rounding.

@@ -2,7 +2,7 @@
 //
 //   read_geometry   geometry.hpp     files, NACA names          -> Pslg
 //   make_layer      layers.hpp       rays, points, outer border -> Layer
-//   triangulate     (pipeline.cpp)   constrained Delaunay       -> layer triangles
+//   fill_layer      (pipeline.cpp)   Delaunay, or the grid      -> layer triangles, quads
 //   SizeField       sizing.hpp       layer border lengths       -> h(x)
 //   decouple        decoupling.hpp   near body, rings           -> Subdomains
 //   refine          decoupling.hpp   one Subdomain              -> Refinement, all of them in parallel

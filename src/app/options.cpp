@@ -194,6 +194,12 @@ std::vector<Option> make_table() {
              of_layer(&LayerOptions::max_ray_angle_deg)));
     add(choice("corners", "sharp convex corners: a fan of rays, or refining rays beside the vertex",
                Choices<Corners>{{"fan", Corners::fan}, {"refine", Corners::refine}}, of_layer(&LayerOptions::corners)));
+    add(choice("layer-topology",
+               "cells of the layer: Delaunay triangles, the grid of rays and layers cut, or left whole",
+               Choices<LayerTopology>{{"delaunay", LayerTopology::delaunay},
+                                      {"layered", LayerTopology::layered},
+                                      {"quads", LayerTopology::quads}},
+               of_layer(&LayerOptions::topology)));
 
     group = "Outer region";
     add(real("far-field", "CHORDS", "half-width of the far-field box, in chords (extents in x of the configuration)",

@@ -128,8 +128,10 @@ std::string mesh_summary(const MeshResult& result, const std::vector<std::string
                             element.format);
         for (const Repair& repair : element.repairs) text += "  repaired  " + repair.text + "\n";
     }
-    text += fmt::format("mesh: {} vertices, {} triangles, {} pieces\n", result.mesh.points.size(),
-                        result.mesh.triangles.size(), result.layer_pieces + result.inviscid_pieces);
+    const std::size_t quads = result.mesh.quads.size();
+    text += fmt::format("mesh: {} vertices, {} triangles, {}{} pieces\n", result.mesh.points.size(),
+                        result.mesh.triangles.size(), quads > 0 ? fmt::format("{} quads, ", quads) : "",
+                        result.layer_pieces + result.inviscid_pieces);
     text += quality_summary(result.check);
     if (result.requested_layer_cells > 0) {
         text += fmt::format("  rays      {} cut short; {:.2f} % of the requested layer cells made\n",

@@ -24,9 +24,9 @@ std::vector<Marker> make_markers(const Pslg& pslg, const LayerEdges& edges, std:
 
 }  // namespace
 
-Mesh assemble(const Pslg& pslg, const Layer& layer, const LayerEdges& edges, std::vector<Triangle> layer_triangles,
-              Decoupling decoupling, std::vector<Refinement> pieces) {
-    const std::size_t layer_count = layer_triangles.size();
+Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerCells layer_cells, Decoupling decoupling,
+              std::vector<Refinement> pieces) {
+    const std::size_t layer_count = layer_cells.triangles.size(), quads = layer_cells.quads.size();
     std::vector<std::size_t> first_point(pieces.size() + 1, decoupling.points.size());
     std::vector<std::size_t> first_triangle(pieces.size() + 1, layer_count);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -42,16 +42,20 @@ Mesh assemble(const Pslg& pslg, const Layer& layer, const LayerEdges& edges, std
     mesh.constraints = edges.interfaces;
     mesh.points = std::move(decoupling.points);
     mesh.points.resize(first_point.back());
-    mesh.triangles = std::move(layer_triangles);
+    mesh.triangles = std::move(layer_cells.triangles);
     mesh.triangles.resize(first_triangle.back());
-    mesh.region.assign(first_triangle.back(), Region::isotropic);
-    mesh.piece.resize(first_triangle.back());
-    mesh.layer.assign(first_triangle.back(), 0);
-    for (std::size_t t = 0; t < layer_count; ++t) {
-        mesh.region[t] = Region::layer;
-        mesh.piece[t] = layer_piece;
-        for (VertexId v : mesh.triangles[t].v) mesh.layer[t] = std::max(mesh.layer[t], layer.layer_of_point[v.index()]);
-    }
+    mesh.quads = std::move(layer_cells.quads);
+    const auto of_cells = [&](auto of_layer, auto of_pieces) {
+        std::vector<decltype(of_layer)> values(layer_count, of_layer);
+        values.resize(first_triangle.back(), of_pieces);
+        values.resize(first_triangle.back() + quads, of_layer);
+        return values;
+    };
+    mesh.region = of_cells(Region::layer, Region::isotropic);
+    mesh.piece = of_cells(layer_piece, layer_piece);
+    mesh.layer = std::move(layer_cells.triangle_layer);
+    mesh.layer.resize(first_triangle.back(), 0);
+    mesh.layer.insert(mesh.layer.end(), layer_cells.quad_layer.begin(), layer_cells.quad_layer.end());
     parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Refinement piece = std::move(pieces[i]);

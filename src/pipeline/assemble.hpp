@@ -14,9 +14,9 @@
 namespace lamina {
 
 /// Numbers border vertices as the decoupling did (walls, layer, separators) and the vertices added inside pieces by an
-/// exclusive scan over the pieces in their order. Layer triangles come first, then those of the pieces in their order.
-/// Consumes the pieces.
-Mesh assemble(const Pslg& pslg, const Layer& layer, const LayerEdges& edges, std::vector<Triangle> layer_triangles,
-              Decoupling decoupling, std::vector<Refinement> pieces);
+/// exclusive scan over the pieces in their order. Layer triangles come first, then those of the pieces in their order,
+/// then the layer's quads. Consumes the pieces.
+Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerCells layer_cells, Decoupling decoupling,
+              std::vector<Refinement> pieces);
 
 }  // namespace lamina

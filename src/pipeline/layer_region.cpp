@@ -1,6 +1,7 @@
 #include "pipeline/layer_region.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace lamina {
 
@@ -35,6 +36,34 @@ LayerEdges layer_edges(const Layer& layer) {
 std::vector<Triangle> triangulate_layer(const Layer& layer, const LayerEdges& edges) {
     if (edges.region.empty()) return {};
     return constrained_delaunay(layer.points, edges.region, {.keep = Keep::left_of_segments}).triangles;
+}
+
+namespace {
+
+/// Each triangle on the layer of its highest point.
+LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
+    LayerCells cells;
+    cells.triangle_layer.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
+        const auto layer_of = [&](int k) { return layer.layer_of_point[t.v[k].index()]; };
+        cells.triangle_layer.push_back(std::max({layer_of(0), layer_of(1), layer_of(2)}));
+    }
+    cells.triangles = std::move(triangles);
+    return cells;
+}
+
+}  // namespace
+
+LayerCells fill_layer(const Layer& layer, const LayerEdges& edges, LayerTopology topology) {
+    switch (topology) {
+        case LayerTopology::delaunay:
+            break;
+        case LayerTopology::layered:
+            return connect_layer(layer, GridCells::split);
+        case LayerTopology::quads:
+            return connect_layer(layer, GridCells::whole);
+    }
+    return cells_of(layer, triangulate_layer(layer, edges));
 }
 
 }  // namespace lamina

@@ -6,6 +6,8 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/layers.hpp>
 
+#include "layers/connect.hpp"
+
 namespace lamina {
 
 /// Edges of walls and outer borders, sorted out: an edge that both have bounds no layer.
@@ -16,6 +18,9 @@ struct LayerEdges {
         interfaces;  ///< outer-border edges between layer and outer region, smaller vertex first, sorted
 };
 LayerEdges layer_edges(const Layer& layer);
+
+/// The cells between walls and outer borders, in the topology asked for.
+LayerCells fill_layer(const Layer& layer, const LayerEdges& edges, LayerTopology topology);
 
 /// Constrained Delaunay triangles of the layer's points between walls and outer borders.
 std::vector<Triangle> triangulate_layer(const Layer& layer, const LayerEdges& edges);

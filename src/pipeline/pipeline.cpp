@@ -167,7 +167,7 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     seconds.layers = clock.lap();
 
     clock.begin("layer triangulation");
-    std::vector<Triangle> layer_triangles = triangulate_layer(layer, edges);
+    LayerCells layer_cells = fill_layer(layer, edges, options.layer.topology);
     seconds.layer_triangulation = clock.lap();
 
     clock.begin("sizing");
@@ -185,15 +185,14 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     clock.begin("assembly");
     result.refinement_threads = std::move(refined.threads);
     result.threads = thread_count();
-    result.layer_pieces = layer_triangles.empty() ? 0 : 1;
+    result.layer_pieces = edges.region.empty() ? 0 : 1;
     result.inviscid_pieces = refined.pieces.size();
     for (const Refinement& piece : refined.pieces) add(result.refinement, piece.stats);
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
     result.incomplete_rays = layer.incomplete_rays;
     result.requested_layer_cells = layer.requested_cells;
     result.made_layer_cells = layer.made_cells;
-    result.mesh =
-        assemble(pslg, layer, edges, std::move(layer_triangles), std::move(decoupling), std::move(refined.pieces));
+    result.mesh = assemble(pslg, edges, std::move(layer_cells), std::move(decoupling), std::move(refined.pieces));
     seconds.assembly = clock.lap();
 
     clock.begin("check");

@@ -102,6 +102,36 @@ TEST_F(MeshCommand, IsotropicTrianglesKeepTheAngleBound) {
     EXPECT_GT(r["quality"]["delaunay"]["interior_edges"].get<std::size_t>(), 1000u);
 }
 
+TEST(MeshCommandTopology, QuadsGoThroughEveryFormatAndCommand) {
+    const TemporaryFolder folder;
+    for (const std::string topology : {"layered", "quads"}) {
+        const ProgramRun run = run_lamina(
+            folder, judged_case({"--layer-topology", topology, "-o", "q.su2", "-o", "q.vtu", "--report", "q.json"}));
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const Json r = Json::parse(folder.read("q.json"));
+        const auto quads = r["quads"].get<std::size_t>(), triangles = r["layer_triangles"].get<std::size_t>();
+        EXPECT_EQ(quads > 0, topology == "quads");
+        EXPECT_EQ(run.out.find(std::to_string(quads) + " quads") != std::string::npos, topology == "quads") << run.out;
+        EXPECT_EQ(r["quality"]["layer"]["cells"], quads + triangles);
+        EXPECT_EQ(r["triangles"].get<std::size_t>(), triangles + r["isotropic_triangles"].get<std::size_t>());
+        EXPECT_EQ(r["quality"]["delaunay"]["violations"], 0);
+        for (const char* file : {"q.vtu", "q.su2"}) {
+            const ProgramRun check = run_lamina(folder, {"check", file, "--json", "--wall", "airfoil"});
+            ASSERT_EQ(check.exit_code, 0) << check.err;
+            EXPECT_EQ(Json::parse(check.out)["quads"], quads);
+            EXPECT_EQ(Json::parse(check.out)["hash"], r["hash"]);
+        }
+        // Rows of the layer are no Delaunay triangles, and need not be: the file knows which region they are.
+        const ProgramRun demanding = run_lamina(folder, {"check", "q.vtu", "--require-delaunay"});
+        EXPECT_EQ(demanding.exit_code, 0) << demanding.err;
+        const ProgramRun plot = run_lamina(folder, {"plot", "q.vtu", "-o", "q.png", "--width", "300"});
+        EXPECT_EQ(plot.exit_code, 0) << plot.err;
+    }
+    const ProgramRun wrong = run_lamina(folder, judged_case({"--layer-topology", "hexes", "-o", "w.su2"}));
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_NE(wrong.err.find("delaunay, layered, quads"), std::string::npos) << wrong.err;
+}
+
 TEST_F(MeshCommand, CheckFindsBothFilesValidAndTheSameMesh) {
     const ProgramRun vtu = run_lamina(folder(), {"check", "n.vtu", "--json", "--wall", "airfoil", "--far", "farfield",
                                                  "--require-delaunay", "--min-angle", "20.7"});

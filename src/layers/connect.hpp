@@ -1,0 +1,39 @@
+// The layer's points joined ray by ray and layer by layer; internal to the program.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <lamina/ids.hpp>
+#include <lamina/layers.hpp>
+#include <lamina/mesh.hpp>
+
+namespace lamina {
+
+/// What fills the region between walls and outer borders. All counter-clockwise.
+struct LayerCells {
+    std::vector<Triangle> triangles;
+    std::vector<Quad> quads;
+    std::vector<std::uint16_t> triangle_layer, quad_layer;  ///< per cell, from the wall, 1-based
+};
+
+/// What becomes of a cell of the grid with four corners.
+enum class GridCells {
+    split,  ///< two triangles
+    whole,  ///< a quadrilateral, where it is strictly convex and the border does not divide its top
+};
+
+/// The grid of rays and layers: between two neighbouring rays a column of as many cells as both have layers; below it a
+/// triangle where they have one origin, above it a triangle where one has a layer more. A cell on the outer border,
+/// whose points divide its top, is cut into triangles; they fan from its two lower corners. Of all such cuts, as of the
+/// two diagonals of a cell, the one whose largest angle is smallest is taken; where cuts are equal in this (within
+/// 1e-6 in the cosine: more than rounding), the lower corner on the ray of the lexicographically smaller origin (of the
+/// smaller direction, where rays have one origin) gets the diagonal or the larger fan. Every cell is positive, exactly.
+///
+/// Precondition: validate() finds nothing wrong with the layer. Parallel; the result does not depend on the number of
+/// threads. Cells are listed ray by ray, from the wall outwards.
+/// Criterion: I. Babuska, A. K. Aziz, On the angle condition in the finite element method, SIAM J. Numer. Anal. 13
+/// (1976): interpolation suffers from large angles, not from small ones.
+LayerCells connect_layer(const Layer& layer, GridCells cells);
+
+}  // namespace lamina

@@ -1,0 +1,358 @@
+// The grid of rays and layers as cells: the region is covered exactly once, by positive cells, row by row.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <lamina/predicates.hpp>
+
+#include "core/parallel.hpp"
+#include "layers/connect.hpp"
+#include "pipeline/layer_region.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+using shapes::Outline;
+
+constexpr LayerTopology topologies[] = {LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads};
+
+LayerOptions thin(Corners corners = Corners::fan) {
+    LayerOptions options;
+    options.first_height = 2.5e-5;
+    options.growth = 1.15;
+    options.layers = 30;
+    options.max_ray_angle_deg = 4;
+    options.corners = corners;
+    return options;
+}
+
+/// Calls f(corners, layer) for each cell: triangles, then quads.
+template <class F>
+void for_each_cell(const LayerCells& cells, F&& f) {
+    ASSERT_EQ(cells.triangles.size(), cells.triangle_layer.size());
+    ASSERT_EQ(cells.quads.size(), cells.quad_layer.size());
+    for (std::size_t t = 0; t < cells.triangles.size(); ++t)
+        f(std::vector<VertexId>(cells.triangles[t].v, cells.triangles[t].v + 3), cells.triangle_layer[t]);
+    for (std::size_t q = 0; q < cells.quads.size(); ++q)
+        f(std::vector<VertexId>(cells.quads[q].v, cells.quads[q].v + 4), cells.quad_layer[q]);
+}
+
+/// Exactly: every corner turns to the left.
+bool strictly_convex(const Layer& layer, const std::vector<VertexId>& cell) {
+    const std::size_t n = cell.size();
+    for (std::size_t i = 0; i < n; ++i)
+        if (!(orient2d(layer.points[cell[i].index()], layer.points[cell[(i + 1) % n].index()],
+                       layer.points[cell[(i + 2) % n].index()]) > 0))
+            return false;
+    return true;
+}
+
+double doubled_area(const Layer& layer, const std::vector<VertexId>& cell) {
+    double area = 0;
+    const Point origin = layer.points[cell[0].index()];
+    for (std::size_t i = 1; i + 1 < cell.size(); ++i)
+        area += cross(layer.points[cell[i].index()] - origin, layer.points[cell[i + 1].index()] - origin);
+    return area;
+}
+
+/// Positive convex cells; every directed edge once; those without a twin are the edges that bound the layer; all points
+/// but bare wall vertices used; area and Euler characteristic.
+void expect_cover(const Layer& layer, const LayerEdges& edges, const LayerCells& cells) {
+    std::set<Segment> directed;
+    std::set<VertexId> used;
+    std::size_t count = 0;
+    double area = 0;
+    for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t) {
+        ++count;
+        EXPECT_TRUE(strictly_convex(layer, cell));
+        area += doubled_area(layer, cell);
+        for (std::size_t i = 0; i < cell.size(); ++i) {
+            EXPECT_TRUE(directed.insert({cell[i], cell[(i + 1) % cell.size()]}).second) << "edge used twice";
+            used.insert(cell[i]);
+        }
+    });
+    std::set<Segment> boundary;
+    for (const Segment& e : directed)
+        if (!directed.contains({e.b, e.a})) boundary.insert(e);
+    EXPECT_EQ(boundary, std::set<Segment>(edges.region.begin(), edges.region.end()));
+
+    std::set<VertexId> expected;
+    for (std::size_t v = layer.wall_points; v < layer.points.size(); ++v) expected.insert(VertexId(v));
+    for (const Segment& e : edges.region) expected.insert({e.a, e.b});
+    EXPECT_EQ(used, expected);
+
+    double enclosed = 0, magnitude = 0;
+    for (const Segment& e : edges.region) {
+        enclosed += cross(layer.points[e.a.index()], layer.points[e.b.index()]);
+        magnitude += std::abs(cross(layer.points[e.a.index()], layer.points[e.b.index()]));
+    }
+    EXPECT_NEAR(area, enclosed, 1e-13 * magnitude);
+    // V - E + F is that of the region, whatever fills it.
+    const std::size_t undirected = (directed.size() + boundary.size()) / 2;
+    const LayerCells delaunay = fill_layer(layer, edges, LayerTopology::delaunay);
+    const std::size_t delaunay_edges = (3 * delaunay.triangles.size() + boundary.size()) / 2;
+    EXPECT_EQ(count + delaunay_edges, delaunay.triangles.size() + undirected);
+}
+
+/// All corners of a cell on layer n lie on layers n - 1 and n.
+void expect_rows(const Layer& layer, const LayerCells& cells) {
+    for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t n) {
+        EXPECT_GE(n, 1);
+        for (VertexId v : cell) {
+            EXPECT_LE(layer.layer_of_point[v.index()], n);
+            EXPECT_GE(layer.layer_of_point[v.index()] + 1, n);
+        }
+    });
+}
+
+/// Edges between tips that the border's grading divided: its points come behind those of the rays.
+std::size_t divided_tops(const Layer& layer) {
+    std::size_t ray_points = layer.wall_points, count = 0;
+    for (const auto& rays : layer.rays)
+        for (const Ray& ray : rays) ray_points += ray.layers;
+    for (const auto& border : layer.borders)
+        for (std::size_t k = 0; k < border.size(); ++k)
+            count += border[k].index() < ray_points && border[(k + 1) % border.size()].index() >= ray_points;
+    return count;
+}
+
+void expect_connected(const Pslg& pslg, const LayerOptions& options) {
+    const Layer layer = make_layer(pslg, options);
+    ASSERT_EQ(validate(layer, options), std::vector<std::string>{});
+    const LayerEdges edges = layer_edges(layer);
+    for (LayerTopology topology : topologies) {
+        SCOPED_TRACE(static_cast<int>(topology));
+        const LayerCells cells = fill_layer(layer, edges, topology);
+        expect_cover(layer, edges, cells);
+        if (topology != LayerTopology::delaunay) expect_rows(layer, cells);
+        if (topology != LayerTopology::quads) {
+            EXPECT_TRUE(cells.quads.empty());
+        }
+    }
+}
+void expect_connected(const Outline& outline, const LayerOptions& options) {
+    expect_connected(shapes::pslg({outline}), options);
+}
+
+TEST(Connect, CoversTheLayerOfAnySection) {
+    for (const Outline& outline :
+         {shapes::section(0.12, 0, 60), shapes::section(0.12, 0.01, 60), shapes::joukowski(0.08, 0.15, 120),
+          shapes::circle(0.5, 7), shapes::ellipse(1, 0.05, 90), shapes::plate(0.05, 16), shapes::wedge(),
+          shapes::diamond(), shapes::box(), shapes::refined(shapes::l_shape(), 9),
+          shapes::refined(shapes::v_notch(0.4), 12), shapes::refined(shapes::c_shape(0.02), 12),
+          shapes::refined(shapes::comb(4, 0.1), 5)})
+        for (Corners corners : {Corners::fan, Corners::refine}) expect_connected(outline, thin(corners));
+}
+
+TEST(Connect, CoversTruncatedLayers) {
+    std::mt19937 random(12);
+    for (int k = 0; k < 120; ++k) {
+        SCOPED_TRACE(k);
+        const Outline outline =
+            shapes::refined(shapes::star(3 + random() % 20, 0.05 + 0.009 * static_cast<double>(random() % 100), random),
+                            1 + random() % 5);
+        LayerOptions options = thin(random() % 2 == 0 ? Corners::fan : Corners::refine);
+        options.first_height = std::pow(10, -5 + 0.04 * static_cast<double>(random() % 100));
+        options.growth = 1.05 + 0.005 * static_cast<double>(random() % 100);
+        options.layers = 1 + random() % 40;
+        options.thickness = std::max(options.first_height, 0.5);
+        options.max_ray_angle_deg = static_cast<double>(2 + random() % 20);
+        expect_connected(outline, options);
+        if (HasFailure()) break;
+    }
+}
+
+TEST(Connect, CoversTheLayersOfSeveralBodies) {
+    const Outline main = shapes::section(0.12, 0, 40);
+    for (double gap : {0.1, 0.01, 1e-4}) {
+        const Outline flap = shapes::moved(shapes::section(0.12, 0.01, 30), -0.5, 0.3, {1 + gap, -0.01});
+        expect_connected(shapes::pslg({main, flap}), thin());
+    }
+}
+
+TEST(Connect, NothingWithoutLayers) {
+    LayerOptions options = thin();
+    options.enabled = false;
+    const Layer layer = make_layer(shapes::pslg({shapes::box()}), options);
+    for (LayerTopology topology : topologies) {
+        const LayerCells cells = fill_layer(layer, layer_edges(layer), topology);
+        EXPECT_TRUE(cells.triangles.empty() && cells.quads.empty());
+    }
+}
+
+TEST(Connect, QuadsFillTheGridWhereTheBorderIsNotDivided) {
+    const Layer layer = make_layer(shapes::pslg({shapes::circle(0.5, 100)}), thin());
+    ASSERT_EQ(divided_tops(layer), 0u);
+    const std::size_t columns = layer.rays[0].size();
+    const LayerCells quads = connect_layer(layer, GridCells::whole), split = connect_layer(layer, GridCells::split);
+    EXPECT_EQ(quads.quads.size(), 30 * columns);
+    EXPECT_TRUE(quads.triangles.empty());
+    EXPECT_EQ(split.triangles.size(), 60 * columns);
+
+    const Layer fans = make_layer(shapes::pslg({shapes::section(0.12, 0, 80)}), thin());
+    std::size_t in_fans = 0;
+    for (std::size_t i = 0; i + 1 < fans.rays[0].size(); ++i)
+        in_fans += fans.rays[0][i].origin == fans.rays[0][i + 1].origin;
+    const LayerCells cells = connect_layer(fans, GridCells::whole);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(cells.triangle_layer.begin(), cells.triangle_layer.end(), 1)),
+              in_fans);
+    EXPECT_EQ(cells.quads.size(), 30 * fans.rays[0].size() - in_fans - divided_tops(fans));
+}
+
+TEST(Connect, GentleCurvatureHasTheRowsOfTheDelaunayTriangulation) {
+    LayerOptions options = thin();
+    options.layers = 20;
+    for (const Outline& outline : {shapes::circle(0.5, 300), shapes::ellipse(1, 0.6, 600)}) {
+        const Layer layer = make_layer(shapes::pslg({outline}), options);
+        ASSERT_EQ(divided_tops(layer), 0u);
+        const LayerCells delaunay = fill_layer(layer, layer_edges(layer), LayerTopology::delaunay);
+        const LayerCells layered = connect_layer(layer, GridCells::split);
+        expect_rows(layer, delaunay);
+        auto a = delaunay.triangle_layer, b = layered.triangle_layer;
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        EXPECT_EQ(a, b);
+    }
+}
+
+/// Largest angle of a triangle, in radians.
+double largest_angle(const Layer& layer, VertexId a, VertexId b, VertexId c) {
+    const Point p[] = {layer.points[a.index()], layer.points[b.index()], layer.points[c.index()]};
+    double largest = 0;
+    for (int i = 0; i < 3; ++i) {
+        const Point u = p[(i + 1) % 3] - p[i], v = p[(i + 2) % 3] - p[i];
+        largest = std::max(largest, std::atan2(cross(u, v), dot(u, v)));
+    }
+    return largest;
+}
+
+TEST(Connect, TheOtherDiagonalIsNoBetter) {
+    for (const Outline& outline : {shapes::joukowski(0.1, 0.3, 100), shapes::refined(shapes::c_shape(0.3), 11)}) {
+        const Layer layer = make_layer(shapes::pslg({outline}), thin());
+        const LayerCells split = connect_layer(layer, GridCells::split), whole = connect_layer(layer, GridCells::whole);
+        std::map<Segment, VertexId> opposite;
+        for (const Triangle& t : split.triangles)
+            for (int i = 0; i < 3; ++i) opposite[{t.v[i], t.v[(i + 1) % 3]}] = t.v[(i + 2) % 3];
+        for (const Quad& q : whole.quads) {
+            const auto [a, b, c, d] = q.v;
+            const double ac = std::max(largest_angle(layer, a, b, c), largest_angle(layer, a, c, d));
+            const double bd = std::max(largest_angle(layer, a, b, d), largest_angle(layer, b, c, d));
+            const bool made_ac = opposite.at({a, b}) == c;
+            EXPECT_EQ(opposite.at({c, d}) == a, made_ac);
+            EXPECT_LT((made_ac ? ac : bd) - (made_ac ? bd : ac), 2e-6);
+        }
+    }
+}
+
+TEST(Connect, SymmetricSectionHasMirroredDiagonals) {
+    const Layer layer = make_layer(shapes::pslg({shapes::section(0.12, 0, 70)}), thin());
+    std::vector<Point> centers, mirrored;
+    for (const Triangle& t : connect_layer(layer, GridCells::split).triangles) {
+        Point sum;
+        for (VertexId v : t.v) sum = sum + layer.points[v.index()];
+        centers.push_back((1.0 / 3) * sum);
+        mirrored.push_back({centers.back().x, -centers.back().y});
+    }
+    std::sort(mirrored.begin(), mirrored.end(), lexicographically_less);
+    std::size_t alone = 0;
+    for (Point p : centers) {
+        auto at =
+            std::lower_bound(mirrored.begin(), mirrored.end(), Point{p.x - 1e-10, -HUGE_VAL}, lexicographically_less);
+        const auto near = [&](Point q) { return std::abs(q.y - p.y) < 1e-10; };
+        while (at != mirrored.end() && at->x < p.x + 1e-10 && !near(*at)) ++at;
+        alone += at == mirrored.end() || !near(*at);
+    }
+    EXPECT_LE(alone, 60u);  // a column on the axis that is its own image may have either diagonal
+}
+
+TEST(Connect, DoesNotDependOnThreads) {
+    const Layer layer = make_layer(shapes::pslg({shapes::section(0.12, 0, 900), shapes::circle(0.1, 2000)}), thin());
+    for (GridCells kind : {GridCells::split, GridCells::whole}) {
+        LayerCells one;
+        with_threads(1, [&] { one = connect_layer(layer, kind); });
+        for (unsigned threads : {2u, 4u}) {
+            with_threads(threads, [&] {
+                const LayerCells many = connect_layer(layer, kind);
+                EXPECT_EQ(many.triangles, one.triangles);
+                EXPECT_TRUE(std::equal(many.quads.begin(), many.quads.end(), one.quads.begin(), one.quads.end(),
+                                       [](const Quad& p, const Quad& q) { return std::equal(p.v, p.v + 4, q.v); }));
+                EXPECT_EQ(many.triangle_layer, one.triangle_layer);
+                EXPECT_EQ(many.quad_layer, one.quad_layer);
+            });
+        }
+    }
+}
+
+/// A square wall and one ray of one layer on the fan at its corner (1, 1), beside bare rays:
+///
+///    q--------p        q, p  tips of one layer; the border goes 0 - 1 - 2 - p - q - 0, divided here and there
+///     \       |
+///      3------2        the wall's corner 2 has two rays, the first of them bare
+///      |      |
+///      0------1        bare corners
+struct Corner {
+    Layer layer;
+    VertexId p, q;
+    Corner() {
+        layer.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        layer.wall_points = 4;
+        layer.walls = {{VertexId(0), VertexId(1), VertexId(2), VertexId(3)}};
+        p = add({1, 1.2}, 1);
+        q = add({-0.1, 1.2}, 1);
+        const auto ray = [](std::size_t origin, Point direction, std::uint32_t layers, std::size_t first) {
+            Ray made{};
+            made.origin = VertexId(origin);
+            made.direction = direction;
+            made.layers = layers;
+            made.first_point = first;
+            return made;
+        };
+        layer.rays = {{ray(0, {-1, 0}, 0, 4), ray(1, {1, 0}, 0, 4), ray(2, {1, 0}, 0, 4), ray(2, {0, 1}, 1, p.index()),
+                       ray(3, {0, 1}, 1, q.index())}};
+        layer.borders = {{VertexId(0), VertexId(1), VertexId(2), p, q}};
+    }
+    VertexId add(Point at, std::uint16_t n) {
+        layer.points.push_back(at);
+        layer.layer_of_point.resize(layer.points.size(), 0);
+        layer.layer_of_point.back() = n;
+        return VertexId(layer.points.size() - 1);
+    }
+    void divide(VertexId after, Point at) {
+        auto& border = layer.borders[0];
+        border.insert(std::find(border.begin(), border.end(), after) + 1, add(at, after == p ? 1 : 0));
+    }
+    void expect_sound() const {
+        const LayerEdges edges = layer_edges(layer);
+        for (LayerTopology topology : {LayerTopology::layered, LayerTopology::quads}) {
+            const LayerCells cells = fill_layer(layer, edges, topology);
+            expect_cover(layer, edges, cells);
+            expect_rows(layer, cells);
+        }
+    }
+};
+
+TEST(Connect, BorderAlongARay) {
+    Corner corner;
+    corner.expect_sound();
+    corner.divide(VertexId(2), {1, 1.1});
+    corner.expect_sound();
+    corner.divide(VertexId(2), {1, 1.05});
+    corner.divide(corner.p, {0.55, 1.2});
+    corner.divide(corner.q, {-0.05, 0.6});  // the step down to the bare corner 0 is a triangle with a divided top
+    corner.expect_sound();
+}
+
+TEST(Connect, TopsThatNoTwoFansFillAreTriangulated) {
+    Corner corner;  // border points far from any line, as rounding would put them in cells of a few roundings' height
+    corner.divide(corner.p, {0.2, 1.02});
+    corner.divide(corner.p, {0.5, 1.19});
+    corner.divide(corner.p, {0.8, 1.02});
+    corner.expect_sound();
+}
+
+}  // namespace
+}  // namespace lamina
