@@ -1,27 +1,42 @@
-// Meshes to and from files, and pictures of them. The format follows from the extension.
+// Meshes to and from files, and pictures of them. The format follows from the extension unless it is named.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <lamina/mesh.hpp>
 
 namespace lamina {
 
-/// Formats by extension: .su2 (ASCII, 17 significant digits), .vtu (appended raw binary; cell data region, piece,
-/// layer, marker names in field data). Writes to a temporary name beside the target and renames, so that a failure
-/// leaves nothing half-written. `format` ("su2", "vtu") goes over the extension where it is not empty.
-/// Throws IoError; UsageError for an unknown format or extension.
-void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const std::string& format = {});
+/// A format that meshes are written in, and most are read from.
+struct MeshFormat {
+    std::string name;                     ///< "msh22"
+    std::vector<std::string> extensions;  ///< of its files, with the dot; each stands for the first format that has it
+    std::string holds;                    ///< one line: what it is
+};
 
-/// Throws IoError where the file cannot be read, InputError (with the line, for text formats) where it is malformed.
+/// All of them, in the order of the guide's table.
+std::vector<MeshFormat> mesh_formats();
+
+struct WriteOptions {
+    std::string format{};  ///< a name, or an extension without its dot; empty = by the extension of the file
+};
+
+/// Writes to temporary names beside the target and renames, so that a failure leaves nothing half-written. Coordinates
+/// are read back exactly. Throws IoError; UsageError for an unknown format or extension, and for marker names that the
+/// format cannot hold.
+void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
+
+/// By the extension of the file. Throws IoError where it cannot be read, InputError (with the line, for text formats)
+/// where it is malformed, UsageError for an unknown extension.
 Mesh read_mesh(const std::filesystem::path& file);
 
 /// Throws UsageError now rather than after minutes of meshing if write_mesh knows no format of this name, IoError if
-/// its folder does not exist or is not writable.
-void check_writable(const std::filesystem::path& file, const std::string& format = {});
+/// the folder does not exist or is not writable.
+void check_writable(const std::filesystem::path& file, const WriteOptions& options = {});
 
 enum class PlotColor { none, quality, size, piece, layer };
 

@@ -69,7 +69,7 @@ Progress progress_printer(const MeshCase& mesh_case) {
 /// Everything that can be refused before the work begins.
 void require_outputs(const MeshCase& mesh_case) {
     if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
-    for (const std::string& output : mesh_case.outputs) check_writable(output, mesh_case.format);
+    for (const std::string& output : mesh_case.outputs) check_writable(output, {.format = mesh_case.format});
     if (!mesh_case.report.empty()) check_folder_writable(mesh_case.report);
 }
 
@@ -79,7 +79,7 @@ void mesh(const MeshCase& mesh_case) {
 
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, mesh_case.format);
+    for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, {.format = mesh_case.format});
     const double write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
 
     if (!mesh_case.report.empty()) {

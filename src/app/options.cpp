@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <lamina/io.hpp>
+
 namespace lamina::app {
 
 namespace {
@@ -168,7 +170,9 @@ std::vector<Option> make_table() {
     add(list("input", Kind::paths, "INPUT", "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)",
              member_at(&MeshCase::inputs)));
     add(list("output", Kind::paths, "FILE", "mesh file; may be given several times", member_at(&MeshCase::outputs)));
-    add(text("format", Kind::word, "su2|vtu", "format of every mesh file; else each by its extension",
+    std::string formats;
+    for (const MeshFormat& format : mesh_formats()) formats += (formats.empty() ? "" : "|") + format.name;
+    add(text("format", Kind::word, formats, "format of every mesh file; else each by its extension",
              member_at(&MeshCase::format)));
     add(text("report", Kind::path, "FILE", "JSON report of the run", member_at(&MeshCase::report)));
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
 #include <lamina/error.hpp>
 
@@ -13,42 +14,107 @@ namespace lamina {
 
 namespace fs = std::filesystem;
 
-void check_folder_writable(const fs::path& file) {
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+namespace {
+
+/// Devices and pipes are no files that could be replaced.
+bool is_device(const fs::path& file) {
     std::error_code ignored;
-    if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot write: is a directory");
-    if (!fs::exists(folder, ignored)) throw IoError(file.string(), "cannot write: its folder does not exist");
-    if (!fs::is_directory(folder, ignored)) throw IoError(file.string(), "cannot write: its folder is a file");
-    if (::access(folder.c_str(), W_OK | X_OK) != 0)
-        throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
+    const fs::file_type type = fs::status(file, ignored).type();
+    return type == fs::file_type::character || type == fs::file_type::block || type == fs::file_type::fifo;
 }
 
-void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
+/// Beside the target, so that it can be renamed to it; the extension stays last, for writers that look at it.
+fs::path temporary_beside(const fs::path& target, const char* what = "tmp") {
     fs::path temporary = target;
-    // The extension stays last, for writers that look at it.
-    temporary.replace_filename("." + target.stem().string() + ".tmp" + std::to_string(::getpid()) +
+    temporary.replace_filename("." + target.stem().string() + "." + what + std::to_string(::getpid()) +
                                target.extension().string());
-    std::error_code ignored;
+    return temporary;
+}
+
+/// Runs `work`; if it fails, `undo`, and what the file system complained of becomes an IoError about `target`.
+void or_undo(const fs::path& target, const std::function<void()>& work, const std::function<void()>& undo) {
     try {
-        write(temporary);
-        fs::rename(temporary, target);
+        work();
     } catch (const fs::filesystem_error& e) {
-        fs::remove(temporary, ignored);
+        undo();
         throw IoError(target.string(), "cannot write: " + e.code().message());
     } catch (...) {
-        fs::remove(temporary, ignored);
+        undo();
         throw;
     }
 }
 
+fs::path parent_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+}  // namespace
+
+void check_folder_writable(const fs::path& file) {
+    const fs::path folder = parent_of(file);
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot write: is a directory");
+    if (!fs::exists(folder, ignored)) throw IoError(file.string(), "cannot write: its folder does not exist");
+    if (!fs::is_directory(folder, ignored)) throw IoError(file.string(), "cannot write: its folder is a file");
+    const bool writable =
+        is_device(file) ? ::access(file.c_str(), W_OK) == 0 : ::access(folder.c_str(), W_OK | X_OK) == 0;
+    if (!writable) throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
+}
+
+void write_files_atomically(std::span<const fs::path> targets,
+                            const std::function<void(std::span<const fs::path>)>& write) {
+    std::vector<fs::path> temporaries;
+    for (const fs::path& target : targets) {
+        if (is_device(target)) throw IoError(target.string(), "cannot write: not a file");
+        temporaries.push_back(temporary_beside(target));
+    }
+    const auto work = [&] {
+        write(temporaries);
+        for (std::size_t i = 0; i < targets.size(); ++i) fs::rename(temporaries[i], targets[i]);
+    };
+    const auto undo = [&] {
+        std::error_code ignored;
+        for (const fs::path& temporary : temporaries) fs::remove(temporary, ignored);
+    };
+    or_undo(targets.front(), work, undo);
+}
+
+void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
+    write_files_atomically({&target, 1}, [&](std::span<const fs::path> temporaries) { write(temporaries.front()); });
+}
+
+void write_folder_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
+    const fs::path temporary = temporary_beside(target), replaced = temporary_beside(target, "old");
+    std::vector<fs::path> made;  // the outermost first
+    const auto work = [&] {
+        for (fs::path above = parent_of(target); !fs::exists(above); above = parent_of(above))
+            made.insert(made.begin(), above);
+        for (const fs::path& folder : made) fs::create_directory(folder);
+        fs::create_directory(temporary);
+        write(temporary);
+        if (fs::exists(target)) fs::rename(target, replaced);
+        fs::rename(temporary, target);
+    };
+    const auto undo = [&] {
+        std::error_code ignored;
+        fs::remove_all(temporary, ignored);
+        if (fs::exists(replaced, ignored)) fs::rename(replaced, target, ignored);
+        for (auto folder = made.rbegin(); folder != made.rend(); ++folder) fs::remove(*folder, ignored);
+    };
+    or_undo(target, work, undo);
+    std::error_code ignored;
+    fs::remove_all(replaced, ignored);
+}
+
+void write_stream(const fs::path& file, const fs::path& target, const std::function<void(std::ostream&)>& write) {
+    errno = 0;
+    std::ofstream out(file, std::ios::binary);
+    if (out) write(out);
+    out.close();
+    if (!out) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(errno ? errno : EIO));
+}
+
 void write_stream_atomically(const fs::path& target, const std::function<void(std::ostream&)>& write) {
-    write_atomically(target, [&](const fs::path& temporary) {
-        errno = 0;
-        std::ofstream out(temporary, std::ios::binary);
-        if (out) write(out);
-        out.close();
-        if (!out) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(errno ? errno : EIO));
-    });
+    if (is_device(target)) return write_stream(target, target, write);
+    write_atomically(target, [&](const fs::path& temporary) { write_stream(temporary, target, write); });
 }
 
 std::string read_whole_file(const fs::path& file) {

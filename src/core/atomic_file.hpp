@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <span>
 #include <string>
 
 namespace lamina {
@@ -16,7 +17,21 @@ void check_folder_writable(const std::filesystem::path& file);
 void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path&)>& write);
 
-/// The usual case: `write` sends text or bytes to a stream, whose state is checked at the end.
+/// Several files that belong together: `write` fills the temporary of each target, and none is renamed before all are
+/// complete.
+void write_files_atomically(std::span<const std::filesystem::path> targets,
+                            const std::function<void(std::span<const std::filesystem::path>)>& write);
+
+/// A folder of files: `write` fills a temporary folder beside `target`, which then takes its place. A folder that was
+/// there goes with everything in it. Folders above it that are missing are made, and go again on failure.
+void write_folder_atomically(const std::filesystem::path& target,
+                             const std::function<void(const std::filesystem::path&)>& write);
+
+/// Fills one file through a stream, whose state is checked at the end; errors name `target`.
+void write_stream(const std::filesystem::path& file, const std::filesystem::path& target,
+                  const std::function<void(std::ostream&)>& write);
+
+/// The usual case: one file, through a stream. A device or a pipe is written to as it stands.
 void write_stream_atomically(const std::filesystem::path& target, const std::function<void(std::ostream&)>& write);
 
 /// The whole file as bytes. Throws IoError.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lamina {
 
 namespace {
@@ -13,6 +15,9 @@ std::string describe(const InputPlace& place, const std::string& reason) {
     if (!text.empty()) text += " ";
     text += reason;
     if (place.at) text += fmt::format(" (at {}, {})", place.at->x, place.at->y);
+    // One line, whatever a damaged file made the reason quote.
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, '?');
     return text;
 }
 

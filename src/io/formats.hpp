@@ -1,16 +1,42 @@
-// One function to read and one to write a mesh for each format; io.cpp holds the table of them.
+// One function to read and one to write a mesh for each format; format_table.cpp holds the table of them.
 #pragma once
 
 #include <filesystem>
 #include <ostream>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
 
 namespace lamina::detail {
 
-// Writers send the whole file to `out`; readers get the whole file as bytes, and its name for messages. Meshes come out
-// with all indices in range and finite points; more is for check_mesh to say. Readers throw InputError.
+/// A row of the table of formats: --format, the help text, the guide and the choice by extension all read it.
+struct Format {
+    const char* name;
+    /// How names of files end, in lower case. The longest one that fits stands for its format, of several alike the
+    /// first in the table.
+    std::vector<std::string> extensions;
+    const char* holds;  ///< one line for the guide
+    /// Writes every file of the mesh, whole or not at all. Throws IoError; UsageError for what it cannot hold.
+    void (*write)(const Mesh&, const std::filesystem::path&, const WriteOptions&);
+    /// Throws IoError, InputError; null where the format cannot be read.
+    Mesh (*read)(const std::filesystem::path&);
+    /// What will stand there once `file` is written.
+    std::vector<std::filesystem::path> (*targets)(const std::filesystem::path& file);
+};
+
+const std::vector<Format>& formats();
+
+/// By its name, or an extension without the dot, where one is given, else by how the name of the file ends. Throws
+/// UsageError.
+const Format& format_of(const std::filesystem::path& file, const std::string& name = {});
+
+// Writers of a single file send the whole of it to `out`; readers get the whole file as bytes, and its name for
+// messages. Meshes come out with all indices in range and finite points; more is for check_mesh to say. Readers throw
+// InputError.
 
 void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);
 Mesh read_su2(const std::string& bytes, const std::filesystem::path& file);
@@ -18,11 +44,15 @@ Mesh read_su2(const std::string& bytes, const std::filesystem::path& file);
 void write_vtu(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
 
+struct MshVariant {
+    bool version_4 = true;  ///< 4.1, else 2.2
+    bool binary = false;
+};
+void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out);
+/// Either version, ASCII or binary.
+Mesh read_msh(const std::string& bytes, const std::filesystem::path& file);
+
 /// Lower case, with the dot.
 std::string extension_of(const std::filesystem::path& file);
-
-/// Some programs write boundary edges either way round: turns those that no cell has in this direction, but one has
-/// in the other. Precondition: indices in range.
-void orient_markers(Mesh& mesh);
 
 }  // namespace lamina::detail

@@ -4,60 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <string_view>
 
 #include <lamina/error.hpp>
 
-#include "core/parallel.hpp"
 #include "io/formats.hpp"
+#include "io/mesh_parts.hpp"
 #include "io/text_lines.hpp"
+#include "io/text_output.hpp"
 
 namespace lamina::detail {
 
 namespace {
 
 enum CellType : unsigned { line_type = 3, triangle_type = 5, quad_type = 9 };
-
-// --- Writing
-
-/// Longer than any line of cells or points.
-constexpr std::size_t longest_line = 80;
-
-char* put(char* p, std::size_t value, char after) {
-    p = std::to_chars(p, p + 20, value).ptr;
-    *p++ = after;
-    return p;
-}
-
-/// 17 significant digits: every double comes back as it was.
-char* put(char* p, double value, char after) {
-    p = std::to_chars(p, p + 30, value, std::chars_format::scientific, 16).ptr;
-    *p++ = after;
-    return p;
-}
-
-/// Line i is what put_line(p, i) -> end leaves behind p. Formatted in parallel, a bounded number of blocks at a time.
-template <class F>
-void write_lines(std::ostream& out, std::size_t n, F&& put_line) {
-    constexpr std::size_t grain = 1 << 13;
-    const std::size_t batch = grain * 4 * thread_count();
-    for (std::size_t start = 0; start < n; start += batch) {
-        const auto format_block = [&](std::size_t begin, std::size_t end) {
-            std::string text((end - begin) * longest_line, '\0');
-            char* p = text.data();
-            for (std::size_t i = start + begin; i < start + end; ++i) p = put_line(p, i);
-            text.resize(static_cast<std::size_t>(p - text.data()));
-            return text;
-        };
-        for (const std::string& text : parallel_blocks(std::min(batch, n - start), grain, format_block))
-            out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    }
-}
 
 // --- Reading
 
@@ -159,7 +121,7 @@ private:
     void read_tag() {
         if (open_tag_) in_.fail(fmt::format("marker '{}' has no MARKER_ELEMS=", mesh_.markers.back().name));
         if (in_.text().empty()) in_.fail("a marker without a name");
-        mesh_.markers.push_back({std::string(in_.text()), kind_from_name(in_.text()), {}});
+        mesh_.markers.push_back({std::string(in_.text()), kind_of_name(in_.text()), {}});
         open_tag_ = true;
     }
     void read_marker() {
@@ -175,14 +137,6 @@ private:
             end_line();
         }
     }
-    /// The format holds no kinds: only far fields are commonly named alike.
-    static MarkerKind kind_from_name(std::string_view name) {
-        std::string letters;
-        for (const char c : name)
-            if (std::isalpha(static_cast<unsigned char>(c)))
-                letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        return letters == "farfield" || letters == "far" ? MarkerKind::far_field : MarkerKind::other;
-    }
 
     TextLines in_;
     std::size_t points_;
@@ -194,30 +148,25 @@ private:
 }  // namespace
 
 void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out) {
-    for (const Marker& marker : mesh.markers)
-        if (marker.name.empty() || marker.name.find_first_of(" \t\r\n%") != std::string::npos)
-            throw UsageError(fmt::format("{}: SU2 cannot hold a marker named '{}'", file.string(), marker.name));
+    require_marker_names(mesh, file, "SU2", " %", 1000);
 
     const std::size_t triangles = mesh.triangles.size(), cells = triangles + mesh.quads.size();
     out << "NDIME= 2\nNELEM= " << cells << '\n';
-    write_lines(out, cells, [&](char* p, std::size_t i) {
-        p = put(p, std::size_t{i < triangles ? triangle_type : quad_type}, ' ');
+    write_lines(out, cells, [&](LineText& line, std::size_t i) {
+        line << std::size_t{i < triangles ? triangle_type : quad_type};
         if (i < triangles)
-            for (const VertexId v : mesh.triangles[i].v) p = put(p, v.index(), ' ');
+            for (const VertexId v : mesh.triangles[i].v) line << v.index();
         else
-            for (const VertexId v : mesh.quads[i - triangles].v) p = put(p, v.index(), ' ');
-        return put(p, i, '\n');
+            for (const VertexId v : mesh.quads[i - triangles].v) line << v.index();
+        line << i;
     });
     out << "NPOIN= " << mesh.points.size() << '\n';
-    write_lines(out, mesh.points.size(), [&](char* p, std::size_t i) {
-        return put(put(put(p, mesh.points[i].x, ' '), mesh.points[i].y, ' '), i, '\n');
-    });
+    write_lines(out, mesh.points.size(), [&](LineText& line, std::size_t i) { line << mesh.points[i] << i; });
     out << "NMARK= " << mesh.markers.size() << '\n';
     for (const Marker& marker : mesh.markers) {
         out << "MARKER_TAG= " << marker.name << "\nMARKER_ELEMS= " << marker.edges.size() << '\n';
-        write_lines(out, marker.edges.size(), [&](char* p, std::size_t i) {
-            p = put(p, std::size_t{line_type}, ' ');
-            return put(put(p, marker.edges[i].a.index(), ' '), marker.edges[i].b.index(), '\n');
+        write_lines(out, marker.edges.size(), [&](LineText& line, std::size_t i) {
+            line << std::size_t{line_type} << marker.edges[i].a.index() << marker.edges[i].b.index();
         });
     }
 }

@@ -99,6 +99,19 @@ inline Mesh box_with_hole(std::size_t n = 5) {
     return mesh;
 }
 
+/// A triangle and a quadrilateral.
+inline Mesh tiny() {
+    Mesh mesh;
+    mesh.points = {{0, 0}, {1, 0}, {0.1, 1e-5}, {-0.0, 1}, {-1, 1.0 / 3}};
+    mesh.triangles = {{{VertexId(0), VertexId(1), VertexId(2)}}};
+    mesh.quads = {{{VertexId(0), VertexId(2), VertexId(3), VertexId(4)}}};
+    mesh.markers = {{"wall", MarkerKind::wall, {{VertexId(0), VertexId(1)}, {VertexId(1), VertexId(2)}}},
+                    {"farfield",
+                     MarkerKind::far_field,
+                     {{VertexId(2), VertexId(3)}, {VertexId(3), VertexId(4)}, {VertexId(4), VertexId(0)}}}};
+    return mesh;
+}
+
 /// The same mesh with points and cells in another order and cells starting at other corners.
 inline Mesh shuffled(const Mesh& mesh, unsigned seed) {
     std::mt19937 random(seed);

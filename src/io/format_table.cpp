@@ -1,0 +1,93 @@
+// The table of formats.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include <lamina/error.hpp>
+
+#include "core/atomic_file.hpp"
+#include "io/formats.hpp"
+
+namespace lamina::detail {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using FileList = std::vector<fs::path>;
+
+FileList itself(const fs::path& file) { return {file}; }
+
+/// A writer of one file from one that sends to a stream.
+template <auto write_to_stream>
+void write_file(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+    write_stream_atomically(file, [&](std::ostream& out) { write_to_stream(mesh, file, out); });
+}
+
+template <auto read_bytes>
+Mesh read_file(const fs::path& file) {
+    return read_bytes(read_whole_file(file), file);
+}
+
+template <bool version_4, bool binary>
+void write_msh_variant(const Mesh& mesh, const fs::path& file, std::ostream& out) {
+    write_msh(mesh, file, {version_4, binary}, out);
+}
+
+std::string lower_case(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::vector<Format> make_table() {
+    std::vector<Format> table;
+    const auto add = [&](const char* name, std::vector<std::string> extensions, const char* holds, auto write,
+                         auto read, auto targets) {
+        table.push_back({name, std::move(extensions), holds, write, read, targets});
+    };
+    constexpr auto msh = read_file<read_msh>;
+    add("su2", {".su2"}, "SU2 native mesh, ASCII", write_file<write_su2>, read_file<read_su2>, itself);
+    add("msh41", {".msh"}, "Gmsh MSH 4.1, ASCII", write_file<write_msh_variant<true, false>>, msh, itself);
+    add("msh41-binary", {".msh"}, "Gmsh MSH 4.1, binary", write_file<write_msh_variant<true, true>>, msh, itself);
+    add("msh22", {".msh"}, "Gmsh MSH 2.2, ASCII", write_file<write_msh_variant<false, false>>, msh, itself);
+    add("msh22-binary", {".msh"}, "Gmsh MSH 2.2, binary", write_file<write_msh_variant<false, true>>, msh, itself);
+    add("vtu", {".vtu"}, "VTK unstructured grid, raw binary, for ParaView", write_file<write_vtu>, read_file<read_vtu>,
+        itself);
+    return table;
+}
+
+}  // namespace
+
+const std::vector<Format>& formats() {
+    static const std::vector<Format> table = make_table();
+    return table;
+}
+
+const Format& format_of(const fs::path& file, const std::string& name) {
+    const std::string ending = lower_case(name.empty() ? file.filename().string() : "." + name);
+    const Format* found = nullptr;
+    std::size_t longest = 0;
+    std::string names;
+    std::vector<std::string> extensions;
+    for (const Format& format : formats()) {
+        if (name == format.name) return format;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
+        for (const std::string& extension : format.extensions) {
+            if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+                extensions.push_back(extension);
+            if (ending.ends_with(extension) && extension.size() > longest) {
+                found = &format;
+                longest = extension.size();
+            }
+        }
+    }
+    if (found != nullptr) return *found;
+    if (!name.empty()) throw UsageError(fmt::format("no mesh format is named '{}' (known: {})", name, names));
+    throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", file.string(),
+                                 extension_of(file), fmt::join(extensions, ", ")));
+}
+
+std::string extension_of(const fs::path& file) { return lower_case(file.extension().string()); }
+
+}  // namespace lamina::detail

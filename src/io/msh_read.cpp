@@ -1,0 +1,385 @@
+// Reads Gmsh's MSH format, versions 2.0 to 2.2 and 4.1, ASCII and binary: plane meshes of lines (element type 1),
+// triangles (2) and quadrilaterals (3); points (15) and unknown sections are skipped.
+// Source: Gmsh reference manual, "Gmsh mesh file formats".
+//
+// The edges of a physical curve become a marker, named as the group is; lines without a group are left out. Where every
+// cell is in a physical surface 'layer' or 'isotropic', these become regions.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <lamina/error.hpp>
+
+#include "io/formats.hpp"
+#include "io/mesh_parts.hpp"
+
+namespace lamina::detail {
+
+namespace {
+
+enum ElementType : int { line_type = 1, triangle_type = 2, quad_type = 3, point_type = 15 };
+
+std::size_t corners_of(int type) {
+    switch (type) {
+        case point_type:
+            return 1;
+        case line_type:
+            return 2;
+        case triangle_type:
+            return 3;
+        case quad_type:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+/// Words and numbers of the file, ASCII or binary.
+class MshBytes {
+public:
+    MshBytes(const std::string& bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
+
+    void be_binary() { binary_ = true; }
+    bool binary() const { return binary_; }
+
+    /// The next word, whatever the mode; empty at the end.
+    std::string_view word() {
+        skip_space();
+        const std::size_t first = at_;
+        while (at_ < bytes_.size() && !is_space(bytes_[at_])) ++at_;
+        return std::string_view(bytes_).substr(first, at_ - first);
+    }
+    /// The rest of the line without blanks round it; what follows is the next line's first byte.
+    std::string_view rest_of_line() {
+        const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
+        std::string_view rest = std::string_view(bytes_).substr(at_, end - at_);
+        at_ = std::min(end + 1, bytes_.size());
+        while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
+        while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
+        return rest;
+    }
+    /// A number in figures, whatever the mode.
+    template <class T>
+    T figures(const char* what) {
+        const std::string_view text = word();
+        T value{};
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (text.empty() || error != std::errc{} || end != text.data() + text.size())
+            fail(fmt::format("{} expected, found '{}'", what, shown(text)));
+        return value;
+    }
+    template <class T>
+    T number(const char* what) {
+        if (!binary_) return figures<T>(what);
+        if (bytes_.size() - at_ < sizeof(T)) fail(fmt::format("the file ends where {} is expected", what));
+        T value;
+        std::memcpy(&value, bytes_.data() + at_, sizeof value);
+        at_ += sizeof value;
+        return value;
+    }
+    /// A number of things to come, each of at least this many bytes in a binary file and two in an ASCII one: absurd
+    /// counts are refused before memory is asked for.
+    std::size_t count(std::size_t value, std::size_t bytes_each, const char* what) {
+        if (value > (bytes_.size() - at_) / (binary_ ? bytes_each : 2) + 1)
+            fail(fmt::format("{}: {}, but the file is shorter than that", what, value));
+        return value;
+    }
+    void expect(std::string_view expected) {
+        if (const std::string_view found = word(); found != expected)
+            fail(fmt::format("{} expected, found '{}'", expected, shown(found)));
+    }
+    void skip_behind(const std::string& text) {
+        const std::size_t found = bytes_.find(text, at_);
+        if (found == std::string::npos) fail(fmt::format("the file ends without {}", text));
+        at_ = found + text.size();
+    }
+    [[noreturn]] void fail(const std::string& reason) const {
+        // Lines mean nothing behind binary data.
+        const auto line = 1 + std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
+        throw InputError({file_, binary_ ? 0 : static_cast<std::size_t>(line), {}}, reason);
+    }
+
+private:
+    static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+    void skip_space() {
+        while (at_ < bytes_.size() && is_space(bytes_[at_])) ++at_;
+    }
+    static std::string shown(std::string_view text) {
+        std::string shown(text.substr(0, 30));
+        for (char& c : shown)
+            if (static_cast<unsigned char>(c) < ' ') c = '?';
+        return shown;
+    }
+
+    const std::string& bytes_;
+    std::string file_;
+    std::size_t at_ = 0;
+    bool binary_ = false;
+};
+
+/// Numbers of nodes -> their places in the file.
+class NodeNumbers {
+public:
+    void add(std::size_t number) { numbers_.push_back({number, numbers_.size()}); }
+    /// False if a number stands twice.
+    bool sort() {
+        in_order_ = true;
+        for (std::size_t i = 0; i < numbers_.size() && in_order_; ++i) in_order_ = numbers_[i].first == i + 1;
+        if (in_order_) return true;
+        std::sort(numbers_.begin(), numbers_.end());
+        return std::adjacent_find(numbers_.begin(), numbers_.end(),
+                                  [](const auto& a, const auto& b) { return a.first == b.first; }) == numbers_.end();
+    }
+    std::optional<VertexId> find(std::size_t number) const {
+        if (in_order_) return number - 1 < numbers_.size() ? std::optional(VertexId(number - 1)) : std::nullopt;
+        const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), std::pair(number, std::size_t{0}));
+        if (found == numbers_.end() || found->first != number) return std::nullopt;
+        return VertexId(found->second);
+    }
+
+private:
+    std::vector<std::pair<std::size_t, std::size_t>> numbers_;
+    bool in_order_ = false;
+};
+
+class MshReader {
+public:
+    MshReader(const std::string& bytes, const std::string& file) : in_(bytes, file) {}
+
+    Mesh read() {
+        read_header();
+        for (std::string_view name; !(name = in_.word()).empty();) {
+            if (name.front() != '$') in_.fail(fmt::format("section expected, found '{}'", name.substr(0, 30)));
+            in_.rest_of_line();
+            if (name == "$PhysicalNames")
+                read_names();
+            else if (name == "$Entities" && version_4_)
+                read_entities();
+            else if (name == "$Nodes")
+                version_4_ ? read_nodes_4() : read_nodes_2();
+            else if (name == "$Elements")
+                version_4_ ? read_elements_4() : read_elements_2();
+            else if (name == "$PartitionedEntities")
+                in_.fail("partitioned meshes cannot be read");
+            else
+                in_.skip_behind("$End" + std::string(name.substr(1)));
+        }
+        if (!has_nodes_ || !has_elements_) in_.fail("the file ends without $Nodes or $Elements");
+        finish();
+        return std::move(mesh_);
+    }
+
+private:
+    using EntityKey = std::pair<int, int>;  ///< dimension, number
+
+    void read_header() {
+        in_.expect("$MeshFormat");
+        const std::string_view version = in_.word();
+        version_4_ = version == "4.1";
+        if (!version_4_ && version != "2" && version != "2.0" && version != "2.1" && version != "2.2")
+            in_.fail(fmt::format("MSH version '{}': 2.2 and 4.1 can be read", version.substr(0, 30)));
+        const auto binary = in_.figures<int>("file type");
+        if (in_.figures<int>("data size") != 8 || binary < 0 || binary > 1)
+            in_.fail("the header must say 0 or 1, and a data size of 8");
+        in_.rest_of_line();
+        if (binary == 1) {
+            in_.be_binary();
+            if (in_.number<std::int32_t>("the number 1") != 1)
+                in_.fail("binary data in the byte order of another machine cannot be read");
+        }
+        in_.expect("$EndMeshFormat");
+    }
+
+    void read_names() {
+        const auto n = in_.figures<std::size_t>("number of physical names");
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto dimension = in_.figures<int>("dimension");
+            const auto number = in_.figures<int>("physical group");
+            const std::string_view quoted = in_.rest_of_line();
+            if (quoted.size() < 3 || quoted.front() != '"' || quoted.back() != '"')
+                in_.fail("name in quotation marks expected");
+            names_[{dimension, number}] = quoted.substr(1, quoted.size() - 2);
+        }
+        in_.expect("$EndPhysicalNames");
+    }
+
+    /// Keeps the physical group of each entity: the first one, without its sign.
+    void read_entities() {
+        std::size_t counts[4];
+        for (std::size_t& n : counts) n = in_.number<std::size_t>("number of entities");
+        for (int dimension = 0; dimension < 4; ++dimension) {
+            in_.count(counts[dimension], 36, "number of entities");
+            for (std::size_t i = 0; i < counts[dimension]; ++i) {
+                const auto entity = in_.number<int>("entity");
+                for (int k = dimension == 0 ? 3 : 0; k < 6; ++k) in_.number<double>("bound");
+                const std::size_t groups = in_.count(in_.number<std::size_t>("number of groups"), 4, "groups");
+                for (std::size_t k = 0; k < groups; ++k) {
+                    const int group = std::abs(in_.number<int>("physical group"));
+                    if (k == 0) group_of_entity_[{dimension, entity}] = group;
+                }
+                if (dimension == 0) continue;
+                const std::size_t borders = in_.count(in_.number<std::size_t>("number of borders"), 4, "borders");
+                for (std::size_t k = 0; k < borders; ++k) in_.number<int>("border");
+            }
+        }
+        in_.expect("$EndEntities");
+    }
+
+    void read_nodes_2() {
+        begin_nodes();
+        const std::size_t n = in_.count(in_.figures<std::size_t>("number of nodes"), 28, "number of nodes");
+        in_.rest_of_line();
+        mesh_.points.reserve(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            add_node(static_cast<std::size_t>(in_.number<int>("node number")));
+            read_point();
+        }
+        end_nodes();
+    }
+    void read_nodes_4() {
+        begin_nodes();
+        const auto blocks = in_.number<std::size_t>("number of blocks of nodes");
+        for (int k = 0; k < 3; ++k) in_.number<std::size_t>("number of nodes");
+        for (std::size_t b = 0; b < blocks; ++b) {
+            for (int k = 0; k < 2; ++k) in_.number<int>("entity");
+            if (in_.number<int>("0") != 0) in_.fail("parametric nodes cannot be read");
+            const std::size_t n = in_.count(in_.number<std::size_t>("number of nodes"), 32, "number of nodes");
+            for (std::size_t i = 0; i < n; ++i) add_node(in_.number<std::size_t>("node number"));
+            for (std::size_t i = 0; i < n; ++i) read_point();
+        }
+        end_nodes();
+    }
+    void begin_nodes() {
+        if (std::exchange(has_nodes_, true)) in_.fail("a second $Nodes");
+    }
+    void add_node(std::size_t number) { nodes_.add(number); }
+    void read_point() {
+        const auto x = in_.number<double>("coordinate"), y = in_.number<double>("coordinate"),
+                   z = in_.number<double>("coordinate");
+        if (!std::isfinite(x) || !std::isfinite(y)) in_.fail("coordinate is not a finite number");
+        if (mesh_.points.empty()) plane_ = z;
+        if (z != plane_)
+            in_.fail(fmt::format("nodes in the planes z = {} and z = {}: the mesh is not plane", plane_, z));
+        mesh_.points.push_back({x, y});
+    }
+    void end_nodes() {
+        in_.expect("$EndNodes");
+        if (!nodes_.sort()) in_.fail("two nodes have the same number");
+    }
+
+    void read_elements_2() {
+        begin_elements();
+        const std::size_t n = in_.count(in_.figures<std::size_t>("number of elements"), 8, "number of elements");
+        in_.rest_of_line();
+        // A block of a binary file has one header; in ASCII each element has its own.
+        for (std::size_t i = 0, block = 1; i < n; i += block) {
+            if (!in_.binary()) in_.number<int>("element number");
+            const int type = element_type(in_.number<int>("element type"));
+            if (in_.binary()) block = static_cast<std::size_t>(in_.number<int>("number of elements"));
+            const auto tags = in_.number<int>("number of tags");
+            if (block == 0 || block > n - i) in_.fail("a block of elements is longer than the section, or empty");
+            if (tags < 0 || tags > 1000) in_.fail(fmt::format("{} tags of an element", tags));
+            for (std::size_t k = 0; k < block; ++k) {
+                if (in_.binary()) in_.number<int>("element number");
+                int group = 0;
+                for (int t = 0; t < tags; ++t) {
+                    const auto tag = in_.number<int>("tag");
+                    if (t == 0) group = tag;
+                }
+                read_element<int>(type, group);
+            }
+        }
+        in_.expect("$EndElements");
+    }
+    void read_elements_4() {
+        begin_elements();
+        const auto blocks = in_.number<std::size_t>("number of blocks of elements");
+        for (int k = 0; k < 3; ++k) in_.number<std::size_t>("number of elements");
+        for (std::size_t b = 0; b < blocks; ++b) {
+            const auto dimension = in_.number<int>("dimension");
+            const auto entity = in_.number<int>("entity");
+            const int type = element_type(in_.number<int>("element type"));
+            const std::size_t n = in_.count(in_.number<std::size_t>("number of elements"), 16, "number of elements");
+            const auto group = group_of_entity_.find({dimension, entity});
+            for (std::size_t i = 0; i < n; ++i) {
+                in_.number<std::size_t>("element number");
+                read_element<std::size_t>(type, group == group_of_entity_.end() ? 0 : group->second);
+            }
+        }
+        in_.expect("$EndElements");
+    }
+    void begin_elements() {
+        if (!has_nodes_) in_.fail("$Elements before $Nodes");
+        if (std::exchange(has_elements_, true)) in_.fail("a second $Elements");
+    }
+    int element_type(int type) const {
+        if (corners_of(type) == 0)
+            in_.fail(
+                fmt::format("element type {}: only 1 (line), 2 (triangle), 3 (quadrilateral) and 15 (point) can "
+                            "be read",
+                            type));
+        return type;
+    }
+    template <class Number>
+    void read_element(int type, int group) {
+        VertexId v[4];
+        for (std::size_t k = 0; k < corners_of(type); ++k) {
+            const auto number = in_.number<Number>("node number");
+            const auto found = nodes_.find(static_cast<std::size_t>(number));
+            if (!found) in_.fail(fmt::format("node {} is not in $Nodes", number));
+            v[k] = *found;
+        }
+        if (type == line_type && group != 0) {
+            edges_[group].push_back({v[0], v[1]});
+        } else if (type == triangle_type) {
+            mesh_.triangles.push_back({{v[0], v[1], v[2]}});
+            triangle_groups_.push_back(group);
+        } else if (type == quad_type) {
+            mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
+            quad_groups_.push_back(group);
+        }
+    }
+
+    void finish() {
+        for (auto& [group, edges] : edges_) {
+            const auto named = names_.find({1, group});
+            const std::string name = named == names_.end() ? fmt::format("curve{}", group) : std::string(named->second);
+            mesh_.markers.push_back({name, kind_of_name(name), std::move(edges)});
+        }
+        triangle_groups_.insert(triangle_groups_.end(), quad_groups_.begin(), quad_groups_.end());
+        for (const int group : triangle_groups_) {
+            const auto named = names_.find({2, group});
+            Region region;
+            if (named == names_.end() || !region_of_name(named->second, region)) {
+                mesh_.region.clear();
+                break;
+            }
+            mesh_.region.push_back(region);
+        }
+        orient_markers(mesh_);
+    }
+
+    MshBytes in_;
+    bool version_4_ = true, has_nodes_ = false, has_elements_ = false;
+    double plane_ = 0;
+    NodeNumbers nodes_;
+    std::map<EntityKey, std::string_view> names_;
+    std::map<EntityKey, int> group_of_entity_;
+    std::map<int, std::vector<Segment>> edges_;
+    std::vector<int> triangle_groups_, quad_groups_;
+    Mesh mesh_;
+};
+
+}  // namespace
+
+Mesh read_msh(const std::string& bytes, const std::filesystem::path& file) {
+    return MshReader(bytes, file.string()).read();
+}
+
+}  // namespace lamina::detail

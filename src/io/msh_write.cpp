@@ -1,0 +1,246 @@
+// Gmsh's MSH format, versions 2.2 and 4.1, ASCII and binary.
+// Source: Gmsh reference manual, "Gmsh mesh file formats".
+//
+// Entities: a curve for each marker, a surface for each region. Physical groups carry the names; they have the numbers
+// of their entities, unique across dimensions, for readers that keep one list. Nodes are numbered 1..N in the order of
+// the mesh and all belong to the first surface; elements are numbered from the markers' edges on.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <lamina/error.hpp>
+
+#include "io/binary_output.hpp"
+#include "io/formats.hpp"
+#include "io/mesh_parts.hpp"
+#include "io/text_output.hpp"
+
+namespace lamina::detail {
+
+namespace {
+
+enum ElementType : int { line_type = 1, triangle_type = 2, quad_type = 3 };
+
+/// The elements of one type on one entity.
+struct ElementBlock {
+    int dimension, entity;
+    ElementType type;
+    std::size_t corners, count, first_number;
+    const Marker* marker;    ///< of lines
+    const CellBlock* cells;  ///< of triangles and quadrilaterals
+
+    std::size_t node(const Mesh& mesh, std::size_t i, std::size_t k) const {
+        if (marker != nullptr) return (k == 0 ? marker->edges[i].a : marker->edges[i].b).index() + 1;
+        return cells->vertices(mesh, i)[k].index() + 1;
+    }
+};
+
+struct Group {
+    int dimension, entity;
+    std::string name;
+    Box box;
+};
+
+class MshWriter {
+public:
+    MshWriter(const Mesh& mesh, MshVariant variant, std::ostream& out)
+        : mesh_(mesh), variant_(variant), out_(out), cells_(cell_blocks(mesh)) {
+        find_groups();
+        find_elements();
+    }
+
+    void write() {
+        write_header();
+        write_names();
+        if (variant_.version_4) write_entities();
+        write_nodes();
+        write_elements();
+    }
+
+private:
+    void find_groups() {
+        for (const Marker& marker : mesh_.markers) {
+            Group group{1, static_cast<int>(groups_.size() + 1), marker.name, {}};
+            for (const Segment& edge : marker.edges) {
+                group.box.include(mesh_.points[edge.a.index()]);
+                group.box.include(mesh_.points[edge.b.index()]);
+            }
+            groups_.push_back(std::move(group));
+        }
+        Box box;
+        for (const Point p : mesh_.points) box.include(p);
+        for (const CellBlock& block : cells_)
+            if (surface_of(block) == 0)
+                groups_.push_back({2, static_cast<int>(groups_.size() + 1), std::string(block.region), box});
+    }
+    /// The number of a region's entity, 0 if it has none.
+    int surface_of(const CellBlock& block) const {
+        for (const Group& group : groups_)
+            if (group.dimension == 2 && group.name == block.region) return group.entity;
+        return 0;
+    }
+    void find_elements() {
+        std::size_t number = 1;
+        const auto add = [&](ElementBlock block) {
+            if (block.count == 0) return;
+            block.first_number = number;
+            number += block.count;
+            elements_.push_back(block);
+        };
+        for (std::size_t m = 0; m < mesh_.markers.size(); ++m)
+            add({1, groups_[m].entity, line_type, 2, mesh_.markers[m].edges.size(), 0, &mesh_.markers[m], nullptr});
+        for (const CellBlock& block : cells_)
+            add({2, surface_of(block), block.corners == 3 ? triangle_type : quad_type, block.corners,
+                 block.cells.size(), 0, nullptr, &block});
+        element_count_ = number - 1;
+    }
+
+    void write_header() {
+        out_ << "$MeshFormat\n" << (variant_.version_4 ? "4.1 " : "2.2 ") << (variant_.binary ? "1 8\n" : "0 8\n");
+        if (variant_.binary) {
+            write_value(out_, std::int32_t{1});  // tells the order of bytes
+            out_ << '\n';
+        }
+        out_ << "$EndMeshFormat\n";
+    }
+    void write_names() {
+        out_ << "$PhysicalNames\n" << groups_.size() << '\n';
+        for (const Group& group : groups_)
+            out_ << fmt::format("{} {} \"{}\"\n", group.dimension, group.entity, group.name);
+        out_ << "$EndPhysicalNames\n";
+    }
+
+    void write_entities() {
+        std::size_t curves = 0;
+        for (const Group& group : groups_) curves += group.dimension == 1;
+        out_ << "$Entities\n";
+        if (variant_.binary) {
+            for (const std::size_t n : {std::size_t{0}, curves, groups_.size() - curves, std::size_t{0}})
+                write_value(out_, n);
+            for (const Group& group : groups_) {
+                write_value(out_, group.entity);
+                for (const double bound :
+                     {group.box.lower.x, group.box.lower.y, 0.0, group.box.upper.x, group.box.upper.y, 0.0})
+                    write_value(out_, bound);
+                write_value(out_, std::size_t{1});
+                write_value(out_, group.entity);
+                write_value(out_, std::size_t{0});
+            }
+            out_ << '\n';
+        } else {
+            out_ << fmt::format("0 {} {} 0\n", curves, groups_.size() - curves);
+            for (const Group& group : groups_)
+                out_ << fmt::format("{0} {1} {2} 0 {3} {4} 0 1 {0} 0\n", group.entity, group.box.lower.x,
+                                    group.box.lower.y, group.box.upper.x, group.box.upper.y);
+        }
+        out_ << "$EndEntities\n";
+    }
+
+    void write_nodes() {
+        const std::size_t n = mesh_.points.size();
+        const auto put_point = [&](char* p, std::size_t i) {
+            p = store(p, mesh_.points[i].x);
+            p = store(p, mesh_.points[i].y);
+            return store(p, 0.0);
+        };
+        out_ << "$Nodes\n";
+        if (variant_.version_4) {
+            const int surface = groups_.back().dimension == 2 ? surface_of(cells_.front()) : 1;
+            if (variant_.binary) {
+                for (const std::size_t value : {std::size_t{1}, n, std::size_t{1}, n}) write_value(out_, value);
+                for (const int value : {2, surface, 0}) write_value(out_, value);
+                write_value(out_, n);
+                write_records(out_, n, 8, [](char* p, std::size_t i) { store(p, i + 1); });
+                write_records(out_, n, 24, put_point);
+            } else {
+                out_ << fmt::format("1 {0} 1 {0}\n2 {1} 0 {0}\n", n, surface);
+                write_lines(out_, n, [](LineText& line, std::size_t i) { line << i + 1; });
+                write_lines(out_, n, [&](LineText& line, std::size_t i) { line << mesh_.points[i] << "0"; });
+            }
+        } else {
+            out_ << n << '\n';
+            if (variant_.binary)
+                write_records(out_, n, 28, [&](char* p, std::size_t i) {
+                    put_point(store(p, static_cast<std::int32_t>(i + 1)), i);
+                });
+            else
+                write_lines(out_, n, [&](LineText& line, std::size_t i) { line << i + 1 << mesh_.points[i] << "0"; });
+        }
+        out_ << (variant_.binary ? "\n$EndNodes\n" : "$EndNodes\n");
+    }
+
+    void write_elements() {
+        out_ << "$Elements\n";
+        if (variant_.version_4) {
+            if (variant_.binary)
+                for (const std::size_t value : {elements_.size(), element_count_, std::size_t{1}, element_count_})
+                    write_value(out_, value);
+            else
+                out_ << fmt::format("{0} {1} 1 {1}\n", elements_.size(), element_count_);
+        } else {
+            out_ << element_count_ << '\n';
+        }
+        for (const ElementBlock& block : elements_)
+            if (variant_.version_4)
+                write_block_4(block);
+            else
+                write_block_2(block);
+        out_ << (variant_.binary ? "\n$EndElements\n" : "$EndElements\n");
+    }
+    void write_block_4(const ElementBlock& block) {
+        if (variant_.binary) {
+            for (const int value : {block.dimension, block.entity, int{block.type}}) write_value(out_, value);
+            write_value(out_, block.count);
+            write_records(out_, block.count, 8 * (1 + block.corners), [&](char* p, std::size_t i) {
+                p = store(p, block.first_number + i);
+                for (std::size_t k = 0; k < block.corners; ++k) p = store(p, block.node(mesh_, i, k));
+            });
+        } else {
+            out_ << fmt::format("{} {} {} {}\n", block.dimension, block.entity, int{block.type}, block.count);
+            write_lines(out_, block.count, [&](LineText& line, std::size_t i) {
+                line << block.first_number + i;
+                for (std::size_t k = 0; k < block.corners; ++k) line << block.node(mesh_, i, k);
+            });
+        }
+    }
+    /// Tags are the physical group and the entity.
+    void write_block_2(const ElementBlock& block) {
+        if (variant_.binary) {
+            for (const int value : {int{block.type}, static_cast<int>(block.count), 2}) write_value(out_, value);
+            write_records(out_, block.count, 4 * (3 + block.corners), [&](char* p, std::size_t i) {
+                p = store(p, static_cast<std::int32_t>(block.first_number + i));
+                p = store(store(p, block.entity), block.entity);
+                for (std::size_t k = 0; k < block.corners; ++k)
+                    p = store(p, static_cast<std::int32_t>(block.node(mesh_, i, k)));
+            });
+        } else {
+            const std::string tags = fmt::format("{} 2 {} {}", int{block.type}, block.entity, block.entity);
+            write_lines(out_, block.count, [&](LineText& line, std::size_t i) {
+                line << block.first_number + i << tags;
+                for (std::size_t k = 0; k < block.corners; ++k) line << block.node(mesh_, i, k);
+            });
+        }
+    }
+
+    const Mesh& mesh_;
+    MshVariant variant_;
+    std::ostream& out_;
+    std::vector<CellBlock> cells_;
+    std::vector<Group> groups_;  ///< numbered from 1 in this order: markers, then regions
+    std::vector<ElementBlock> elements_;
+    std::size_t element_count_ = 0;
+};
+
+}  // namespace
+
+void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out) {
+    require_marker_names(mesh, file, "MSH", "\"", 127);
+    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 2;
+    if (!variant.version_4 && variant.binary && mesh.points.size() + mesh.triangles.size() + mesh.quads.size() > most)
+        throw UsageError(fmt::format("{}: binary MSH 2.2 numbers no more than 2^31 nodes and elements", file.string()));
+    MshWriter(mesh, variant, out).write();
+}
+
+}  // namespace lamina::detail

@@ -1,0 +1,156 @@
+// What every format promises: meshes come back as they were, broken files are refused, failures leave nothing behind.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <random>
+#include <string>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+
+#include "core/parallel.hpp"
+#include "support/sample_meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lamina {
+namespace {
+
+using test::annulus;
+using test::box_with_hole;
+using test::shuffled;
+using test::TemporaryFolder;
+
+class EveryFormat : public testing::TestWithParam<MeshFormat> {
+protected:
+    void write(const Mesh& mesh, const std::string& name = "m") const {
+        write_mesh(mesh, path(name), {.format = GetParam().name});
+    }
+    Mesh read(const std::string& name = "m") const { return read_mesh(path(name)); }
+    std::filesystem::path path(const std::string& name = "m") const {
+        return folder_ / (name + GetParam().extensions.front());
+    }
+    std::string bytes(const std::string& name = "m") const {
+        return folder_.read(name + GetParam().extensions.front());
+    }
+    /// Reading must succeed or throw an InputError that is one line long.
+    bool reads_or_complains(const std::string& content) const {
+        std::filesystem::remove(path("damaged"));  // some file systems wait for the disk where a file is overwritten
+        std::ofstream(path("damaged"), std::ios::binary) << content;
+        try {
+            check_mesh(read("damaged"));  // whatever was read can be looked at
+            return true;
+        } catch (const InputError& error) {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            return false;
+        }
+    }
+
+    TemporaryFolder folder_;
+};
+
+std::vector<Mesh> sample_meshes() {
+    std::vector<Mesh> meshes{annulus(),
+                             annulus({.quads_in_layer = true}),
+                             annulus({.rings = 2, .quads_in_layer = true}),
+                             shuffled(annulus(), 1),
+                             shuffled(annulus({.quads_in_layer = true}), 3),
+                             box_with_hole(),
+                             shuffled(annulus({.around = 300, .rings = 40}), 2)};
+    Mesh& negative_zero = meshes.front();
+    negative_zero.points[3].y = -0.0;
+    negative_zero.markers[0].name = "main_wing.upper-2";
+    return meshes;
+}
+
+TEST_P(EveryFormat, ComesBackAsItWas) {
+    for (const Mesh& mesh : sample_meshes()) {
+        write(mesh);
+        const Mesh back = read();
+        EXPECT_EQ(mesh_hash(mesh), mesh_hash(back));
+        EXPECT_EQ(mesh.points, back.points);  // in their order: walls first
+        EXPECT_EQ(check_mesh(mesh).valid(), check_mesh(back).valid());
+        ASSERT_EQ(back.markers.size(), mesh.markers.size());
+        for (std::size_t m = 0; m < mesh.markers.size(); ++m) {
+            EXPECT_EQ(back.markers[m].name, mesh.markers[m].name);
+            EXPECT_EQ(back.markers[m].edges, mesh.markers[m].edges);
+        }
+        // Written once more, the file is the same.
+        write(back, "again");
+        EXPECT_EQ(mesh_hash(read("again")), mesh_hash(mesh));
+    }
+}
+
+TEST_P(EveryFormat, IsTheSameForAnyNumberOfThreads) {
+    const Mesh mesh = annulus({.around = 500, .rings = 100, .layer_rings = 50, .quads_in_layer = true});
+    with_threads(1, [&] { write(mesh, "one"); });
+    with_threads(4, [&] { write(mesh, "four"); });
+    EXPECT_EQ(bytes("one"), bytes("four"));
+}
+
+TEST_P(EveryFormat, RefusesWhatIsCutShort) {
+    write(annulus({.around = 4, .rings = 2, .layer_rings = 1, .quads_in_layer = true}));
+    const std::string whole = bytes();
+    EXPECT_TRUE(reads_or_complains(whole));
+    // The last line may be shortened without harm.
+    const std::size_t needed = whole.size() - 60;
+    for (std::size_t length = 0; length < needed; length += length < 2000 ? 1 : 7)
+        EXPECT_FALSE(reads_or_complains(whole.substr(0, length))) << length;
+}
+
+TEST_P(EveryFormat, SurvivesRandomDamage) {
+    std::mt19937 random(7);
+    write(annulus({.around = 6, .rings = 2, .layer_rings = 1, .quads_in_layer = true}));
+    const std::string whole = bytes();
+    for (int trial = 0; trial < 1000; ++trial) {
+        std::string damaged = whole;
+        for (unsigned hits = 1 + random() % 4; hits > 0; --hits) {
+            const std::size_t at = random() % damaged.size();
+            switch (random() % 5) {
+                case 0:
+                    damaged[at] = static_cast<char>(random());
+                    break;
+                case 1:
+                    damaged[at] = "0123456789-= <>\"\n%$"[random() % 19];
+                    break;
+                case 2:
+                    damaged.erase(at, 1 + random() % 9);
+                    break;
+                case 3:
+                    damaged.insert(at, "99999999999999999999", random() % 20);
+                    break;
+                default:
+                    damaged.insert(at, damaged.substr(random() % damaged.size(), 1 + random() % 20));
+            }
+        }
+        reads_or_complains(damaged);
+    }
+}
+
+TEST_P(EveryFormat, FailuresLeaveNothingBehind) {
+    const Mesh mesh = annulus();
+    const std::string extension = GetParam().extensions.front();
+    folder_.write("file", "");
+    std::filesystem::create_directory(folder_ / ("folder" + extension));
+    std::filesystem::create_directory(folder_ / "locked");
+    std::filesystem::permissions(folder_ / "locked", std::filesystem::perms::owner_read);
+    std::vector<std::string> names{"none/m", "file/m", "folder"};
+    if (geteuid() != 0) names.push_back("locked/m");  // nothing is locked for root
+    const auto before = folder_.names();
+    for (const std::string& name : names) {
+        EXPECT_THROW(check_writable(path(name), {.format = GetParam().name}), IoError) << name;
+        EXPECT_THROW(write(mesh, name), IoError) << name;
+        EXPECT_THROW(read(name), IoError) << name;
+    }
+    EXPECT_EQ(folder_.names(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Io, EveryFormat, testing::ValuesIn(mesh_formats()), [](const auto& named) {
+    std::string name = named.param.name;
+    std::erase(name, '-');
+    return name;
+});
+
+}  // namespace
+}  // namespace lamina
