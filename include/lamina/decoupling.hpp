@@ -32,6 +32,8 @@ struct DecouplingOptions {
     double min_angle_deg = 20.7;
 };
 
+Box far_field_box(const DecouplingOptions& options);
+
 /// A self-contained piece of work: refine(subdomain) needs nothing else, on a thread, on a rank or from a file.
 struct Subdomain {
     std::vector<Point> points;      ///< border vertices

@@ -76,6 +76,9 @@ struct ElementSummary {
     double max_turning_deg = 0;    ///< largest exterior angle, and where
     Point max_turning_at;
     std::size_t sharp_corners = 0;  ///< convex vertices that turn by more than 60 degrees
+    /// The convex corner of more than 60 degrees, or the middle of the straight base, that lies farthest downstream (at
+    /// the largest x) in the rear half; without either the rearmost vertex.
+    Point trailing_edge;
     bool blunt_trailing_edge = false;
 };
 ElementSummary summarize(const Element& element);

@@ -10,6 +10,7 @@
 #include <lamina/geometry.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
 
 namespace lamina {
 
@@ -43,6 +44,9 @@ struct LayerOptions {
     double border_gradation = 0.1;
     /// Edges of the outer border are split until none is longer than this.
     double longest_border_edge = HUGE_VAL;
+    /// Edges of the outer border are split until none is longer than size + border_gradation x distance of any of these
+    /// (but for up to a tenth, since cuts shift towards the lengths beside them).
+    std::vector<SizeSource> border_sources = {};
 };
 
 /// A line of layer points that leaves the wall.

@@ -24,6 +24,14 @@
 
 namespace lamina {
 
+/// A line of size sources from each trailing edge (ElementSummary::trailing_edge), up to the first wall in its way.
+/// Along it sizes grow by a tenth of the gradation.
+struct WakeOptions {
+    double angle_deg = 0;             ///< to the x axis
+    double length = 2;                ///< in chords (extents in x of the whole configuration)
+    std::optional<double> size = {};  ///< at the trailing edge; empty = what the layer's border has there
+};
+
 /// Everything that decides a mesh. Defaults are those of the command line.
 struct CaseOptions {
     GeometryOptions geometry;
@@ -33,6 +41,8 @@ struct CaseOptions {
     std::optional<double>
         wall_size;                   ///< longest target edge length at the layer's outer border: its edges ask for less
     std::optional<double> far_size;  ///< cap of the target edge length
+    std::optional<WakeOptions> wake;
+    std::vector<SizeSource> size_sources;  ///< boxes, discs and lines of the user's own
     double min_angle_deg = 20.7;
     SeparatorRule separators = SeparatorRule::equidistributed;
     double pieces_target = 50'000;

@@ -11,11 +11,21 @@
 
 namespace lamina {
 
-/// An edge that asks for its own length: h(x) <= size + gradation x distance(x, a-b).
+/// A shape that asks for a size on it and round it: h(x) <= size + gradation x distance(x, shape). What lies inside a
+/// box, or within `radius` of the shape, is at distance 0.
 struct SizeSource {
+    enum class Shape : std::uint8_t {
+        segment,  ///< from a to b; a point where they are equal
+        box,      ///< axis-parallel, a its lower and b its upper corner
+    };
     Point a, b;
     double size;
+    double radius = 0;  ///< a disc: a point with a radius
+    Shape shape = Shape::segment;
 };
+
+double distance_to(const SizeSource& source, Point p);
+Box box_of(const SizeSource& source);
 
 struct SizingOptions {
     double gradation = 0.1;      ///< dh/dx away from a source

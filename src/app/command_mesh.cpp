@@ -40,6 +40,7 @@ CLI::Option* add_option(CLI::App& command, const Option& option) {
         option.command_line(), [](const CLI::results_t&) { return true; }, help);
     given->group(option.group)->type_name(option.metavar);
     if (option.kind == Kind::words) return given->delimiter(',')->expected(1, -1)->allow_extra_args(false);
+    if (option.kind == Kind::repeated) return given->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     if (option.kind != Kind::paths) return given->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     return given->expected(1, -1)->allow_extra_args(given->get_positional());
 }

@@ -9,6 +9,8 @@
 
 #include <lamina/io.hpp>
 
+#include "app/size_text.hpp"
+
 namespace lamina::app {
 
 namespace {
@@ -61,6 +63,12 @@ bool as_flag(const Value& value) {
 const std::string& as_word(const Value& value) {
     if (const auto* word = std::get_if<std::string>(&value)) return *word;
     throw UsageError("must be a string");
+}
+
+/// A number will do for a word that may be one.
+std::string as_word_or_number(const Value& value) {
+    if (const auto* word = std::get_if<std::string>(&value)) return *word;
+    return fmt::to_string(as_real(value));
 }
 
 /// One word will do for a list of one.
@@ -135,6 +143,31 @@ Option list(std::string name, Kind kind, std::string metavar, const std::string&
     const auto set = [=](MeshCase& c, const Value& value) { member(c) = as_words(value); };
     const auto get = [=](const MeshCase& c) { return std::optional<Value>(member(c)); };
     return {std::move(name), kind, std::move(metavar), help, set, get};
+}
+
+/// A word of its own grammar that may be left out: read by `parse`, written by `print`.
+template <class Parse, class Print, class Member>
+Option spec(std::string name, std::string metavar, const std::string& help, Parse parse, Print print, Member member) {
+    const auto set = [=](MeshCase& c, const Value& value) { member(c) = parse(as_word_or_number(value)); };
+    const auto get = [=](const MeshCase& c) {
+        return member(c) ? std::optional<Value>(print(*member(c))) : std::nullopt;
+    };
+    return {std::move(name), Kind::word, std::move(metavar), help, set, get};
+}
+
+/// Any number of such words.
+template <class Parse, class Print, class Member>
+Option specs(std::string name, std::string metavar, const std::string& help, Parse parse, Print print, Member member) {
+    const auto set = [=](MeshCase& c, const Value& value) {
+        member(c).clear();
+        for (const std::string& text : as_words(value)) member(c).push_back(parse(text));
+    };
+    const auto get = [=](const MeshCase& c) {
+        std::vector<std::string> texts;
+        for (const auto& entry : member(c)) texts.push_back(print(entry));
+        return std::optional<Value>(std::move(texts));
+    };
+    return {std::move(name), Kind::repeated, std::move(metavar), help, set, get};
 }
 
 // ---- the table ----
@@ -213,6 +246,15 @@ std::vector<Option> make_table() {
     add(real("wall-size", "H", "longest edge length at the layer's outer border, in units of the input", positive,
              of_case(&CaseOptions::wall_size)));
     add(real("far-size", "H", "largest edge length, in units of the input", positive, of_case(&CaseOptions::far_size)));
+    add(spec(
+        "wake", "ANGLE[:LENGTH[:SIZE]]",
+        "small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, LENGTH in chords (2), "
+        "SIZE at the trailing edge in units of the input (else the size there without a wake)",
+        parse_wake, wake_text, of_case(&CaseOptions::wake)));
+    add(specs("refine", "SHAPE",
+              "edge length h in and round a shape, box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or "
+              "line:X0,Y0,X1,Y1,H, in units of the input; may be given several times",
+              parse_size_source, size_source_text, of_case(&CaseOptions::size_sources)));
     add(real("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees", above_up_to(0, 33),
              of_case(&CaseOptions::min_angle_deg)));
     add(choice(
@@ -271,7 +313,7 @@ double parse_real(const std::string& text, const std::string& origin) {
 }
 
 Value value_of_text(Kind kind, const std::vector<std::string>& texts, const std::string& origin) {
-    if (kind == Kind::words || kind == Kind::paths) return texts;
+    if (kind == Kind::words || kind == Kind::repeated || kind == Kind::paths) return texts;
     const std::string& text = texts.back();
     if (kind == Kind::real) return parse_real(text, origin);
     if (kind == Kind::flag) return text == "true";

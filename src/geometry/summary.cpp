@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <lamina/geometry.hpp>
+#include <optional>
 
 #include "core/reproducible_math.hpp"
 
@@ -26,8 +27,13 @@ std::vector<double> turnings_deg(const std::vector<Point>& points) {
 }
 
 /// A straight base at the downstream end: two convex corners of 45 to 135 degrees with nothing but straight edges
-/// between them, shorter than half of the element and in its rear half.
-bool has_base(const std::vector<Point>& points, const std::vector<double>& turnings, const Box& box) {
+/// between them, shorter than half of the element and in its rear half. The corners of the rearmost one.
+struct Base {
+    std::size_t first, last;
+};
+std::optional<Base> find_base(const std::vector<Point>& points, const std::vector<double>& turnings, const Box& box) {
+    std::optional<Base> base;
+    double rearmost = box.center().x;
     const std::size_t n = points.size();
     const auto is_corner = [&](std::size_t i) { return turnings[i] > 45 && turnings[i] < 135; };
     for (std::size_t i = 0; i < n; ++i) {
@@ -36,9 +42,29 @@ bool has_base(const std::vector<Point>& points, const std::vector<double>& turni
         while (j != i && std::abs(turnings[j]) < 1) j = (j + 1) % n;
         if (j == i || !is_corner(j)) continue;
         const bool is_short = distance(points[i], points[j]) < 0.5 * std::max(box.width(), box.height());
-        if (is_short && midpoint(points[i], points[j]).x > box.center().x) return true;
+        const double x = midpoint(points[i], points[j]).x;
+        if (!is_short || x <= rearmost) continue;
+        base = {i, j};
+        rearmost = x;
     }
-    return false;
+    return base;
+}
+
+/// The rearmost sharp corner behind the middle of the element that is none of the base's; else the base's middle; else
+/// the rearmost vertex (of equal ones the lowest).
+Point find_trailing_edge(const std::vector<Point>& points, const std::vector<double>& turnings, const Box& box,
+                         const std::optional<Base>& base) {
+    std::optional<Point> corner;
+    Point rearmost = points[0];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Point p = points[i];
+        if (p.x > rearmost.x || (p.x == rearmost.x && p.y < rearmost.y)) rearmost = p;
+        const bool sharp = turnings[i] > sharp_corner_deg && p.x > box.center().x;
+        if (sharp && !(base && (i == base->first || i == base->last)) && (!corner || p.x > corner->x)) corner = p;
+    }
+    if (!base) return corner.value_or(rearmost);
+    const Point middle = midpoint(points[base->first], points[base->last]);
+    return corner && corner->x > middle.x ? *corner : middle;
 }
 
 }  // namespace
@@ -72,7 +98,9 @@ ElementSummary summarize(const Element& element) {
         }
         if (turnings[i] > sharp_corner_deg) ++s.sharp_corners;
     }
-    s.blunt_trailing_edge = has_base(points, turnings, s.box);
+    const std::optional<Base> base = find_base(points, turnings, s.box);
+    s.blunt_trailing_edge = base.has_value();
+    s.trailing_edge = find_trailing_edge(points, turnings, s.box, base);
     return s;
 }
 
@@ -97,7 +125,8 @@ std::string describe(const Pslg& pslg) {
         fmt::format_to(out, "  turning        at most {:.4g} degrees, at ({:.6g}, {:.6g}); {} sharp corner{}\n",
                        s.max_turning_deg, s.max_turning_at.x, s.max_turning_at.y, s.sharp_corners,
                        s.sharp_corners == 1 ? "" : "s");
-        fmt::format_to(out, "  trailing edge  {}\n", s.blunt_trailing_edge ? "blunt" : "not blunt");
+        fmt::format_to(out, "  trailing edge  {}, at ({:.6g}, {:.6g})\n", s.blunt_trailing_edge ? "blunt" : "not blunt",
+                       s.trailing_edge.x, s.trailing_edge.y);
         if (e.repairs.empty()) {
             fmt::format_to(out, "  repairs        none\n");
         } else {

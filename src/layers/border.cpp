@@ -57,12 +57,6 @@ double gap_between(Point a, Point b, const Edge& other) {
                      distance_to_segment(other.a, a, b), distance_to_segment(other.b, a, b)});
 }
 
-/// A part of an edge and the length it asks for.
-struct Source {
-    Point a, b;
-    double size;
-};
-
 /// Edges that lie across a gap from this one and no farther than its length.
 std::vector<const Edge*> edges_across(std::span<const Edge> edges, const BoxTree& tree, std::size_t i) {
     std::vector<const Edge*> across;
@@ -84,7 +78,7 @@ std::vector<const Edge*> edges_across(std::span<const Edge> edges, const BoxTree
 
 /// A gap counts where it is: the edge is halved until its parts are no longer than the gap they face.
 void add_sources(Point a, Point b, double edge_length, std::span<const Edge* const> across,
-                 std::vector<Source>& sources) {
+                 std::vector<SizeSource>& sources) {
     const double length = distance(a, b);
     double gap = HUGE_VAL;
     for (const Edge* other : across) gap = std::min(gap, gap_between(a, b, *other));
@@ -102,10 +96,16 @@ struct Interval {
     double length, size;
 };
 
+/// The slack included, no piece exceeds what the options ask for, and lengths grow by no more than their gradation; and
+/// pieces of one edge, which grow by a factor of about exp(size_slack x gradation), by no more than the ratio.
 class TargetLength {
 public:
-    TargetLength(std::span<const Edge> edges, double gradation, double longest)
-        : edges_(edges), gradation_(gradation), longest_(longest), tree_({}), at_start_(edges.size(), longest) {
+    TargetLength(std::span<const Edge> edges, const GradingOptions& options)
+        : edges_(edges),
+          gradation_(std::min(options.gradation, 1 - 1 / options.ratio) / size_slack),
+          longest_(options.longest / size_slack),
+          tree_({}),
+          at_start_(edges.size(), longest_) {
         const BoxTree edge_tree = tree_of(edges);
         for (std::size_t i = 0; i < edges.size(); ++i) {
             const std::size_t first = sources_.size();
@@ -113,9 +113,17 @@ public:
             at_start_[i] = std::min(at_start_[i], sources_[first].size);
             at_start_[edges[i].next] = std::min(at_start_[edges[i].next], sources_.back().size);
         }
-        tree_ = tree_of(sources_);
+        for (SizeSource source : options.sources) {
+            source.size /= size_slack;
+            sources_.push_back(source);
+        }
+        std::vector<Box> boxes;
         std::vector<double> sizes;
-        for (const Source& source : sources_) sizes.push_back(source.size);
+        for (const SizeSource& source : sources_) {
+            boxes.push_back(box_of(source));
+            sizes.push_back(source.size);
+        }
+        tree_ = BoxTree(std::move(boxes));
         values_ = tree_.least_values(std::move(sizes));
         // Along a border first: a good bound makes the search in the tree short.
         for (int round = 0; round < 2; ++round) {
@@ -136,8 +144,8 @@ public:
 private:
     std::span<const Edge> edges_;
     double gradation_, longest_;
-    std::vector<Source> sources_;
-    BoxTree tree_;  ///< of the sources
+    std::vector<SizeSource> sources_;  ///< parts of edges and the lengths they ask for; then those of the options
+    BoxTree tree_;                     ///< of the sources
     std::vector<std::vector<double>> values_;
     std::vector<double> at_start_;
 
@@ -146,8 +154,7 @@ private:
     }
 
     double at(Point p, double start) const {
-        return tree_.least(p, gradation_, start, values_,
-                           [&](std::size_t i) { return distance_to_segment(p, sources_[i].a, sources_[i].b); });
+        return tree_.least(p, gradation_, start, values_, [&](std::size_t i) { return distance_to(sources_[i], p); });
     }
 
     /// Between the ends the target rises from both until it meets or reaches `cap`, unless something near the middle
@@ -389,10 +396,7 @@ std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::
                                                            std::span<const std::vector<Point>> walls,
                                                            const GradingOptions& options) {
     const std::vector<Edge> edges = edges_of(borders);
-    // The slack included, lengths grow by no more than the gradation asked for; and pieces of one edge, which grow by a
-    // factor of about exp(size_slack x gradation), by no more than the ratio.
-    const double gradation = std::min(options.gradation, 1 - 1 / options.ratio) / size_slack;
-    const TargetLength target(edges, gradation, options.longest / size_slack);
+    const TargetLength target(edges, options);
     std::vector<Division> divisions(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         Division& division = divisions[i];

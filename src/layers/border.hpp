@@ -6,13 +6,15 @@
 #include <vector>
 
 #include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
 
 namespace lamina {
 
 struct GradingOptions {
-    double ratio = 1.4;         ///< largest ratio of the lengths of adjacent edges
-    double gradation = 0.1;     ///< growth of the target length per unit of distance
-    double longest = HUGE_VAL;  ///< no piece is longer
+    double ratio = 1.4;                        ///< largest ratio of the lengths of adjacent edges
+    double gradation = 0.1;                    ///< growth of the target length per unit of distance
+    double longest = HUGE_VAL;                 ///< no piece is longer
+    std::span<const SizeSource> sources = {};  ///< no piece is longer than size + gradation x distance
 };
 
 /// Preconditions: borders are simple and disjoint; they meet walls in vertices and whole edges of both only. What comes
@@ -20,7 +22,8 @@ struct GradingOptions {
 /// Points that divide the edges of closed borders so that lengths vary gradually along and between the borders.
 /// Result: per border and edge (edge k runs from corner k to corner k + 1) the points inside it, in order; corners stay
 /// and no edge is merged. Target length at x: min over all edges j of (length_j + gradation x distance(x, j)), where
-/// the parts of an edge that face another one across a gap narrower than the edge count with the width of the gap.
+/// the parts of an edge that face another one across a gap narrower than the edge count with the width of the gap, and
+/// over options.sources.
 std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::vector<Point>> borders,
                                                            std::span<const std::vector<Point>> walls,
                                                            const GradingOptions& options);

@@ -227,7 +227,8 @@ private:
 
 Layer make_layer(const Pslg& pslg, const LayerOptions& options) {
     check_options(options);
-    const GradingOptions grading{options.border_ratio, options.border_gradation, options.longest_border_edge};
+    const GradingOptions grading{options.border_ratio, options.border_gradation, options.longest_border_edge,
+                                 options.border_sources};
     if (!options.enabled) {
         const RaySet walls = bare_walls(pslg);
         const std::vector<std::uint32_t> none(walls.rays.size(), 0);

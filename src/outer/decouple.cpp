@@ -27,11 +27,6 @@ Box box_around(std::span<const Point> points, std::span<const std::vector<Vertex
     return box;
 }
 
-Box far_field_box(const DecouplingOptions& options) {
-    const double half = options.far_field * options.chord;
-    return {options.center - Point{half, half}, options.center + Point{half, half}};
-}
-
 /// The near-body box stands half the bodies' extent away from the layers. Where the far field leaves little room it is
 /// the far field itself: the corners of rings between boxes so near would be sharp.
 Box near_body_box(const Box& bodies, const Box& far_field, const DecouplingOptions& options) {
@@ -71,9 +66,14 @@ Subdomain make_subdomain(const Skeleton& skeleton, const Face& face, const SizeF
 }  // namespace
 }  // namespace outer
 
+Box far_field_box(const DecouplingOptions& options) {
+    const double half = options.far_field * options.chord;
+    return {options.center - Point{half, half}, options.center + Point{half, half}};
+}
+
 Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                     const SizeField& size, const DecouplingOptions& options) {
-    const Box far_field = outer::far_field_box(options);
+    const Box far_field = far_field_box(options);
     const Box near_body = outer::near_body_box(outer::box_around(points, borders), far_field, options);
 
     outer::Skeleton skeleton;

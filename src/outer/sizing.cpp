@@ -7,6 +7,7 @@
 // bilinear interpolant of its corners is off by at most g s / sqrt 2. Where a cell keeps half a side's distance from
 // every source that counts in it, f is a minimum of smooth functions: it bends upwards by at most g s^2 / (8 distance)
 // and otherwise has concave ridges only, whose error anywhere is a small multiple of that at the five sample points.
+// Inside a box or a disc that nothing undercuts f is constant.
 
 #include <lamina/sizing.hpp>
 
@@ -18,6 +19,8 @@
 #include <utility>
 
 #include <lamina/error.hpp>
+
+#include "core/box_tree.hpp"
 
 namespace lamina {
 namespace {
@@ -49,24 +52,29 @@ using Leaf = std::array<float, 4>;
 struct Cone {
     Point a, along;
     double inverse_squared_length;  // 0 for a point
+    double radius;
+    SizeSource::Shape shape;
 
+    // From the shape without its radius.
     double squared_distance_to(Point p) const {
+        if (shape == SizeSource::Shape::box) return squared_distance(Box{a, a + along}, p);
         const Point ap = p - a;
         const double t = std::clamp(dot(ap, along) * inverse_squared_length, 0.0, 1.0);
         return squared_length(ap - t * along);
+    }
+    double distance_to(Point p) const { return std::max(std::sqrt(squared_distance_to(p)) - radius, 0.0); }
+    // The shape is convex: it holds a box if it holds its corners.
+    bool covers(const Box& box) const {
+        if (radius == 0 && shape == SizeSource::Shape::segment) return false;
+        const Point corners[] = {box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}};
+        return std::all_of(std::begin(corners), std::end(corners), [&](Point p) { return distance_to(p) == 0; });
     }
 };
 
 Cone make_cone(const SizeSource& s) {
     const Point along = s.b - s.a;
     const double squared = squared_length(along);
-    return {s.a, along, squared > 0 ? 1.0 / squared : 0.0};
-}
-
-double squared_distance(const Box& box, Point p) {
-    const double x = std::max({box.lower.x - p.x, p.x - box.upper.x, 0.0});
-    const double y = std::max({box.lower.y - p.y, p.y - box.upper.y, 0.0});
-    return x * x + y * y;
+    return {s.a, along, squared > 0 ? 1.0 / squared : 0.0, s.radius, s.shape};
 }
 
 double distance(const Box& a, const Box& b) {
@@ -89,8 +97,9 @@ std::uint32_t group_sources(std::span<SizeSource> sources, std::vector<Group>& g
     const auto index = static_cast<std::uint32_t>(groups.size());
     Group group{.box = {}, .smallest = HUGE_VAL};
     for (const SizeSource& s : sources) {
-        group.box.include(s.a);
-        group.box.include(s.b);
+        const Box box = box_of(s);
+        group.box.include(box.lower);
+        group.box.include(box.upper);
         group.smallest = std::min(group.smallest, s.size);
     }
     groups.push_back(group);
@@ -128,11 +137,12 @@ struct Samples {
     double south, west, center, east, north;
 };
 
-// The groups that may decide h somewhere in a cell: a range of Builder::candidates_; and a lower bound of their
-// distance from the cell.
+// The groups that may decide h somewhere in a cell: a range of Builder::candidates_; a lower bound of their distance
+// from the cell; and whether one of them covers the cell and is undercut by none.
 struct Candidates {
     std::size_t begin, end;
     double nearest;
+    bool constant = false;
 };
 
 class Builder {
@@ -169,9 +179,11 @@ private:
                 // Only what is nearer than this can lower the best value so far.
                 const double reach = std::max((best - group.smallest) * inverse_gradation_, 0.0);
                 if (group.single()) {
-                    const double squared = cones_[group.cone].squared_distance_to(p);
-                    if (squared < reach * reach)
-                        best = std::min(best, group.smallest + gradation_ * std::sqrt(squared));
+                    const Cone& cone = cones_[group.cone];
+                    const double squared = cone.squared_distance_to(p), far = reach + cone.radius;
+                    if (squared < far * far)
+                        best = std::min(best,
+                                        group.smallest + gradation_ * std::max(std::sqrt(squared) - cone.radius, 0.0));
                 } else if (squared_distance(group.box, p) < reach * reach) {
                     std::uint32_t near = index + 1, far = group.right;
                     if (squared_distance(groups_[far].box, p) < squared_distance(groups_[near].box, p))
@@ -210,14 +222,13 @@ private:
         const double highest = std::min(c.largest() + gradation_ * radius, c.smallest() + 2 * gradation_ * radius);
         const Box box = c.box();
         Candidates result{candidates_.size(), 0, HUGE_VAL};
-        double lowest = HUGE_VAL;
+        double lowest = HUGE_VAL, covering = HUGE_VAL;
         for (std::size_t i = parent.begin; i < parent.end; ++i) {
             std::uint32_t index = candidates_[i];
             for (;;) {
                 const Group& group = groups_[index];
                 double apart = distance(group.box, box);
-                if (group.single())
-                    apart = std::max(apart, std::sqrt(cones_[group.cone].squared_distance_to(box.center())) - radius);
+                if (group.single()) apart = std::max(apart, cones_[group.cone].distance_to(box.center()) - radius);
                 const double low = group.smallest + gradation_ * apart;
                 if (low <= highest && !group.single() && group.extent() > 0.5 * c.side) {
                     pending_.push_back(group.right);
@@ -225,6 +236,8 @@ private:
                     continue;
                 }
                 if (low <= highest) {
+                    if (group.single() && group.smallest < covering && cones_[group.cone].covers(box))
+                        covering = group.smallest;
                     candidates_.push_back(index);
                     result.nearest = std::min(result.nearest, apart);
                     if (low < lowest) {  // the likeliest first: evaluation then skips most others
@@ -238,11 +251,12 @@ private:
             }
         }
         result.end = candidates_.size();
+        result.constant = covering <= lowest;
         return result;
     }
 
     bool needs_no_samples(const Cell& c, const Candidates& in) const {
-        return in.begin == in.end || c.level == max_level ||
+        return in.begin == in.end || in.constant || c.level == max_level ||
                sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.smallest();
     }
 
@@ -347,11 +361,26 @@ void require_valid(std::span<const SizeSource> sources, const SizingOptions& opt
     if (!(domain.width() >= 0 && domain.height() >= 0 && domain.width() + domain.height() > 0 &&
           domain.width() + domain.height() < HUGE_VAL))
         throw UsageError("size field: the domain is empty or infinite");
-    for (const SizeSource& s : sources)
+    for (const SizeSource& s : sources) {
         if (!(s.size > 0 && s.size < HUGE_VAL)) throw UsageError("size field: a source's size must be positive");
+        if (!(s.radius >= 0 && s.radius < HUGE_VAL))
+            throw UsageError("size field: a source's radius must not be negative");
+        if (s.shape == SizeSource::Shape::box && !(s.a.x <= s.b.x && s.a.y <= s.b.y))
+            throw UsageError("size field: a source's box is empty");
+    }
 }
 
 }  // namespace
+
+double distance_to(const SizeSource& source, Point p) { return make_cone(source).distance_to(p); }
+
+Box box_of(const SizeSource& source) {
+    Box box;
+    box.include(source.a);
+    box.include(source.b);
+    const Point swell{source.radius, source.radius};
+    return {box.lower - swell, box.upper + swell};
+}
 
 struct SizeField::Tree {
     struct Key {

@@ -10,9 +10,9 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
-#include "core/reproducible_math.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/layer_region.hpp"
+#include "pipeline/size_sources.hpp"
 
 namespace lamina {
 
@@ -59,59 +59,6 @@ DecouplingOptions decoupling_options(const Pslg& pslg, const CaseOptions& option
     d.pieces_target = options.pieces_target;
     d.min_angle_deg = options.min_angle_deg;
     return d;
-}
-
-/// The layer with an outer border fit to be frozen for refinement to the angle and sizes asked for.
-LayerOptions layer_options(const CaseOptions& options) {
-    LayerOptions layer = options.layer;
-    // Edges are divided into whole numbers of pieces: graded as steeply as the field, some would be too long for it.
-    constexpr double rounding_of_pieces = 1.15;
-    layer.border_gradation = frozen_share * options.gradation / rounding_of_pieces;
-    layer.longest_border_edge =
-        frozen_share * std::min(options.wall_size.value_or(HUGE_VAL), options.far_size.value_or(HUGE_VAL));
-    // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
-    // (docs/decisions/0003); a tenth more saves many splits and is never seen to.
-    layer.border_ratio = 1.1 * std::sqrt(2.0) / (2 * sin_reproducible(radians(options.min_angle_deg)));
-    return layer;
-}
-
-/// A border edge asks for at most this many times the size of which it is a fit share. Without a bound a long edge's
-/// excess of a few per cent would be a multiple of the size at a fine edge far away.
-constexpr double largest_raise = 2.5;
-
-/// The size that each edge of a closed border asks for: that of which it is a fit share, or more beside a longer edge,
-/// so that no edge is too long for the field that its neighbours make: the largest of (size - gradation x distance
-/// along the border), within the bound.
-std::vector<double> border_sizes(std::span<const double> lengths, double gradation) {
-    std::vector<double> sizes;
-    for (double l : lengths) sizes.push_back(l / frozen_share);
-    const std::size_t n = lengths.size();
-    const auto spread = [&](std::size_t from, std::size_t to) {
-        const double passed_on = sizes[from] - gradation * 0.5 * (lengths[from] + lengths[to]);
-        sizes[to] = std::max(sizes[to], std::min(passed_on, largest_raise * lengths[to] / frozen_share));
-    };
-    // Twice round in both directions: what the first round brings to the loop's start goes on in the second.
-    for (std::size_t i = 0; i < 2 * n; ++i) spread(i % n, (i + 1) % n);
-    for (std::size_t i = 2 * n; i > 0; --i) spread(i % n, (i - 1) % n);
-    return sizes;
-}
-
-/// The edges of the layers' outer borders ask for sizes: each for its own, or for `wall_size` where that is less. More
-/// than its own would be a jump from frozen edges to triangles many times as large.
-SizeField make_size_field(const Layer& layer, const CaseOptions& options, const DecouplingOptions& decoupling) {
-    std::vector<SizeSource> sources;
-    for (const auto& border : layer.borders) {
-        const auto point = [&](std::size_t i) { return layer.points[border[i < border.size() ? i : 0].index()]; };
-        std::vector<double> lengths;
-        for (std::size_t i = 0; i < border.size(); ++i) lengths.push_back(distance(point(i), point(i + 1)));
-        const std::vector<double> sizes = border_sizes(lengths, options.gradation);
-        for (std::size_t i = 0; i < border.size(); ++i)
-            sources.push_back({point(i), point(i + 1), std::min(sizes[i], options.wall_size.value_or(HUGE_VAL))});
-    }
-    const double half = decoupling.far_field * decoupling.chord;
-    const Box domain{decoupling.center - Point{half, half}, decoupling.center + Point{half, half}};
-    return SizeField(sources, {.gradation = options.gradation, .max_size = options.far_size.value_or(HUGE_VAL)},
-                     domain);
 }
 
 struct RefinedPieces {
@@ -162,7 +109,8 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     clock.lap();
 
     clock.begin("layers");
-    const Layer layer = make_layer(pslg, layer_options(options));
+    const SizedLayer sized_layer = make_sized_layer(pslg, options);
+    const Layer& layer = sized_layer.layer;
     const LayerEdges edges = layer_edges(layer);
     seconds.layers = clock.lap();
 
@@ -171,7 +119,7 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     seconds.layer_triangulation = clock.lap();
 
     clock.begin("sizing");
-    const SizeField size = make_size_field(layer, options, outer_options);
+    const SizeField size = make_size_field(sized_layer, options, far_field_box(outer_options));
     seconds.sizing = clock.lap();
 
     clock.begin("decoupling");

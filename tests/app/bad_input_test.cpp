@@ -72,6 +72,20 @@ TEST(BadInput, NumbersOutOfRange) {
     for (const auto& option : wrong) expect_refused(folder, mesh_naca_with(option), usage, option.front().substr(2));
 }
 
+TEST(BadInput, WakesAndSizeSources) {
+    const TemporaryFolder folder;
+    for (const char* wake : {"", "x", "10:", "10:0", "10:-1", "10:2:0", "10:2:1:1", "1e9", "nan", "10:inf"})
+        expect_refused(folder, mesh_naca_with({"--wake", wake}), usage, "--wake");
+    for (const char* shape :
+         {"", "box", "box:", "box:0,0,1,1", "box:0,0,1,1,0", "box:0,0,1,1,-1", "box:0,0,1,x,1", "box:0,0,1,1,1,1",
+          "circle:0,0,1", "circle:0,0,0,1", "circle:0,0,-1,1", "line:0,0,1,1,", "line:0,0,1,1,nan", "star:0,0,1,1"})
+        expect_refused(folder, mesh_naca_with({"--refine", shape}), usage, "--refine");
+    folder.write("case.toml", "input = 'naca:0012'\nwake = true\n");
+    expect_refused(folder, {"mesh", "case.toml", "-o", "out.su2"}, usage, "case.toml:2: wake");
+    folder.write("case.toml", "input = 'naca:0012'\nrefine = ['circle:1']\n");
+    expect_refused(folder, {"mesh", "case.toml", "-o", "out.su2"}, usage, "case.toml:2: refine");
+}
+
 TEST(BadInput, AFarFieldThatDoesNotEncloseTheBodies) {
     const TemporaryFolder folder;
     expect_refused(folder, mesh_naca_with({"--far-field", "0.2"}), usage, "far field of 0.2 chords");

@@ -31,6 +31,24 @@ TEST(CaseFile, ADumpReproducesTheRunFromAnyFolder) {
     EXPECT_EQ(here.read("a.su2"), here.read("b.su2"));
 }
 
+TEST(CaseFile, HoldsWakesAndSizeSources) {
+    const TemporaryFolder folder;
+    const ProgramRun dump =
+        run_lamina(folder, {"mesh", "naca:0012", "--wake", "-5:3", "--refine", "box:1,1,0,-1,0.05", "--refine",
+                            "circle:1,2,0.5,0.01", "--refine", "line:0,-0.5,1e3,1,2", "--dump-config"});
+    ASSERT_EQ(dump.exit_code, 0) << dump.err;
+    EXPECT_NE(dump.out.find("wake = '-5:3'\n"), std::string::npos) << dump.out;
+    EXPECT_NE(dump.out.find("refine = [ 'box:0,-1,1,1,0.05', 'circle:1,2,0.5,0.01', 'line:0,-0.5,1000,1,2' ]\n"),
+              std::string::npos)
+        << dump.out;
+    folder.write("case.toml", dump.out);
+    EXPECT_EQ(run_lamina(folder, {"mesh", "case.toml", "--dump-config"}).out, dump.out);
+    folder.write("short.toml", "input = 'naca:0012'\nwake = 10\nrefine = 'circle:1,2,3,4'\n");
+    const std::string dumped = run_lamina(folder, {"mesh", "short.toml", "--dump-config"}).out;
+    EXPECT_NE(dumped.find("wake = '10:2'\n"), std::string::npos) << dumped;
+    EXPECT_NE(dumped.find("refine = [ 'circle:1,2,3,4' ]\n"), std::string::npos) << dumped;
+}
+
 TEST(CaseFile, TheCommandLineGoesOverTheFile) {
     const TemporaryFolder folder;
     folder.write("case.toml",

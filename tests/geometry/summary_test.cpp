@@ -38,6 +38,21 @@ TEST(Summary, TellsABluntTrailingEdge) {
     EXPECT_FALSE(of(shapes::circle(1, 60)).blunt_trailing_edge);
 }
 
+TEST(Summary, FindsTheTrailingEdge) {
+    const auto trailing_edge = [](const shapes::Outline& outline) { return of(outline).trailing_edge; };
+    EXPECT_EQ(trailing_edge(shapes::section(0.12, 0, 40)), (Point{1, 0}));
+    EXPECT_NEAR(distance(trailing_edge(shapes::section(0.12, 0.01, 40)), {1, 0}), 0, 1e-12);
+    EXPECT_EQ(trailing_edge(shapes::circle(1, 60)), (Point{1, 0}));
+    EXPECT_EQ(trailing_edge(shapes::diamond()), (Point{1, 0}));
+    // Deflected and scaled; sharp and blunt.
+    for (double base : {0.0, 0.01})
+        for (double angle : {-1.0, -0.6, 0.3, 0.9}) {
+            const Point turned{2 + 0.3 * std::cos(angle), 1 + 0.3 * std::sin(angle)};
+            const auto flap = shapes::moved(shapes::section(0.12, base, 40), angle, 0.3, {2, 1});
+            EXPECT_NEAR(distance(trailing_edge(flap), turned), 0, 1e-12) << base << ' ' << angle;
+        }
+}
+
 TEST(Summary, ScalesWithTheBody) {
     const ElementSummary a = of(shapes::section(0.12, 0.01, 40)),
                          b = of(shapes::moved(shapes::section(0.12, 0.01, 40), 0, 8, {1, 2}));

@@ -329,6 +329,29 @@ TEST(Layer, WithoutLayersTheBorderIsTheWall) {
     EXPECT_EQ(found, outline.size());
 }
 
+TEST(Layer, SourcesDivideTheBorder) {
+    const Outline outline = shapes::section(0.12, 0.01, 40);
+    const std::size_t whole = sound_layer(outline, thin()).borders[0].size();
+    LayerOptions options = thin();
+    const std::vector<SizeSource> sources{
+        {.a = {0.3, 0}, .b = {0.4, 0.3}, .size = 1e-3, .shape = SizeSource::Shape::box},
+        {.a = {0.7, -0.1}, .b = {0.7, -0.1}, .size = 2e-3, .radius = 0.07},
+        {.a = {1, 0}, .b = {2, 0.1}, .size = 5e-4}};
+    for (std::size_t n = 0; n <= sources.size(); ++n) {
+        options.border_sources.assign(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(n));
+        const Layer layer = sound_layer(outline, options);
+        const auto& border = layer.borders[0];
+        EXPECT_GE(border.size(), whole + 30 * n);
+        for (std::size_t k = 0; k < border.size(); ++k) {
+            const Point a = layer.points[border[k].index()], b = layer.points[border[(k + 1) % border.size()].index()];
+            for (const SizeSource& source : options.border_sources) {
+                const double away = distance_to(source, midpoint(a, b));
+                EXPECT_LE(distance(a, b), (source.size + options.border_gradation * away) * 1.1);
+            }
+        }
+    }
+}
+
 TEST(Layer, BorderIsGradedBesideAFineFan) {
     // Fan edges of a tenth of the box's side: along the side the pieces grow at the gradation asked for.
     LayerOptions options = thin();

@@ -39,8 +39,9 @@ double exact(const std::vector<SizeSource>& sources, const SizingOptions& option
     for (const SizeSource& s : sources) {
         const Point along = s.b - s.a;
         const double t = squared_length(along) > 0 ? dot(p - s.a, along) / squared_length(along) : 0.0;
-        const Point nearest = s.a + std::clamp(t, 0.0, 1.0) * along;
-        smallest = std::min(smallest, s.size + options.gradation * distance(p, nearest));
+        Point nearest = s.a + std::clamp(t, 0.0, 1.0) * along;
+        if (s.shape == SizeSource::Shape::box) nearest = {std::clamp(p.x, s.a.x, s.b.x), std::clamp(p.y, s.a.y, s.b.y)};
+        smallest = std::min(smallest, s.size + options.gradation * std::max(distance(p, nearest) - s.radius, 0.0));
     }
     return smallest;
 }
@@ -122,6 +123,38 @@ TEST(SizeField, CloseToExactUnderACap) {
         expect_close_to_exact(closed_curve(300), {.gradation = 0.2, .max_size = cap}, random);
         expect_close_to_exact(scattered(50, random), {.gradation = 0.2, .max_size = cap}, random);
     }
+}
+
+TEST(SizeField, CloseToExactForAreas) {
+    Random random(9);
+    std::vector<SizeSource> sources;
+    for (int i = 0; i < 30; ++i) {
+        const Point a = random.in(domain);
+        const double size = std::pow(10.0, random.real(-3, 0)), extent = std::pow(10.0, random.real(-2, 1));
+        if (i % 2 == 0) {
+            const Point b = a + Point{random.real(0, extent), random.real(0, extent)};
+            sources.push_back({.a = a, .b = b, .size = size, .shape = SizeSource::Shape::box});
+        } else {
+            sources.push_back({.a = a, .b = a, .size = size, .radius = extent});
+        }
+    }
+    for (const double gradation : {0.02, 0.1, 0.3}) {
+        expect_close_to_exact(sources, {.gradation = gradation}, random);
+        expect_close_to_exact({sources[0]}, {.gradation = gradation}, random);
+        expect_close_to_exact({sources[1]}, {.gradation = gradation}, random);
+    }
+    const std::vector<SizeSource> scattered_too = scattered(100, random);
+    sources.insert(sources.end(), scattered_too.begin(), scattered_too.end());
+    expect_close_to_exact(sources, {.gradation = 0.1}, random);
+}
+
+// An area costs cells along its rim, not inside.
+TEST(SizeField, AreasAreConstantInside) {
+    const std::vector<SizeSource> box{{.a = {-3, -2}, .b = {3, 2}, .size = 0.01, .shape = SizeSource::Shape::box}};
+    const SizeField field(box, {.gradation = 0.1}, domain);
+    EXPECT_LT(field.cells(), 60'000u);  // of 0.005, where 1,000,000 would be needed to fill it
+    Random random(10);
+    for (int i = 0; i < 1000; ++i) EXPECT_NEAR(field(random.in({{-2.98, -1.98}, {2.98, 1.98}})), 0.01, 1e-8);
 }
 
 // The field may jump between cells, but by no more than its error; otherwise it grows by the gradation.
@@ -215,6 +248,10 @@ TEST(SizeField, RefusesWhatMakesNoField) {
     EXPECT_THROW(SizeField(-1.0), UsageError);
     EXPECT_THROW(SizeField(std::nan("")), UsageError);
     EXPECT_THROW(SizeField(zero, {}, domain), UsageError);
+    const SizeSource inside_out{.a = {1, 1}, .b = {0, 0}, .size = 0.1, .shape = SizeSource::Shape::box};
+    const SizeSource hole{.a = {0, 0}, .b = {0, 0}, .size = 0.1, .radius = -1};
+    EXPECT_THROW(SizeField(std::span(&inside_out, 1), {}, domain), UsageError);
+    EXPECT_THROW(SizeField(std::span(&hole, 1), {}, domain), UsageError);
     EXPECT_THROW(SizeField(one, {.gradation = -0.1}, domain), UsageError);
     EXPECT_THROW(SizeField(one, {.gradation = std::nan("")}, domain), UsageError);
     EXPECT_THROW(SizeField(one, {.max_size = 0}, domain), UsageError);

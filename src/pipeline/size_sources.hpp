@@ -1,0 +1,21 @@
+// What asks for sizes in the outer region: borders of layers, wakes, the user's own sources.
+#pragma once
+
+#include <vector>
+
+#include <lamina/pipeline.hpp>
+
+namespace lamina {
+
+/// The layer with an outer border fit to be frozen for refinement to the angle and sizes asked for, and the sources
+/// that are not its border: those of the options and the wakes.
+struct SizedLayer {
+    Layer layer;
+    std::vector<SizeSource> sources;
+};
+SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options);
+
+/// h(x) from the layers' borders and the sources.
+SizeField make_size_field(const SizedLayer& layer, const CaseOptions& options, const Box& domain);
+
+}  // namespace lamina
