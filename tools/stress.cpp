@@ -220,7 +220,8 @@ struct Outcome {
     std::string name;
     std::string failure;  ///< empty where all is well
     double angle = 180;
-    std::size_t refused = 0, oversized = 0, requested = 0, made = 0;
+    std::size_t refused = 0, oversized = 0;
+    ElementCoverage coverage{};
 };
 
 Outcome judge(const Configuration& c) {
@@ -239,8 +240,7 @@ Outcome judge(const Configuration& c) {
         outcome.angle = check.isotropic.min_angle_deg;
         outcome.refused = result.refinement.refused;
         outcome.oversized = result.refinement.oversized;
-        outcome.requested = result.requested_layer_cells;
-        outcome.made = result.made_layer_cells;
+        for (const ElementCoverage& element : result.layer_coverage) outcome.coverage += element;
     } catch (const InputError& e) {
         return {"bodies refused", must_be_refused ? "" : std::string("refused sound bodies: ") + e.what()};
     } catch (const UsageError& e) {
@@ -267,21 +267,24 @@ int run(std::uint64_t count, std::uint64_t first, std::uint64_t seed) {
     });
     std::map<std::string, std::size_t> counts;
     std::array<std::size_t, 4> below{};  // smallest angles below 1, 5, 10, 20 degrees
-    std::size_t failures = 0, left_over = 0, requested = 0, made = 0;
+    std::size_t failures = 0, left_over = 0;
+    ElementCoverage coverage{};
     for (const Outcome& o : outcomes) {
         ++counts[o.name];
         failures += !o.failure.empty();
         left_over += o.refused + o.oversized > 0;
-        requested += o.requested;
-        made += o.made;
+        coverage += o.coverage;
         for (std::size_t k = 0; k < below.size(); ++k) below[k] += o.angle < std::array{1.0, 5.0, 10.0, 20.0}[k];
     }
     for (const auto& [name, n] : counts) fmt::print("{:6} {}\n", n, name);
+    const auto percent = [](const LayerCoverage& c) {
+        return 100.0 * static_cast<double>(c.made_cells) /
+               static_cast<double>(std::max<std::size_t>(c.requested_cells, 1));
+    };
     fmt::print(
         "{:6} failures; {} with points refused or triangles too large; smallest angle below 1, 5, 10, 20 deg: "
-        "{}, {}, {}, {}; {:.2f} % of the layer cells made\n",
-        failures, left_over, below[0], below[1], below[2], below[3],
-        100.0 * static_cast<double>(made) / static_cast<double>(std::max<std::size_t>(requested, 1)));
+        "{}, {}, {}, {}; {:.2f} % of the layer cells made, {:.2f} % in the open\n",
+        failures, left_over, below[0], below[1], below[2], below[3], percent(coverage.all), percent(coverage.open));
     return failures > 0 ? 1 : 0;
 }
 

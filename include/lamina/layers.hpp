@@ -60,6 +60,26 @@ struct Ray {
     double height_limit;      ///< nothing is placed beyond this height; infinite where nothing is in the way
 };
 
+/// What became of the layers asked for on some part of the walls. Cells lie between neighbouring rays, one a layer.
+struct LayerCoverage {
+    std::size_t rays = 0;
+    std::size_t incomplete_rays = 0;  ///< with fewer layers than asked for
+    std::size_t requested_cells = 0;
+    std::size_t made_cells = 0;
+};
+
+/// Opposing layers of full height and the triangles between them fit in a space of so many full heights.
+inline constexpr double open_space = 3;
+
+struct ElementCoverage {
+    LayerCoverage all;
+    /// Outside slots, coves and tight concave curvature: rays for which an empty circle of open_space x (height of all
+    /// layers asked for) across touches the wall at the ray's origin, and cells between two such rays.
+    LayerCoverage open;
+
+    ElementCoverage& operator+=(const ElementCoverage& other);
+};
+
 /// Everything the later stages need of the layer.
 struct Layer {
     /// Wall vertices first (element by element; a refining ray's vertex stands where it lies on the wall), then ray
@@ -75,9 +95,8 @@ struct Layer {
     /// loops have bounds no layer. Where such an edge is split, the wall has the split points, too (without rays).
     std::vector<std::vector<VertexId>> borders;
     std::vector<std::uint16_t> layer_of_point;  ///< 0 on the wall, n on layer n; split points: that of the lower end
-    std::size_t incomplete_rays = 0;
-    std::size_t requested_cells = 0;  ///< for the share of the requested cells that were made
-    std::size_t made_cells = 0;
+    /// Per element; empty without layers.
+    std::vector<ElementCoverage> coverage;
 };
 
 /// Height of the n-th layer's top, n >= 0, above the wall (height 0 at n = 0).

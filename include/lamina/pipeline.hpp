@@ -69,8 +69,8 @@ struct MeshResult {
     unsigned threads = 1;
     std::size_t layer_pieces = 0, inviscid_pieces = 0;
     std::size_t surface_vertices = 0;
-    std::size_t incomplete_rays = 0, requested_layer_cells = 0, made_layer_cells = 0;
-    RefineStats refinement;  ///< summed over pieces
+    std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
+    RefineStats refinement;                       ///< summed over pieces
 };
 
 /// Called at the start of each stage with its name; may be empty.

@@ -14,9 +14,39 @@ std::size_t triangles_in(const Mesh& mesh, Region region) {
     return static_cast<std::size_t>(std::count(first, end, region));
 }
 
-double made_share(const MeshResult& result) {
-    if (result.requested_layer_cells == 0) return 1;
-    return static_cast<double>(result.made_layer_cells) / static_cast<double>(result.requested_layer_cells);
+double made_share(const LayerCoverage& coverage) {
+    if (coverage.requested_cells == 0) return 1;
+    return static_cast<double>(coverage.made_cells) / static_cast<double>(coverage.requested_cells);
+}
+
+ElementCoverage total_coverage(const MeshResult& result) {
+    ElementCoverage total;
+    for (const ElementCoverage& element : result.layer_coverage) total += element;
+    return total;
+}
+
+Json coverage_report(const LayerCoverage& coverage) {
+    return {{"rays", coverage.rays},
+            {"incomplete_rays", coverage.incomplete_rays},
+            {"requested", coverage.requested_cells},
+            {"made", coverage.made_cells},
+            {"share", made_share(coverage)}};
+}
+
+Json coverage_report(const ElementCoverage& coverage) {
+    Json report = coverage_report(coverage.all);
+    report["open"] = coverage_report(coverage.open);
+    return report;
+}
+
+Json layer_cells_report(const MeshResult& result) {
+    Json report = coverage_report(total_coverage(result));
+    report["elements"] = Json::array();
+    for (std::size_t e = 0; e < result.layer_coverage.size(); ++e) {
+        report["elements"].push_back(coverage_report(result.layer_coverage[e]));
+        report["elements"].back()["name"] = result.pslg.elements[e].name;
+    }
+    return report;
 }
 
 Json input_report(const Pslg& pslg) {
@@ -78,7 +108,7 @@ Json quality_report(const MeshCheck& check) {
 
 Json mesh_report(const MeshResult& result, double write_seconds) {
     Json quality = quality_report(result.check);
-    quality["layer"]["incomplete_rays"] = result.incomplete_rays;
+    quality["layer"]["incomplete_rays"] = total_coverage(result).all.incomplete_rays;
     quality["isotropic"]["oversized"] = result.refinement.oversized;
     quality["isotropic"]["refused_points"] = result.refinement.refused;
     return {{"version", LAMINA_VERSION},
@@ -91,10 +121,7 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
             {"isotropic_triangles", triangles_in(result.mesh, Region::isotropic)},
             {"surface_vertices", result.surface_vertices},
             {"pieces", {{"layer", result.layer_pieces}, {"inviscid", result.inviscid_pieces}}},
-            {"layer_cells",
-             {{"requested", result.requested_layer_cells},
-              {"made", result.made_layer_cells},
-              {"share", made_share(result)}}},
+            {"layer_cells", layer_cells_report(result)},
             {"seconds", seconds_report(result.seconds, write_seconds)},
             {"thread_seconds", {{"refinement", threads_report(result.refinement_threads)}}},
             {"quality", quality},
@@ -133,9 +160,10 @@ std::string mesh_summary(const MeshResult& result, const std::vector<std::string
                         result.mesh.triangles.size(), quads > 0 ? fmt::format("{} quads, ", quads) : "",
                         result.layer_pieces + result.inviscid_pieces);
     text += quality_summary(result.check);
-    if (result.requested_layer_cells > 0) {
-        text += fmt::format("  rays      {} cut short; {:.2f} % of the requested layer cells made\n",
-                            result.incomplete_rays, 100 * made_share(result));
+    if (const auto [all, open] = total_coverage(result); all.requested_cells > 0) {
+        text += fmt::format(
+            "  rays      {} of {} cut short; {:.2f} % of the requested layer cells made, {:.2f} % in the open\n",
+            all.incomplete_rays, all.rays, 100 * made_share(all), 100 * made_share(open));
     }
     text += fmt::format("  time      {:.3f} s, and {:.3f} s for writing, on {} thread{}\n", result.seconds.total,
                         write_seconds, result.threads, result.threads == 1 ? "" : "s");

@@ -27,13 +27,8 @@ struct Node {
 class Front {
 public:
     Front(const RaySet& set, const Heights& heights, std::vector<std::uint32_t> counts)
-        : set_(set), heights_(heights), counts_(std::move(counts)), next_(set.rays.size()), previous_(set.rays.size()) {
-        for (std::size_t e = 0; e < set.bodies(); ++e) {
-            for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
-                next_[i] = i + 1 < set.begin[e + 1] ? i + 1 : set.begin[e];
-                previous_[next_[i]] = i;
-            }
-        }
+        : set_(set), heights_(heights), counts_(std::move(counts)), next_(set.following()), previous_(next_.size()) {
+        for (std::size_t i = 0; i < next_.size(); ++i) previous_[next_[i]] = i;
     }
 
     /// Until nothing is left to lower.

@@ -11,6 +11,7 @@
 
 #include "core/parallel.hpp"
 #include "layers/border.hpp"
+#include "layers/coverage.hpp"
 #include "layers/front.hpp"
 #include "layers/rays.hpp"
 
@@ -208,18 +209,15 @@ private:
         for (std::size_t e = 0; e < set_.bodies(); ++e) {
             const std::size_t begin = set_.begin[e], end = set_.begin[e + 1];
             for (std::size_t i = begin; i < end; ++i) {
-                const std::size_t next = i + 1 < end ? i + 1 : begin;
                 const std::span<const double> heights = heights_.of(i);
                 const auto [first, requested, growth] = heights_.stack(i);
                 // A ray that was lowered for its neighbours' sake ends below the layer it did not get.
                 const double limit = counts_[i] < requested ? std::min(limits[i], heights[counts_[i] + 1]) : limits[i];
                 layer_.rays[e].push_back(
                     {wall_of_ray_[i], set_.rays[i].direction, counts_[i], requested, growth, first_point_[i], limit});
-                layer_.incomplete_rays += counts_[i] < requested;
-                layer_.requested_cells += std::min(requested, heights_.stack(next).layers);
-                layer_.made_cells += std::min(counts_[i], counts_[next]);
             }
         }
+        layer_.coverage = layer_coverage(set_, heights_, counts_);
     }
 };
 

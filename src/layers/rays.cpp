@@ -90,6 +90,13 @@ void add_refining_rays(Point from, Point to, Point normal, Point first, Point la
 
 }  // namespace
 
+std::vector<std::size_t> RaySet::following() const {
+    std::vector<std::size_t> next(rays.size());
+    for (std::size_t e = 0; e < bodies(); ++e)
+        for (std::size_t i = begin[e]; i < begin[e + 1]; ++i) next[i] = i + 1 < begin[e + 1] ? i + 1 : begin[e];
+    return next;
+}
+
 std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& options) {
     const std::vector<Corner> corners = make_corners(body, options);
     const double limit = radians(options.max_ray_angle_deg);

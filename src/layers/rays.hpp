@@ -22,6 +22,8 @@ struct RaySet {
     std::vector<std::size_t> begin{0};
 
     std::size_t bodies() const { return begin.size() - 1; }
+    /// Of each ray, the one that follows counter-clockwise round its body.
+    std::vector<std::size_t> following() const;
 };
 
 /// Convex vertices that turn by more than this are corners: the same angle as ElementSummary::sharp_corners.

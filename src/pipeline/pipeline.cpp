@@ -137,9 +137,7 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     result.inviscid_pieces = refined.pieces.size();
     for (const Refinement& piece : refined.pieces) add(result.refinement, piece.stats);
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
-    result.incomplete_rays = layer.incomplete_rays;
-    result.requested_layer_cells = layer.requested_cells;
-    result.made_layer_cells = layer.made_cells;
+    result.layer_coverage = layer.coverage;
     result.mesh = assemble(pslg, edges, std::move(layer_cells), std::move(decoupling), std::move(refined.pieces));
     seconds.assembly = clock.lap();
 

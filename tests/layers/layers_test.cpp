@@ -93,8 +93,8 @@ TEST(Layer, SmoothSectionsCarryTheFullStack) {
                                    shapes::joukowski(0.1, 0, 200), shapes::joukowski(0.08, 0.15, 200),
                                    shapes::circle(0.5, 60), shapes::ellipse(1, 0.05, 150), shapes::plate(0.05, 16)}) {
         const Layer layer = sound_layer(outline, thin());
-        EXPECT_EQ(layer.incomplete_rays, 0u);
-        EXPECT_EQ(layer.made_cells, layer.requested_cells);
+        EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
+        EXPECT_EQ(layer.coverage[0].all.made_cells, layer.coverage[0].all.requested_cells);
         EXPECT_EQ(full_rays(layer), layer.rays[0].size());
         expect_heights(layer, thin());
     }
@@ -158,7 +158,7 @@ TEST(Layer, ThicknessCutsTheStack) {
     options.thickness = 0.999 * layer_height(options, 12);
     layer = sound_layer(shapes::circle(1, 50), options);
     for (const Ray& ray : layer.rays[0]) EXPECT_EQ(ray.layers, 11u);
-    EXPECT_EQ(layer.incomplete_rays, 0u);
+    EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
 }
 
 TEST(Layer, MovesWithItsInput) {
@@ -237,7 +237,7 @@ TEST(Layer, ThinsInAVNotchAndRecovers) {
     LayerOptions options = thin();
     options.first_height = 1e-3;
     const Layer layer = sound_layer(shapes::refined(shapes::v_notch(0.4), 20), options);
-    EXPECT_GT(layer.incomplete_rays, 0u);
+    EXPECT_GT(layer.coverage[0].all.incomplete_rays, 0u);
     EXPECT_GT(full_rays(layer), 20u);
     const auto bottom = std::find_if(layer.rays[0].begin(), layer.rays[0].end(), [&](const Ray& ray) {
         return layer.points[ray.origin.index()] == Point{2, 0.2};
@@ -430,7 +430,7 @@ TEST(Layer, RealSections) {
         expect_heights(layer, options);
         // The file of naca63a210 holds a step of 0.3 % chord at mid-chord; the others are smooth.
         if (std::string(name) != "naca63a210") {
-            EXPECT_EQ(layer.incomplete_rays, 0u);
+            EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
         }
         options.layers = 60;
         sound_layer(pslg, options);

@@ -34,7 +34,7 @@ TEST(SeveralBodies, FarApart) {
     const MeshResult two = mesh_of({naca("0012"), shapes::moved(naca("4412"), 0.1, 0.7, {2, 0.6})}, options);
     expect_sound(two, options);
     expect_nothing_left_over(two);
-    EXPECT_EQ(two.incomplete_rays, 0u);
+    for (const ElementCoverage& coverage : two.layer_coverage) EXPECT_EQ(coverage.all.incomplete_rays, 0u);
     const MeshResult three = mesh_of({naca("0012"), shapes::moved(naca("4412"), 0.1, 0.7, {2, 0.6}),
                                       shapes::moved(shapes::circle(0.1, 60), 0, 1, {0, 1})},
                                      options);

@@ -56,7 +56,7 @@ TEST_F(JudgedCase, HeightsAreTheRequestedOnesOnFullRays) {
     const LayerOptions options = judged_options().layer;
     const std::set<Point, PointLess> vertices(mesh().points.begin(), mesh().points.end());
     const Layer layer = make_layer(result().pslg, options);
-    EXPECT_EQ(layer.incomplete_rays, result().incomplete_rays);
+    EXPECT_EQ(layer.coverage[0].all.incomplete_rays, result().layer_coverage[0].all.incomplete_rays);
     std::size_t full = 0;
     for (const Ray& ray : layer.rays[0]) {
         if (ray.layers < options.layers) continue;

@@ -1,0 +1,78 @@
+// What became of the layers asked for: everywhere, and where an empty circle of three full heights touches the wall.
+#include <gtest/gtest.h>
+
+#include <lamina/layers.hpp>
+
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+LayerOptions ten_layers(double full_height) {
+    LayerOptions options;
+    options.layers = 10;
+    options.first_height = 1;
+    options.first_height = full_height / layer_height(options, options.layers);
+    return options;
+}
+
+std::vector<ElementCoverage> coverage_of(std::initializer_list<shapes::Outline> bodies, const LayerOptions& options) {
+    const Layer layer = make_layer(shapes::pslg(bodies), options);
+    EXPECT_EQ(validate(layer, options), std::vector<std::string>{});
+    return layer.coverage;
+}
+
+TEST(Coverage, CountsRaysAndTheCellsBetween) {
+    const LayerOptions options = ten_layers(0.1);
+    const auto [all, open] = coverage_of({shapes::circle(1, 90)}, options)[0];
+    EXPECT_EQ(all.rays, 90u);
+    EXPECT_EQ(all.requested_cells, 900u);
+    EXPECT_EQ(all.made_cells, 900u);
+    EXPECT_EQ(all.incomplete_rays, 0u);
+    EXPECT_EQ(open.rays, all.rays);
+    EXPECT_EQ(open.requested_cells, all.requested_cells);
+    EXPECT_EQ(open.made_cells, all.made_cells);
+}
+
+TEST(Coverage, ElementsAddUp) {
+    const auto elements = coverage_of({shapes::circle(1, 90), shapes::moved(shapes::circle(1, 50), 0, 1, {2.2, 0})},
+                                      ten_layers(0.2));
+    ElementCoverage total;
+    for (const ElementCoverage& element : elements) total += element;
+    EXPECT_EQ(total.all.rays, elements[0].all.rays + elements[1].all.rays);
+    EXPECT_EQ(total.open.made_cells, elements[0].open.made_cells + elements[1].open.made_cells);
+    EXPECT_GT(total.all.incomplete_rays, 0u);
+    EXPECT_LT(total.open.rays, total.all.rays);
+}
+
+TEST(Coverage, ASlotIsOpenFromThreeHeightsOn) {
+    const auto open_rays = [](double gap) {
+        const shapes::Outline plate = shapes::refined(shapes::polygon({{0, 0}, {4, 0}, {4, 1}, {0, 1}}), 40);
+        const auto elements = coverage_of({plate, shapes::moved(plate, 0, 1, {0, 1 + gap})}, ten_layers(0.1));
+        EXPECT_EQ(elements[0].open.rays, elements[1].open.rays);
+        return elements[0].all.rays - elements[0].open.rays;
+    };
+    EXPECT_EQ(open_rays(0.31), 0u);
+    EXPECT_GE(open_rays(0.27), 41u);
+}
+
+TEST(Coverage, ConcaveCornersAreCovesAsFarAsTheirLayersMeet) {
+    const double height = 0.05;
+    LayerOptions options = ten_layers(height);
+    options.max_ray_angle_deg = 90;  // one ray a vertex
+    const Layer layer = make_layer(shapes::pslg({shapes::refined(shapes::l_shape(), 40)}), options);
+    // Wall vertices stand 1 / 40 apart. A circle 3 heights across that touches one wall reaches the other one within
+    // its radius.
+    const std::size_t closed = layer.coverage[0].all.rays - layer.coverage[0].open.rays;
+    const double expected = 2 * 1.5 * height * 40;
+    EXPECT_NEAR(double(closed), expected, 2.0);
+}
+
+TEST(Coverage, NothingIsAskedForWithoutLayers) {
+    LayerOptions options;
+    options.enabled = false;
+    EXPECT_TRUE(coverage_of({shapes::circle(1, 50)}, options).empty());
+}
+
+}  // namespace
+}  // namespace lamina
