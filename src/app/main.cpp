@@ -1,5 +1,6 @@
 // The program: reads the command line, runs one command, and turns errors into one line and an exit code.
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -65,6 +66,7 @@ void run(CLI::App& app, int argc, char** argv) {
 int main(int argc, char** argv) {
     using namespace lamina;
     using namespace lamina::app;
+    std::signal(SIGXFSZ, SIG_IGN);  // a file larger than the limit is an error like a full disk
     try {
         CLI::App app("Two-dimensional viscous meshes round airfoils", "lamina");
         app.set_version_flag("--version", "lamina " LAMINA_VERSION);

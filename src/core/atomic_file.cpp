@@ -1,5 +1,6 @@
 #include "core/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -102,6 +103,16 @@ void write_folder_atomically(const fs::path& target, const std::function<void(co
     or_undo(target, work, undo);
     std::error_code ignored;
     fs::remove_all(replaced, ignored);
+}
+
+void require_room(const fs::path& target, std::size_t bytes) {
+    const fs::path trial = temporary_beside(target, "room");
+    const int file = ::open(trial.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+    const bool made = file >= 0 && (::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0 || errno == EOPNOTSUPP);
+    const int reason = errno;
+    if (file >= 0) ::close(file);
+    ::unlink(trial.c_str());
+    if (!made) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(reason));
 }
 
 void write_stream(const fs::path& file, const fs::path& target, const std::function<void(std::ostream&)>& write) {

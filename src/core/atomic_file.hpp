@@ -1,6 +1,7 @@
 // Files that appear whole or not at all.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <ostream>
@@ -26,6 +27,10 @@ void write_files_atomically(std::span<const std::filesystem::path> targets,
 /// there goes with everything in it. Folders above it that are missing are made, and go again on failure.
 void write_folder_atomically(const std::filesystem::path& target,
                              const std::function<void(const std::filesystem::path&)>& write);
+
+/// Throws IoError where the disk has no room for a file of this many bytes beside `target`, as far as it can be asked.
+/// For writers that do not survive a full disk.
+void require_room(const std::filesystem::path& target, std::size_t bytes);
 
 /// Fills one file through a stream, whose state is checked at the end; errors name `target`.
 void write_stream(const std::filesystem::path& file, const std::filesystem::path& target,

@@ -35,6 +35,11 @@ void write_msh_variant(const Mesh& mesh, const fs::path& file, std::ostream& out
     write_msh(mesh, file, {version_4, binary}, out);
 }
 
+template <bool adf, bool three_coordinates>
+void write_cgns_variant(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+    write_cgns(mesh, file, {adf, three_coordinates});
+}
+
 std::string lower_case(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
@@ -48,6 +53,9 @@ std::vector<Format> make_table() {
     };
     constexpr auto msh = read_file<read_msh>;
     add("su2", {".su2"}, "SU2 native mesh, ASCII", write_file<write_su2>, read_file<read_su2>, itself);
+    add("cgns", {".cgns"}, "CGNS, HDF5", write_cgns_variant<false, false>, read_cgns, itself);
+    add("cgns-3d", {".cgns"}, "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>, read_cgns, itself);
+    add("cgns-adf", {".cgns"}, "CGNS, ADF", write_cgns_variant<true, false>, read_cgns, itself);
     add("msh41", {".msh"}, "Gmsh MSH 4.1, ASCII", write_file<write_msh_variant<true, false>>, msh, itself);
     add("msh41-binary", {".msh"}, "Gmsh MSH 4.1, binary", write_file<write_msh_variant<true, true>>, msh, itself);
     add("msh22", {".msh"}, "Gmsh MSH 2.2, ASCII", write_file<write_msh_variant<false, false>>, msh, itself);

@@ -52,6 +52,13 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant v
 /// Either version, ASCII or binary.
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file);
 
+struct CgnsVariant {
+    bool adf = false;                ///< the older container in place of HDF5
+    bool three_coordinates = false;  ///< with CoordinateZ = 0, for readers that know no plane
+};
+void write_cgns(const Mesh& mesh, const std::filesystem::path& file, CgnsVariant variant);
+Mesh read_cgns(const std::filesystem::path& file);
+
 /// Lower case, with the dot.
 std::string extension_of(const std::filesystem::path& file);
 

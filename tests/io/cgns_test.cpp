@@ -1,0 +1,112 @@
+// What stands in CGNS files, asked of the CGNS library.
+#include <cgnslib.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+
+#include "support/sample_meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lamina {
+namespace {
+
+using test::TemporaryFolder;
+using test::tiny;
+
+TEST(Cgns, HoldsWhatSolversLookFor) {
+    const TemporaryFolder folder;
+    Mesh mesh = tiny();
+    mesh.region = {Region::isotropic, Region::layer};
+    for (const std::string format : {"cgns", "cgns-3d", "cgns-adf"}) {
+        write_mesh(mesh, folder / "m.cgns", {.format = format});
+        int file = 0, type = 0, count = 0, cell_dimension = 0, dimension = 0;
+        ASSERT_EQ(cg_open((folder / "m.cgns").c_str(), CG_MODE_READ, &file), CG_OK) << cg_get_error();
+        EXPECT_EQ(cg_get_file_type(file, &type), CG_OK);
+        EXPECT_EQ(type, format == "cgns-adf" ? CG_FILE_ADF : CG_FILE_HDF5);
+        char name[33];
+        ASSERT_EQ(cg_base_read(file, 1, name, &cell_dimension, &dimension), CG_OK);
+        EXPECT_EQ(cell_dimension, 2);
+        EXPECT_EQ(dimension, format == "cgns-3d" ? 3 : 2);
+        cgsize_t sizes[9];
+        ASSERT_EQ(cg_zone_read(file, 1, 1, name, sizes), CG_OK);
+        EXPECT_EQ(sizes[0], 5);
+        EXPECT_EQ(sizes[1], 2);
+
+        DataType_t data;
+        for (int axis = 1; axis <= dimension; ++axis) {
+            ASSERT_EQ(cg_coord_info(file, 1, 1, axis, &data, name), CG_OK);
+            EXPECT_EQ(std::string(name), std::string("Coordinate") + "XYZ"[axis - 1]);
+            EXPECT_EQ(data, RealDouble);
+        }
+
+        const std::vector<std::tuple<std::string, ElementType_t, cgsize_t, cgsize_t>> sections{
+            {"isotropic_triangles", TRI_3, 1, 1},
+            {"layer_quads", QUAD_4, 2, 2},
+            {"wall", BAR_2, 3, 4},
+            {"farfield", BAR_2, 5, 7}};
+        ASSERT_EQ(cg_nsections(file, 1, 1, &count), CG_OK);
+        ASSERT_EQ(count, 4);
+        for (int s = 1; s <= count; ++s) {
+            ElementType_t elements;
+            cgsize_t first = 0, last = 0;
+            int rim = 0, parents = 0;
+            ASSERT_EQ(cg_section_read(file, 1, 1, s, name, &elements, &first, &last, &rim, &parents), CG_OK);
+            EXPECT_EQ(std::tuple(std::string(name), elements, first, last), sections[std::size_t(s - 1)]);
+        }
+
+        ASSERT_EQ(cg_nbocos(file, 1, 1, &count), CG_OK);
+        ASSERT_EQ(count, 2);
+        for (int c = 1; c <= count; ++c) {
+            const std::string marker = c == 1 ? "wall" : "farfield";
+            BCType_t condition;
+            PointSetType_t set;
+            cgsize_t points = 0, normals = 0, range[2];
+            int index[3], data_sets = 0, families = 0, geometries = 0;
+            ASSERT_EQ(cg_boco_info(file, 1, 1, c, name, &condition, &set, &points, index, &normals, &data, &data_sets),
+                      CG_OK);
+            EXPECT_EQ(name, marker);
+            EXPECT_EQ(condition, FamilySpecified);
+            EXPECT_EQ(set, PointRange);
+            ASSERT_EQ(cg_boco_read(file, 1, 1, c, range, nullptr), CG_OK);
+            EXPECT_EQ(range[0], c == 1 ? 3 : 5);
+            EXPECT_EQ(range[1], c == 1 ? 4 : 7);
+            GridLocation_t location;
+            ASSERT_EQ(cg_boco_gridlocation_read(file, 1, 1, c, &location), CG_OK);
+            EXPECT_EQ(location, EdgeCenter);
+            ASSERT_EQ(cg_goto(file, 1, "Zone_t", 1, "ZoneBC_t", 1, "BC_t", c, "end"), CG_OK);
+            ASSERT_EQ(cg_famname_read(name), CG_OK);
+            EXPECT_EQ(name, marker);
+            ASSERT_EQ(cg_family_read(file, 1, c, name, &families, &geometries), CG_OK);
+            EXPECT_EQ(name, marker);
+            ASSERT_EQ(cg_fambc_read(file, 1, c, 1, name, &condition), CG_OK);
+            EXPECT_EQ(condition, c == 1 ? BCWallViscous : BCFarfield);
+        }
+        cg_close(file);
+
+        const Mesh back = read_mesh(folder / "m.cgns");
+        EXPECT_EQ(mesh_hash(back), mesh_hash(mesh));
+        EXPECT_EQ(back.region, mesh.region);
+        EXPECT_EQ(back.markers[0].kind, MarkerKind::wall);
+        EXPECT_EQ(back.markers[1].kind, MarkerKind::far_field);
+    }
+}
+
+TEST(Cgns, RefusesMarkersItCannotName) {
+    const TemporaryFolder folder;
+    for (const std::string name : {"", "with/slash", "longer_than_the_thirty-two_letters_there_are", "fluid_quads"}) {
+        Mesh mesh = tiny();
+        mesh.markers[0].name = name;
+        EXPECT_THROW(write_mesh(mesh, folder / "m.cgns"), UsageError) << name;
+    }
+    Mesh mesh = tiny();
+    mesh.markers[0].name = mesh.markers[1].name;
+    EXPECT_THROW(write_mesh(mesh, folder / "m.cgns"), UsageError);
+    EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace lamina
