@@ -52,6 +52,7 @@ struct QualitySummary {
     double min_angle_deg = 0;
     double max_angle_deg = 0;
     double mean_min_angle_deg = 0;
+    double mean_max_angle_deg = 0;
     std::size_t angles_below_bound = 0;  ///< cells whose smallest angle is under the bound asked about
     /// Of those, isotropic ones that no refinement could mend: at a corner below 60 degrees between two frozen edges
     /// (boundary, layer, another piece, constraints), as far as the mesh tells them.
@@ -72,6 +73,8 @@ struct MeshCheck {
     QualitySummary isotropic;             ///< all cells where the mesh holds no regions
     std::size_t interior_edges = 0;       ///< edges between two isotropic triangles that are no constraints
     std::size_t delaunay_violations = 0;  ///< of those, edges with a vertex strictly inside the opposite circle (exact)
+    /// Boundary edges of layer cells that reach beyond layer 1: the first height is not kept there.
+    std::size_t edges_without_first_layer = 0;
     bool valid() const { return defect_count == 0; }
 };
 

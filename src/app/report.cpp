@@ -102,7 +102,9 @@ Json quality_report(const MeshCheck& check) {
             {"layer",
              {{"cells", layer.cells},
               {"max_aspect_ratio", layer.max_aspect_ratio},
-              {"max_angle_deg", layer.max_angle_deg}}},
+              {"max_angle_deg", layer.max_angle_deg},
+              {"mean_max_angle_deg", layer.mean_max_angle_deg},
+              {"edges_without_first_layer", check.edges_without_first_layer}}},
             {"delaunay", {{"interior_edges", check.interior_edges}, {"violations", check.delaunay_violations}}}};
 }
 
@@ -141,8 +143,12 @@ std::string quality_summary(const MeshCheck& check) {
             check.isotropic.max_neighbour_area_ratio);
     }
     if (check.layer.cells > 0) {
-        text += fmt::format("  layer     {} cells, aspect ratios up to {:.4g}, angles up to {:.2f} deg\n",
-                            check.layer.cells, check.layer.max_aspect_ratio, check.layer.max_angle_deg);
+        text += fmt::format(
+            "  layer     {} cells, aspect ratios up to {:.4g}, angles up to {:.2f} deg, mean largest {:.2f} deg\n",
+            check.layer.cells, check.layer.max_aspect_ratio, check.layer.max_angle_deg, check.layer.mean_max_angle_deg);
+        if (check.edges_without_first_layer > 0)
+            text += fmt::format("  layer     {} wall edges without a cell of first height (see --layer-topology)\n",
+                                check.edges_without_first_layer);
     }
     return text + fmt::format("  delaunay  {} of {} edges violate the property\n", check.delaunay_violations,
                               check.interior_edges);

@@ -340,6 +340,13 @@ std::vector<Segment> boundary_edges(const Mesh& mesh, const Adjacency& adjacency
     return boundary;
 }
 
+std::size_t count_edges_without_first_layer(const Mesh& mesh, const Adjacency& adjacency) {
+    if (mesh.layer.empty()) return 0;
+    const CellEdges edges(mesh);
+    const auto beyond = [&](std::uint32_t edge) { return mesh.layer[edges.cell_of(edge)] > 1; };
+    return static_cast<std::size_t>(std::count_if(adjacency.boundary.begin(), adjacency.boundary.end(), beyond));
+}
+
 /// Every boundary edge in exactly one marker, and nothing else in any. `boundary` is sorted.
 void check_markers(const Mesh& mesh, const std::vector<Segment>& boundary, DefectList& defects) {
     std::vector<std::uint8_t> marked(boundary.size(), 0);
@@ -425,6 +432,7 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     check.isotropic = all_cells.isotropic.summary();
     check.isotropic.exempt = count_exempt({mesh, adjacency, constraints}, all_cells.narrow);
 
+    check.edges_without_first_layer = count_edges_without_first_layer(mesh, adjacency);
     const std::vector<Segment> edges = boundary_edges(mesh, adjacency);
     check_markers(mesh, edges, defects);
     if (adjacency.overused.empty()) {

@@ -50,6 +50,7 @@ void QualityCollector::add(const CellShape& shape) {
     min_angle_ = std::min(min_angle_, shape.min_angle_deg);
     max_angle_ = std::max(max_angle_, shape.max_angle_deg);
     min_angle_sum_ += shape.min_angle_deg;
+    max_angle_sum_ += shape.max_angle_deg;
     max_aspect_ = std::max(max_aspect_, shape.aspect_ratio);
     below_bound_ += shape.min_angle_deg < bound_;
     ++histogram_[std::min<std::size_t>(histogram_.size() - 1, static_cast<std::size_t>(shape.min_angle_deg / 5))];
@@ -65,6 +66,7 @@ void QualityCollector::append(const QualityCollector& part) {
     min_angle_ = std::min(min_angle_, part.min_angle_);
     max_angle_ = std::max(max_angle_, part.max_angle_);
     min_angle_sum_ += part.min_angle_sum_;
+    max_angle_sum_ += part.max_angle_sum_;
     max_aspect_ = std::max(max_aspect_, part.max_aspect_);
     for (std::size_t i = 0; i < histogram_.size(); ++i) histogram_[i] += part.histogram_[i];
     area_ratios_.insert(area_ratios_.end(), part.area_ratios_.begin(), part.area_ratios_.end());
@@ -77,6 +79,7 @@ QualitySummary QualityCollector::summary() const {
     summary.min_angle_deg = min_angle_;
     summary.max_angle_deg = max_angle_;
     summary.mean_min_angle_deg = min_angle_sum_ / static_cast<double>(cells_);
+    summary.mean_max_angle_deg = max_angle_sum_ / static_cast<double>(cells_);
     summary.angles_below_bound = below_bound_;
     summary.max_aspect_ratio = max_aspect_;
     summary.angle_histogram = histogram_;

@@ -32,7 +32,7 @@ public:
 private:
     double bound_;
     std::size_t cells_ = 0, below_bound_ = 0;
-    double min_angle_ = 180, max_angle_ = 0, min_angle_sum_ = 0, max_aspect_ = 0;
+    double min_angle_ = 180, max_angle_ = 0, min_angle_sum_ = 0, max_angle_sum_ = 0, max_aspect_ = 0;
     std::array<std::size_t, 18> histogram_{};
     std::vector<float> area_ratios_;
 };

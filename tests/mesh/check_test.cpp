@@ -73,6 +73,21 @@ TEST(CheckMesh, TellsRegionsApart) {
     const double trapezoid_growth = 1.2 * 1.2;
     EXPECT_NEAR(check.isotropic.max_neighbour_area_ratio, trapezoid_growth, 0.3);
     EXPECT_EQ(check.layer.max_neighbour_area_ratio, 0);
+    // Trapezoids of which 24 make a circle: the corners are 7.5 degrees off a right angle.
+    EXPECT_NEAR(check.layer.mean_max_angle_deg, 97.5, 1e-9);
+    EXPECT_EQ(check.edges_without_first_layer, 0u);
+}
+
+TEST(CheckMesh, CountsEdgesWhoseCellSkipsTheFirstLayer) {
+    for (const bool quads : {false, true}) {
+        Mesh mesh = annulus({.around = 24, .rings = 5, .layer_rings = 2, .quads_in_layer = quads});
+        for (std::size_t cell = 0; cell < mesh.layer.size(); ++cell)
+            if (mesh.layer[cell] == 1 && cell % 3 == 0) mesh.layer[cell] = 2;
+        const std::size_t on_the_wall = check_mesh(mesh).edges_without_first_layer;
+        EXPECT_EQ(on_the_wall, 8u);
+        mesh.layer.clear();
+        EXPECT_EQ(check_mesh(mesh).edges_without_first_layer, 0u);
+    }
 }
 
 TEST(CheckMesh, CountsDelaunayViolationsButNotOnConstraintsOrInTheLayer) {

@@ -39,6 +39,9 @@ void expect_alike_but_for_the_layer(std::initializer_list<Outline> bodies) {
         EXPECT_EQ(isotropic_triangles(mesh), isotropic_triangles(delaunay.mesh));
         EXPECT_EQ(result.check.interior_edges, delaunay.check.interior_edges);
         EXPECT_EQ(result.check.layer.cells + result.check.isotropic.cells, mesh.triangles.size() + mesh.quads.size());
+        if (topology != LayerTopology::delaunay) {
+            EXPECT_EQ(result.check.edges_without_first_layer, 0u);
+        }
         // A quad is two triangles.
         EXPECT_EQ(mesh.triangles.size() + 2 * mesh.quads.size(), delaunay.mesh.triangles.size());
         EXPECT_EQ(mesh.quads.empty(), topology != LayerTopology::quads);
