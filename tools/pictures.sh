@@ -30,6 +30,11 @@ picture() {
 mesh sharp naca:0012
 mesh blunt naca:0012:200:blunt
 mesh pieces naca:0012 --pieces-target 1000
+for topology in delaunay layered quads; do
+    mesh "tail-$topology" naca:0012 --layer-topology "$topology"
+    # A section of so few points that the layer's outer border is divided much finer than its rays stand.
+    mesh "coarse-$topology" naca:4412:40 --surface keep --layer-topology "$topology"
+done
 mesh k-rule naca:0012 --pieces-target 1000 --separators k-rule
 
 picture airfoil sharp -0.3,1.3,-0.55,0.55
@@ -42,5 +47,9 @@ picture hand-over sharp 0.30,0.54,0.04,0.22
 picture quality sharp -0.6,1.6,-0.75,0.75 --color quality
 picture pieces-near pieces -0.8,1.8,-0.9,0.9 --color piece
 picture pieces-rings pieces -12,13,-9,9 --color piece
+for topology in delaunay layered quads; do
+    picture "topology-tail-$topology" "tail-$topology" 0.988,1.012,-0.009,0.009
+    picture "topology-coarse-$topology" "coarse-$topology" 0.35,0.75,0.05,0.15
+done
 picture separators-equidistributed pieces -1.3,0.3,0.1,1.3
 picture separators-k-rule k-rule -1.3,0.3,0.1,1.3

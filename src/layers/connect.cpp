@@ -13,7 +13,6 @@
 #include "layers/connect.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -38,7 +37,7 @@ double widest_cosine(Point a, Point b, Point c) {
     if (!(detail::inline_orient2d(a, b, c) > 0)) return -2;
     const Point ab = b - a, bc = c - b, ca = a - c;
     const double l = length(ab), m = length(bc), n = length(ca);
-    return -std::max({dot(ab, bc) / (l * m), dot(bc, ca) / (m * n), dot(ca, ab) / (n * l)});
+    return std::max(-1.0, -std::max({dot(ab, bc) / (l * m), dot(bc, ca) / (m * n), dot(ca, ab) / (n * l)}));
 }
 
 /// The strip between two neighbouring rays; `second` follows counter-clockwise round the body.
@@ -93,7 +92,7 @@ private:
 /// Makes the cells of columns, one after the other.
 class Connector {
 public:
-    Connector(std::span<const Point> points, GridCells kind) : points_(points), kind_(kind) {}
+    Connector(const Layer& layer, GridCells kind) : layer_(layer), kind_(kind) {}
 
     void add(const Column& column) {
         const Ray &first = column.first, &second = column.second;
@@ -104,20 +103,26 @@ public:
         const std::uint32_t highest = std::max(first.layers, second.layers);
         if (common == 0 && from == to) return;  // the border runs along the ray
 
-        for (layer_ = 1; layer_ <= highest; ++layer_) {
-            const VertexId inner[] = {on_ray(first, layer_), on_ray(second, layer_)};
-            const std::span<const VertexId> top = layer_ < highest ? std::span<const VertexId>(inner) : column.top;
-            const VertexId a = on_ray(first, layer_ - 1), d = on_ray(second, layer_ - 1);
-            if (layer_ == 1 && (column.up.size() > 2 || column.down.size() > 2)) {
+        const bool divided_sides = column.up.size() > 2 || column.down.size() > 2;
+        for (number_ = 1; number_ <= highest; ++number_) {
+            const VertexId inner[] = {on_ray(first, number_), on_ray(second, number_)};
+            const std::span<const VertexId> top = number_ < highest ? std::span<const VertexId>(inner) : column.top;
+            const VertexId a = on_ray(first, number_ - 1), d = on_ray(second, number_ - 1);
+            const VertexId lower[] = {a, d};
+            if (number_ == 1 && divided_sides) {
                 add_bottom_between_borders(column, top);
-            } else if (layer_ > common) {
-                add_fan(first.layers > common ? a : d, top);
+            } else if (number_ == common && highest > common && column.top.size() > 2) {
+                number_ = highest;
+                add_divided_step(column, common);
+            } else if (number_ > common) {
+                add_strip(std::span(lower).subspan(first.layers > common ? 0 : 1, 1), top);
             } else if (a == d) {
-                add_fan(a, top);
+                add_strip(std::span(lower).first(1), top);
             } else if (kind_ == GridCells::whole && top.size() == 2 && is_convex(a, top[0], top[1], d)) {
-                add_quad(a, top[0], top[1], d);
+                cells_.quads.push_back({{a, top[0], top[1], d}});
+                cells_.quad_layer.push_back(static_cast<std::uint16_t>(number_));
             } else {
-                add_split(a, d, top);
+                add_strip(lower, top);
             }
         }
     }
@@ -125,15 +130,22 @@ public:
     LayerCells take() { return std::move(cells_); }
 
 private:
-    std::span<const Point> points_;
+    /// A strip is cut from its first side to its last by triangles, each on an edge of the top or of the lower chain.
+    struct Cuts {
+        double along = -2, across = -2;  ///< cosines of the triangles on the next edge of the top, of the lower chain
+        double least = -2;               ///< the best that the smallest cosine of all triangles up to here can be
+        double rest = HUGE_VAL;          ///< least sum over all triangles from here
+    };
+
+    const Layer& layer_;
     GridCells kind_;
     LayerCells cells_;
-    std::uint32_t layer_ = 0;        ///< of the cell at hand
+    std::uint32_t number_ = 0;       ///< layer of the cell at hand
     bool first_leads_ = false;       ///< which of its lower corners comes first where cuts are equal
-    std::vector<double> widest_;     ///< scratch: by cut
+    std::vector<Cuts> cuts_;         ///< scratch
     std::vector<VertexId> corners_;  ///< scratch: of a polygon
 
-    Point at(VertexId v) const { return points_[v.index()]; }
+    Point at(VertexId v) const { return layer_.points[v.index()]; }
 
     bool is_convex(VertexId a, VertexId b, VertexId c, VertexId d) const {
         using detail::inline_orient2d;
@@ -141,59 +153,90 @@ private:
                inline_orient2d(at(c), at(d), at(a)) > 0 && inline_orient2d(at(d), at(a), at(b)) > 0;
     }
 
+    /// On the layer above its lowest corner; but all corners may be at the top's height where that is divided.
     void add_triangle(VertexId a, VertexId b, VertexId c) {
+        const auto layer_of = [&](VertexId v) { return std::uint32_t{layer_.layer_of_point[v.index()]}; };
+        const std::uint32_t number = std::min({number_, layer_of(a) + 1, layer_of(b) + 1, layer_of(c) + 1});
         cells_.triangles.push_back({{a, b, c}});
-        cells_.triangle_layer.push_back(static_cast<std::uint16_t>(layer_));
+        cells_.triangle_layer.push_back(static_cast<std::uint16_t>(number));
     }
 
-    void add_quad(VertexId a, VertexId b, VertexId c, VertexId d) {
-        cells_.quads.push_back({{a, b, c, d}});
-        cells_.quad_layer.push_back(static_cast<std::uint16_t>(layer_));
-    }
+    /// What a triangle of this cosine adds to the sum that cuts are compared by: 1 for a right angle, always finite.
+    static double burden(double cosine) { return 1 / (1 + cosine + cosine_rounding); }
 
-    void add_fan(VertexId apex, std::span<const VertexId> top) {
-        for (std::size_t k = 0; k + 1 < top.size(); ++k) add_triangle(apex, top[k], top[k + 1]);
-    }
-
-    /// Points of the top lie on one line, hence two fans and the triangle a q_s d between them; s is chosen. Without q
-    /// the choice is that of the diagonal: a to c (s = 1) or d to b (s = 0).
+    /// The lower chain goes from the first side to the last, like the top: a fan where it is one corner, the choice of
+    /// a diagonal or of two fans where there are two. The best cut has the smallest largest angle, and then the least
+    /// sum.
     ///
     ///     c----q3----q2----q1----b
-    ///     |   /    .' \    `.    |
-    ///     |  /  .'     \     `.  |       s = 2
-    ///     | / .'        \      `.|
-    ///     d----------------------a
-    void add_split(VertexId a, VertexId d, std::span<const VertexId> top) {
-        const std::size_t pieces = top.size() - 1;
-        // For each s the smallest cosine of all triangles: fans grow from either end.
-        widest_.assign(pieces + 1, 1);
-        double fan = 1;
-        for (std::size_t s = 0; s <= pieces; ++s) {
-            if (s > 0) fan = std::min(fan, widest_cosine(at(a), at(top[s - 1]), at(top[s])));
-            widest_[s] = std::min(fan, widest_cosine(at(a), at(top[s]), at(d)));
+    ///     |   /    .' \    `.    |       lower chain a, d: triangles on b-q1 and q1-q2 from a, then on a-d, then from
+    ///     d |  /  .'     \     `.  | | / .'        \      `.| d----------------------a
+    void add_strip(std::span<const VertexId> lower, std::span<const VertexId> top) {
+        const std::size_t rows = lower.size(), columns = top.size();
+        const auto cut = [&](std::size_t i, std::size_t j) -> Cuts& { return cuts_[i * columns + j]; };
+        cuts_.assign(rows * columns, {});
+        cut(0, 0).least = 1;
+        for (std::size_t i = 0; i < rows; ++i) {
+            for (std::size_t j = 0; j < columns; ++j) {
+                Cuts& here = cut(i, j);
+                if (j + 1 < columns) {
+                    here.along = widest_cosine(at(lower[i]), at(top[j]), at(top[j + 1]));
+                    cut(i, j + 1).least = std::max(cut(i, j + 1).least, std::min(here.least, here.along));
+                }
+                if (i + 1 < rows) {
+                    here.across = widest_cosine(at(lower[i]), at(top[j]), at(lower[i + 1]));
+                    cut(i + 1, j).least = std::max(cut(i + 1, j).least, std::min(here.least, here.across));
+                }
+            }
         }
-        fan = 1;
-        for (std::size_t s = pieces; s-- > 0;) {
-            fan = std::min(fan, widest_cosine(at(d), at(top[s]), at(top[s + 1])));
-            widest_[s] = std::min(widest_[s], fan);
-        }
-        const double best = *std::max_element(widest_.begin(), widest_.end());
+        const double best = cut(rows - 1, columns - 1).least, least = best - cosine_rounding;
         if (best < -1) {  // coordinates are too coarse for any
-            corners_ = {a};
-            corners_.insert(corners_.end(), top.begin(), top.end());
-            corners_.push_back(d);
+            corners_.assign(top.begin(), top.end());
+            corners_.insert(corners_.end(), lower.rbegin(), lower.rend());
             add_polygon();
             return;
         }
-        const auto good = [&](double widest) { return widest >= best - cosine_rounding; };
-        const std::size_t chosen =
-            first_leads_
-                ? pieces -
-                      static_cast<std::size_t>(std::find_if(widest_.rbegin(), widest_.rend(), good) - widest_.rbegin())
-                : static_cast<std::size_t>(std::find_if(widest_.begin(), widest_.end(), good) - widest_.begin());
-        add_fan(a, top.first(chosen + 1));
-        add_triangle(a, top[chosen], d);
-        add_fan(d, top.subspan(chosen));
+        const auto sum_along = [&](std::size_t i, std::size_t j) {
+            return j + 1 < columns && cut(i, j).along >= least ? burden(cut(i, j).along) + cut(i, j + 1).rest
+                                                               : HUGE_VAL;
+        };
+        const auto sum_across = [&](std::size_t i, std::size_t j) {
+            return i + 1 < rows && cut(i, j).across >= least ? burden(cut(i, j).across) + cut(i + 1, j).rest : HUGE_VAL;
+        };
+        cut(rows - 1, columns - 1).rest = 0;
+        for (std::size_t k = rows * columns - 1; k-- > 0;)
+            cuts_[k].rest = std::min(sum_along(k / columns, k % columns), sum_across(k / columns, k % columns));
+        for (std::size_t i = 0, j = 0; i + 1 < rows || j + 1 < columns;) {
+            const double along = sum_along(i, j), across = sum_across(i, j);
+            const double slack = cosine_rounding * std::min(along, across);
+            if (first_leads_ ? along <= across + slack : along + slack < across) {
+                add_triangle(lower[i], top[j], top[j + 1]);
+                ++j;
+            } else {
+                add_triangle(lower[i], top[j], lower[i + 1]);
+                ++i;
+            }
+        }
+    }
+
+    /// A step's triangle alone could only be fanned from one corner, with ever flatter triangles: it is cut together
+    /// with the cell below. On its higher ray the lower chain has one corner more.
+    ///
+    ///              .-b = q0      lower chain a' a d; with the higher ray on the other side, a d d'
+    ///          q1-'   |
+    ///      q2-'       |
+    ///    c-'----------a'
+    ///    |            |
+    ///    d------------a
+    void add_divided_step(const Column& column, std::uint32_t common) {
+        const Ray &first = column.first, &second = column.second;
+        corners_.clear();
+        if (first.layers > common) corners_.push_back(on_ray(first, common));
+        corners_.push_back(on_ray(first, common - 1));
+        if (on_ray(second, common - 1) != corners_.back()) corners_.push_back(on_ray(second, common - 1));
+        if (second.layers > common) corners_.push_back(on_ray(second, common));
+        const std::vector<VertexId> lower = corners_;
+        add_strip(lower, column.top);
     }
 
     /// The lowest cell of a column whose neighbour is empty: the border divides its sides, too.
@@ -217,8 +260,9 @@ private:
         add_polygon();
     }
 
-    /// corners_, counter-clockwise: its constrained Delaunay triangles.
+    /// corners_, counter-clockwise, some perhaps twice in a row: its constrained Delaunay triangles.
     void add_polygon() {
+        corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
         std::vector<Point> corners;
         std::vector<Segment> sides;
         for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -252,7 +296,7 @@ LayerCells connect_layer(const Layer& layer, GridCells kind) {
         if (layer.rays[e].empty()) continue;
         const Columns columns(layer.rays[e], layer.borders[e]);
         const auto connect = [&](std::size_t begin, std::size_t end) {
-            Connector connector(layer.points, kind);
+            Connector connector(layer, kind);
             for (std::size_t i = begin; i < end; ++i) connector.add(columns[i]);
             return connector.take();
         };

@@ -346,6 +346,52 @@ TEST(Connect, BorderAlongARay) {
     corner.expect_sound();
 }
 
+TEST(Connect, DividedStepsAreCutWithTheCellBelow) {
+    // One layer on the rays of wall corners 1 and 3, two on that of corner 2 between them, none on corner 0.
+    Layer layer;
+    layer.points = {{0, 0},      {1, 0},     {1, 1},     {0, 1},        // wall
+                    {1.1, -0.1}, {1.1, 1.1}, {1.2, 1.2}, {-0.1, 1.1}};  // tip of 1, both layers of 2, tip of 3
+    layer.layer_of_point = {0, 0, 0, 0, 1, 1, 2, 1};
+    layer.wall_points = 4;
+    layer.walls = {{VertexId(0), VertexId(1), VertexId(2), VertexId(3)}};
+    layer.rays.resize(1);
+    const Point directions[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const std::size_t first[] = {4, 4, 5, 7};
+    for (std::size_t i = 0; i < 4; ++i) {
+        Ray& ray = layer.rays[0].emplace_back();
+        ray.origin = VertexId(i);
+        ray.direction = unit(directions[i]);
+        ray.layers = i == 2 ? 2 : i == 0 ? 0 : 1;
+        ray.first_point = first[i];
+    }
+    layer.borders = {{VertexId(0)}};
+    const auto divide = [&](std::size_t from, std::size_t to, int pieces) {
+        const Point a = layer.points[from], b = layer.points[to];
+        layer.borders[0].push_back(VertexId(from));
+        for (int k = 1; k < pieces; ++k) {
+            layer.borders[0].push_back(VertexId(layer.points.size()));
+            layer.points.push_back(a + (static_cast<double>(k) / pieces) * (b - a));
+            layer.layer_of_point.push_back(1);
+        }
+    };
+    divide(4, 6, 9);
+    divide(6, 7, 9);
+    layer.borders[0].push_back(VertexId(7));
+
+    // From one corner of the step alone, the flattest triangle is the last.
+    const double fan = std::max(largest_angle(layer, VertexId(5), VertexId(layer.points.size() - 1), VertexId(7)),
+                                largest_angle(layer, VertexId(5), VertexId(4), VertexId(8)));
+    for (LayerTopology topology : {LayerTopology::layered, LayerTopology::quads}) {
+        const LayerCells cells = fill_layer(layer, layer_edges(layer), topology);
+        expect_cover(layer, layer_edges(layer), cells);
+        expect_rows(layer, cells);
+        double flattest = 0;
+        for (const Triangle& t : cells.triangles)
+            flattest = std::max(flattest, largest_angle(layer, t.v[0], t.v[1], t.v[2]));
+        EXPECT_LT(flattest, fan - 0.05);
+    }
+}
+
 TEST(Connect, TopsThatNoTwoFansFillAreTriangulated) {
     Corner corner;  // border points far from any line, as rounding would put them in cells of a few roundings' height
     corner.divide(corner.p, {0.2, 1.02});
