@@ -49,6 +49,9 @@ struct LayerOptions {
     std::vector<SizeSource> border_sources = {};
 };
 
+/// Factor within which growth may differ from what was asked for on rays that were cut short.
+inline constexpr double largest_stretch = 1.019;
+
 /// A line of layer points that leaves the wall.
 struct Ray {
     VertexId origin;          ///< wall vertex
@@ -58,6 +61,9 @@ struct Ray {
     double growth;            ///< what LayerOptions::growth is on this ray
     std::size_t first_point;  ///< Layer::points[first_point + n] lies at height n + 1
     double height_limit;      ///< nothing is placed beyond this height; infinite where nothing is in the way
+    /// Each spacing is to the one below as the law says, times this: 1 on rays with all their layers, else within
+    /// largest_stretch of 1, so that layers end where the space for them does and not in steps.
+    double stretch = 1;
 };
 
 /// What became of the layers asked for on some part of the walls. Cells lie between neighbouring rays, one a layer.

@@ -17,6 +17,7 @@ struct Stack {
     std::size_t first = 0;     ///< where its heights begin in the table
     std::uint32_t layers = 0;  ///< asked for
     double growth = 0;         ///< as Ray::growth
+    double stretch = 1;        ///< as Ray::stretch
 };
 
 /// Heights of the layers asked for, ray by ray. Rays of one law and growth share the same part of the table.
@@ -33,6 +34,8 @@ public:
     }
     double full(std::size_t ray) const { return of(ray).back(); }
     double tallest() const;
+    /// Of all stacks.
+    const std::vector<double>& table() const { return table_; }
 
 private:
     std::vector<double> table_;
@@ -46,5 +49,12 @@ std::vector<double> heights_by_law(GrowthLaw law, double first_height, double gr
 void check_growth(const LayerOptions& options);
 
 Heights make_heights(const RaySet& set, const LayerOptions& options);
+
+/// Multiplies the n-th spacing, n >= 0, by stretch^n. heights[0] = 0 is the wall.
+void stretch_heights(double stretch, std::span<double> heights);
+
+/// The same stacks, stretched on rays whose limit is below the height of all their layers, so that a layer ends at the
+/// limit; next to it below where that would take more than largest_stretch.
+Heights fit_heights(const Heights& heights, std::span<const double> limits);
 
 }  // namespace lamina

@@ -210,14 +210,13 @@ private:
             const std::size_t begin = set_.begin[e], end = set_.begin[e + 1];
             for (std::size_t i = begin; i < end; ++i) {
                 const std::span<const double> heights = heights_.of(i);
-                const auto [first, requested, growth] = heights_.stack(i);
+                const auto [first, requested, growth, stretch] = heights_.stack(i);
                 // A ray that was lowered for its neighbours' sake ends below the layer it did not get.
                 const double limit = counts_[i] < requested ? std::min(limits[i], heights[counts_[i] + 1]) : limits[i];
-                layer_.rays[e].push_back(
-                    {wall_of_ray_[i], set_.rays[i].direction, counts_[i], requested, growth, first_point_[i], limit});
+                layer_.rays[e].push_back({wall_of_ray_[i], set_.rays[i].direction, counts_[i], requested, growth,
+                                          first_point_[i], limit, stretch});
             }
         }
-        layer_.coverage = layer_coverage(set_, heights_, counts_);
     }
 };
 
@@ -237,8 +236,11 @@ Layer make_layer(const Pslg& pslg, const LayerOptions& options) {
     const Heights heights = make_heights(set, options);
     check_scale(pslg, options, heights);
     const std::vector<double> limits = height_limits(set, heights);
-    const std::vector<std::uint32_t> counts = layer_counts(set, limits, heights);
-    return Assembly(set, counts, heights).build(grading, limits);
+    const Heights fitted = fit_heights(heights, limits);
+    const std::vector<std::uint32_t> counts = layer_counts(set, limits, fitted);
+    Layer layer = Assembly(set, counts, fitted).build(grading, limits);
+    layer.coverage = layer_coverage(set, heights, counts);
+    return layer;
 }
 
 }  // namespace lamina

@@ -153,8 +153,12 @@ private:
     void check_heights(const Ray& ray) {
         const Point origin = at(ray.origin);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
-        const std::vector<double> heights =
+        std::vector<double> heights =
             heights_by_law(options_.growth_law, options_.first_height, ray.growth, ray.layers);
+        stretch_heights(ray.stretch, heights);
+        if (ray.stretch != 1 && std::isinf(ray.height_limit)) find("ray is stretched without a limit", origin);
+        if (!(ray.stretch <= largest_stretch && ray.stretch * largest_stretch >= 1 - 1e-12))
+            find(fmt::format("ray is stretched by {}", ray.stretch), origin);
         for (std::uint32_t n = 0; n < ray.layers; ++n) {
             const double height = heights[n + 1];
             const Point p = layer_.points[ray.first_point + n];

@@ -35,8 +35,8 @@ TEST(Coverage, CountsRaysAndTheCellsBetween) {
 }
 
 TEST(Coverage, ElementsAddUp) {
-    const auto elements = coverage_of({shapes::circle(1, 90), shapes::moved(shapes::circle(1, 50), 0, 1, {2.2, 0})},
-                                      ten_layers(0.2));
+    const auto elements =
+        coverage_of({shapes::circle(1, 90), shapes::moved(shapes::circle(1, 50), 0, 1, {2.2, 0})}, ten_layers(0.2));
     ElementCoverage total;
     for (const ElementCoverage& element : elements) total += element;
     EXPECT_EQ(total.all.rays, elements[0].all.rays + elements[1].all.rays);

@@ -43,7 +43,7 @@ Layer sound_layer(const Outline& outline, const LayerOptions& options) {
     return sound_layer(shapes::pslg({outline}), options);
 }
 
-/// Heights of the layers of full rays, measured between the points themselves.
+/// Heights of the layers, measured between the points themselves.
 void expect_heights(const Layer& layer, const LayerOptions& options) {
     double scale = 0;
     for (Point p : layer.points) scale = std::max({scale, std::abs(p.x), std::abs(p.y)});
@@ -59,7 +59,7 @@ void expect_heights(const Layer& layer, const LayerOptions& options) {
                 if (n == 0) {
                     ASSERT_NEAR(step / options.first_height, 1, 1e-9 + rounding);
                 } else {
-                    ASSERT_NEAR(step / step_below, options.growth, 1e-9 + 4 * rounding);
+                    ASSERT_NEAR(step / step_below, options.growth * ray.stretch, 1e-9 + 4 * rounding);
                 }
                 below = p;
                 step_below = step;
