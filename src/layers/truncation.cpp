@@ -6,12 +6,13 @@
 // towards the corner in proportion to the distance from it.
 //
 // Rays that are long against the spacing of the walls would make the search quadratic. It goes by scales: what is met
-// at heights in (h, 2 h] is sought with rays at distances of h / 5 only; the slope limit carries the answer to the
-// rays between.
+// at heights in (h, 2 h] is sought with rays at distances of h / 5 only; the rays between get what lies between their
+// answers.
 #include <algorithm>
 #include <cmath>
 
 #include "core/box_tree.hpp"
+#include "core/parallel.hpp"
 #include "layers/front.hpp"
 #include "layers/segments.hpp"
 
@@ -54,6 +55,7 @@ double mean_spacing(const RaySet& set) {
 /// The rays looked at on one scale, and the wall drawn through their origins.
 struct Sample {
     std::vector<std::size_t> rays;
+    std::vector<std::size_t> begin{0};                      ///< per body, into rays
     std::vector<std::pair<std::size_t, std::size_t>> wall;  ///< edges between the origins of two rays
 };
 
@@ -74,6 +76,7 @@ Sample thin_out(const RaySet& set, double height, double spacing) {
             if (set.rays[sample.rays[last]].origin != set.rays[sample.rays[k]].origin)
                 sample.wall.emplace_back(sample.rays[last], sample.rays[k]);
         }
+        sample.begin.push_back(sample.rays.size());
     }
     return sample;
 }
@@ -90,10 +93,9 @@ Crossing cross_lines(Point p, Point d, Point q, Point e) {
     return {true, cross(q - p, e) / denominator, cross(q - p, d) / denominator};
 }
 
-/// Looks for what rays meet at heights in (low, high] and lowers their limits.
-void limit_on_scale(const RaySet& set, const Heights& heights, const Sample& sample, double low, double high,
-                    std::vector<double>& limits) {
-    const std::vector<double> before = limits;  // all rays are judged by the state at the start: no order matters
+/// Limits of the sampled rays for what they meet at heights in (low, high].
+std::vector<double> limits_on_scale(const RaySet& set, const Heights& heights, const Sample& sample, double low,
+                                    double high, std::span<const double> before) {
     // A ray that has ended is in nobody's way beyond its end.
     const auto way = [&](std::size_t i) { return std::min(before[i] / ray_fraction, heights.full(i) / wall_fraction); };
     std::vector<Box> ray_boxes, wall_boxes;
@@ -104,26 +106,56 @@ void limit_on_scale(const RaySet& set, const Heights& heights, const Sample& sam
     for (auto [a, b] : sample.wall) wall_boxes.push_back(box_of(set.rays[a].origin, set.rays[b].origin));
     const BoxTree ray_tree(ray_boxes), wall_tree(std::move(wall_boxes));
 
-    for (std::size_t k = 0; k < sample.rays.size(); ++k) {
-        const std::size_t i = sample.rays[k];
-        const RayLine& ray = set.rays[i];
-        if (before[i] <= wall_fraction * low) continue;
-        ray_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
-            const std::size_t j = sample.rays[item];
-            const RayLine& other = set.rays[j];
-            if (other.origin == ray.origin) return;
-            const Crossing at = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
-            if (!at.exists || at.first <= low || at.first > high) return;
-            if (at.second < 0 || at.second > at.first * (1 + 1e-9) || at.second > way(j)) return;
-            limits[i] = std::min(limits[i], ray_fraction * at.first);
-        });
-        wall_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
-            const Point a = set.rays[sample.wall[item].first].origin, b = set.rays[sample.wall[item].second].origin;
-            if (a == ray.origin || b == ray.origin) return;
-            const Crossing at = cross_lines(ray.origin, ray.direction, a, b - a);
-            if (!at.exists || at.first <= low || at.first > high || at.second < 0 || at.second > 1) return;
-            limits[i] = std::min(limits[i], wall_fraction * at.first);
-        });
+    std::vector<double> limits(sample.rays.size(), HUGE_VAL);
+    parallel_for(sample.rays.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const std::size_t i = sample.rays[k];
+            const RayLine& ray = set.rays[i];
+            if (before[i] <= wall_fraction * low) continue;
+            ray_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
+                const std::size_t j = sample.rays[item];
+                const RayLine& other = set.rays[j];
+                if (other.origin == ray.origin) return;
+                const Crossing at = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
+                if (!at.exists || at.first <= low || at.first > high) return;
+                if (at.second < 0 || at.second > at.first * (1 + 1e-9) || at.second > way(j)) return;
+                limits[k] = std::min(limits[k], ray_fraction * at.first);
+            });
+            wall_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
+                const Point a = set.rays[sample.wall[item].first].origin, b = set.rays[sample.wall[item].second].origin;
+                if (a == ray.origin || b == ray.origin) return;
+                const Crossing at = cross_lines(ray.origin, ray.direction, a, b - a);
+                if (!at.exists || at.first <= low || at.first > high || at.second < 0 || at.second > 1) return;
+                limits[k] = std::min(limits[k], wall_fraction * at.first);
+            });
+        }
+    });
+    return limits;
+}
+
+/// Lowers the limits to those of the sample: on rays between two of the sample that both found something, to what lies
+/// between their limits, by distance along the wall.
+void carry_over(const RaySet& set, const Sample& sample, std::span<const double> found, std::vector<double>& limits) {
+    const std::vector<std::size_t> next = set.following();
+    for (std::size_t k = 0; k < sample.rays.size(); ++k)
+        limits[sample.rays[k]] = std::min(limits[sample.rays[k]], found[k]);
+    for (std::size_t e = 0; e < set.bodies(); ++e) {
+        const std::size_t first = sample.begin[e], last = sample.begin[e + 1];
+        for (std::size_t k = first; k < last; ++k) {
+            const std::size_t after = k + 1 < last ? k + 1 : first;
+            const std::size_t from = sample.rays[k], to = sample.rays[after];
+            if (next[from] == to || std::isinf(found[k]) || std::isinf(found[after])) continue;
+            double length = 0;
+            for (std::size_t i = from; i != to; i = next[i])
+                length += distance(set.rays[i].origin, set.rays[next[i]].origin);
+            if (length == 0) continue;
+            double done = 0;
+            for (std::size_t i = from; next[i] != to; i = next[i]) {
+                done += distance(set.rays[i].origin, set.rays[next[i]].origin);
+                const double between = ((length - done) * found[k] + done * found[after]) / length;
+                limits[next[i]] = std::min(limits[next[i]], between);
+            }
+        }
     }
 }
 
@@ -151,7 +183,7 @@ std::vector<double> height_limits(const RaySet& set, const Heights& heights) {
     double high = set.rays.size() <= single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
     for (;;) {
         const Sample sample = thin_out(set, high, low > 0 ? thinning * high : 0.0);
-        limit_on_scale(set, heights, sample, low, high, limits);
+        carry_over(set, sample, limits_on_scale(set, heights, sample, low, high, limits), limits);
         if (high >= reach) break;
         low = high;
         high = std::min(2 * high, reach);
