@@ -16,6 +16,7 @@ struct MeshFormat {
     std::string name;                     ///< "msh22"
     std::vector<std::string> extensions;  ///< of its files, with the dot; each stands for the first format that has it
     std::string holds;                    ///< one line: what it is
+    bool readable = false;                ///< by read_mesh
 };
 
 /// All of them, in the order of the guide's table.

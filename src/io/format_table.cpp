@@ -15,10 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using FileList = std::vector<fs::path>;
-
-FileList itself(const fs::path& file) { return {file}; }
-
 /// A writer of one file from one that sends to a stream.
 template <auto write_to_stream>
 void write_file(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
@@ -40,6 +36,8 @@ void write_cgns_variant(const Mesh& mesh, const fs::path& file, const WriteOptio
     write_cgns(mesh, file, {adf, three_coordinates});
 }
 
+void write_openfoam_case(const Mesh& mesh, const fs::path& file, const WriteOptions&) { write_openfoam(mesh, file); }
+
 std::string lower_case(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
@@ -48,20 +46,27 @@ std::string lower_case(std::string text) {
 std::vector<Format> make_table() {
     std::vector<Format> table;
     const auto add = [&](const char* name, std::vector<std::string> extensions, const char* holds, auto write,
-                         auto read, auto targets) {
-        table.push_back({name, std::move(extensions), holds, write, read, targets});
+                         auto read, auto check) {
+        table.push_back({name, std::move(extensions), holds, write, read, check});
     };
     constexpr auto msh = read_file<read_msh>;
-    add("su2", {".su2"}, "SU2 native mesh, ASCII", write_file<write_su2>, read_file<read_su2>, itself);
-    add("cgns", {".cgns"}, "CGNS, HDF5", write_cgns_variant<false, false>, read_cgns, itself);
-    add("cgns-3d", {".cgns"}, "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>, read_cgns, itself);
-    add("cgns-adf", {".cgns"}, "CGNS, ADF", write_cgns_variant<true, false>, read_cgns, itself);
-    add("msh41", {".msh"}, "Gmsh MSH 4.1, ASCII", write_file<write_msh_variant<true, false>>, msh, itself);
-    add("msh41-binary", {".msh"}, "Gmsh MSH 4.1, binary", write_file<write_msh_variant<true, true>>, msh, itself);
-    add("msh22", {".msh"}, "Gmsh MSH 2.2, ASCII", write_file<write_msh_variant<false, false>>, msh, itself);
-    add("msh22-binary", {".msh"}, "Gmsh MSH 2.2, binary", write_file<write_msh_variant<false, true>>, msh, itself);
+    add("su2", {".su2"}, "SU2 native mesh, ASCII", write_file<write_su2>, read_file<read_su2>, check_folder_writable);
+    add("cgns", {".cgns"}, "CGNS, HDF5", write_cgns_variant<false, false>, read_cgns, check_folder_writable);
+    add("cgns-3d", {".cgns"}, "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>, read_cgns,
+        check_folder_writable);
+    add("cgns-adf", {".cgns"}, "CGNS, ADF", write_cgns_variant<true, false>, read_cgns, check_folder_writable);
+    add("msh41", {".msh"}, "Gmsh MSH 4.1, ASCII", write_file<write_msh_variant<true, false>>, msh,
+        check_folder_writable);
+    add("msh41-binary", {".msh"}, "Gmsh MSH 4.1, binary", write_file<write_msh_variant<true, true>>, msh,
+        check_folder_writable);
+    add("msh22", {".msh"}, "Gmsh MSH 2.2, ASCII", write_file<write_msh_variant<false, false>>, msh,
+        check_folder_writable);
+    add("msh22-binary", {".msh"}, "Gmsh MSH 2.2, binary", write_file<write_msh_variant<false, true>>, msh,
+        check_folder_writable);
     add("vtu", {".vtu"}, "VTK unstructured grid, raw binary, for ParaView", write_file<write_vtu>, read_file<read_vtu>,
-        itself);
+        check_folder_writable);
+    add("openfoam", {"polyMesh"}, "OpenFOAM polyMesh folder, ASCII, one cell thick", write_openfoam_case, read_openfoam,
+        check_openfoam_writable);
     return table;
 }
 
@@ -73,7 +78,8 @@ const std::vector<Format>& formats() {
 }
 
 const Format& format_of(const fs::path& file, const std::string& name) {
-    const std::string ending = lower_case(name.empty() ? file.filename().string() : "." + name);
+    const fs::path last = file.has_filename() ? file : file.parent_path();  // of "case/polyMesh/", too
+    const std::string ending = lower_case(name.empty() ? last.filename().string() : "." + name);
     const Format* found = nullptr;
     std::size_t longest = 0;
     std::string names;
@@ -84,7 +90,7 @@ const Format& format_of(const fs::path& file, const std::string& name) {
         for (const std::string& extension : format.extensions) {
             if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
                 extensions.push_back(extension);
-            if (ending.ends_with(extension) && extension.size() > longest) {
+            if (ending.ends_with(lower_case(extension)) && extension.size() > longest) {
                 found = &format;
                 longest = extension.size();
             }

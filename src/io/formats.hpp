@@ -16,7 +16,7 @@ namespace lamina::detail {
 /// A row of the table of formats: --format, the help text, the guide and the choice by extension all read it.
 struct Format {
     const char* name;
-    /// How names of files end, in lower case. The longest one that fits stands for its format, of several alike the
+    /// How names of files end, in whatever case. The longest one that fits stands for its format, of several alike the
     /// first in the table.
     std::vector<std::string> extensions;
     const char* holds;  ///< one line for the guide
@@ -24,8 +24,8 @@ struct Format {
     void (*write)(const Mesh&, const std::filesystem::path&, const WriteOptions&);
     /// Throws IoError, InputError; null where the format cannot be read.
     Mesh (*read)(const std::filesystem::path&);
-    /// What will stand there once `file` is written.
-    std::vector<std::filesystem::path> (*targets)(const std::filesystem::path& file);
+    /// Throws IoError where `file` can be seen now not to be writable.
+    void (*check)(const std::filesystem::path& file);
 };
 
 const std::vector<Format>& formats();
@@ -58,6 +58,14 @@ struct CgnsVariant {
 };
 void write_cgns(const Mesh& mesh, const std::filesystem::path& file, CgnsVariant variant);
 Mesh read_cgns(const std::filesystem::path& file);
+
+/// The patch of OpenFOAM's sides, and of others' that are one cell thick.
+inline constexpr const char* front_and_back = "frontAndBack";
+/// `file` itself where its name ends so, else the folder in a case of that name.
+std::filesystem::path poly_mesh_folder(const std::filesystem::path& file);
+void check_openfoam_writable(const std::filesystem::path& file);
+void write_openfoam(const Mesh& mesh, const std::filesystem::path& file);
+Mesh read_openfoam(const std::filesystem::path& file);
 
 /// Lower case, with the dot.
 std::string extension_of(const std::filesystem::path& file);

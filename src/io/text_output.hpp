@@ -41,8 +41,13 @@ public:
         *at_++ = ' ';
         return *this;
     }
-    /// Takes back the last blank, for what follows without one.
-    LineText& tight() {
+    /// A word without a blank behind it.
+    LineText& tight(std::string_view word) {
+        at_ += word.copy(at_, word.size());
+        return *this;
+    }
+    /// Takes back the last blank.
+    LineText& take_back() {
         --at_;
         return *this;
     }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <map>
 #include <random>
 #include <string>
 
@@ -22,22 +23,44 @@ using test::box_with_hole;
 using test::shuffled;
 using test::TemporaryFolder;
 
+/// A mesh is one file or several: each written in a folder of its own.
 class EveryFormat : public testing::TestWithParam<MeshFormat> {
 protected:
+    using Parts = std::map<std::filesystem::path, std::string>;  ///< name within the folder -> content
+
+    void SetUp() override {
+        if (!GetParam().readable) GTEST_SKIP() << "cannot be read here";
+    }
     void write(const Mesh& mesh, const std::string& name = "m") const {
-        write_mesh(mesh, path(name), {.format = GetParam().name});
+        std::filesystem::create_directory(folder_ / name);
+        write_mesh(path(name), mesh);
+    }
+    void write_mesh(const std::filesystem::path& file, const Mesh& mesh) const {
+        lamina::write_mesh(mesh, file, {.format = GetParam().name});
     }
     Mesh read(const std::string& name = "m") const { return read_mesh(path(name)); }
-    std::filesystem::path path(const std::string& name = "m") const {
-        return folder_ / (name + GetParam().extensions.front());
+    std::filesystem::path path(const std::string& name = "m") const { return folder_ / name / file_name(); }
+    std::string file_name() const {
+        const std::string extension = GetParam().extensions.front();
+        return extension.starts_with('.') ? "m" + extension : extension;
     }
-    std::string bytes(const std::string& name = "m") const {
-        return folder_.read(name + GetParam().extensions.front());
+    Parts parts(const std::string& name = "m") const {
+        Parts parts;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_ / name))
+            if (entry.is_regular_file()) {
+                const auto part = std::filesystem::relative(entry.path(), folder_.path());
+                parts[std::filesystem::relative(entry.path(), folder_ / name)] = folder_.read(part.string());
+            }
+        return parts;
     }
     /// The hash of what is read, empty where an InputError of one line is thrown.
-    std::string hash_or_complaint(const std::string& content) const {
-        std::filesystem::remove(path("damaged"));  // some file systems wait for the disk where a file is overwritten
-        std::ofstream(path("damaged"), std::ios::binary) << content;
+    std::string hash_or_complaint(const Parts& parts) const {
+        for (const auto& [part, content] : parts) {
+            const std::filesystem::path file = folder_ / "damaged" / part;
+            std::filesystem::create_directories(file.parent_path());
+            std::filesystem::remove(file);  // some file systems wait for the disk where a file is overwritten
+            std::ofstream(file, std::ios::binary) << content;
+        }
         try {
             const Mesh mesh = read("damaged");
             check_mesh(mesh);  // whatever was read can be looked at
@@ -80,6 +103,7 @@ TEST_P(EveryFormat, ComesBackAsItWas) {
         // Written once more, the file is the same.
         write(back, "again");
         EXPECT_EQ(mesh_hash(read("again")), mesh_hash(mesh));
+        EXPECT_EQ(parts().size(), parts("again").size());
     }
 }
 
@@ -88,30 +112,35 @@ TEST_P(EveryFormat, IsTheSameForAnyNumberOfThreads) {
     const Mesh mesh = annulus({.around = 500, .rings = 100, .layer_rings = 50, .quads_in_layer = true});
     with_threads(1, [&] { write(mesh, "one"); });
     with_threads(4, [&] { write(mesh, "four"); });
-    EXPECT_TRUE(bytes("one") == bytes("four"));
+    EXPECT_TRUE(parts("one") == parts("four"));
 }
 
 TEST_P(EveryFormat, LosesNothingInSilenceWhereItIsCutShort) {
     const Mesh mesh = annulus({.around = 4, .rings = 2, .layer_rings = 1, .quads_in_layer = true});
     write(mesh);
-    const std::string whole = bytes();
+    const Parts whole = parts();
     EXPECT_EQ(hash_or_complaint(whole), mesh_hash(mesh));
-    const std::size_t step = 1 + whole.size() / 3000;
-    for (std::size_t length = 0; length < whole.size(); length += step) {
-        const std::string hash = hash_or_complaint(whole.substr(0, length));
-        EXPECT_TRUE(hash.empty() || hash == mesh_hash(mesh)) << length;
-        EXPECT_TRUE(hash.empty() || length > whole.size() / 2) << length;
+    for (const auto& [part, content] : whole) {
+        const std::size_t step = 1 + content.size() / 1000;
+        Parts cut = whole;
+        for (std::size_t length = 0; length < content.size(); length += step) {
+            cut[part] = content.substr(0, length);
+            const std::string hash = hash_or_complaint(cut);
+            EXPECT_TRUE(hash.empty() || hash == mesh_hash(mesh)) << part << " " << length;
+            EXPECT_TRUE(hash.empty() || length > content.size() / 2) << part << " " << length;
+        }
     }
 }
 
 TEST_P(EveryFormat, SurvivesRandomDamage) {
     std::mt19937 random(7);
     write(annulus({.around = 6, .rings = 2, .layer_rings = 1, .quads_in_layer = true}));
-    const std::string whole = bytes();
+    const Parts whole = parts();
     // The CGNS library keeps damaged files open, up to its limit.
     const int trials = GetParam().name.starts_with("cgns") ? 30 : 1000;
     for (int trial = 0; trial < trials; ++trial) {
-        std::string damaged = whole;
+        Parts damaged_parts = whole;
+        std::string& damaged = std::next(damaged_parts.begin(), random() % damaged_parts.size())->second;
         for (unsigned hits = 1 + random() % 4; hits > 0; --hits) {
             const std::size_t at = random() % damaged.size();
             switch (random() % 5) {
@@ -131,24 +160,30 @@ TEST_P(EveryFormat, SurvivesRandomDamage) {
                     damaged.insert(at, damaged.substr(random() % damaged.size(), 1 + random() % 20));
             }
         }
-        hash_or_complaint(damaged);
+        hash_or_complaint(damaged_parts);
     }
 }
 
 TEST_P(EveryFormat, FailuresLeaveNothingBehind) {
     const Mesh mesh = annulus();
-    const std::string extension = GetParam().extensions.front();
     folder_.write("file", "");
-    std::filesystem::create_directory(folder_ / ("folder" + extension));
+    // A folder where the file should be, or a file where the folder should be.
+    std::filesystem::create_directory(folder_ / "taken");
+    if (path("taken").has_extension())
+        std::filesystem::create_directory(path("taken"));
+    else
+        std::ofstream(path("taken")) << "x";
     std::filesystem::create_directory(folder_ / "locked");
     std::filesystem::permissions(folder_ / "locked", std::filesystem::perms::owner_read);
-    std::vector<std::string> names{"none/m", "file/m", "folder"};
-    if (geteuid() != 0) names.push_back("locked/m");  // nothing is locked for root
+    std::vector<std::filesystem::path> unwritable{path("file"), path("taken")};
+    if (path().has_extension()) unwritable.push_back(path("none"));  // folders are made for a folder
+    if (geteuid() != 0) unwritable.push_back(path("locked"));        // nothing is locked for root
     const auto before = folder_.names();
-    for (const std::string& name : names) {
-        EXPECT_THROW(check_writable(path(name), {.format = GetParam().name}), IoError) << name;
-        EXPECT_THROW(write(mesh, name), IoError) << name;
-        EXPECT_THROW(read(name), IoError) << name;
+    for (const std::filesystem::path& file : unwritable) {
+        EXPECT_THROW(check_writable(file, {.format = GetParam().name}), IoError) << file;
+        EXPECT_THROW(write_mesh(file, mesh), IoError) << file;
+        EXPECT_THROW(read_mesh(file), IoError) << file;
+        EXPECT_EQ(parts("taken").size(), path("taken").has_extension() ? 0 : 1);
     }
     EXPECT_EQ(folder_.names(), before);
 }

@@ -1,0 +1,274 @@
+// Reads OpenFOAM's polyMesh, in ASCII, of a mesh one cell thick: prisms and hexahedra between two planes of constant z.
+// Source: OpenFOAM user guide, "Mesh description".
+//
+// The faces with all points in the lower plane are the cells; the other faces of patches stand on the edges of markers.
+// Points of the lower plane keep their order, cells that of their numbers. Patches of type empty make no markers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <lamina/error.hpp>
+
+#include "core/atomic_file.hpp"
+#include "io/formats.hpp"
+#include "io/mesh_parts.hpp"
+
+namespace lamina::detail {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The words of a file in OpenFOAM's syntax: brackets and semicolons stand alone, comments count as blanks.
+class FoamWords {
+public:
+    explicit FoamWords(const fs::path& file) : file_(file.string()), bytes_(read_whole_file(file)) {}
+
+    /// The next word; empty at the end.
+    std::string_view next() {
+        skip_blanks();
+        const std::size_t first = at_;
+        if (at_ < bytes_.size() && bytes_[at_] == '"') {
+            at_ = std::min(bytes_.find('"', at_ + 1), bytes_.size() - 1) + 1;
+        } else if (at_ < bytes_.size() && is_bracket(bytes_[at_])) {
+            ++at_;
+        } else {
+            while (at_ < bytes_.size() && !is_blank(bytes_[at_]) && !is_bracket(bytes_[at_])) ++at_;
+        }
+        return std::string_view(bytes_).substr(first, at_ - first);
+    }
+    void expect(std::string_view expected) {
+        if (const std::string_view word = next(); word != expected)
+            fail(fmt::format("'{}' expected, found '{}'", expected, word.substr(0, 30)));
+    }
+    template <class T>
+    T number(const char* what) {
+        const std::string_view word = next();
+        T value{};
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        if (word.empty() || error != std::errc{} || end != word.data() + word.size())
+            fail(fmt::format("{} expected, found '{}'", what, word.substr(0, 30)));
+        return value;
+    }
+    /// "N (", N refused where the rest of the file cannot hold as many.
+    std::size_t begin_list(const char* what) {
+        const auto n = number<std::size_t>(what);
+        if (n > bytes_.size() - at_) fail(fmt::format("{}: {}, but the file is shorter than that", what, n));
+        expect("(");
+        return n;
+    }
+    void end_list() {
+        expect(")");
+        if (!next().empty()) fail("something follows the list");
+    }
+    /// Skips "FoamFile { ... }" and demands ASCII.
+    void header(std::string_view type) {
+        expect("FoamFile");
+        expect("{");
+        for (std::string_view key; (key = next()) != "}";) {
+            const std::string_view value = next();
+            if (key.empty() || value.empty()) fail("the header does not end");
+            if (key == "format" && value != "ascii") fail("only ASCII can be read (foamFormatConvert makes it)");
+            if (key == "class" && value != type) fail(fmt::format("class {} expected", type));
+            expect(";");
+        }
+    }
+    [[noreturn]] void fail(const std::string& reason) const {
+        const auto line = 1 + std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
+        throw InputError({file_, static_cast<std::size_t>(line), {}}, reason);
+    }
+
+private:
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+    static bool is_bracket(char c) { return c == '(' || c == ')' || c == '{' || c == '}' || c == ';'; }
+    void skip_blanks() {
+        while (at_ < bytes_.size()) {
+            const std::string_view rest = std::string_view(bytes_).substr(at_);
+            if (is_blank(rest.front()))
+                ++at_;
+            else if (rest.starts_with("//"))
+                at_ = std::min(bytes_.find('\n', at_), bytes_.size());
+            else if (rest.starts_with("/*"))
+                at_ = std::min(bytes_.find("*/", at_ + 2), bytes_.size() - 2) + 2;
+            else
+                return;
+        }
+    }
+
+    std::string file_, bytes_;
+    std::size_t at_ = 0;
+};
+
+struct Patch {
+    std::string name, type;
+    std::size_t faces = 0, start = 0;
+};
+
+MarkerKind kind_of(const Patch& patch) {
+    if (patch.type == "wall") return MarkerKind::wall;
+    if (patch.type == "symmetry" || patch.type == "symmetryPlane") return MarkerKind::symmetry;
+    return kind_of_name(patch.name) == MarkerKind::far_field ? MarkerKind::far_field : MarkerKind::other;
+}
+
+class PolyMeshReader {
+public:
+    explicit PolyMeshReader(fs::path folder) : folder_(std::move(folder)) {}
+
+    Mesh read() {
+        read_points();
+        owner_ = read_cells("owner");
+        read_patches();
+        if (const std::size_t internal = read_cells("neighbour").size();
+            internal != (patches_.empty() ? owner_.size() : patches_.front().start))
+            throw InputError({(folder_ / "neighbour").string(), 0, {}},
+                             fmt::format("{} internal faces, but the first patch begins elsewhere", internal));
+        read_faces();
+        gather_cells();
+        return std::move(mesh_);
+    }
+
+private:
+    /// Points of the lower plane become vertices.
+    void read_points() {
+        FoamWords in(folder_ / "points");
+        in.header("vectorField");
+        const std::size_t n = in.begin_list("number of points");
+        std::vector<std::array<double, 3>> points(n);
+        for (auto& point : points) {
+            in.expect("(");
+            for (double& c : point) {
+                c = in.number<double>("coordinate");
+                if (!std::isfinite(c)) in.fail("coordinate is not a finite number");
+            }
+            in.expect(")");
+        }
+        in.end_list();
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (const auto& point : points) low = std::min(low, point[2]), high = std::max(high, point[2]);
+        vertex_.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto& [x, y, z] = points[i];
+            if (z != low && z != high)
+                in.fail(
+                    fmt::format("point {} lies between the planes z = {} and z = {}: the mesh is not one cell thick", i,
+                                low, high));
+            if (z == high) continue;
+            vertex_[i] = VertexId(mesh_.points.size());
+            mesh_.points.push_back({x, y});
+        }
+    }
+    /// One cell a face, of the file `owner` or `neighbour`.
+    std::vector<std::uint32_t> read_cells(const char* name) {
+        FoamWords in(folder_ / name);
+        in.header("labelList");
+        std::vector<std::uint32_t> cells(in.begin_list("number of faces"));
+        for (std::uint32_t& cell : cells) cell = in.number<std::uint32_t>("cell");
+        in.end_list();
+        return cells;
+    }
+    void read_patches() {
+        FoamWords in(folder_ / "boundary");
+        in.header("polyBoundaryMesh");
+        patches_.resize(in.begin_list("number of patches"));
+        for (Patch& patch : patches_) {
+            patch.name = in.next();
+            in.expect("{");
+            for (std::string_view key; (key = in.next()) != "}";) {
+                if (key == "type")
+                    patch.type = in.next();
+                else if (key == "nFaces")
+                    patch.faces = in.number<std::size_t>("nFaces");
+                else if (key == "startFace")
+                    patch.start = in.number<std::size_t>("startFace");
+                for (std::string_view rest; (rest = in.next()) != ";";)
+                    if (rest.empty()) in.fail("the patch does not end");
+            }
+            if (patch.start > owner_.size() || patch.faces > owner_.size() - patch.start)
+                in.fail(fmt::format("patch '{}' goes beyond the faces", patch.name));
+        }
+        in.end_list();
+        std::sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) { return a.start < b.start; });
+    }
+
+    void read_faces() {
+        FoamWords in(folder_ / "faces");
+        in.header("faceList");
+        const std::size_t n = in.begin_list("number of faces");
+        if (n != owner_.size()) in.fail(fmt::format("{} faces, but {} owners", n, owner_.size()));
+        const std::size_t boundary = patches_.empty() ? n : patches_.front().start;
+        std::size_t patch = 0;
+        for (std::size_t f = 0; f < n; ++f) {
+            const auto corners = in.number<std::size_t>("number of corners");
+            if (corners != 3 && corners != 4) in.fail(fmt::format("face {} has {} corners, not 3 or 4", f, corners));
+            in.expect("(");
+            VertexId v[4];
+            for (std::size_t k = 0; k < corners; ++k) {
+                const auto point = in.number<std::size_t>("point");
+                if (point >= vertex_.size()) in.fail(fmt::format("point {} where there are {}", point, vertex_.size()));
+                v[k] = vertex_[point];
+            }
+            in.expect(")");
+            if (f < boundary) continue;
+            while (patch < patches_.size() && f >= patches_[patch].start + patches_[patch].faces) ++patch;
+            if (patch == patches_.size() || f < patches_[patch].start)
+                in.fail(fmt::format("face {} is in no patch", f));
+            add_face(in, f, patches_[patch], v, corners);
+        }
+        in.end_list();
+    }
+    /// Outward normals: the lower plane's faces run clockwise, the lower edge of a side has its cell on the left.
+    void add_face(const FoamWords& in, std::size_t f, const Patch& patch, VertexId* v, std::size_t corners) {
+        const auto low = std::count_if(v, v + corners, [](VertexId vertex) { return vertex.valid(); });
+        if (low == static_cast<std::ptrdiff_t>(corners)) {
+            std::reverse(v, v + corners);
+            if (corners == 3)
+                triangles_.push_back({owner_[f], {{v[0], v[1], v[2]}}});
+            else
+                quads_.push_back({owner_[f], {{v[0], v[1], v[2], v[3]}}});
+        } else if (low != 0) {
+            std::size_t k = 0;
+            while (k < 4 && !(v[k].valid() && v[(k + 1) % 4].valid())) ++k;
+            if (low != 2 || corners != 4 || k == 4) in.fail(fmt::format("face {} does not stand on an edge", f));
+            if (patch.type == "empty") in.fail(fmt::format("face {} is in patch '{}', of type empty", f, patch.name));
+            if (mesh_.markers.empty() || mesh_.markers.back().name != patch.name)
+                mesh_.markers.push_back({patch.name, kind_of(patch), {}});
+            mesh_.markers.back().edges.push_back({v[k], v[(k + 1) % 4]});
+        }
+    }
+
+    void gather_cells() {
+        const auto by_number = [](const auto& a, const auto& b) { return a.first < b.first; };
+        std::stable_sort(triangles_.begin(), triangles_.end(), by_number);
+        std::stable_sort(quads_.begin(), quads_.end(), by_number);
+        for (const auto& [cell, triangle] : triangles_) mesh_.triangles.push_back(triangle);
+        for (const auto& [cell, quad] : quads_) mesh_.quads.push_back(quad);
+        // An internal face of either plane, or a missing one, shows in the number of cells.
+        const std::size_t cells = owner_.empty() ? 0 : std::size_t{1} + *std::max_element(owner_.begin(), owner_.end());
+        if (triangles_.size() + quads_.size() != cells)
+            throw InputError({folder_.string(), 0, {}},
+                             fmt::format("{} cells, but {} faces in the lower plane: the mesh is not one cell thick",
+                                         cells, triangles_.size() + quads_.size()));
+    }
+
+    fs::path folder_;
+    std::vector<VertexId> vertex_;  ///< of each point; invalid in the upper plane
+    std::vector<std::uint32_t> owner_;
+    std::vector<Patch> patches_;
+    std::vector<std::pair<std::uint32_t, Triangle>> triangles_;
+    std::vector<std::pair<std::uint32_t, Quad>> quads_;
+    Mesh mesh_;
+};
+
+}  // namespace
+
+Mesh read_openfoam(const fs::path& file) { return PolyMeshReader(poly_mesh_folder(file)).read(); }
+
+}  // namespace lamina::detail
