@@ -28,6 +28,27 @@ struct Triangulation {
 /// (Bowyer 1981, Watson 1981).
 Triangulation delaunay(std::span<const Point> points);
 
+/// Where a decomposition ends. It depends on these and on the points alone, never on the number of threads.
+struct DecompositionOptions {
+    unsigned depth = 6;                 ///< most cuts on the way to a piece
+    std::size_t leaf_vertices = 5'000;  ///< pieces of so few vertices are not cut further
+};
+
+struct DecompositionStats {
+    std::size_t pieces = 0;
+    std::size_t piece_vertices = 0;   ///< summed over pieces: vertices on paths count several times
+    std::size_t largest_piece = 0;    ///< vertices
+    std::size_t crossing_cuts = 0;    ///< cuts rejected because their path crossed a segment
+    std::size_t unbalanced_cuts = 0;  ///< cuts rejected because one part was larger than 0.75 of the whole
+    std::size_t uncut = 0;            ///< pieces that should have been cut further, but no cut would do
+};
+
+/// delaunay() on several threads: the points are divided along paths of Delaunay edges, the pieces triangulated by
+/// themselves. The same set of triangles as delaunay() gives; throws the same errors.
+/// Source: G. E. Blelloch, G. L. Miller, J. C. Hardwick, D. Talmor, Algorithmica 24 (1999); J. K. Pardue, thesis
+/// (2015), chapter 4.
+Triangulation parallel_delaunay(std::span<const Point> points, const DecompositionOptions& options = {});
+
 /// What is kept of a constrained triangulation, before holes are cut.
 enum class Keep {
     convex_hull,       ///< everything

@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
@@ -50,6 +51,34 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
     [[maybe_unused]] const std::size_t all = finished.load(std::memory_order_acquire);
     assert(all == workers);
     if (failure) std::rethrow_exception(failure);
+}
+
+void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g) {
+    std::exception_ptr f_failure, g_failure;
+    const auto guarded = [](const std::function<void()>& task, std::exception_ptr& failure) {
+        try {
+            task();
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    };
+    if (thread_count() == 1) {
+        guarded(f, f_failure);
+        guarded(g, g_failure);
+    } else {
+        // Said to the thread sanitizer as in parallel_for().
+        std::atomic<int> finished;
+        finished.store(0, std::memory_order_release);
+        const auto run = [&](const std::function<void()>& task, std::exception_ptr& failure) {
+            if (finished.load(std::memory_order_acquire) <= 1) guarded(task, failure);
+            finished.fetch_add(1, std::memory_order_release);
+        };
+        tbb::parallel_invoke([&] { run(f, f_failure); }, [&] { run(g, g_failure); });
+        [[maybe_unused]] const int both = finished.load(std::memory_order_acquire);
+        assert(both == 2);
+    }
+    if (f_failure) std::rethrow_exception(f_failure);
+    if (g_failure) std::rethrow_exception(g_failure);
 }
 
 void with_threads(unsigned threads, const std::function<void()>& f) {

@@ -23,6 +23,10 @@ auto parallel_blocks(std::size_t n, std::size_t grain, F&& f) {
     return results;
 }
 
+/// Runs f and g, at the same time where a thread is free. Where both throw, the exception of f is rethrown. Calls may
+/// nest: a task that divides itself calls this for its parts.
+void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g);
+
 /// Runs f with at most `threads` threads (0 = one for each core) in every parallel_for below it. More threads than
 /// cores are started if asked for.
 void with_threads(unsigned threads, const std::function<void()>& f);

@@ -347,6 +347,23 @@ double detail::incircle_after_filter(Point a, Point b, Point c, Point d) {
     return det != 0 ? det : break_tie({a, b, c, d});
 }
 
+double detail::flattened_turn_after_filter(Point pa, Point pb, Point pc, double cut) {
+    const Two a = two_diff(pa.x, cut), b = two_diff(pb.x, cut), c = two_diff(pc.x, cut);
+    const Two bt = two_diff(pb.y, pa.y), ct = two_diff(pc.y, pa.y);
+    std::array<std::int64_t, 5> i;
+    if (to_integers<5>({a, b, c, bt, ct}, i)) {
+        const Int128 aa = product(i[0], i[0]);
+        Sum256 det;
+        det.add_product(i[3], product(i[2], i[2]) - aa + product(i[4], i[4]));
+        det.add_product(i[4], aa - product(i[1], i[1]) - product(i[3], i[3]));
+        return det.sign();
+    }
+    const auto square = [](const Two& t) { return expansion(t) * expansion(t); };
+    const Expansion<8> aa = square(a);
+    const Expansion<24> b_height = square(b) + -aa + square(bt), c_height = square(c) + -aa + square(ct);
+    return (c_height * expansion(bt) + -(b_height * expansion(ct))).sign();
+}
+
 bool in_exact_range(Point p) { return in_exact_range(p.x) && in_exact_range(p.y); }
 
 double orient2d(Point a, Point b, Point c) { return detail::inline_orient2d(a, b, c); }

@@ -16,12 +16,16 @@ inline constexpr double epsilon = 0x1p-53;
 /// every product replaced by its magnitude and every difference of products by their sum.
 inline constexpr double orient2d_bound = (3 + 16 * epsilon) * epsilon;
 inline constexpr double incircle_bound = (10 + 96 * epsilon) * epsilon;
+inline constexpr double flattened_turn_bound = (9 + 96 * epsilon) * epsilon;
 
 /// orient2d() where the filter could not tell.
 double orient2d_after_filter(Point a, Point b, Point c);
 
 /// incircle_perturbed() where the filter could not tell: adaptive and exact stages, then the tie rule.
 double incircle_after_filter(Point a, Point b, Point c, Point d);
+
+/// flattened_turn() where the filter could not tell.
+double flattened_turn_after_filter(Point a, Point b, Point c, double cut);
 
 /// orient2d(), inline.
 inline double inline_orient2d(Point a, Point b, Point c) {
@@ -55,6 +59,23 @@ inline double inline_incircle_perturbed(Point a, Point b, Point c, Point d) {
     const RoundedIncircle rounded = rounded_incircle(a, b, c, d);
     if (rounded.certain()) return rounded.det;
     return incircle_after_filter(a, b, c, d);
+}
+
+/// The turn a, b, c of points lifted to the paraboloid x^2 + y^2 and projected along x, the paraboloid's axis standing
+/// at x = cut: (y, (x - cut)^2 + y^2) is the image of (x, y). > 0 if b is below the line through a and c, < 0 above,
+/// 0 on it. Only the sign is exact. Precondition: a.y < b.y < c.y.
+/// Heights are taken relative to that of a, and y from a.y: that adds a linear function of y, which turns nothing.
+inline double flattened_turn(Point a, Point b, Point c, double cut) {
+    const double as = a.x - cut, bs = b.x - cut, cs = c.x - cut;
+    const double bt = b.y - a.y, ct = c.y - a.y;
+    const double b_across = b.x - a.x, c_across = c.x - a.x;
+    const double left = bt * (c_across * (cs + as) + ct * ct);
+    const double right = ct * (b_across * (bs + as) + bt * bt);
+    const double det = left - right;
+    const double permanent = bt * (std::abs(c_across) * (std::abs(cs) + std::abs(as)) + ct * ct) +
+                             ct * (std::abs(b_across) * (std::abs(bs) + std::abs(as)) + bt * bt);
+    if (std::abs(det) > flattened_turn_bound * permanent) return det;
+    return flattened_turn_after_filter(a, b, c, cut);
 }
 
 }  // namespace lamina::detail

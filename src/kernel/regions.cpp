@@ -78,6 +78,17 @@ Marks mark_left_of_segments(std::span<const Segment> segments, const Tris& tris,
     return marks;
 }
 
+Marks mark_not_right_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count) {
+    const std::vector<Index> at_vertex = triangle_at_vertex(tris, point_count);
+    Marks marks = mark_all(tris);
+    std::vector<Index> front;
+    for (const Segment& s : segments) {
+        const Link right = find_edge(tris, at_vertex, s.b.value, s.a.value);
+        if (!right.is_border()) flood(tris, right.triangle(), 0, marks, front);
+    }
+    return marks;
+}
+
 void carve_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris, Marks& marks) {
     Index t = 0;
     while (t < tris.size() && tris[t].is_ghost()) ++t;

@@ -45,6 +45,9 @@ using Marks = std::vector<char>;
 
 /// What can be reached from the left of a segment without crossing a fixed edge. Precondition: segments are edges.
 Marks mark_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
+/// What cannot be reached from the right of a segment without crossing a fixed edge: the same, but quicker, where the
+/// segments bound a region all round. Precondition: segments are edges.
+Marks mark_not_right_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
 /// What cannot be reached from the outside of the hull without crossing a fixed edge.
 Marks mark_inside_segments(const Tris& tris);
 Marks mark_all(const Tris& tris);
