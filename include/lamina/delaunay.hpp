@@ -41,6 +41,7 @@ struct DecompositionStats {
     std::size_t crossing_cuts = 0;    ///< cuts rejected because their path crossed a segment
     std::size_t unbalanced_cuts = 0;  ///< cuts rejected because one part was larger than 0.75 of the whole
     std::size_t uncut = 0;            ///< pieces that should have been cut further, but no cut would do
+    std::size_t fallbacks = 0;        ///< regions triangulated in one piece because a piece could not be
 };
 
 /// delaunay() on several threads: the points are divided along paths of Delaunay edges, the pieces triangulated by

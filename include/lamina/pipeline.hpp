@@ -46,7 +46,8 @@ struct CaseOptions {
     double min_angle_deg = 20.7;
     SeparatorRule separators = SeparatorRule::equidistributed;
     double pieces_target = 50'000;
-    unsigned threads = 0;  ///< 0 = all cores; never changes the mesh
+    DecompositionOptions decomposition;  ///< of the layer
+    unsigned threads = 0;                ///< 0 = all cores; never changes the mesh
 };
 
 /// Wall-clock seconds of each stage.
@@ -68,6 +69,7 @@ struct MeshResult {
     std::vector<ThreadSeconds> refinement_threads;
     unsigned threads = 1;
     std::size_t layer_pieces = 0, inviscid_pieces = 0;
+    DecompositionStats decomposition;  ///< of the layer
     std::size_t surface_vertices = 0;
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     RefineStats refinement;                       ///< summed over pieces

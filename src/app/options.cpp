@@ -263,6 +263,13 @@ std::vector<Option> make_table() {
         of_case(&CaseOptions::separators)));
     add(real("pieces-target", "TRIANGLES", "triangles a piece, about", from_to(100, 1e9),
              of_case(&CaseOptions::pieces_target)));
+    const auto of_decomposition = [](auto DecompositionOptions::*member) {
+        return [member](auto& c) -> auto& { return c.options.decomposition.*member; };
+    };
+    add(count("decomposition-depth", "N", "most cuts on the way to a piece of the layer", from_to(0, 24),
+              of_decomposition(&DecompositionOptions::depth)));
+    add(count("leaf-vertices", "N", "pieces of the layer are cut down to about so many vertices", from_to(10, 1e9),
+              of_decomposition(&DecompositionOptions::leaf_vertices)));
 
     group = "Run";
     add(count("threads", "N", "threads, 0 = all cores; never changes the mesh", from_to(0, 1024),

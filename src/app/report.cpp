@@ -78,6 +78,15 @@ Json seconds_report(const StageSeconds& seconds, double write_seconds) {
             {"total", seconds.total + write_seconds}};
 }
 
+Json decomposition_report(const DecompositionStats& stats) {
+    return {{"pieces", stats.pieces},
+            {"piece_vertices", stats.piece_vertices},
+            {"largest_piece_vertices", stats.largest_piece},
+            {"rejected_cuts", {{"crossing", stats.crossing_cuts}, {"unbalanced", stats.unbalanced_cuts}}},
+            {"uncut_pieces", stats.uncut},
+            {"sequential_fallbacks", stats.fallbacks}};
+}
+
 Json threads_report(const std::vector<ThreadSeconds>& threads) {
     Json report = Json::array();
     for (const ThreadSeconds& thread : threads) report.push_back({{"busy", thread.busy}, {"idle", thread.idle}});
@@ -123,6 +132,7 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
             {"isotropic_triangles", triangles_in(result.mesh, Region::isotropic)},
             {"surface_vertices", result.surface_vertices},
             {"pieces", {{"layer", result.layer_pieces}, {"inviscid", result.inviscid_pieces}}},
+            {"decomposition", decomposition_report(result.decomposition)},
             {"layer_cells", layer_cells_report(result)},
             {"seconds", seconds_report(result.seconds, write_seconds)},
             {"thread_seconds", {{"refinement", threads_report(result.refinement_threads)}}},

@@ -62,8 +62,8 @@ public:
         // All vertices of the path between the edge's ends have to be on the other side of the edge.
         Point a = point(e.a), b = point(e.b);
         if (a.y > b.y) std::swap(a, b);
-        const auto first = std::partition_point(vertices_.begin(), vertices_.end(),
-                                                [&](Index v) { return point(v).y <= a.y; });
+        const auto first =
+            std::partition_point(vertices_.begin(), vertices_.end(), [&](Index v) { return point(v).y <= a.y; });
         for (auto v = first; v != vertices_.end() && point(*v).y < b.y; ++v) {
             const double turn = detail::inline_orient2d(a, b, point(*v));
             if (turn == 0 || !agree(turn < 0 ? Side::low : Side::high)) return Side::crossing;

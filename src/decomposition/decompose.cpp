@@ -102,8 +102,10 @@ std::optional<Halves> try_cut(const SortedPoints& sorted, Subdomain& subdomain, 
         halves.low.*order = std::move(subdomain.*order);
     };
     const auto deal_both = [&](auto&& is_low) {
-        deal_order(&Subdomain::by_x, [](Index i) { return i; }, is_low);
-        deal_order(&Subdomain::by_y, [&](Index i) { return sorted.y_rank[i]; }, is_low);
+        deal_order(
+            &Subdomain::by_x, [](Index i) { return i; }, is_low);
+        deal_order(
+            &Subdomain::by_y, [&](Index i) { return sorted.y_rank[i]; }, is_low);
     };
     if (axis == Axis::x)
         deal_both([=](Index i) { return i < rank_of_cut; });
@@ -126,8 +128,7 @@ bool is_leaf(const Subdomain& subdomain, const DecompositionOptions& options) {
 std::optional<Halves> cut_subdomain(const SortedPoints& sorted, Subdomain& subdomain, DecompositionStats& stats) {
     const std::span<const Point> points = sorted.points;
     const std::span<const Index> by_x = subdomain.by_x.all(), by_y = subdomain.by_y.all();
-    const bool wide =
-        points[by_x.back()].x - points[by_x.front()].x >= points[by_y.back()].y - points[by_y.front()].y;
+    const bool wide = points[by_x.back()].x - points[by_x.front()].x >= points[by_y.back()].y - points[by_y.front()].y;
     for (const Trial& trial : trials) {
         const Axis axis = wide == trial.across_longer ? Axis::x : Axis::y;
         if (std::optional<Halves> halves = try_cut(sorted, subdomain, axis, trial.share, stats)) return halves;

@@ -1,8 +1,8 @@
 // The points are lifted to the paraboloid that stands over the cut and projected along the direction across: the lower
 // hull of what is seen is the silhouette of the paraboloid's lower hull, a path of Delaunay edges.
 // Sources: G. E. Blelloch, G. L. Miller, J. C. Hardwick, D. Talmor, Design and implementation of a practical parallel
-// Delaunay algorithm, Algorithmica 24 (1999); C. Kadow, PhD thesis, Carnegie Mellon (2004); J. K. Pardue, thesis (2015),
-// 4.3; monotone chain: A. M. Andrew, Inf. Proc. Letters 9 (1979).
+// Delaunay algorithm, Algorithmica 24 (1999); C. Kadow, PhD thesis, Carnegie Mellon (2004); J. K. Pardue, thesis
+// (2015), 4.3; monotone chain: A. M. Andrew, Inf. Proc. Letters 9 (1979).
 //
 //        height                                   Only points near the cut can be on the hull. One point of each block
 //          |  o      o                            of the order along the cut, the one nearest to it, makes a rough

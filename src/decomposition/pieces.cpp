@@ -33,6 +33,7 @@ void add(DecompositionStats& sum, const DecompositionStats& stats) {
     sum.crossing_cuts += stats.crossing_cuts;
     sum.unbalanced_cuts += stats.unbalanced_cuts;
     sum.uncut += stats.uncut;
+    sum.fallbacks += stats.fallbacks;
 }
 
 /// The triangles inside a leaf's border, in the numbers of the input.
@@ -99,10 +100,11 @@ PiecewiseTriangulation join(Pieces pieces) {
 }
 
 PiecewiseTriangulation one_piece(std::vector<Triangle> triangles, std::size_t vertices) {
-    Pieces pieces;
-    pieces.stats = {.pieces = 1, .piece_vertices = vertices, .largest_piece = vertices};
-    pieces.triangles.push_back(std::move(triangles));
-    return join(std::move(pieces));
+    PiecewiseTriangulation result;
+    result.first = {0, triangles.size()};
+    result.triangles = std::move(triangles);
+    result.stats = {.pieces = 1, .piece_vertices = vertices, .largest_piece = vertices};
+    return result;
 }
 
 /// Whole sets in the two orders; nothing where the triangulation of all points by one kernel is called for: because
@@ -138,6 +140,7 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, cons
 
 PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std::span<const Segment> border,
                                              const DecompositionOptions& options) {
+    std::size_t fallbacks = 0;
     if (std::optional<SortedPoints> sorted = sort_for_cuts(points, options)) {
         std::vector<Index> place(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) place[sorted->original[i]] = static_cast<Index>(i);
@@ -148,9 +151,13 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std:
             return join(triangulate(*sorted, whole(*sorted, std::move(edges)), options));
         } catch (const InputError&) {
             // Segments that cross are named by their numbers in a piece. The whole set names them right.
+            fallbacks = 1;
         }
     }
-    return one_piece(constrained_delaunay(points, border, {.keep = Keep::left_of_segments}).triangles, points.size());
+    auto result =
+        one_piece(constrained_delaunay(points, border, {.keep = Keep::left_of_segments}).triangles, points.size());
+    result.stats.fallbacks = fallbacks;
+    return result;
 }
 
 }  // namespace lamina::decomposition

@@ -12,8 +12,6 @@ namespace lamina {
 
 namespace {
 
-constexpr std::uint32_t layer_piece = 0;
-
 std::vector<Marker> make_markers(const Pslg& pslg, const LayerEdges& edges, std::vector<Segment> far_field) {
     std::vector<Marker> markers;
     for (std::size_t i = 0; i < pslg.elements.size(); ++i)
@@ -24,8 +22,10 @@ std::vector<Marker> make_markers(const Pslg& pslg, const LayerEdges& edges, std:
 
 }  // namespace
 
-Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerCells layer_cells, Decoupling decoupling,
+Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerFill layer_fill, Decoupling decoupling,
               std::vector<Refinement> pieces) {
+    LayerCells& layer_cells = layer_fill.cells;
+    const std::size_t layer_pieces = layer_fill.pieces();
     const std::size_t layer_count = layer_cells.triangles.size(), quads = layer_cells.quads.size();
     std::vector<std::size_t> first_point(pieces.size() + 1, decoupling.points.size());
     std::vector<std::size_t> first_triangle(pieces.size() + 1, layer_count);
@@ -52,7 +52,10 @@ Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerCells layer_cells,
         return values;
     };
     mesh.region = of_cells(Region::layer, Region::isotropic);
-    mesh.piece = of_cells(layer_piece, layer_piece);
+    mesh.piece = of_cells(std::uint32_t{0}, std::uint32_t{0});
+    for (std::size_t i = 0; i < layer_pieces; ++i)
+        std::fill(mesh.piece.begin() + std::ptrdiff_t(layer_fill.first_triangle[i]),
+                  mesh.piece.begin() + std::ptrdiff_t(layer_fill.first_triangle[i + 1]), std::uint32_t(i));
     mesh.layer = std::move(layer_cells.triangle_layer);
     mesh.layer.resize(first_triangle.back(), 0);
     mesh.layer.insert(mesh.layer.end(), layer_cells.quad_layer.begin(), layer_cells.quad_layer.end());
@@ -68,7 +71,7 @@ Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerCells layer_cells,
                     const std::size_t v = piece.triangles[t].v[k].index();
                     target.v[k] = v < border.size() ? border[v] : VertexId{v + shift};
                 }
-                mesh.piece[first_triangle[i] + t] = static_cast<std::uint32_t>(i) + layer_piece + 1;
+                mesh.piece[first_triangle[i] + t] = static_cast<std::uint32_t>(layer_pieces + i);
             }
         }
     });

@@ -15,8 +15,9 @@ namespace lamina {
 
 /// Numbers border vertices as the decoupling did (walls, layer, separators) and the vertices added inside pieces by an
 /// exclusive scan over the pieces in their order. Layer triangles come first, then those of the pieces in their order,
-/// then the layer's quads. Consumes the pieces.
-Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerCells layer_cells, Decoupling decoupling,
+/// then the layer's quads. Pieces are numbered
+/// layer first. Consumes the pieces.
+Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerFill layer_fill, Decoupling decoupling,
               std::vector<Refinement> pieces);
 
 }  // namespace lamina

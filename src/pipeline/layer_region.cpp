@@ -33,9 +33,31 @@ LayerEdges layer_edges(const Layer& layer) {
     return result;
 }
 
-std::vector<Triangle> triangulate_layer(const Layer& layer, const LayerEdges& edges) {
+decomposition::PiecewiseTriangulation triangulate_layer(const Layer& layer, const LayerEdges& edges,
+                                                        const DecompositionOptions& options) {
     if (edges.region.empty()) return {};
-    return constrained_delaunay(layer.points, edges.region, {.keep = Keep::left_of_segments}).triangles;
+    // Where the layer is truncated to nothing, wall vertices are no part of it.
+    std::vector<char> used(layer.points.size(), 1);
+    for (const auto& wall : layer.walls)
+        for (VertexId v : wall) used[v.index()] = 0;
+    for (const Segment& s : edges.region) used[s.a.index()] = used[s.b.index()] = 1;
+    if (std::find(used.begin(), used.end(), 0) == used.end())
+        return decomposition::triangulate_in_pieces(layer.points, edges.region, options);
+
+    std::vector<Point> points;
+    std::vector<VertexId> whole, part(layer.points.size());
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (!used[i]) continue;
+        part[i] = VertexId{points.size()};
+        points.push_back(layer.points[i]);
+        whole.push_back(VertexId{i});
+    }
+    std::vector<Segment> region = edges.region;
+    for (Segment& s : region) s = {part[s.a.index()], part[s.b.index()]};
+    auto pieces = decomposition::triangulate_in_pieces(points, region, options);
+    for (Triangle& t : pieces.triangles)
+        for (VertexId& v : t.v) v = whole[v.index()];
+    return pieces;
 }
 
 namespace {
@@ -54,16 +76,20 @@ LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
 
 }  // namespace
 
-LayerCells fill_layer(const Layer& layer, const LayerEdges& edges, LayerTopology topology) {
-    switch (topology) {
-        case LayerTopology::delaunay:
-            break;
-        case LayerTopology::layered:
-            return connect_layer(layer, GridCells::split);
-        case LayerTopology::quads:
-            return connect_layer(layer, GridCells::whole);
+LayerFill fill_layer(const Layer& layer, const LayerEdges& edges, LayerTopology topology,
+                     const DecompositionOptions& options) {
+    LayerFill fill;
+    if (edges.region.empty()) return fill;
+    if (topology == LayerTopology::delaunay) {
+        auto triangulation = triangulate_layer(layer, edges, options);
+        fill.cells = cells_of(layer, std::move(triangulation.triangles));
+        fill.first_triangle = std::move(triangulation.first);
+        fill.decomposition = triangulation.stats;
+    } else {
+        fill.cells = connect_layer(layer, topology == LayerTopology::quads ? GridCells::whole : GridCells::split);
+        fill.first_triangle = {0, fill.cells.triangles.size()};
     }
-    return cells_of(layer, triangulate_layer(layer, edges));
+    return fill;
 }
 
 }  // namespace lamina

@@ -6,6 +6,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/layers.hpp>
 
+#include "decomposition/pieces.hpp"
 #include "layers/connect.hpp"
 
 namespace lamina {
@@ -19,10 +20,21 @@ struct LayerEdges {
 };
 LayerEdges layer_edges(const Layer& layer);
 
-/// The cells between walls and outer borders, in the topology asked for.
-LayerCells fill_layer(const Layer& layer, const LayerEdges& edges, LayerTopology topology);
+/// The cells between walls and outer borders, piece by piece.
+struct LayerFill {
+    LayerCells cells;
+    std::vector<std::size_t> first_triangle;  ///< of each piece, and the end; empty where there is no layer
+    DecompositionStats decomposition;         ///< of Delaunay layers
 
-/// Constrained Delaunay triangles of the layer's points between walls and outer borders.
-std::vector<Triangle> triangulate_layer(const Layer& layer, const LayerEdges& edges);
+    std::size_t pieces() const { return first_triangle.empty() ? 0 : first_triangle.size() - 1; }
+};
+
+/// In the topology asked for; only that of triangles is made in several pieces.
+LayerFill fill_layer(const Layer& layer, const LayerEdges& edges, LayerTopology topology,
+                     const DecompositionOptions& options);
+
+/// Constrained Delaunay triangles of the layer's points between walls and outer borders, in pieces.
+decomposition::PiecewiseTriangulation triangulate_layer(const Layer& layer, const LayerEdges& edges,
+                                                        const DecompositionOptions& options);
 
 }  // namespace lamina

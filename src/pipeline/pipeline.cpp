@@ -115,7 +115,7 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     seconds.layers = clock.lap();
 
     clock.begin("layer triangulation");
-    LayerCells layer_cells = fill_layer(layer, edges, options.layer.topology);
+    LayerFill layer_fill = fill_layer(layer, edges, options.layer.topology, options.decomposition);
     seconds.layer_triangulation = clock.lap();
 
     clock.begin("sizing");
@@ -133,12 +133,13 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     clock.begin("assembly");
     result.refinement_threads = std::move(refined.threads);
     result.threads = thread_count();
-    result.layer_pieces = edges.region.empty() ? 0 : 1;
+    result.layer_pieces = layer_fill.pieces();
+    result.decomposition = layer_fill.decomposition;
     result.inviscid_pieces = refined.pieces.size();
     for (const Refinement& piece : refined.pieces) add(result.refinement, piece.stats);
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
     result.layer_coverage = layer.coverage;
-    result.mesh = assemble(pslg, edges, std::move(layer_cells), std::move(decoupling), std::move(refined.pieces));
+    result.mesh = assemble(pslg, edges, std::move(layer_fill), std::move(decoupling), std::move(refined.pieces));
     seconds.assembly = clock.lap();
 
     clock.begin("check");

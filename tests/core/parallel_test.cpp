@@ -54,6 +54,42 @@ TEST(ParallelFor, ThrowsTheFailureOfTheLowestBlock) {
         }
 }
 
+TEST(ParallelInvoke, RunsBothAndNests) {
+    for (const unsigned threads : {1u, 4u})
+        with_threads(threads, [&] {
+            std::atomic<int> leaves = 0;
+            const std::function<void(int)> divide = [&](int depth) {
+                if (depth == 0)
+                    ++leaves;
+                else
+                    parallel_invoke([&] { divide(depth - 1); }, [&] { divide(depth - 1); });
+            };
+            divide(10);
+            EXPECT_EQ(leaves, 1024);
+        });
+}
+
+TEST(ParallelInvoke, RethrowsTheFirst) {
+    for (int repeat = 0; repeat < 50; ++repeat)
+        for (const unsigned threads : {1u, 4u}) {
+            std::string caught;
+            bool both = false;
+            try {
+                with_threads(threads, [&] {
+                    parallel_invoke([] { throw std::runtime_error("f"); },
+                                    [&] {
+                                        both = true;
+                                        throw std::runtime_error("g");
+                                    });
+                });
+            } catch (const std::runtime_error& error) {
+                caught = error.what();
+            }
+            EXPECT_EQ(caught, "f");
+            EXPECT_TRUE(both);
+        }
+}
+
 TEST(ParallelBlocks, ComeInOrder) {
     with_threads(4, [&] {
         const auto first = parallel_blocks(1000, 7, [](std::size_t begin, std::size_t) { return begin; });

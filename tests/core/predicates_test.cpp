@@ -1,4 +1,4 @@
-// The predicates against exact integer arithmetic on adversarial points: 1.2 million quadruples.
+// The predicates against exact integer arithmetic on adversarial points: 1.4 million quadruples.
 #include <lamina/predicates.hpp>
 
 #include <algorithm>
@@ -73,6 +73,14 @@ int exact_incircle(const std::array<IntegerPoint, 4>& p) {
     const Integer det = lift[0] * (x[1] * y[2] - y[1] * x[2]) + lift[1] * (x[2] * y[0] - y[2] * x[0]) +
                         lift[2] * (x[0] * y[1] - y[0] * x[1]);
     return sign_of(det);
+}
+
+// The turn of a, b, c seen along x over the cut at d.x.
+int exact_flattened_turn(const std::array<IntegerPoint, 4>& p) {
+    const auto height = [&](const IntegerPoint& q) -> Integer { return (q.x - p[3].x) * (q.x - p[3].x) + q.y * q.y; };
+    const Integer left = (p[1].y - p[0].y) * (height(p[2]) - height(p[0]));
+    const Integer right = (p[2].y - p[0].y) * (height(p[1]) - height(p[0]));
+    return left.compare(right);
 }
 
 // The tie rule with numbers instead of infinitesimals: small integer points are lifted, the heights lowered by
@@ -186,6 +194,18 @@ Quadruple symmetric(Random& random) {
     return p;
 }
 
+// Points on a circle whose centre lies on the cut through the fourth: their images lie on a line before the nudges.
+Quadruple centred_on_cut(Random& random) {
+    const std::array<Point, 8> circle{Point{3, 4}, {4, 3}, {5, 0}, {4, -3}, {-3, 4}, {-5, 0}, {0, 5}, {0, -5}};
+    const double scale = std::ldexp(random.scale(), random.integer(-3, 3));
+    const Point center = random.integer(0, 1) ? Point{} : Point{8 * scale, 1024 * scale};
+    Quadruple p;
+    for (Point& q : p) q = center + scale * circle[static_cast<std::size_t>(random.integer(0, 7))];
+    p[3].x = center.x;
+    if (random.integer(0, 1)) p[2] = random.nudged(p[2], 1);
+    return p;
+}
+
 // Every coordinate of its own magnitude, anywhere in the range, now and then shared or 0.
 Quadruple mixed_magnitudes(Random& random) {
     const auto coordinate = [&] {
@@ -215,7 +235,18 @@ struct Tally {
     int wrong = 0;
     int filter_failures = 0;
     int ties = 0;
+    int flat_ties = 0;
 };
+
+// Of the first three points in ascending order of y, over a cut through the fourth.
+bool flattened_turn_right(Quadruple p, Tally& tally) {
+    std::sort(p.begin(), p.begin() + 3, [](Point a, Point b) { return a.y < b.y; });
+    if (p[0].y == p[1].y || p[1].y == p[2].y) return true;
+    const int turn = exact_flattened_turn(to_integers(p));
+    tally.flat_ties += turn == 0;
+    return sign_of(detail::flattened_turn(p[0], p[1], p[2], p[3].x)) == turn &&
+           sign_of(detail::flattened_turn_after_filter(p[0], p[1], p[2], p[3].x)) == turn;
+}
 
 template <class Generator>
 Tally compare(Generator generate, int cases, std::uint64_t seed) {
@@ -226,11 +257,11 @@ Tally compare(Generator generate, int cases, std::uint64_t seed) {
         const std::array<IntegerPoint, 4> q = to_integers(p);
         const int turn = exact_orient2d(q[0], q[1], q[2]), inside = exact_incircle(q);
         const int perturbed = sign_of(incircle_perturbed(p[0], p[1], p[2], p[3]));
-        const bool right = sign_of(orient2d(p[0], p[1], p[2])) == turn &&
-                           sign_of(incircle(p[0], p[1], p[2], p[3])) == inside &&
-                           (inside == 0 || perturbed == inside) &&
-                           sign_of(detail::incircle_after_filter(p[0], p[1], p[2], p[3])) == perturbed &&
-                           sign_of(detail::orient2d_after_filter(p[0], p[1], p[2])) == turn;
+        const bool right =
+            sign_of(orient2d(p[0], p[1], p[2])) == turn && sign_of(incircle(p[0], p[1], p[2], p[3])) == inside &&
+            (inside == 0 || perturbed == inside) &&
+            sign_of(detail::incircle_after_filter(p[0], p[1], p[2], p[3])) == perturbed &&
+            sign_of(detail::orient2d_after_filter(p[0], p[1], p[2])) == turn && flattened_turn_right(p, tally);
         if (!right && tally.wrong++ == 0)
             ADD_FAILURE() << std::hexfloat << p[0].x << ' ' << p[0].y << "  " << p[1].x << ' ' << p[1].y << "  "
                           << p[2].x << ' ' << p[2].y << "  " << p[3].x << ' ' << p[3].y << ": orient2d should be "
@@ -255,6 +286,7 @@ TEST(Predicates, Lattice) {
     const Tally tally = compare(lattice, cases, 3);
     EXPECT_EQ(tally.wrong, 0);
     EXPECT_GT(tally.ties, cases / 40);
+    EXPECT_GT(tally.flat_ties, 100);
 }
 
 TEST(Predicates, Symmetric) {
@@ -262,6 +294,12 @@ TEST(Predicates, Symmetric) {
     EXPECT_EQ(tally.wrong, 0);
     EXPECT_GT(tally.ties, cases / 3);
     EXPECT_GT(tally.filter_failures, tally.ties);
+}
+
+TEST(Predicates, CentredOnCut) {
+    const Tally tally = compare(centred_on_cut, cases, 9);
+    EXPECT_EQ(tally.wrong, 0);
+    EXPECT_GT(tally.flat_ties, cases / 20);
 }
 
 TEST(Predicates, MixedMagnitudes) {

@@ -1,0 +1,99 @@
+// Layers in pieces: the triangles of the layer in one piece, whatever the depth.
+#include <gtest/gtest.h>
+
+#include <lamina/geometry.hpp>
+#include <lamina/layers.hpp>
+
+#include "core/parallel.hpp"
+#include "pipeline/layer_region.hpp"
+#include "support/point_sets.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina::test {
+namespace {
+
+using decomposition::PiecewiseTriangulation;
+
+LayerOptions layers(std::uint32_t count) {
+    LayerOptions options;
+    options.first_height = 1e-5;
+    options.growth = 1.1;
+    options.layers = count;
+    return options;
+}
+
+Pslg naca(const std::string& digits, std::size_t points) {
+    Pslg pslg;
+    pslg.elements.push_back(naca_airfoil(digits, points));
+    return pslg;
+}
+
+Element placed(Element element, double scale, double angle, Point at) {
+    element.points = shapes::moved(element.points, angle, scale, at);
+    return element;
+}
+
+/// Slat, main element and flap, with narrow slots between them.
+Pslg three_element(std::size_t points) {
+    Pslg pslg;
+    pslg.elements.push_back(placed(naca_airfoil("4412", points), 0.18, -0.5, {-0.15, -0.09}));
+    pslg.elements.push_back(placed(naca_airfoil("4415", points), 1.0, 0.0, {0, 0}));
+    pslg.elements.push_back(placed(naca_airfoil("4412", points), 0.35, -0.55, {0.985, -0.045}));
+    return pslg;
+}
+
+enum class Balance { demanded, whatever };
+
+/// Balance: at depth 6 nearly all cuts are made, and the largest piece has at most twice the mean number of vertices.
+void expect_same_at_every_depth(const std::string& name, const Layer& layer, Balance balance) {
+    const LayerEdges edges = layer_edges(layer);
+    const auto expected =
+        canonical(constrained_delaunay(layer.points, edges.region, {.keep = Keep::left_of_segments}).triangles);
+    for (unsigned depth = 0; depth <= 7; ++depth) {
+        const PiecewiseTriangulation t = triangulate_layer(layer, edges, {.depth = depth, .leaf_vertices = 10});
+        ASSERT_EQ(canonical(t.triangles), expected) << name << ", depth " << depth;
+        EXPECT_EQ(t.stats.fallbacks, 0u) << name << ", depth " << depth;
+        EXPECT_GE(t.stats.pieces, (std::size_t{1} << depth) * 3 / 4) << name << ", depth " << depth;
+        if (depth != 6 || balance == Balance::whatever) continue;
+        EXPECT_GE(t.stats.pieces, 60u) << name;
+        EXPECT_LE(t.stats.largest_piece * t.stats.pieces, 2 * t.stats.piece_vertices) << name;
+    }
+}
+
+TEST(LayerDecomposition, Naca0012) {
+    expect_same_at_every_depth("30 layers", make_layer(naca("0012", 2000), layers(30)), Balance::demanded);
+    expect_same_at_every_depth("60 layers", make_layer(naca("0012", 2000), layers(60)), Balance::demanded);
+}
+
+TEST(LayerDecomposition, Cambered) {
+    expect_same_at_every_depth("4415", make_layer(naca("4415", 1000), layers(40)), Balance::demanded);
+}
+
+TEST(LayerDecomposition, ThreeElements) {
+    expect_same_at_every_depth("three", make_layer(three_element(1000), layers(40)), Balance::demanded);
+}
+
+TEST(LayerDecomposition, Shapes) {
+    LayerOptions options = layers(20);
+    options.first_height = 1e-4;
+    using namespace shapes;
+    expect_same_at_every_depth("box", make_layer(pslg({refined(box(), 40)}), options), Balance::whatever);
+    expect_same_at_every_depth("circle", make_layer(pslg({circle(1, 200)}), options), Balance::whatever);
+    expect_same_at_every_depth("l", make_layer(pslg({refined(l_shape(), 40)}), options), Balance::whatever);
+    expect_same_at_every_depth("c", make_layer(pslg({refined(c_shape(0.1), 40)}), options), Balance::whatever);
+    expect_same_at_every_depth("notch", make_layer(pslg({refined(v_notch(0.4), 40)}), options), Balance::whatever);
+    expect_same_at_every_depth("comb", make_layer(pslg({refined(comb(5, 0.1), 40)}), options), Balance::whatever);
+    expect_same_at_every_depth("joukowski", make_layer(pslg({joukowski(0.1, 0.05, 400)}), options), Balance::whatever);
+    expect_same_at_every_depth("plate", make_layer(pslg({refined(plate(0.02, 20), 4)}), options), Balance::whatever);
+}
+
+TEST(LayerDecomposition, LayersTruncatedToNothing) {
+    // Walls so close that nothing fits between them: wall vertices there are no part of the layer.
+    LayerOptions options = layers(20);
+    options.first_height = 1e-2;
+    using namespace shapes;
+    expect_same_at_every_depth("comb", make_layer(pslg({refined(comb(4, 0.01), 20)}), options), Balance::whatever);
+}
+
+}  // namespace
+}  // namespace lamina::test
