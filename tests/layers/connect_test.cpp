@@ -93,7 +93,7 @@ void expect_cover(const Layer& layer, const LayerEdges& edges, const LayerCells&
     EXPECT_NEAR(area, enclosed, 1e-13 * magnitude);
     // V - E + F is that of the region, whatever fills it.
     const std::size_t undirected = (directed.size() + boundary.size()) / 2;
-    const LayerCells delaunay = fill_layer(layer, edges, LayerTopology::delaunay);
+    const LayerCells delaunay = fill_layer(layer, edges, LayerTopology::delaunay).cells;
     const std::size_t delaunay_edges = (3 * delaunay.triangles.size() + boundary.size()) / 2;
     EXPECT_EQ(count + delaunay_edges, delaunay.triangles.size() + undirected);
 }
@@ -126,7 +126,7 @@ void expect_connected(const Pslg& pslg, const LayerOptions& options) {
     const LayerEdges edges = layer_edges(layer);
     for (LayerTopology topology : topologies) {
         SCOPED_TRACE(static_cast<int>(topology));
-        const LayerCells cells = fill_layer(layer, edges, topology);
+        const LayerCells cells = fill_layer(layer, edges, topology).cells;
         expect_cover(layer, edges, cells);
         if (topology != LayerTopology::delaunay) expect_rows(layer, cells);
         if (topology != LayerTopology::quads) {
@@ -179,7 +179,7 @@ TEST(Connect, NothingWithoutLayers) {
     options.enabled = false;
     const Layer layer = make_layer(shapes::pslg({shapes::box()}), options);
     for (LayerTopology topology : topologies) {
-        const LayerCells cells = fill_layer(layer, layer_edges(layer), topology);
+        const LayerCells cells = fill_layer(layer, layer_edges(layer), topology).cells;
         EXPECT_TRUE(cells.triangles.empty() && cells.quads.empty());
     }
 }
@@ -209,7 +209,7 @@ TEST(Connect, GentleCurvatureHasTheRowsOfTheDelaunayTriangulation) {
     for (const Outline& outline : {shapes::circle(0.5, 300), shapes::ellipse(1, 0.6, 600)}) {
         const Layer layer = make_layer(shapes::pslg({outline}), options);
         ASSERT_EQ(divided_tops(layer), 0u);
-        const LayerCells delaunay = fill_layer(layer, layer_edges(layer), LayerTopology::delaunay);
+        const LayerCells delaunay = fill_layer(layer, layer_edges(layer), LayerTopology::delaunay).cells;
         const LayerCells layered = connect_layer(layer, GridCells::split);
         expect_rows(layer, delaunay);
         auto a = delaunay.triangle_layer, b = layered.triangle_layer;
@@ -328,7 +328,7 @@ struct Corner {
     void expect_sound() const {
         const LayerEdges edges = layer_edges(layer);
         for (LayerTopology topology : {LayerTopology::layered, LayerTopology::quads}) {
-            const LayerCells cells = fill_layer(layer, edges, topology);
+            const LayerCells cells = fill_layer(layer, edges, topology).cells;
             expect_cover(layer, edges, cells);
             expect_rows(layer, cells);
         }
