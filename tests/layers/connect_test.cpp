@@ -382,7 +382,7 @@ TEST(Connect, DividedStepsAreCutWithTheCellBelow) {
     const double fan = std::max(largest_angle(layer, VertexId(5), VertexId(layer.points.size() - 1), VertexId(7)),
                                 largest_angle(layer, VertexId(5), VertexId(4), VertexId(8)));
     for (LayerTopology topology : {LayerTopology::layered, LayerTopology::quads}) {
-        const LayerCells cells = fill_layer(layer, layer_edges(layer), topology);
+        const LayerCells cells = fill_layer(layer, layer_edges(layer), topology).cells;
         expect_cover(layer, layer_edges(layer), cells);
         expect_rows(layer, cells);
         double flattest = 0;
