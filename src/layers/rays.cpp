@@ -11,6 +11,12 @@ namespace {
 
 /// Slack on the number of steps, so that an angle of exactly the limit is not divided.
 constexpr double step_slack = 1e-9;
+/// Rays may meet from so many times the height of the layers on: they end at 0.45 of the way to where they meet.
+constexpr double clearance = 2.25;
+/// Layers thicker than this share of the outline's length do not make its rays lean further.
+constexpr double thickest_share = 0.05;
+/// Degrees that a ray may lean to either side of the bisector, and be off the normals of both edges.
+constexpr double largest_lean = 45, farthest_from_normal = 65;
 
 Point rotated(Point a, double angle) {
     const double c = cos_reproducible(angle), s = sin_reproducible(angle);
@@ -25,12 +31,12 @@ std::size_t steps_for(double angle, double limit) {
 
 /// What surrounds one vertex of the body.
 struct Corner {
-    double turning;      ///< > 0 where the body is convex
-    Point before;        ///< outward normal of the edge that arrives
-    Point after;         ///< ... of the edge that leaves
-    Point bisector;      ///< outward
-    bool fan;            ///< several rays
-    std::size_t spread;  ///< steps from `before` to `after`
+    double turning;    ///< > 0 where the body is convex
+    Point before;      ///< outward normal of the edge that arrives
+    Point after;       ///< ... of the edge that leaves
+    Point bisector;    ///< outward
+    bool fan;          ///< several rays, from `before` to `after`; else one, the bisector
+    double lean[2]{};  ///< radians that the first and the last ray lean, for the sake of concavities
 };
 
 /// The sum of the two normals vanishes as the edges fold onto each other; the difference of the tangents does not.
@@ -47,30 +53,79 @@ std::vector<Corner> make_corners(std::span<const Point> body, const LayerOptions
         const Point after = unit(body[(i + 1) % n] - body[i]);
         const double turning = angle_between(before, after);
         const bool fan = options.corners == Corners::fan && turning > radians(sharp_corner_deg);
-        corners[i] = {turning,
-                      -perpendicular(before),
-                      -perpendicular(after),
-                      bisector(before, after, turning),
-                      fan,
-                      fan ? steps_for(turning, radians(options.max_ray_angle_deg)) : 0};
+        corners[i] = {turning, -perpendicular(before), -perpendicular(after), bisector(before, after, turning), fan};
         before = after;
     }
     return corners;
 }
 
+/// Of one body, the height within which its rays should not meet.
+double height_to_keep_clear(std::span<const Point> body, const LayerOptions& options) {
+    double perimeter = 0;
+    for (std::size_t i = 0; i < body.size(); ++i) perimeter += distance(body[i], body[(i + 1) % body.size()]);
+    const double asked = std::min(layer_height(options, options.layers), options.thickness.value_or(HUGE_VAL));
+    return std::min(asked, thickest_share * perimeter);
+}
+
+/// Rays that leave a concave corner or a noisy stretch by the bisectors meet at once. Here they may turn towards each
+/// other by no more than 1 in (clearance x height of the layers) along the wall; what the wall turns more than that is
+/// spread over the rays on both sides, which lean out of the corner.
+///
+/// Let a(s) be the rays' angle along the wall. The least function above a that falls nowhere faster than allowed turns
+/// too late by `late`, the greatest one below it too early by `early`; their mean falls nowhere faster either, is a
+/// itself where a is good, and treats both directions of the wall alike.
+void lean_in_concavities(std::span<const Point> body, const LayerOptions& options, std::vector<Corner>& corners) {
+    if (std::none_of(corners.begin(), corners.end(), [](const Corner& c) { return c.turning < 0; })) return;
+    /// A ray, or the first or last one of a fan.
+    struct End {
+        double* lean;
+        double most;               ///< it may lean
+        double turning, distance;  ///< of the rays and along the wall to the next one
+    };
+    std::vector<End> ends;
+    for (std::size_t i = 0; i < body.size(); ++i) {
+        const std::size_t next = (i + 1) % body.size();
+        Corner &corner = corners[i], &after = corners[next];
+        const double room = radians(farthest_from_normal) - 0.5 * std::abs(corner.turning);
+        const double most = std::clamp(corner.fan ? 0.25 * corner.turning : room, 0.0, radians(largest_lean));
+        if (corner.fan) ends.push_back({&corner.lean[0], most, corner.turning, 0});
+        const double turning = 0.5 * ((corner.fan ? 0 : corner.turning) + (after.fan ? 0 : after.turning));
+        ends.push_back({&corner.lean[corner.fan], most, turning, distance(body[i], body[next])});
+    }
+
+    const std::size_t n = ends.size();
+    const double steepest = 1 / (clearance * height_to_keep_clear(body, options));
+    const auto rise = [&](std::size_t i) { return ends[i].turning + steepest * ends[i].distance; };
+    std::vector<double> late(n, 0.0), early(n, 0.0);
+    // Twice round: what the first round brings to its start goes on in the second.
+    for (std::size_t k = 0; k < 2 * n; ++k) {
+        const std::size_t i = k % n, j = n - 1 - i;
+        late[(i + 1) % n] = std::max(0.0, late[i] - rise(i));
+        early[j] = std::max(0.0, early[(j + 1) % n] - rise(j));
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        *ends[i].lean = std::clamp(0.5 * (late[i] - early[i]), -ends[i].most, ends[i].most);
+    for (Corner& corner : corners)
+        if (!corner.fan) corner.lean[1] = corner.lean[0];
+}
+
+Point leaning(Point direction, double lean) { return lean == 0 ? direction : unit(rotated(direction, lean)); }
+
+Point first_direction(const Corner& c) { return leaning(c.fan ? c.before : c.bisector, c.lean[0]); }
+Point last_direction(const Corner& c) { return leaning(c.fan ? c.after : c.bisector, c.lean[1]); }
+
 /// The fan is turned out of the bisector, not from one side to the other, so that mirrored input gives mirrored rays.
-void add_vertex_rays(Point vertex, const Corner& corner, std::vector<RayLine>& rays) {
-    if (!corner.fan) {
-        rays.push_back({vertex, corner.bisector});
-        return;
+void add_vertex_rays(Point vertex, const Corner& corner, double limit, std::vector<RayLine>& rays) {
+    rays.push_back({vertex, first_direction(corner)});
+    if (!corner.fan) return;
+    const double half = 0.5 * (corner.turning + corner.lean[1] - corner.lean[0]);
+    const double middle = 0.5 * (corner.lean[0] + corner.lean[1]);
+    const std::size_t spread = steps_for(2 * half, limit);
+    for (std::size_t k = 1; k < spread; ++k) {
+        const double share = (2.0 * static_cast<double>(k) - static_cast<double>(spread)) / static_cast<double>(spread);
+        rays.push_back({vertex, unit(rotated(corner.bisector, middle + share * half))});
     }
-    rays.push_back({vertex, corner.before});
-    for (std::size_t k = 1; k < corner.spread; ++k) {
-        const double share = (2.0 * static_cast<double>(k) - static_cast<double>(corner.spread)) /
-                             (2.0 * static_cast<double>(corner.spread));
-        rays.push_back({vertex, unit(rotated(corner.bisector, share * corner.turning))});
-    }
-    rays.push_back({vertex, corner.after});
+    rays.push_back({vertex, last_direction(corner)});
 }
 
 /// Angles are measured from the edge's own normal, on either side of which every ray stays within 90 degrees.
@@ -98,16 +153,16 @@ std::vector<std::size_t> RaySet::following() const {
 }
 
 std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& options) {
-    const std::vector<Corner> corners = make_corners(body, options);
+    std::vector<Corner> corners = make_corners(body, options);
+    lean_in_concavities(body, options, corners);
     const double limit = radians(options.max_ray_angle_deg);
     std::vector<RayLine> rays;
     rays.reserve(2 * body.size());
     for (std::size_t i = 0; i < body.size(); ++i) {
         const std::size_t next = (i + 1) % body.size();
-        add_vertex_rays(body[i], corners[i], rays);
-        const Corner& end = corners[next];
-        add_refining_rays(body[i], body[next], corners[i].after, rays.back().direction,
-                          end.fan ? end.before : end.bisector, limit, rays);
+        add_vertex_rays(body[i], corners[i], limit, rays);
+        add_refining_rays(body[i], body[next], corners[i].after, rays.back().direction, first_direction(corners[next]),
+                          limit, rays);
     }
     return rays;
 }

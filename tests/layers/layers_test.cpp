@@ -243,8 +243,8 @@ TEST(Layer, ThinsInAVNotchAndRecovers) {
         return layer.points[ray.origin.index()] == Point{2, 0.2};
     });
     ASSERT_NE(bottom, layer.rays[0].end());
-    EXPECT_LT(bottom->layers, 5u);
-    EXPECT_LT(bottom->height_limit, 0.01);
+    EXPECT_LT(bottom->layers, 8u);
+    EXPECT_LT(bottom->height_limit, 0.015);
     expect_heights(layer, options);
 }
 

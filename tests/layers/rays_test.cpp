@@ -1,0 +1,123 @@
+// Directions of rays: bisectors where the wall is convex or turns gently, leaning out of concavities elsewhere.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <lamina/layers.hpp>
+
+#include "core/reproducible_math.hpp"
+#include "layers/rays.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+using shapes::Outline;
+
+LayerOptions layers_as_high_as(double height) {
+    LayerOptions options;
+    options.first_height = height / layer_height(options, options.layers) * options.first_height;
+    return options;
+}
+
+double made_share(const Outline& outline, const LayerOptions& options) {
+    const Layer layer = make_layer(shapes::pslg({outline}), options);
+    EXPECT_EQ(validate(layer, options), std::vector<std::string>{});
+    const LayerCoverage& all = layer.coverage[0].all;
+    return double(all.made_cells) / double(all.requested_cells);
+}
+
+/// Every vertex off its place at random by up to `noise`.
+Outline noisy(Outline outline, double noise) {
+    std::mt19937 random(7);
+    const auto offset = [&] { return noise * (2.0 * double(random()) / 4294967295.0 - 1); };
+    for (Point& p : outline) p = p + Point{offset(), offset()};
+    return outline;
+}
+
+TEST(Rays, AreBisectorsWhereTheWallIsConvexOrTurnsGently) {
+    const LayerOptions options = layers_as_high_as(0.02);
+    for (const Outline& outline : {shapes::circle(1, 80), shapes::joukowski(0.08, 0.3, 300)}) {
+        const std::vector<RayLine> rays = make_rays(outline, options);
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const std::size_t n = outline.size();
+            const Point before = unit(outline[i] - outline[(i + n - 1) % n]),
+                        after = unit(outline[(i + 1) % n] - outline[i]);
+            if (dot(before, after) < 0.5) continue;
+            const Point bisector = unit(-perpendicular(before) - perpendicular(after));
+            const auto ray =
+                std::find_if(rays.begin(), rays.end(), [&](const RayLine& r) { return r.origin == outline[i]; });
+            ASSERT_NE(ray, rays.end());
+            EXPECT_LT(distance(ray->direction, bisector), 1e-14);
+        }
+    }
+}
+
+TEST(Rays, LeanOutOfConcaveCornersSoThatLayersGoThroughThem) {
+    for (std::size_t pieces : {4u, 15u, 60u}) {
+        EXPECT_GT(made_share(shapes::refined(shapes::l_shape(), pieces), layers_as_high_as(0.1)), 0.97) << pieces;
+        EXPECT_GT(made_share(shapes::refined(shapes::c_shape(1.2), pieces), layers_as_high_as(0.04)), 0.9) << pieces;
+    }
+}
+
+TEST(Rays, LeanAcrossNoise) {
+    const Outline smooth = shapes::circle(1, 300);
+    for (double noise : {1e-4, 1e-3, 4e-3}) {
+        EXPECT_GT(made_share(noisy(smooth, noise), layers_as_high_as(0.05)), 0.97) << noise;
+    }
+}
+
+TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
+    const double farthest = std::cos(radians(66));
+    for (const Outline& outline :
+         {noisy(shapes::circle(1, 300), 6e-3), shapes::refined(shapes::c_shape(0.05), 20), shapes::comb(4, 0.1),
+          shapes::refined(shapes::v_notch(0.4), 20), noisy(shapes::joukowski(0.1, 0.4, 200), 1e-3)}) {
+        for (double height : {1e-3, 0.05, 1.0}) {
+            LayerOptions options = layers_as_high_as(height);
+            options.max_ray_angle_deg = 4;
+            const std::vector<RayLine> rays = make_rays(outline, options);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const RayLine &ray = rays[i], &next = rays[(i + 1) % rays.size()];
+                EXPECT_LE(std::abs(atan2_reproducible(cross(ray.direction, next.direction),
+                                                      dot(ray.direction, next.direction))),
+                          radians(4 + 1e-6));
+                if (ray.origin == next.origin) continue;
+                const Point normal = -perpendicular(unit(next.origin - ray.origin));
+                EXPECT_GT(std::min(dot(normal, ray.direction), dot(normal, next.direction)), 0.2);
+            }
+            // Vertices of gentle turning: 65 degrees at most.
+            for (std::size_t i = 0; i < outline.size(); ++i) {
+                const std::size_t n = outline.size();
+                const Point before = unit(outline[i] - outline[(i + n - 1) % n]),
+                            after = unit(outline[(i + 1) % n] - outline[i]);
+                if (dot(before, after) < 0.7) continue;
+                const auto ray =
+                    std::find_if(rays.begin(), rays.end(), [&](const RayLine& r) { return r.origin == outline[i]; });
+                ASSERT_NE(ray, rays.end());
+                EXPECT_GT(dot(-perpendicular(before), ray->direction), farthest);
+                EXPECT_GT(dot(-perpendicular(after), ray->direction), farthest);
+            }
+        }
+    }
+}
+
+TEST(Rays, OfAMirroredOutlineAreMirrored) {
+    const LayerOptions options = layers_as_high_as(0.1);
+    for (const Outline& outline : {shapes::refined(shapes::c_shape(0.3), 12), noisy(shapes::circle(1, 200), 4e-3),
+                                   shapes::refined(shapes::v_notch(0.4), 15)}) {
+        std::vector<RayLine> rays = make_rays(outline, options),
+                             mirrored = make_rays(shapes::mirrored(outline), options);
+        ASSERT_EQ(rays.size(), mirrored.size());
+        for (RayLine& ray : mirrored) ray = {{ray.origin.x, -ray.origin.y}, {ray.direction.x, -ray.direction.y}};
+        for (const RayLine& ray : rays) {
+            const auto same = std::find_if(mirrored.begin(), mirrored.end(), [&](const RayLine& other) {
+                return distance(ray.origin, other.origin) < 1e-14 && distance(ray.direction, other.direction) < 1e-12;
+            });
+            EXPECT_NE(same, mirrored.end()) << ray.origin.x << ' ' << ray.origin.y;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina
