@@ -18,6 +18,7 @@
 #include "app/case.hpp"
 #include "app/case_file.hpp"
 #include "app/commands.hpp"
+#include "app/format_help.hpp"
 #include "app/options.hpp"
 #include "app/report.hpp"
 #include "core/atomic_file.hpp"
@@ -96,6 +97,7 @@ void add_mesh_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("mesh", "airfoils in, mesh files out");
     auto options = std::make_shared<GivenOptions>();
     for (const Option& option : mesh_options()) options->emplace_back(&option, add_option(*command, option));
+    command->footer(format_help());
     auto dump = std::make_shared<bool>(false);
     command->add_flag("--dump-config", *dump, "print the configuration in force as a case file, and do nothing else")
         ->group("Run");

@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
         add_mesh_command(app);
         add_check_command(app);
         add_plot_command(app);
+        add_convert_command(app);
         add_info_command(app);
         add_delaunay_command(app);
         run(app, argc, argv);

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <lamina/io.hpp>
+#include "app/format_help.hpp"
 
 #include "app/size_text.hpp"
 
@@ -203,9 +203,7 @@ std::vector<Option> make_table() {
     add(list("input", Kind::paths, "INPUT", "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)",
              member_at(&MeshCase::inputs)));
     add(list("output", Kind::paths, "FILE", "mesh file; may be given several times", member_at(&MeshCase::outputs)));
-    std::string formats;
-    for (const MeshFormat& format : mesh_formats()) formats += (formats.empty() ? "" : "|") + format.name;
-    add(text("format", Kind::word, formats, "format of every mesh file; else each by its extension",
+    add(text("format", Kind::word, format_names(), "format of every mesh file; else each by its extension",
              member_at(&MeshCase::format)));
     add(text("report", Kind::path, "FILE", "JSON report of the run", member_at(&MeshCase::report)));
 

@@ -47,6 +47,14 @@ void or_undo(const fs::path& target, const std::function<void()>& work, const st
 
 fs::path parent_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
+/// Where symbolic links point to: that file is replaced, not the link. It need not exist yet.
+fs::path behind_links(fs::path file) {
+    std::error_code ignored;
+    for (int steps = 0; steps < 40 && fs::is_symlink(file, ignored); ++steps)
+        file = parent_of(file) / fs::read_symlink(file, ignored);
+    return file;
+}
+
 }  // namespace
 
 void check_folder_writable(const fs::path& file) {
@@ -62,14 +70,15 @@ void check_folder_writable(const fs::path& file) {
 
 void write_files_atomically(std::span<const fs::path> targets,
                             const std::function<void(std::span<const fs::path>)>& write) {
-    std::vector<fs::path> temporaries;
+    std::vector<fs::path> places, temporaries;
     for (const fs::path& target : targets) {
         if (is_device(target)) throw IoError(target.string(), "cannot write: not a file");
-        temporaries.push_back(temporary_beside(target));
+        places.push_back(behind_links(target));
+        temporaries.push_back(temporary_beside(places.back()));
     }
     const auto work = [&] {
         write(temporaries);
-        for (std::size_t i = 0; i < targets.size(); ++i) fs::rename(temporaries[i], targets[i]);
+        for (std::size_t i = 0; i < places.size(); ++i) fs::rename(temporaries[i], places[i]);
     };
     const auto undo = [&] {
         std::error_code ignored;

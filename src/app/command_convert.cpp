@@ -1,0 +1,65 @@
+// lamina convert: a mesh from one format to another.
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+
+#include "app/commands.hpp"
+#include "app/format_help.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+struct ConvertArguments {
+    std::string from, to;
+    WriteOptions options;
+    std::vector<std::string> walls, far_fields, symmetries;
+};
+
+/// For formats that hold kinds, from those that do not.
+void set_kind(Mesh& mesh, const std::vector<std::string>& names, MarkerKind kind, const std::string& file) {
+    for (const std::string& name : names) {
+        const auto marker = std::find_if(mesh.markers.begin(), mesh.markers.end(),
+                                         [&](const Marker& candidate) { return candidate.name == name; });
+        if (marker == mesh.markers.end()) throw InputError({file, 0, {}}, "no marker '" + name + "'");
+        marker->kind = kind;
+    }
+}
+
+void convert(const ConvertArguments& arguments) {
+    check_writable(arguments.to, arguments.options);
+    Mesh mesh = read_mesh(arguments.from);
+    set_kind(mesh, arguments.walls, MarkerKind::wall, arguments.from);
+    set_kind(mesh, arguments.far_fields, MarkerKind::far_field, arguments.from);
+    set_kind(mesh, arguments.symmetries, MarkerKind::symmetry, arguments.from);
+    write_mesh(mesh, arguments.to, arguments.options);
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("convert", "a mesh from one format to another");
+    auto arguments = std::make_shared<ConvertArguments>();
+    command->add_option("IN", arguments->from, "mesh file")->required();
+    command->add_option("OUT", arguments->to, "mesh file; format by extension, or --format")->required();
+    command->add_option("--format", arguments->options.format, "format of OUT")->type_name("NAME");
+    command->add_option("--wall", arguments->walls, "markers that are walls")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command->add_option("--far", arguments->far_fields, "markers that are far fields")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command->add_option("--symmetry", arguments->symmetries, "markers that are planes of symmetry")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command->footer(format_help());
+    command->callback([arguments] { convert(*arguments); });
+}
+
+}  // namespace lamina::app

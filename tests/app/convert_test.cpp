@@ -1,0 +1,157 @@
+// lamina convert, and what every format promises on the command line.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <lamina/io.hpp>
+
+#include "app/program.hpp"
+#include "support/sample_meshes.hpp"
+
+namespace lamina {
+namespace {
+
+using test::annulus;
+using test::expect_refused;
+using test::run_lamina;
+using test::TemporaryFolder;
+
+std::string file_name(const MeshFormat& format) {
+    const std::string extension = format.extensions.front();
+    return extension.starts_with('.') ? "m" + extension : extension;
+}
+
+TEST(Convert, AnyFormatToAnyOther) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.quads_in_layer = true});
+    write_mesh(mesh, folder / "first.vtu");
+    std::string last = "first.vtu";
+    int step = 0;
+    for (const MeshFormat& format : mesh_formats()) {
+        if (!format.readable) continue;
+        const std::string name = std::to_string(step++);
+        std::filesystem::create_directory(folder / name);
+        const std::string next = name + "/" + file_name(format);
+        const auto run = run_lamina(folder, {"convert", last, next, "--format", format.name, "--wall", "wall"});
+        ASSERT_EQ(run.exit_code, 0) << format.name << ": " << run.err;
+        EXPECT_EQ(run.out + run.err, "");
+        const Mesh back = read_mesh(folder / next);
+        EXPECT_EQ(mesh_hash(back), mesh_hash(mesh)) << format.name;
+        last = next;
+    }
+}
+
+TEST(Convert, SetsKinds) {
+    const TemporaryFolder folder;
+    Mesh mesh = annulus();
+    mesh.markers[0] = {"body", MarkerKind::other, mesh.markers[0].edges};
+    mesh.markers[1] = {"rim", MarkerKind::other, mesh.markers[1].edges};
+    write_mesh(mesh, folder / "m.su2");
+    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--wall", "body", "--far", "rim"}).exit_code, 0);
+    EXPECT_EQ(read_mesh(folder / "m.vtu").markers[0].kind, MarkerKind::wall);
+    EXPECT_EQ(read_mesh(folder / "m.vtu").markers[1].kind, MarkerKind::far_field);
+    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--symmetry", "rim"}).exit_code, 0);
+    EXPECT_EQ(read_mesh(folder / "m.vtu").markers[1].kind, MarkerKind::symmetry);
+}
+
+TEST(Convert, Refuses) {
+    const TemporaryFolder folder;
+    write_mesh(annulus(), folder / "m.su2");
+    folder.write("broken.su2", "NDIME= 2\nNELEM= many\n");
+    expect_refused(folder, {"convert", "m.su2"}, 2, "OUT");
+    expect_refused(folder, {"convert", "m.su2", "m.xyz"}, 2, "m.xyz");
+    expect_refused(folder, {"convert", "m.su2", "m.vtu", "--format", "xyz"}, 2, "'xyz'");
+    expect_refused(folder, {"convert", "m.su2", "m.vtu", "--wall", "tail"}, 3, "no marker 'tail'");
+    expect_refused(folder, {"convert", "broken.su2", "m.vtu"}, 3, "broken.su2:2:");
+    expect_refused(folder, {"convert", "none.su2", "m.vtu"}, 5, "none.su2");
+    expect_refused(folder, {"convert", "m.su2", "none/m.vtu"}, 5, "none/m.vtu");
+}
+
+/// Files may grow no larger than this while it lives, in this program and those it starts: as on a full disk.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        rlimit limited = before_;
+        limited.rlim_cur = bytes;
+        setrlimit(RLIMIT_FSIZE, &limited);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+    FileSizeLimit(const FileSizeLimit&) = delete;
+    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+TEST(Convert, ADiskThatIsFullLeavesNothingBehind) {
+    const TemporaryFolder folder;
+    write_mesh(annulus({.around = 400, .rings = 50}), folder / "in.vtu");
+    for (const MeshFormat& format : mesh_formats()) {
+        std::filesystem::create_directory(folder / format.name);
+        const std::string out = format.name + "/" + file_name(format);
+        {
+            const FileSizeLimit limit(100'000);
+            expect_refused(folder, {"convert", "in.vtu", out, "--format", format.name}, 5, "cannot write");
+        }
+        EXPECT_TRUE(std::filesystem::is_empty(folder / format.name)) << format.name;
+        // What was there stays.
+        ASSERT_EQ(run_lamina(folder, {"convert", "in.vtu", out, "--format", format.name}).exit_code, 0);
+        {
+            const FileSizeLimit limit(100'000);
+            expect_refused(folder, {"convert", "in.vtu", out, "--format", format.name}, 5, "cannot write");
+        }
+        if (!format.readable) continue;
+        EXPECT_EQ(mesh_hash(read_mesh(folder / out)), mesh_hash(read_mesh(folder / "in.vtu")));
+    }
+}
+
+TEST(Convert, WritesToADevice) {
+    const TemporaryFolder folder;
+    write_mesh(annulus(), folder / "m.su2");
+    expect_refused(folder, {"convert", "m.su2", "/dev/full", "--format", "su2"}, 5, "No space left");
+    EXPECT_EQ(run_lamina(folder, {"convert", "m.su2", "/dev/null", "--format", "msh"}).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    const auto run = run_lamina(folder, {"convert", "m.su2", "/dev/stdout", "--format", "su2"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with("NDIME= 2"));
+}
+
+TEST(Convert, FollowsLinks) {
+    const TemporaryFolder folder;
+    write_mesh(annulus(), folder / "m.su2");
+    std::filesystem::create_symlink("real.vtu", folder / "link.vtu");
+    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "link.vtu"}).exit_code, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.vtu"));
+    EXPECT_EQ(mesh_hash(read_mesh(folder / "real.vtu")), mesh_hash(annulus()));
+}
+
+TEST(Formats, HelpAndGuideListThemAll) {
+    const TemporaryFolder folder;
+    std::ifstream in(std::string(LAMINA_SOURCE) + "/docs/guide.md");
+    std::stringstream guide;
+    guide << in.rdbuf();
+    const std::string mesh_help = run_lamina(folder, {"mesh", "--help"}).out,
+                      convert_help = run_lamina(folder, {"convert", "--help"}).out;
+    for (const MeshFormat& format : mesh_formats()) {
+        std::string extensions;
+        for (const std::string& extension : format.extensions)
+            extensions += (extensions.empty() ? "`" : ", `") + extension + "`";
+        const std::string row = "| `" + format.name + "` | " + extensions + " | " + format.holds + " |";
+        EXPECT_NE(guide.str().find(row), std::string::npos) << row;
+        for (const std::string& help : {mesh_help, convert_help})
+            EXPECT_NE(help.find(format.holds), std::string::npos) << format.name;
+    }
+}
+
+}  // namespace
+}  // namespace lamina
