@@ -27,6 +27,7 @@ struct Element {
     std::vector<Point> points;
     std::vector<std::size_t> lines;  ///< per point: line of the file it was read from, 0 where lamina added it
     std::vector<Repair> repairs;
+    std::vector<std::string> surface;  ///< what prepare_surfaces() did, and why; fit for a log
 };
 
 /// Planar straight-line graph: closed, simple, pairwise disjoint bodies.

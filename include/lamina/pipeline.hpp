@@ -1,6 +1,7 @@
 // The reading order of the whole program: airfoil in, viscous mesh out.
 //
 //   read_geometry   geometry.hpp     files, NACA names          -> Pslg
+//   prepare_surfaces surface.hpp     kept, resampled, smoothed  -> Pslg
 //   make_layer      layers.hpp       rays, points, outer border -> Layer
 //   fill_layer      (pipeline.cpp)   Delaunay, or the grid      -> layer triangles, quads
 //   SizeField       sizing.hpp       layer border lengths       -> h(x)
@@ -21,6 +22,7 @@
 #include <lamina/geometry.hpp>
 #include <lamina/layers.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/surface.hpp>
 
 namespace lamina {
 
@@ -35,6 +37,7 @@ struct WakeOptions {
 /// Everything that decides a mesh. Defaults are those of the command line.
 struct CaseOptions {
     GeometryOptions geometry;
+    SurfaceOptions surface;  ///< max_turning_deg is an upper bound: the layer's largest ray angle goes over it
     LayerOptions layer;
     double far_field = 100;  ///< half-width of the far-field box, chords
     double gradation = 0.1;  ///< growth of the target edge length per unit of distance (docs/decisions)
@@ -74,6 +77,9 @@ struct MeshResult {
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     RefineStats refinement;                       ///< summed over pieces
 };
+
+/// The surface stage's options in force: turning bounded by the angle between the layer's rays, too.
+SurfaceOptions surface_options(const CaseOptions& options);
 
 /// Called at the start of each stage with its name; may be empty.
 using Progress = std::function<void(const std::string& stage)>;

@@ -8,7 +8,6 @@
 
 namespace lamina::app {
 
-enum class Surface { keep };
 enum class ProgressShown { automatic, always, never };
 
 struct MeshCase {
@@ -16,7 +15,6 @@ struct MeshCase {
     std::vector<std::string> outputs;
     std::string format;  ///< of every output; empty = by extension
     std::string report;  ///< empty = none
-    Surface surface = Surface::keep;
     CaseOptions options;
     ProgressShown progress = ProgressShown::automatic;
     bool quiet = false;

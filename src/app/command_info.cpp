@@ -1,11 +1,12 @@
 // lamina info: what was read, detected and repaired.
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
 
-#include <lamina/geometry.hpp>
+#include <lamina/pipeline.hpp>
 
 #include "app/case.hpp"
 #include "app/commands.hpp"
@@ -18,7 +19,8 @@ void add_info_command(CLI::App& app) {
     command->add_option("INPUT", *inputs, "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)");
     command->callback([inputs] {
         const MeshCase mesh_case = case_of_inputs(*inputs);
-        fmt::print("{}", describe(read_geometry(mesh_case.inputs, mesh_case.options.geometry)));
+        Pslg pslg = read_geometry(mesh_case.inputs, mesh_case.options.geometry);
+        fmt::print("{}", describe(prepare_surfaces(std::move(pslg), surface_options(mesh_case.options))));
     });
 }
 

@@ -188,6 +188,11 @@ auto of_layer(Member member) {
     return member_at(&MeshCase::options, &CaseOptions::layer, member);
 }
 
+template <class Member>
+auto of_surface(Member member) {
+    return member_at(&MeshCase::options, &CaseOptions::surface, member);
+}
+
 // Layer numbers are kept in 16 bits.
 constexpr double most_layers = 65535;
 
@@ -208,8 +213,13 @@ std::vector<Option> make_table() {
     add(text("report", Kind::path, "FILE", "JSON report of the run", member_at(&MeshCase::report)));
 
     group = "Geometry";
-    add(choice("surface", "surface vertices: as given", Choices<Surface>{{"keep", Surface::keep}},
-               member_at(&MeshCase::surface)));
+    add(choice("surface", "wall vertices: as given, on a spline through them, or that where they are coarse",
+               Choices<Surface>{{"auto", Surface::automatic}, {"keep", Surface::keep}, {"resample", Surface::resample}},
+               of_surface(&SurfaceOptions::surface)));
+    add(count("surface-points", "N", "wall vertices of each element, about; else as many as the ray angle asks for",
+              from_to(3, 1e7), of_surface(&SurfaceOptions::points)));
+    add(real("smooth", "TOL", "smooth the points, moving none by more than this, in units of the input", positive,
+             of_surface(&SurfaceOptions::smooth)));
     add(list("names", Kind::words, "A,B,...",
              "marker names, one an element; else file stems, 'airfoil' if there is one",
              member_at(&MeshCase::options, &CaseOptions::geometry, &GeometryOptions::names)));

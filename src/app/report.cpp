@@ -59,7 +59,8 @@ Json input_report(const Pslg& pslg) {
                          {"format", element.format},
                          {"points", element.points.size()},
                          {"points_read", element.points_read},
-                         {"repairs", repairs}});
+                         {"repairs", repairs},
+                         {"surface", element.surface}});
     }
     return input;
 }
@@ -170,6 +171,7 @@ std::string mesh_summary(const MeshResult& result, const std::vector<std::string
         text += fmt::format("{}: {} points of {} ({})\n", element.name, element.points.size(), element.file,
                             element.format);
         for (const Repair& repair : element.repairs) text += "  repaired  " + repair.text + "\n";
+        for (const std::string& note : element.surface) text += "  surface   " + note + "\n";
     }
     const std::size_t quads = result.mesh.quads.size();
     text += fmt::format("mesh: {} vertices, {} triangles, {}{} pieces\n", result.mesh.points.size(),

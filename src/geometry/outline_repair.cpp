@@ -6,18 +6,23 @@
 #include <cmath>
 #include <lamina/predicates.hpp>
 
+#include "layers/segments.hpp"
+
 namespace lamina {
 
 namespace {
 
 using Outline = std::vector<SourcePoint>;
 
-/// Distance below which neighbours are the same point, printed with different rounding.
-double merge_tolerance(const Outline& points) {
+/// The longer side of the bounding box.
+double extent(const Outline& points) {
     Box box;
     for (const SourcePoint& p : points) box.include(p.at);
-    return points.empty() ? 0 : 1e-12 * std::max(box.width(), box.height());
+    return points.empty() ? 0 : std::max(box.width(), box.height());
 }
+
+/// Distance below which neighbours are the same point, printed with different rounding.
+double merge_tolerance(const Outline& points) { return 1e-12 * extent(points); }
 
 void remove_duplicates(Outline& points, std::vector<Repair>& repairs) {
     const double tolerance = merge_tolerance(points);
@@ -47,6 +52,24 @@ void check_extent(const Outline& points, const std::string& file) {
         return orient2d(points[0].at, points[1].at, p.at) == 0;
     });
     if (flat) throw InputError(place, fmt::format("all {} points lie on one line", points.size()));
+}
+
+/// Surfaces that cross just before the trailing edge, their ends nearer to each other than anyone can see, as rounding
+/// to a few digits makes them: the last point goes, and both end at the first one.
+///
+///       ---___                       ---___
+///     ___---==x=-- first            ___---===- first
+///              \\ last
+void merge_crossed_ends(Outline& points, std::vector<Repair>& repairs) {
+    constexpr double invisible = 1e-4;  // of the extent
+    const std::size_t n = points.size();
+    if (n < 5) return;
+    const SourcePoint first = points.front(), last = points.back();
+    if (distance(first.at, last.at) > invisible * extent(points)) return;
+    if (!segments_meet(first.at, points[1].at, points[n - 2].at, last.at)) return;
+    points.pop_back();
+    repairs.push_back({fmt::format("lines {} and {}: the surfaces cross at the trailing edge; {} merged with {}",
+                                   last.line, first.line, coordinates(last.at), coordinates(first.at))});
 }
 
 /// The edge from the last point back to the first gets vertices at about the spacing of the shorter neighbour.
@@ -100,7 +123,9 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     const bool closed = points.size() > 1 && distance(points.front().at, points.back().at) <= merge_tolerance(points);
     remove_duplicates(points, element.repairs);
     check_extent(points, file);
-    if (!closed) close_outline(points, file, element.repairs);
+    const std::size_t open = points.size();
+    if (!closed) merge_crossed_ends(points, element.repairs);
+    if (!closed && points.size() == open) close_outline(points, file, element.repairs);
     if (is_clockwise(points)) {
         std::reverse(points.begin() + 1, points.end());
         element.repairs.push_back({fmt::format("line {}: clockwise order reversed, starting from {}", points[0].line,

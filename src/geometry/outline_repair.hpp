@@ -7,7 +7,8 @@
 
 namespace lamina {
 
-/// Removes repeated neighbours (nearer than 1e-12 of the extent, as after rounding), closes an open outline by a base
+/// Removes repeated neighbours (nearer than 1e-12 of the extent, as after rounding), merges ends
+/// that cross at the trailing edge within 1e-4 of the extent, closes an open outline by a base
 /// edge with vertices spaced like its neighbours, reverses clockwise order. Coordinates stay as they are; the first
 /// point stays first. Whether the outline is simple is for check_simple() to say.
 /// Throws InputError for fewer than three points, points on one line, and an outline too open to be closed. The

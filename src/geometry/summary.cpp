@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/reproducible_math.hpp"
+#include "geometry/corners.hpp"
 
 namespace lamina {
 
@@ -15,15 +16,10 @@ namespace {
 
 constexpr double sharp_corner_deg = 60;
 
-/// Exterior angle at every vertex, positive where the outline is convex.
 std::vector<double> turnings_deg(const std::vector<Point>& points) {
-    const std::size_t n = points.size();
-    std::vector<double> turnings(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const Point in = points[i] - points[(i + n - 1) % n], out = points[(i + 1) % n] - points[i];
-        turnings[i] = degrees(atan2_reproducible(cross(in, out), dot(in, out)));
-    }
-    return turnings;
+    std::vector<double> result = turnings(points);
+    for (double& angle : result) angle = degrees(angle);
+    return result;
 }
 
 /// A straight base at the downstream end: two convex corners of 45 to 135 degrees with nothing but straight edges
@@ -133,6 +129,8 @@ std::string describe(const Pslg& pslg) {
             for (std::size_t i = 0; i < e.repairs.size(); ++i)
                 fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "repairs" : "", e.repairs[i].text);
         }
+        for (std::size_t i = 0; i < e.surface.size(); ++i)
+            fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "surface" : "", e.surface[i]);
     }
     return text;
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/reproducible_math.hpp"
+#include "core/angles.hpp"
 
 namespace lamina {
 namespace {
@@ -17,13 +17,6 @@ constexpr double clearance = 2.25;
 constexpr double thickest_share = 0.05;
 /// Degrees that a ray may lean to either side of the bisector, and be off the normals of both edges.
 constexpr double largest_lean = 45, farthest_from_normal = 65;
-
-Point rotated(Point a, double angle) {
-    const double c = cos_reproducible(angle), s = sin_reproducible(angle);
-    return {a.x * c - a.y * s, a.x * s + a.y * c};
-}
-
-double angle_between(Point from, Point to) { return atan2_reproducible(cross(from, to), dot(from, to)); }
 
 std::size_t steps_for(double angle, double limit) {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::abs(angle) / limit - step_slack)));

@@ -105,8 +105,12 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     MeshResult result;
     StageSeconds& seconds = result.seconds;
     seconds.geometry = geometry_seconds;
-    const DecouplingOptions outer_options = decoupling_options(pslg, options);
     clock.lap();
+
+    clock.begin("surface");
+    pslg = prepare_surfaces(std::move(pslg), surface_options(options));
+    const DecouplingOptions outer_options = decoupling_options(pslg, options);
+    seconds.geometry += clock.lap();
 
     clock.begin("layers");
     const SizedLayer sized_layer = make_sized_layer(pslg, options);
@@ -153,6 +157,23 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
 }
 
 }  // namespace
+
+SurfaceOptions surface_options(const CaseOptions& options) {
+    SurfaceOptions surface = options.surface;
+    surface.max_turning_deg = std::min(surface.max_turning_deg, options.layer.max_ray_angle_deg);
+    // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
+    // Where the wall's spacing exceeds that, border edges are divided and the rows below fan out to the division
+    // points. Very slow gradations are for the outer region alone.
+    constexpr double slowest = 0.05, margin = 0.9;
+    surface.gradation =
+        std::min(surface.gradation, std::max(margin * layer_options(options).border_gradation, slowest));
+    if (options.layer.enabled) {
+        const double height =
+            std::min(layer_height(options.layer, options.layer.layers), options.layer.thickness.value_or(HUGE_VAL));
+        surface.fan_spacing = std::min(surface.fan_spacing, height * radians(options.layer.max_ray_angle_deg));
+    }
+    return surface;
+}
 
 MeshResult generate_mesh(Pslg pslg, const CaseOptions& options, const Progress& progress) {
     MeshResult result;

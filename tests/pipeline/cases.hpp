@@ -15,9 +15,10 @@
 
 namespace lamina::test {
 
-/// The options of the judged case: a layer of 30, growth 1.15, far field 50 chords away.
+/// The options of the judged case: the points as given, a layer of 30, growth 1.15, far field 50 chords away.
 inline CaseOptions judged_options() {
     CaseOptions options;
+    options.surface.surface = Surface::keep;
     options.layer.first_height = 2.5e-5;
     options.layer.growth = 1.15;
     options.layer.layers = 30;

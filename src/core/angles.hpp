@@ -1,0 +1,19 @@
+// Angles between directions, the same bits on every machine.
+#pragma once
+
+#include <lamina/point.hpp>
+
+#include "core/reproducible_math.hpp"
+
+namespace lamina {
+
+/// In (-pi, pi], positive counter-clockwise; neither direction need be of unit length.
+inline double angle_between(Point from, Point to) { return atan2_reproducible(cross(from, to), dot(from, to)); }
+
+/// The direction turned counter-clockwise by an angle in radians.
+inline Point rotated(Point a, double angle) {
+    const double c = cos_reproducible(angle), s = sin_reproducible(angle);
+    return {a.x * c - a.y * s, a.x * s + a.y * c};
+}
+
+}  // namespace lamina
