@@ -128,16 +128,17 @@ Point Curve::direction(std::size_t piece, double share) const {
 
 namespace {
 
-/// Points of the smoothing spline of one penalty. With second derivatives c at the inner points, the spline that
-/// minimises  sum |g_i - p_i|^2 + penalty x integral |g''|^2  satisfies (R + penalty Q'Q) c = Q'p, g = p - penalty Q c;
-/// R tridiagonal, Q with three bands. Rows of Q at fixed ends are left out of Q'Q: their points do not move.
+/// Points of the smoothing spline of given penalties by point (penalty over weight). With second derivatives c at the
+/// inner points, the spline that minimises  sum |g_i - p_i|^2 / penalty_i + integral |g''|^2  satisfies
+/// (R + Q'PQ) c = Q'p, g = p - PQ c; R tridiagonal, Q with three bands, P the diagonal of penalties. A penalty of 0
+/// holds a point where it is.
 class SmoothingSystem {
 public:
     SmoothingSystem(std::span<const Point> points, std::span<const double> t) : points_(points) {
         for (std::size_t i = 0; i + 1 < t.size(); ++i) h_.push_back(t[i + 1] - t[i]);
     }
 
-    std::vector<Point> solve(double penalty) const {
+    std::vector<Point> solve(std::span<const double> penalty) const {
         const std::size_t n = points_.size(), m = n - 2;
         // Banded symmetric matrix: diagonal and two bands beside it, then its factors L D L'.
         std::vector<std::array<double, 3>> band(m, std::array<double, 3>{});
@@ -145,7 +146,7 @@ public:
         for (std::size_t j = 0; j < m; ++j) {
             band[j][0] = (h_[j] + h_[j + 1]) / 3;
             if (j + 1 < m) band[j][1] = h_[j + 1] / 6;
-            for (std::size_t k = 0; k < 3 && j + k < m; ++k) band[j][k] += penalty * product(j, j + k);
+            for (std::size_t k = 0; k < 3 && j + k < m; ++k) band[j][k] += product(j, j + k, penalty);
             c[j] = (1 / h_[j + 1]) * (points_[j + 2] - points_[j + 1]) - (1 / h_[j]) * (points_[j + 1] - points_[j]);
         }
         for (std::size_t j = 0; j < m; ++j) {
@@ -163,7 +164,7 @@ public:
         std::vector<Point> smooth(points_.begin(), points_.end());
         for (std::size_t j = 0; j < m; ++j)
             for (std::size_t row = j; row < j + 3; ++row)
-                if (!is_fixed(row)) smooth[row] = smooth[row] - penalty * entry(row, j) * c[j];
+                smooth[row] = smooth[row] - penalty[row] * entry(row, j) * c[j];
         return smooth;
     }
 
@@ -171,17 +172,15 @@ private:
     std::span<const Point> points_;
     std::vector<double> h_;
 
-    bool is_fixed(std::size_t row) const { return row == 0 || row + 1 == points_.size(); }
     /// Q(row, j), row in j ... j + 2.
     double entry(std::size_t row, std::size_t j) const {
         if (row == j) return 1 / h_[j];
         if (row == j + 2) return 1 / h_[j + 1];
         return -1 / h_[j] - 1 / h_[j + 1];
     }
-    double product(std::size_t j, std::size_t k) const {
+    double product(std::size_t j, std::size_t k, std::span<const double> penalty) const {
         double sum = 0;
-        for (std::size_t row = k; row < j + 3; ++row)
-            if (!is_fixed(row)) sum += entry(row, j) * entry(row, k);
+        for (std::size_t row = k; row < j + 3; ++row) sum += penalty[row] * entry(row, j) * entry(row, k);
         return sum;
     }
 };
@@ -189,25 +188,46 @@ private:
 }  // namespace
 
 SmoothRun smoothed(const SmoothRun& run, double tolerance) {
-    if (run.points.size() < 3) return run;
+    const std::size_t n = run.points.size();
+    if (n < 3) return run;
     const Unrolled u = unroll(run);
     const SmoothingSystem system(u.points, u.t);
-    const auto candidate = [&](double penalty) {
-        const std::vector<Point> all = system.solve(penalty);
+    std::vector<double> penalty(n);
+    std::vector<double> moved(n);
+    const auto solve = [&] {
+        std::vector<double> unrolled(u.points.size());
+        for (std::size_t i = 0; i < unrolled.size(); ++i) unrolled[i] = penalty[i % n];
+        if (!run.closed) unrolled.front() = unrolled.back() = 0;
+        const std::vector<Point> all = system.solve(unrolled);
         const auto begin = all.begin() + static_cast<std::ptrdiff_t>(u.first);
-        return SmoothRun{{begin, begin + static_cast<std::ptrdiff_t>(run.points.size())}, run.closed};
+        SmoothRun smooth{{begin, begin + static_cast<std::ptrdiff_t>(n)}, run.closed};
+        for (std::size_t i = 0; i < n; ++i) moved[i] = distance(smooth.points[i], run.points[i]);
+        return smooth;
     };
-    const auto within = [&](const SmoothRun& smooth) {
-        for (std::size_t i = 0; i < run.points.size(); ++i)
-            if (!(distance(smooth.points[i], run.points[i]) <= tolerance)) return false;
-        return true;
+    const auto beyond = [&] {
+        return static_cast<std::size_t>(std::count_if(moved.begin(), moved.end(), [&](double d) {
+            return !(d <= tolerance);  // NaN, too
+        }));
     };
-    // Penalties are cubes of a length; powers of 2 between far less than a spacing and far more than the run.
-    constexpr int halvings = 120;
-    double penalty = u.t.back() * u.t.back() * u.t.back();
-    SmoothRun best = candidate(penalty);
-    for (int i = 0; i < halvings && !within(best); ++i) best = candidate(penalty *= 0.5);
-    return within(best) ? best : run;
+    // Penalties are cubes of a length: from that of the whole run down, until most points stay within the tolerance.
+    constexpr int most_halvings = 160, most_rounds = 100;
+    constexpr double strongest_hold = 0.25, target = 0.95;
+    std::fill(penalty.begin(), penalty.end(), u.t.back() * u.t.back() * u.t.back());
+    SmoothRun smooth = solve();
+    for (int k = 0; k < most_halvings && 4 * beyond() > n; ++k) {
+        for (double& p : penalty) p *= 0.5;
+        smooth = solve();
+    }
+    for (int k = 0; k < most_rounds && beyond() > 0; ++k) {
+        for (std::size_t i = 0; i < n; ++i)
+            if (moved[i] > target * tolerance) penalty[i] *= std::max(strongest_hold, target * tolerance / moved[i]);
+        smooth = solve();
+    }
+    for (int k = 0; k < most_halvings && beyond() > 0; ++k) {
+        for (double& p : penalty) p *= 0.5;
+        smooth = solve();
+    }
+    return beyond() == 0 ? smooth : run;
 }
 
 }  // namespace lamina

@@ -57,24 +57,27 @@ struct Outline {
 };
 
 /// Two samples much closer to each other than to the next ones say little but their rounding: one point between them.
-/// A narrow base is no such pair, its corners turn to one side; nor are points `most` apart, one of which is misplaced.
+/// Not where that would be a corner, as at a narrow base, and not where they are `most` apart: one is misplaced.
 std::vector<Point> without_close_pairs(const std::vector<Point>& points, double most) {
     constexpr double close = 0.1;
-    constexpr double most_turning = radians(30);
     const std::size_t n = points.size();
     if (n < 5) return points;
-    const std::vector<double> turning = turnings(points);
     const auto length_after = [&](std::size_t i) { return distance(points[i % n], points[(i + 1) % n]); };
-    const auto is_close = [&](std::size_t i) {
-        return length_after(i) < std::min(most, close * std::min(length_after(i + n - 1), length_after(i + 1))) &&
-               std::abs(turning[i % n] + turning[(i + 1) % n]) < most_turning;
+    std::vector<bool> merged(n);  // with the point after
+    for (std::size_t i = 0; i < n; ++i)
+        merged[i] = length_after(i) < std::min(most, close * std::min(length_after(i + n - 1), length_after(i + 1)));
+    const auto kept_points = [&](std::vector<std::size_t>& origins) {
+        std::vector<Point> kept;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (merged[(i + n - 1) % n]) continue;
+            kept.push_back(merged[i] ? midpoint(points[i], points[(i + 1) % n]) : points[i]);
+            origins.push_back(i);
+        }
+        return kept;
     };
-    std::vector<Point> kept;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (is_close(i + n - 1)) continue;  // went into the one before
-        kept.push_back(is_close(i) ? midpoint(points[i], points[(i + 1) % n]) : points[i]);
-    }
-    return kept;
+    std::vector<std::size_t> origins;
+    for (std::size_t corner : find_corners(kept_points(origins))) merged[origins[corner]] = false;
+    return kept_points(origins);
 }
 
 /// The sample beside a corner, if it is much closer to it than to the next sample and on the way there.

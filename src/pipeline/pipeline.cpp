@@ -10,6 +10,7 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
+#include "core/reproducible_math.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/layer_region.hpp"
 #include "pipeline/size_sources.hpp"
@@ -165,12 +166,12 @@ SurfaceOptions surface_options(const CaseOptions& options) {
     // Where the wall's spacing exceeds that, border edges are divided and the rows below fan out to the division
     // points. Very slow gradations are for the outer region alone.
     constexpr double slowest = 0.05, margin = 0.9;
-    surface.gradation =
-        std::min(surface.gradation, std::max(margin * layer_options(options).border_gradation, slowest));
+    surface.gradation = std::min(surface.gradation, std::max(margin * border_gradation(options), slowest));
     if (options.layer.enabled) {
         const double height =
             std::min(layer_height(options.layer, options.layer.layers), options.layer.thickness.value_or(HUGE_VAL));
-        surface.fan_spacing = std::min(surface.fan_spacing, height * radians(options.layer.max_ray_angle_deg));
+        const double fan_edge = height * radians(options.layer.max_ray_angle_deg);
+        if (fan_edge > 0) surface.fan_spacing = std::min(surface.fan_spacing, fan_edge);
     }
     return surface;
 }

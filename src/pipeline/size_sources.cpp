@@ -101,9 +101,7 @@ std::vector<SizeSource> border_sources(const Layer& layer, const CaseOptions& op
 
 LayerOptions layer_options(const CaseOptions& options, std::span<const SizeSource> sources) {
     LayerOptions layer = options.layer;
-    // Edges are divided into whole numbers of pieces: graded as steeply as the field, some would be too long for it.
-    constexpr double rounding_of_pieces = 1.15;
-    layer.border_gradation = frozen_share * options.gradation / rounding_of_pieces;
+    layer.border_gradation = border_gradation(options);
     layer.longest_border_edge =
         frozen_share * std::min(options.wall_size.value_or(HUGE_VAL), options.far_size.value_or(HUGE_VAL));
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
@@ -125,6 +123,12 @@ double size_at(Point p, std::span<const SizeSource> sources, double gradation) {
 }
 
 }  // namespace
+
+double border_gradation(const CaseOptions& options) {
+    // Edges are divided into whole numbers of pieces: graded as steeply as the field, some would be too long for it.
+    constexpr double rounding_of_pieces = 1.15;
+    return frozen_share * options.gradation / rounding_of_pieces;
+}
 
 SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options) {
     SizedLayer result{{}, options.size_sources};

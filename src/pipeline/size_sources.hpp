@@ -7,6 +7,9 @@
 
 namespace lamina {
 
+/// Growth of the edges of the layers' outer borders per unit of distance: what the size field's lets them.
+double border_gradation(const CaseOptions& options);
+
 /// The layer with an outer border fit to be frozen for refinement to the angle and sizes asked for, and the sources
 /// that are not its border: those of the options and the wakes.
 struct SizedLayer {
