@@ -22,6 +22,8 @@ namespace {
 constexpr double thickest_layer = 1e4;
 /// Heights below this many units of rounding of the coordinates cannot be represented.
 constexpr double least_roundings = 64;
+/// Rays added where counts of layers change find limits of their own, which may ask for more: once more at most.
+constexpr int rounds_of_steps = 2;
 
 void require(bool condition, const std::string& message) {
     if (!condition) throw UsageError(message);
@@ -232,10 +234,17 @@ Layer make_layer(const Pslg& pslg, const LayerOptions& options) {
         const Heights no_layers({0.0}, std::vector<Stack>(walls.rays.size()));
         return Assembly(walls, none, no_layers).build(grading, {});
     }
-    const RaySet set = rays_of(pslg, options);
-    const Heights heights = make_heights(set, options);
+    RaySet set = rays_of(pslg, options);
+    Heights heights = make_heights(set, options);
     check_scale(pslg, options, heights);
-    const std::vector<double> limits = height_limits(set, heights);
+    std::vector<double> limits = height_limits(set, heights);
+    for (int round = 0; round < rounds_of_steps; ++round) {
+        RaySet more = add_rays_at_steps(set, heights, limits);
+        if (more.rays.size() == set.rays.size()) break;
+        set = std::move(more);
+        heights = make_heights(set, options);
+        limits = height_limits(set, heights);
+    }
     const Heights fitted = fit_heights(heights, limits);
     const std::vector<std::uint32_t> counts = layer_counts(set, limits, fitted);
     Layer layer = Assembly(set, counts, fitted).build(grading, limits);

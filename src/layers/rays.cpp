@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "layers/front.hpp"
 
 namespace lamina {
 namespace {
@@ -121,19 +122,53 @@ void add_vertex_rays(Point vertex, const Corner& corner, double limit, std::vect
     rays.push_back({vertex, last_direction(corner)});
 }
 
-/// Angles are measured from the edge's own normal, on either side of which every ray stays within 90 degrees.
-void add_refining_rays(Point from, Point to, Point normal, Point first, Point last, double limit,
-                       std::vector<RayLine>& rays) {
-    const double a = angle_between(normal, first), b = angle_between(normal, last);
-    const std::size_t steps = steps_for(b - a, limit);
-    const double n = static_cast<double>(steps);
-    for (std::size_t k = 1; k < steps; ++k) {
-        const double t = static_cast<double>(k);
-        const Point origin{((n - t) * from.x + t * to.x) / n, ((n - t) * from.y + t * to.y) / n};
-        // Edges too short to be divided in floating point keep their coarser angle.
-        if (origin == rays.back().origin || origin == to) continue;
-        rays.push_back({origin, unit(rotated(normal, ((n - t) * a + t * b) / n))});
+/// The rays between two others on the edge between their origins.
+class RaysBetween {
+public:
+    RaysBetween(const RayLine& first, const RayLine& last)
+        : from_(first.origin), to_(last.origin), normal_(-perpendicular(unit(to_ - from_))) {
+        // On either side of the edge's own normal every ray stays within 90 degrees.
+        first_angle_ = angle_between(normal_, first.direction);
+        last_angle_ = angle_between(normal_, last.direction);
     }
+    double angle() const { return last_angle_ - first_angle_; }
+    /// The ray at the share part / whole of the way, unless the edge is too short to be divided there in floating
+    /// point.
+    void add(double part, double whole, std::vector<RayLine>& rays) const {
+        const double rest = whole - part;
+        const Point origin{(rest * from_.x + part * to_.x) / whole, (rest * from_.y + part * to_.y) / whole};
+        if (origin == rays.back().origin || origin == to_ || origin == from_) return;
+        rays.push_back({origin, unit(rotated(normal_, (rest * first_angle_ + part * last_angle_) / whole))});
+    }
+
+private:
+    Point from_, to_, normal_;
+    double first_angle_ = 0, last_angle_ = 0;
+};
+
+void add_refining_rays(const RayLine& first, const RayLine& last, double limit, std::vector<RayLine>& rays) {
+    const RaysBetween between(first, last);
+    const std::size_t steps = steps_for(between.angle(), limit);
+    for (std::size_t k = 1; k < steps; ++k) between.add(static_cast<double>(k), static_cast<double>(steps), rays);
+}
+
+/// A ray that ends early, and how.
+struct Ending {
+    double height;         ///< up to which it may go
+    std::uint32_t layers;  ///< that fit
+};
+
+/// Shares of the way from one ray to another one, higher by several layers, at which to place a ray for each layer
+/// between: the mean of even steps and of those at which a straight line between the heights passes the layers.
+std::vector<double> steps_between(const Ending& low, const Ending& high, std::span<const double> heights) {
+    std::vector<double> shares;
+    const double layers = high.layers - low.layers;
+    for (std::uint32_t n = low.layers + 1; n < high.layers; ++n) {
+        const double even = (n - low.layers) / layers;
+        const double at_height = (heights[n] - low.height) / (high.height - low.height);
+        shares.push_back(0.5 * (even + std::clamp(at_height, 0.0, 1.0)));
+    }
+    return shares;
 }
 
 }  // namespace
@@ -154,10 +189,36 @@ std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& 
     for (std::size_t i = 0; i < body.size(); ++i) {
         const std::size_t next = (i + 1) % body.size();
         add_vertex_rays(body[i], corners[i], limit, rays);
-        add_refining_rays(body[i], body[next], corners[i].after, rays.back().direction, first_direction(corners[next]),
-                          limit, rays);
+        add_refining_rays(RayLine(rays.back()), {body[next], first_direction(corners[next])}, limit, rays);
     }
     return rays;
+}
+
+RaySet add_rays_at_steps(const RaySet& set, const Heights& heights, std::span<const double> limits) {
+    const std::vector<std::size_t> next = set.following();
+    const auto ending = [&](std::size_t i) {
+        const std::span<const double> stack = heights.of(i);
+        const auto above = std::upper_bound(stack.begin(), stack.end(), limits[i]);
+        return Ending{std::min(limits[i], stack.back()), static_cast<std::uint32_t>(above - stack.begin()) - 1};
+    };
+    RaySet result;
+    for (std::size_t e = 0; e < set.bodies(); ++e) {
+        for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
+            const RayLine &ray = set.rays[i], &after = set.rays[next[i]];
+            result.rays.push_back(ray);
+            if (ray.origin == after.origin) continue;
+            const Ending here = ending(i), there = ending(next[i]);
+            const RaysBetween between(ray, after);
+            if (here.layers < there.layers) {
+                for (double share : steps_between(here, there, heights.of(next[i]))) between.add(share, 1, result.rays);
+            } else {
+                std::vector<double> shares = steps_between(there, here, heights.of(i));
+                for (std::size_t k = shares.size(); k-- > 0;) between.add(1 - shares[k], 1, result.rays);
+            }
+        }
+        result.begin.push_back(result.rays.size());
+    }
+    return result;
 }
 
 }  // namespace lamina

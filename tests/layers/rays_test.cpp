@@ -102,6 +102,28 @@ TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
     }
 }
 
+/// A small body near one vertex of a wall of few points: a layer a vertex would never recover.
+TEST(Rays, AreAddedWhereLayersChangeInNumberFasterThanTheWallHasVertices) {
+    const Outline plate = shapes::polygon({{0, -1}, {4, -1}, {4, 0}, {3, 0}, {2, 0}, {1, 0}, {0, 0}});
+    const Outline small = shapes::moved(shapes::circle(0.05, 40), 0, 1, {2, 0.06});
+    LayerOptions options = layers_as_high_as(0.1);
+    const Layer layer = make_layer(shapes::pslg({plate, small}), options);
+    EXPECT_EQ(validate(layer, options), std::vector<std::string>{});
+    const LayerCoverage& all = layer.coverage[0].all;
+    EXPECT_GT(double(all.made_cells), 0.75 * double(all.requested_cells));
+    double near = HUGE_VAL, far = 0;  // nearest ray with full layers on either side of the small body, farthest without
+    for (const Ray& ray : layer.rays[0]) {
+        const Point origin = layer.points[ray.origin.index()];
+        if (origin.y < 0 || ray.direction.y < 0.9) continue;
+        const double off = std::abs(origin.x - 2);
+        if (ray.layers == ray.requested) near = std::min(near, off);
+        if (ray.layers < ray.requested) far = std::max(far, off);
+    }
+    EXPECT_LT(near, 0.8);
+    EXPECT_LT(far, 1);
+    EXPECT_LT(layer.walls[0].size(), 100u);
+}
+
 TEST(Rays, OfAMirroredOutlineAreMirrored) {
     const LayerOptions options = layers_as_high_as(0.1);
     for (const Outline& outline : {shapes::refined(shapes::c_shape(0.3), 12), noisy(shapes::circle(1, 200), 4e-3),
