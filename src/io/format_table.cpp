@@ -36,7 +36,11 @@ void write_cgns_variant(const Mesh& mesh, const fs::path& file, const WriteOptio
     write_cgns(mesh, file, {adf, three_coordinates});
 }
 
-void write_openfoam_case(const Mesh& mesh, const fs::path& file, const WriteOptions&) { write_openfoam(mesh, file); }
+/// A writer that sees to its files itself.
+template <auto write>
+void write_files(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+    write(mesh, file);
+}
 
 std::string lower_case(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -46,7 +50,7 @@ std::string lower_case(std::string text) {
 std::vector<Format> make_table() {
     std::vector<Format> table;
     const auto add = [&](const char* name, std::vector<std::string> extensions, const char* holds, auto write,
-                         auto read, auto check) {
+                         Mesh (*read)(const fs::path&), auto check) {
         table.push_back({name, std::move(extensions), holds, write, read, check});
     };
     constexpr auto msh = read_file<read_msh>;
@@ -63,10 +67,16 @@ std::vector<Format> make_table() {
         check_folder_writable);
     add("msh22-binary", {".msh"}, "Gmsh MSH 2.2, binary", write_file<write_msh_variant<false, true>>, msh,
         check_folder_writable);
+    add("msh22-extruded", {".msh"}, "Gmsh MSH 2.2, ASCII, one cell thick, for gmshToFoam",
+        write_file<write_msh_extruded>, nullptr, check_folder_writable);
     add("vtu", {".vtu"}, "VTK unstructured grid, raw binary, for ParaView", write_file<write_vtu>, read_file<read_vtu>,
         check_folder_writable);
-    add("openfoam", {"polyMesh"}, "OpenFOAM polyMesh folder, ASCII, one cell thick", write_openfoam_case, read_openfoam,
-        check_openfoam_writable);
+    add("openfoam", {"polyMesh"}, "OpenFOAM polyMesh folder, ASCII, one cell thick", write_files<write_openfoam>,
+        read_openfoam, check_openfoam_writable);
+    add("ugrid", {".ugrid"}, "UGRID, plane, ASCII, with .mapbc", write_files<write_ugrid>, read_file<read_ugrid>,
+        check_ugrid_writable);
+    add("fun3d", {".b8.ugrid", ".lb8.ugrid"}, "UGRID for FUN3D, one cell thick, with .mapbc", write_files<write_fun3d>,
+        read_file<read_ugrid>, check_ugrid_writable);
     return table;
 }
 

@@ -52,6 +52,9 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant v
 /// Either version, ASCII or binary.
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file);
 
+/// 2.2, ASCII, one cell thick.
+void write_msh_extruded(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);
+
 struct CgnsVariant {
     bool adf = false;                ///< the older container in place of HDF5
     bool three_coordinates = false;  ///< with CoordinateZ = 0, for readers that know no plane
@@ -66,6 +69,15 @@ std::filesystem::path poly_mesh_folder(const std::filesystem::path& file);
 void check_openfoam_writable(const std::filesystem::path& file);
 void write_openfoam(const Mesh& mesh, const std::filesystem::path& file);
 Mesh read_openfoam(const std::filesystem::path& file);
+
+// Beside a UGRID file stands a .mapbc with the names of the boundaries.
+void check_ugrid_writable(const std::filesystem::path& file);
+/// Plane, in ASCII.
+void write_ugrid(const Mesh& mesh, const std::filesystem::path& file);
+/// One cell thick; .b8.ugrid is big-endian, .lb8.ugrid little-endian, else ASCII.
+void write_fun3d(const Mesh& mesh, const std::filesystem::path& file);
+/// Either.
+Mesh read_ugrid(const std::string& bytes, const std::filesystem::path& file);
 
 /// Lower case, with the dot.
 std::string extension_of(const std::filesystem::path& file);
