@@ -73,6 +73,8 @@ struct MeshResult {
     unsigned threads = 1;
     std::size_t layer_pieces = 0, inviscid_pieces = 0;
     DecompositionStats decomposition;  ///< of the layer
+    std::size_t largest_inviscid_piece = 0;  ///< triangles
+    double estimates_within_15_percent = 1;  ///< share of the inviscid pieces whose load was foreseen so well
     std::size_t surface_vertices = 0;
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     RefineStats refinement;                       ///< summed over pieces

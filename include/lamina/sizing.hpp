@@ -53,6 +53,8 @@ public:
     };
     Range range(const Box& box, double enough = HUGE_VAL) const;
     std::size_t cells() const;
+    /// Growth per unit of distance that the field was made with; 0 for a uniform one.
+    double gradation() const { return gradation_; }
     bool is_uniform() const { return tree_ == nullptr; }
 
     static constexpr double relative_error = 0.05;
@@ -69,6 +71,7 @@ private:
     std::shared_ptr<const Tree> tree_;
     Start start_;
     double uniform_ = 0;
+    double gradation_ = 0;
 };
 
 }  // namespace lamina

@@ -9,11 +9,12 @@ namespace lamina::kernel {
 
 namespace {
 
-/// Mean area of the triangles that refinement makes, as a share of the bound (measured: docs/decisions/0002).
-constexpr double mean_area_share = 0.69;
+/// Mean area of the triangles that refinement makes, as a share of the bound (measured over pieces: docs/decisions/0015).
+constexpr double mean_area_share = 0.66;
 
-/// Triangles with edges longer than this many times h are looked into.
-constexpr double wide = 16;
+/// Triangles with edges longer than this many times h are looked into. A source inside lowers h up to a distance of h /
+/// gradation; and parts of a triangle are kept small enough to tell which side of a line they lie on.
+double wide_triangle(const SizeField& size) { return std::clamp(1.6 / size.gradation(), 16.0, 40.0); }
 
 struct Corner {
     Point at;
@@ -22,26 +23,57 @@ struct Corner {
 
 double squared_edge(const Corner& a, const Corner& b) { return squared_length(b.at - a.at); }
 
-/// Integral of 1 / h^2 over a triangle with h linear between its corners, by halving the edge between the finest and
-/// the coarsest corner until the sizes differ little. A triangle so wide that h may be another one inside, as where it
-/// spans the space between three fine borders, is halved at its longest edge, and h looked up, until it is not.
-double inverse_square_integral(Corner a, Corner b, Corner c, const SizeField& size, int depth) {
-    // a becomes the finest, c the coarsest.
-    if (b.size < a.size) std::swap(a, b);
-    if (c.size < b.size) std::swap(b, c);
-    if (b.size < a.size) std::swap(a, b);
+/// Triangles of fewer h^2 than this are not looked into.
+constexpr double small_triangle = 4;
+
+/// Integral of 1 / h^2 over a triangle; add(point, part of the integral) is called for each part. The triangle is
+/// halved at its longest edge until h differs little between the corners and the middle, and the triangle is not so
+/// wide that a source inside could be overlooked.
+template <class Add>
+void inverse_square_integral(Corner a, Corner b, Corner c, const SizeField& size, double wide, int depth,
+                             const Add& add) {
+    const double area = 0.5 * std::abs(cross(b.at - a.at, c.at - a.at));
+    const double low = std::min({a.size, b.size, c.size}), high = std::max({a.size, b.size, c.size});
+    const double mean = (a.size + b.size + c.size) / 3;
+    const Point center = (1.0 / 3) * (a.at + b.at + c.at);
+    const bool small = area < small_triangle * low * low;
+    if (small && high < 2 * low) {
+        add(center, area / (mean * mean));
+        return;
+    }
+    const double inside = small ? mean : size(center);
+    // c-a becomes the longest edge.
     const double ab = squared_edge(a, b), bc = squared_edge(b, c), ca = squared_edge(c, a);
-    const double longest = std::max({ab, bc, ca});
-    const bool is_wide = longest > wide * wide * a.size * a.size, alike = c.size < 1.5 * a.size;
-    double inside = (a.size + b.size + c.size) / 3;
-    if (is_wide && alike) inside = size((1.0 / 3) * (a.at + b.at + c.at));
-    if (depth == 0 || (alike && inside < 1.5 * a.size))
-        return 0.5 * std::abs(cross(b.at - a.at, c.at - a.at)) / (inside * inside);
-    if (is_wide && ca < longest) (ab < longest) ? std::swap(a, b) : std::swap(b, c);
+    if (ab >= bc && ab >= ca)
+        std::swap(b, c);
+    else if (bc >= ca)
+        std::swap(a, b);
+    const bool is_wide = std::max({ab, bc, ca}) > wide * wide * low * low;
+    const bool alike = high < 1.5 * low && inside < 1.2 * mean && mean < 1.2 * inside;
+    if (depth == 0 || (alike && !is_wide)) {
+        const double h = 0.75 * inside + 0.25 * mean;
+        add(center, area / (h * h));
+        return;
+    }
     const Point half = midpoint(a.at, c.at);
-    const Corner between{half, is_wide ? size(half) : 0.5 * (a.size + c.size)};
-    return inverse_square_integral(a, b, between, size, depth - 1) +
-           inverse_square_integral(between, b, c, size, depth - 1);
+    const Corner between{half, size(half)};
+    inverse_square_integral(a, b, between, size, wide, depth - 1, add);
+    inverse_square_integral(between, b, c, size, wide, depth - 1, add);
+}
+
+/// The integral over each triangle, given to `add`; `done` is called after each.
+template <class Add, class Done>
+void integrate(std::span<const Point> points, const Tris& tris, const SizeField& size, const Add& add,
+               const Done& done) {
+    constexpr int deepest = 40;  // halvings of one triangle: a guard only
+    const double wide = wide_triangle(size);
+    std::vector<double> sizes(points.size());
+    std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return size(p); });
+    for (const Tri& t : tris) {
+        const auto corner = [&](Index v) { return Corner{points[v], sizes[v]}; };
+        inverse_square_integral(corner(t.v[0]), corner(t.v[1]), corner(t.v[2]), size, wide, deepest, add);
+        done();
+    }
 }
 
 }  // namespace
@@ -51,22 +83,21 @@ double estimated_triangles(double area, double mean_inverse_square_size) {
 }
 
 double estimate_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size) {
-    constexpr int deepest = 40;  // halvings of one triangle: a guard only
-    std::vector<double> sizes(points.size());
-    std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return size(p); });
     double integral = 0;
-    for (const Tri& t : tris) {
-        const auto corner = [&](Index v) { return Corner{points[v], sizes[v]}; };
-        integral += inverse_square_integral(corner(t.v[0]), corner(t.v[1]), corner(t.v[2]), size, deepest);
-    }
+    integrate(
+        points, tris, size, [&](Point, double part) { integral += part; }, [] {});
     return estimated_triangles(1, integral);
 }
 
-double estimate_triangles(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size) {
-    Tris tris = triangulate_points(points);
-    insert_segments(points, segments, tris);
-    tris = keep_left_of_segments(segments, tris, points.size());
-    return estimate_triangles(points, tris, size);
+Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size) {
+    Loads result;
+    integrate(
+        points, tris, size,
+        [&](Point p, double part) {
+            result.loads.push_back({p, estimated_triangles(1, part)});
+        },
+        [&] { result.begin.push_back(result.loads.size()); });
+    return result;
 }
 
 }  // namespace lamina::kernel

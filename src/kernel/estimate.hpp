@@ -18,7 +18,16 @@ double estimated_triangles(double area, double mean_inverse_square_size);
 /// From a triangulation of the region.
 double estimate_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size);
 
-/// The same for the region left of `segments`.
-double estimate_triangles(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size);
+/// Where they will be: points in a triangle of a triangulation, each with a share of what the triangle will hold.
+struct Load {
+    Point at;
+    double triangles;
+};
+/// Loads of all triangles one after the other: those of triangle t lie in [begin[t], begin[t + 1]).
+struct Loads {
+    std::vector<Load> loads;
+    std::vector<std::size_t> begin{0};
+};
+Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size);
 
 }  // namespace lamina::kernel

@@ -1,5 +1,5 @@
-// The outer region cut into pieces: near-body box, rings of trapezoids, cuts between layer and box; then every face of
-// that subdivision becomes a self-contained Subdomain.
+// The outer region cut into pieces: near-body box, rings of trapezoids, then cuts of whatever is still too large; every
+// piece becomes a self-contained Subdomain.
 // Source: J. K. Pardue, thesis (2015), chapter 5.
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,8 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
-#include "kernel/estimate.hpp"
-#include "outer/faces.hpp"
-#include "outer/separators.hpp"
+#include "outer/cut.hpp"
+#include "outer/piece.hpp"
 #include "outer/skeleton.hpp"
 
 namespace lamina {
@@ -41,25 +40,27 @@ Box near_body_box(const Box& bodies, const Box& far_field, const DecouplingOptio
     return {bodies.lower - Point{margin, margin}, bodies.upper + Point{margin, margin}};
 }
 
-Subdomain make_subdomain(const Skeleton& skeleton, const Face& face, const SizeField& size, double min_angle_deg) {
+Subdomain make_subdomain(const Skeleton& skeleton, const SizedPiece& sized, const SizeField& size,
+                         double min_angle_deg) {
     Subdomain s;
     s.min_angle_deg = min_angle_deg;
-    s.segments = face.edges;
-    for (const Segment& e : face.edges) s.global.push_back(e.a);
+    s.estimated_triangles = sized.triangles;
+    for (const auto& loop : sized.piece.loops) s.global.insert(s.global.end(), loop.begin(), loop.end());
     std::sort(s.global.begin(), s.global.end());
     s.global.erase(std::unique(s.global.begin(), s.global.end()), s.global.end());
     const auto local = [&](VertexId v) {
         return VertexId{
             static_cast<std::size_t>(std::lower_bound(s.global.begin(), s.global.end(), v) - s.global.begin())};
     };
-    for (Segment& e : s.segments) e = {local(e.a), local(e.b)};
+    for (const auto& loop : sized.piece.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            s.segments.push_back({local(loop[i]), local(loop[i + 1 < loop.size() ? i + 1 : 0])});
     Box box;
     for (VertexId v : s.global) {
         s.points.push_back(skeleton.points[v.index()]);
         box.include(s.points.back());
     }
     s.size = size.restricted_to(box);
-    s.estimated_triangles = kernel::estimate_triangles(s.points, s.segments, s.size);
     return s;
 }
 
@@ -82,21 +83,19 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
         for (std::size_t i = 0; i < border.size(); ++i)
             skeleton.edges.push_back({border[i + 1 < border.size() ? i + 1 : 0], border[i]});
     const auto rings = outer::plan_rings(near_body, far_field, size, options.pieces_target);
-    const auto vertices = outer::add_rings(skeleton, rings, near_body, far_field, size, options.rule);
-    // Between several bodies the near-body region stays one piece.
-    if (borders.size() == 1)
-        outer::cut_near_body(skeleton, borders.front(), vertices.near_body, size, options.rule, options.pieces_target);
+    auto far_field_edges = outer::add_rings(skeleton, rings, near_body, far_field, size, options.rule);
 
+    const auto pieces = outer::cut_to_size(skeleton, outer::trace_pieces(skeleton.points, skeleton.edges), size,
+                                           options.rule, options.pieces_target);
     Decoupling result;
-    const auto faces = outer::trace_faces(skeleton.points, skeleton.edges);
-    result.subdomains.resize(faces.size());
-    parallel_for(faces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    result.subdomains.resize(pieces.size());
+    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            result.subdomains[i] = outer::make_subdomain(skeleton, faces[i], size, options.min_angle_deg);
+            result.subdomains[i] = outer::make_subdomain(skeleton, pieces[i], size, options.min_angle_deg);
     });
     result.separator_vertices = skeleton.points.size() - points.size();
     result.points = std::move(skeleton.points);
-    result.far_field = vertices.far_field;
+    result.far_field = std::move(far_field_edges);
     return result;
 }
 

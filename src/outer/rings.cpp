@@ -103,9 +103,9 @@ std::vector<Ring> plan_rings(const Box& near_body, const Box& far_field, const S
     return rings;
 }
 
-RingVertices add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body, const Box& far_field,
-                       const SizeField& size, SeparatorRule rule) {
-    RingVertices result;
+std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body,
+                               const Box& far_field, const SizeField& size, SeparatorRule rule) {
+    std::vector<Segment> far_field_edges;
     // junctions[level][side * per_side + j]: where separators meet the box between two rings.
     std::vector<std::vector<VertexId>> junctions(rings.size() + 1);
     std::vector<std::size_t> per_side(rings.size() + 1);
@@ -124,9 +124,8 @@ RingVertices add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Bo
         for (std::size_t j = 0; j < 4 * n; ++j) {
             const auto chain = add_line(skeleton, junctions[level][j], junctions[level][(j + 1) % (4 * n)], size, rule);
             skeleton.add_chain(chain, !outermost);
-            if (level == 0) result.near_body.insert(result.near_body.end(), chain.begin(), chain.end() - 1);
             if (outermost)
-                for (std::size_t i = 0; i + 1 < chain.size(); ++i) result.far_field.push_back({chain[i], chain[i + 1]});
+                for (std::size_t i = 0; i + 1 < chain.size(); ++i) far_field_edges.push_back({chain[i], chain[i + 1]});
         }
     }
     for (std::size_t ring = 0; ring < rings.size(); ++ring) {
@@ -137,7 +136,7 @@ RingVertices add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Bo
             skeleton.add_chain(add_line(skeleton, inner, outer, size, rule), true);
         }
     }
-    return result;
+    return far_field_edges;
 }
 
 }  // namespace lamina::outer

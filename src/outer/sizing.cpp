@@ -431,6 +431,7 @@ SizeField::SizeField(std::span<const SizeSource> sources, const SizingOptions& o
     Builder({sources.begin(), sources.end()}, options, domain.lower, tree->side, tree->nodes, tree->leaves);
     tree_ = std::move(tree);
     start_.shift = root_shift;
+    gradation_ = options.gradation;
 }
 
 double SizeField::operator()(Point p) const {

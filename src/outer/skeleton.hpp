@@ -1,4 +1,4 @@
-// The lines between pieces: near-body box, rings of trapezoids, cuts of the near-body region.
+// The first lines between pieces: near-body box and rings of trapezoids.
 #pragma once
 
 #include <array>
@@ -37,19 +37,8 @@ struct Ring {
 /// neighbouring rings in common. None where the near-body box is the far field.
 std::vector<Ring> plan_rings(const Box& near_body, const Box& far_field, const SizeField& size, double pieces_target);
 
-/// Adds near-body box, rings and far field to the skeleton.
-struct RingVertices {
-    std::vector<VertexId> near_body;  ///< closed loop, counter-clockwise
-    std::vector<Segment> far_field;
-};
-RingVertices add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body, const Box& far_field,
-                       const SizeField& size, SeparatorRule rule);
-
-/// Cuts the region between the outer border of one body's layer and the near-body box by straight separators from
-/// border vertices to box vertices until each piece has about `pieces_target` triangles. A cut is made only where it
-/// leaves the border at 60 degrees or more, sees the box, and has no vertex of its surroundings in a diametral circle
-/// nor the other way round. Both loops counter-clockwise.
-void cut_near_body(Skeleton& skeleton, std::span<const VertexId> border, std::span<const VertexId> box,
-                   const SizeField& size, SeparatorRule rule, double pieces_target);
+/// Adds near-body box, rings and far field to the skeleton. The far field's edges.
+std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body,
+                               const Box& far_field, const SizeField& size, SeparatorRule rule);
 
 }  // namespace lamina::outer

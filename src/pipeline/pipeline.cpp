@@ -95,6 +95,19 @@ void add(RefineStats& sum, const RefineStats& stats) {
     sum.oversized += stats.oversized;
 }
 
+/// What the pieces hold against what was estimated.
+void compare_loads(std::span<const Subdomain> subdomains, std::span<const Refinement> pieces, MeshResult& result) {
+    std::size_t foreseen = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const std::size_t made = pieces[i].triangles.size();
+        result.largest_inviscid_piece = std::max(result.largest_inviscid_piece, made);
+        const auto outcome = static_cast<double>(made);
+        foreseen += std::abs(subdomains[i].estimated_triangles - outcome) <= 0.15 * outcome;
+    }
+    if (!pieces.empty())
+        result.estimates_within_15_percent = static_cast<double>(foreseen) / static_cast<double>(pieces.size());
+}
+
 void demand_valid(const MeshCheck& check) {
     if (check.valid()) return;
     const MeshDefect& first = check.defects.front();
@@ -142,6 +155,7 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
     result.decomposition = layer_fill.decomposition;
     result.inviscid_pieces = refined.pieces.size();
     for (const Refinement& piece : refined.pieces) add(result.refinement, piece.stats);
+    compare_loads(decoupling.subdomains, refined.pieces, result);
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
     result.layer_coverage = layer.coverage;
     result.mesh = assemble(pslg, edges, std::move(layer_fill), std::move(decoupling), std::move(refined.pieces));
