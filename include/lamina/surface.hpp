@@ -26,13 +26,13 @@ struct SurfaceOptions {
     double longest_spacing = 0.02;
     /// At convex corners of more than 60 degrees: trailing edges, bases.
     double sharp_corner_spacing = 0.001;
-    /// The spacing there in units of the input, if that is less, but down to a quarter of the share at most: that of
-    /// the layer's border over the fan of rays.
-    double fan_spacing = HUGE_VAL;
     double corner_spacing = 0.004;  ///< at all other corners
-    double gap_spacing = 1;         ///< of the distance to the next element, or across a cove
-    double least_spacing = 2e-5;    ///< nothing above asks for less
-    double tolerance = 5e-5;        ///< of the edges from the curve
+    /// The length of the layer's border edges over the fan of rays at sharp corners, in units of the input: the spacing
+    /// there, but from a quarter of `sharp_corner_spacing` to `corner_spacing`.
+    std::optional<double> fan_spacing;
+    double gap_spacing = 1;       ///< of the distance to the next element, or across a cove
+    double least_spacing = 2e-5;  ///< nothing above asks for less
+    double tolerance = 5e-5;      ///< of the edges from the curve
 };
 
 /// The surface stage. Each element is kept or resampled as the options say, and Element::surface tells which and why.

@@ -275,7 +275,9 @@ std::vector<double> corner_spacings(const Outline& outline, const SurfaceOptions
     constexpr double sharp = radians(60);
     const std::vector<double> turning = turnings(outline.points);
     const double by_share = options.sharp_corner_spacing * scale;
-    const double at_sharp = std::clamp(options.fan_spacing, 0.25 * by_share, by_share);
+    const double at_sharp = options.fan_spacing
+                                ? std::clamp(*options.fan_spacing, 0.25 * by_share, options.corner_spacing * scale)
+                                : by_share;
     std::vector<double> spacings;
     for (std::size_t c : outline.corners)
         spacings.push_back(turning[c] > sharp ? at_sharp : options.corner_spacing * scale);

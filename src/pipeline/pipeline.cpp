@@ -185,7 +185,7 @@ SurfaceOptions surface_options(const CaseOptions& options) {
         const double height =
             std::min(layer_height(options.layer, options.layer.layers), options.layer.thickness.value_or(HUGE_VAL));
         const double fan_edge = height * radians(options.layer.max_ray_angle_deg);
-        if (fan_edge > 0) surface.fan_spacing = std::min(surface.fan_spacing, fan_edge);
+        if (fan_edge > 0 && !surface.fan_spacing) surface.fan_spacing = fan_edge;
     }
     return surface;
 }
