@@ -22,10 +22,13 @@ struct Sample {
 };
 using Samples = std::vector<Sample>;
 
-/// Close enough that between two of them the curve turns by about a degree at most.
+/// Close enough that between two of them the curve turns by about a degree at most, and arc length is nearly linear in
+/// the parameter.
 Samples sample(const Curve& curve) {
     constexpr double turning_a_sample = radians(1);
-    constexpr double fewest = 8, most = 256;
+    // Long pieces, of coarse outlines, need more for their length.
+    const double fewest = std::clamp(8000 / static_cast<double>(curve.pieces()), 4.0, 32.0);
+    constexpr double most = 256;
     Samples samples{{0, 0, 0, curve.at(0, 0), HUGE_VAL}};
     for (std::size_t piece = 0; piece < curve.pieces(); ++piece) {
         double turning = 0;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <lamina/geometry.hpp>
+#include <lamina/surface.hpp>
 #include <map>
 #include <set>
 
@@ -74,6 +75,29 @@ TEST_F(Collection, EveryFileIsReadOrRefusedForAReason) {
         }
     }
     EXPECT_GE(accepted, 186u);
+}
+
+TEST_F(Collection, EveryOutlineCanBeResampled) {
+    SurfaceOptions options;
+    options.surface = Surface::resample;
+    options.max_turning_deg = 5;
+    std::size_t resampled = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(collection())) {
+        const std::string name = fs::relative(entry.path(), collection()).generic_string();
+        if (!entry.is_regular_file() || refused.contains(name) || entry.path().extension() == ".md" ||
+            entry.path().extension() == ".py")
+            continue;
+        const Pslg given = read({name}), result = prepare_surfaces(given, options);
+        EXPECT_NO_THROW(check_simple(result)) << name;
+        for (std::size_t i = 0; i < result.elements.size(); ++i) {
+            if (result.elements[i].points == given.elements[i].points) continue;
+            ++resampled;
+            const ElementSummary s = summarize(result.elements[i]);
+            if (s.min_spacing < 1.5 * options.least_spacing * s.chord) continue;  // the base of s1221-4deg-flap
+            EXPECT_LE(s.max_spacing_ratio, options.max_ratio) << name;
+        }
+    }
+    EXPECT_GE(resampled, 180u);
 }
 
 TEST_F(Collection, FilesWithSeveralElements) {
