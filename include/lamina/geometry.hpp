@@ -22,7 +22,7 @@ struct Element {
     std::string name;    ///< marker name in the mesh: no spaces, at most 32 characters, unique in its Pslg
     std::string file;    ///< as the user gave it; "naca:0012" for generated sections
     std::string title;   ///< the file's own title line, if any
-    std::string format;  ///< "selig", "lednicer", "xy", "csv", "naca"
+    std::string format;  ///< "selig", "lednicer", "table", "xy", "csv", "naca"
     std::size_t points_read = 0;
     std::vector<Point> points;
     std::vector<std::size_t> lines;  ///< per point: line of the file it was read from, 0 where lamina added it

@@ -35,6 +35,8 @@ struct Document {
     bool csv = false;
     bool titled = false;
     std::string first_comment;
+    std::string heading;            ///< all text before the first coordinates, in lower case
+    std::size_t symmetry_line = 0;  ///< says that the one surface there is stands for both; 0 = none does
     std::vector<Repair> notes;
 };
 
@@ -48,6 +50,20 @@ bool is_domain_line(const std::vector<Row>& rows, std::size_t i) {
     const auto next = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(i) + 1, rows.end(),
                                    [](const Row& r) { return r.kind == RowKind::numbers; });
     return next != rows.end() && next->count < 4;
+}
+
+std::string lower_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+/// What a row without coordinates says about those that follow.
+void note_heading(const Row& row, Document& document) {
+    const std::string text = lower_case(row.text);
+    document.heading += text + '\n';
+    // OpenVSP: "1  Sym Flag (0 - No, 1 - Yes)".
+    if (text.starts_with("1") && text.find("sym flag") != text.npos) document.symmetry_line = row.line;
 }
 
 Document split_blocks(const std::vector<Row>& rows, const std::string& file) {
@@ -95,6 +111,7 @@ Document split_blocks(const std::vector<Row>& rows, const std::string& file) {
         } else if (row.kind == RowKind::comment && document.first_comment.empty() && !any_numbers) {
             document.first_comment = row.text;
         }
+        if (!any_numbers) note_heading(row, document);
         in_run = false;
     }
     return document;
@@ -157,6 +174,42 @@ std::optional<std::size_t> find_second_surface(const Points& points) {
 
 // ---- sections to outlines ------------------------------------------------------------------------------------------
 
+/// Two surfaces in one table: x, and the ordinates of both at it.
+struct SurfaceTable {
+    Points upper, lower;
+    bool downward;  ///< the file counts lower ordinates downward
+};
+
+/// Understands three columns as x, upper and lower ordinate (or lower and upper, where the heading has them in this
+/// order) if x rises from row to row, the surfaces meet at the nose, nearly at the tail, and nowhere between. Where
+/// they would cross, the lower ordinates may be meant downward.
+std::optional<SurfaceTable> read_table(const Points& points, const std::string& heading) {
+    if (points.size() < 5) return std::nullopt;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].columns != 3) return std::nullopt;
+        if (i > 0 && !(points[i].at.x > points[i - 1].at.x)) return std::nullopt;
+    }
+    const double chord = points.back().at.x - points.front().at.x;
+    const std::size_t says_upper = heading.find("upper"), says_lower = heading.find("lower");
+    const bool lower_first = says_upper != heading.npos && says_lower != heading.npos && says_lower < says_upper;
+    const auto upper_at = [&](const BlockPoint& p) { return lower_first ? p.third : p.at.y; };
+    const auto lower_at = [&](const BlockPoint& p) { return lower_first ? p.at.y : p.third; };
+    const auto apart = [&](double sign) {
+        const auto thickness = [&](const BlockPoint& p) { return upper_at(p) - sign * lower_at(p); };
+        return std::abs(thickness(points.front())) <= 0.01 * chord &&
+               std::abs(thickness(points.back())) <= 0.2 * chord &&
+               std::all_of(points.begin() + 1, points.end() - 1, [&](const BlockPoint& p) { return thickness(p) > 0; });
+    };
+    const bool downward = !apart(1);
+    if (downward && !apart(-1)) return std::nullopt;
+    SurfaceTable table{points, points, downward};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        table.upper[i].at.y = upper_at(points[i]);
+        table.lower[i].at.y = downward ? -lower_at(points[i]) : lower_at(points[i]);
+    }
+    return table;
+}
+
 /// x and y in all columns, or a constant z beside them.
 void check_columns(const Points& points, const std::string& file, std::vector<Repair>& notes) {
     for (const BlockPoint& p : points) {
@@ -165,8 +218,8 @@ void check_columns(const Points& points, const std::string& file, std::vector<Re
                                                                points[0].line, points[0].columns));
         if (p.columns == 3 && p.third != points[0].third)
             throw InputError({file, p.line, p.at},
-                             "three columns that vary, where x and y are expected (a table of x, upper and lower "
-                             "ordinates must be split into surfaces)");
+                             "three columns that vary, where x and y are expected (and no table of x, upper and lower "
+                             "ordinates: x falls, or the surfaces cross)");
     }
     if (points[0].columns == 3)
         notes.push_back({fmt::format("line {}: third column ignored, {} throughout", points[0].line, points[0].third)});
@@ -244,7 +297,8 @@ void drop_lone_points(Section& section, const std::string& file, std::vector<Rep
 }
 
 /// Appends the outlines of one section to `outlines`.
-void assemble_section(Section section, const std::string& file, std::vector<RawOutline>& outlines) {
+void assemble_section(Section section, const Document& document, const std::string& file,
+                      std::vector<RawOutline>& outlines) {
     std::vector<Repair> notes;
     const auto add = [&](const Points& points, const std::string& title, const std::string& format) {
         RawOutline& outline = outlines.emplace_back();
@@ -253,6 +307,17 @@ void assemble_section(Section section, const std::string& file, std::vector<RawO
         outline.format = format;
         outline.notes = std::exchange(notes, {});
     };
+
+    // A table of both surfaces.
+    if (section.size() == 1) {
+        if (const auto table = read_table(section[0].points, document.heading)) {
+            notes.push_back(
+                {fmt::format("line {}: table of x, upper and lower ordinates{}, joined at the first row",
+                             section[0].points[0].line, table->downward ? " (these counted downward)" : "")});
+            add(join_surfaces(table->upper, table->lower), section[0].title, "table");
+            return;
+        }
+    }
 
     // Outlines with counts, one behind the other.
     while (!section.empty()) {
@@ -282,7 +347,15 @@ void assemble_section(Section section, const std::string& file, std::vector<RawO
     drop_lone_points(section, file, notes);
     for (std::size_t i = 0; i < section.size(); ++i) {
         const Points& points = section[i].points;
-        if (const auto middle = find_second_surface(points)) {
+        if (document.symmetry_line > 0 && section.size() == 1 && !is_loop(points) && points.front().at.y == 0) {
+            Points lower = points;
+            for (BlockPoint& p : lower) p.at.y = -p.at.y;
+            notes.push_back(
+                {fmt::format("line {}: symmetric section, the surface given stands for both, mirrored at "
+                             "y = 0",
+                             document.symmetry_line)});
+            add(join_surfaces(points, lower), section[i].title, "lednicer");
+        } else if (const auto middle = find_second_surface(points)) {
             const auto second = points.begin() + static_cast<std::ptrdiff_t>(*middle);
             add(join_surfaces({points.begin(), second}, {second, points.end()}), section[i].title, "lednicer");
         } else if (is_loop(points) || section.size() == 1) {
@@ -308,7 +381,7 @@ std::string coordinates(Point p) { return fmt::format("({}, {})", p.x + 0.0, p.y
 std::vector<RawOutline> assemble_outlines(const std::vector<Row>& rows, const std::string& file) {
     Document document = split_blocks(rows, file);
     std::vector<RawOutline> outlines;
-    for (Section& section : document.sections) assemble_section(std::move(section), file, outlines);
+    for (Section& section : document.sections) assemble_section(std::move(section), document, file, outlines);
     if (outlines.empty()) throw InputError({file, 0, {}}, rows.empty() ? "the file is empty" : "no coordinates found");
 
     for (RawOutline& outline : outlines)

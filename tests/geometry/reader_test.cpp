@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <clocale>
+#include <lamina/error.hpp>
 #include <lamina/geometry.hpp>
 
 #include "support/geometry_fixtures.hpp"
@@ -48,6 +49,43 @@ TEST(Reader, NamesTheFormat) {
     EXPECT_EQ(read(fixtures::lednicer_one_run).elements[0].format, "lednicer");
     EXPECT_EQ(read(fixtures::two_surfaces).elements[0].format, "lednicer");
     EXPECT_EQ(read(fixtures::two_surfaces_one_run).elements[0].format, "lednicer");
+}
+
+const std::vector<Point> wedge_from_table = {{1, 0}, {0.6, 0.05},  {0.3, 0.06},  {0.1, 0.04},
+                                             {0, 0}, {0.1, -0.02}, {0.3, -0.03}, {0.6, -0.01}};
+
+TEST(Reader, TablesOfUpperAndLowerOrdinates) {
+    const std::string upper_first = "title\nx upper lower\n0 0 0\n.1 .04 -.02\n.3 .06 -.03\n.6 .05 -.01\n1 0 0\n";
+    const std::string lower_first = "title\nx lower upper\n0 0 0\n.1 -.02 .04\n.3 -.03 .06\n.6 -.01 .05\n1 0 0\n";
+    const std::string unnamed = "title\n0 0 0\n.1 .04 -.02\n.3 .06 -.03\n.6 .05 -.01\n1 0 0\n";
+    for (const std::string& content : {upper_first, lower_first, unnamed}) {
+        const Element e = read(content).elements[0];
+        EXPECT_EQ(e.format, "table");
+        EXPECT_EQ(e.points, wedge_from_table);
+        EXPECT_TRUE(has_repair(e, "table of x, upper and lower ordinates"));
+        EXPECT_FALSE(has_repair(e, "downward"));
+    }
+}
+
+/// Taken as they stand, the surfaces would cross.
+TEST(Reader, TablesThatCountLowerOrdinatesDownward) {
+    const Element e = read("title\nx lower upper\n0 0 0\n.1 .02 .04\n.3 .07 .06\n.6 .01 .05\n1 0 0\n").elements[0];
+    EXPECT_TRUE(has_repair(e, "downward"));
+    EXPECT_NE(std::find(e.points.begin(), e.points.end(), Point{0.3, -0.07}), e.points.end());
+    EXPECT_NE(std::find(e.points.begin(), e.points.end(), Point{0.6, 0.05}), e.points.end());
+}
+
+TEST(Reader, OneSurfaceOfASymmetricSectionStandsForBoth) {
+    const std::string content =
+        "DEMO\nNACA\n1\tSym Flag (0 - No, 1 - Yes)\n5\tNum Pnts Upper\n"
+        "0. 0.\n.1 .04\n.3 .06\n.6 .05\n1. 0.001\n";
+    const Element e = read(content).elements[0];
+    EXPECT_TRUE(has_repair(e, "symmetric section"));
+    for (Point p : e.points)
+        EXPECT_NE(std::find(e.points.begin(), e.points.end(), Point{p.x, -p.y}), e.points.end()) << p.x;
+    std::string unflagged = content;
+    unflagged[unflagged.find("1\tSym")] = '0';
+    EXPECT_THROW(read(unflagged), InputError);
 }
 
 TEST(Reader, KeepsTitlesAsPrintableText) {
