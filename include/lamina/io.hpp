@@ -23,7 +23,8 @@ struct MeshFormat {
 std::vector<MeshFormat> mesh_formats();
 
 struct WriteOptions {
-    std::string format{};  ///< a name, or an extension without its dot; empty = by the extension of the file
+    std::string format{};        ///< a name, or an extension without its dot; empty = by the extension of the file
+    bool wall_distance = false;  ///< VTU: the distance to the nearest wall as point data
 };
 
 /// Writes to temporary names beside the target and renames, so that a failure leaves nothing half-written. Coordinates

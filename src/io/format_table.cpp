@@ -36,6 +36,13 @@ void write_cgns_variant(const Mesh& mesh, const fs::path& file, const WriteOptio
     write_cgns(mesh, file, {adf, three_coordinates});
 }
 
+template <bool compressed>
+void write_vtu_variant(const Mesh& mesh, const fs::path& file, const WriteOptions& options) {
+    write_stream_atomically(file, [&](std::ostream& out) {
+        write_vtu(mesh, {compressed, options.wall_distance}, out);
+    });
+}
+
 /// A writer that sees to its files itself.
 template <auto write>
 void write_files(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
@@ -69,7 +76,9 @@ std::vector<Format> make_table() {
         check_folder_writable);
     add("msh22-extruded", {".msh"}, "Gmsh MSH 2.2, ASCII, one cell thick, for gmshToFoam",
         write_file<write_msh_extruded>, nullptr, check_folder_writable);
-    add("vtu", {".vtu"}, "VTK unstructured grid, raw binary, for ParaView", write_file<write_vtu>, read_file<read_vtu>,
+    add("vtu", {".vtu"}, "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>,
+        read_file<read_vtu>, check_folder_writable);
+    add("vtu-zlib", {".vtu"}, "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>, read_file<read_vtu>,
         check_folder_writable);
     add("openfoam", {"polyMesh"}, "OpenFOAM polyMesh folder, ASCII, one cell thick", write_files<write_openfoam>,
         read_openfoam, check_openfoam_writable);

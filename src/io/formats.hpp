@@ -41,7 +41,11 @@ const Format& format_of(const std::filesystem::path& file, const std::string& na
 void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);
 Mesh read_su2(const std::string& bytes, const std::filesystem::path& file);
 
-void write_vtu(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);
+struct VtuVariant {
+    bool compressed = false;     ///< by zlib
+    bool wall_distance = false;  ///< as point data
+};
+void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
 
 struct MshVariant {

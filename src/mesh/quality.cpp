@@ -45,6 +45,23 @@ CellShape measure_quad(Point a, Point b, Point c, Point d) {
     return shape;
 }
 
+double shape_of_triangle(Point a, Point b, Point c) {
+    constexpr double two_sqrt_3 = 2 * std::numbers::sqrt3;
+    const double squares = squared_length(b - a) + squared_length(c - b) + squared_length(a - c);
+    return squares > 0 ? std::max(0.0, two_sqrt_3 * cross(b - a, c - a) / squares) : 0.0;
+}
+
+double shape_of_quad(Point a, Point b, Point c, Point d) {
+    const Point corner[4] = {a, b, c, d};
+    double worst = 1;
+    for (int i = 0; i < 4; ++i) {
+        const Point ahead = corner[(i + 1) % 4] - corner[i], back = corner[(i + 3) % 4] - corner[i];
+        const double squares = squared_length(ahead) + squared_length(back);
+        worst = std::min(worst, squares > 0 ? 2 * cross(ahead, back) / squares : 0.0);
+    }
+    return std::max(0.0, worst);
+}
+
 void QualityCollector::add(const CellShape& shape) {
     ++cells_;
     min_angle_ = std::min(min_angle_, shape.min_angle_deg);

@@ -19,6 +19,12 @@ struct CellShape {
 CellShape measure_triangle(Point a, Point b, Point c);
 CellShape measure_quad(Point a, Point b, Point c, Point d);
 
+/// Mean ratio: 1 for the equilateral triangle and the square, 0 for flat and inverted cells. + - * / alone.
+/// Source: P. M. Knupp, Algebraic mesh quality metrics for unstructured initial meshes (2003); "shape" of the Verdict
+/// library and VTK. Of a quadrilateral, the worst corner.
+double shape_of_triangle(Point a, Point b, Point c);
+double shape_of_quad(Point a, Point b, Point c, Point d);
+
 /// Collects shapes of a part of the cells; parts are added in a fixed order.
 class QualityCollector {
 public:

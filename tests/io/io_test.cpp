@@ -1,6 +1,8 @@
 // Meshes to files and back, files that are broken, and pictures.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
 #include <fstream>
 #include <random>
 #include <set>
@@ -89,6 +91,34 @@ TEST(MeshFiles, VtuHoldsEverything) {
     EXPECT_EQ(back.markers[1].kind, MarkerKind::far_field);
     write_mesh(back, folder / "again.vtu");
     EXPECT_EQ(folder.read("m.vtu"), folder.read("again.vtu"));
+}
+
+/// Values of an array of doubles or floats from a raw VTU file.
+template <class T>
+std::vector<T> vtu_array(const std::string& file, const std::string& name, std::size_t count) {
+    const std::size_t tag = file.find("Name=\"" + name + "\""), attribute = file.find("offset=\"", tag) + 8;
+    const std::size_t data = file.find("_", file.find("<AppendedData")) + 1 + std::stoul(file.substr(attribute));
+    std::vector<T> values(count);
+    std::memcpy(values.data(), file.data() + data + 8, count * sizeof(T));
+    return values;
+}
+
+TEST(MeshFiles, VtuHoldsQualityAndWallDistance) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.around = 200, .quads_in_layer = true});
+    write_mesh(mesh, folder / "m.vtu", {.wall_distance = true});
+    const std::string file = folder.read("m.vtu");
+    const auto distance = vtu_array<double>(file, "wall_distance", mesh.points.size());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        ASSERT_NEAR(distance[i], length(mesh.points[i]) - 1, 2e-4) << i;  // a polygon, not a circle
+    const auto quality = vtu_array<float>(file, "quality", mesh.triangles.size() + mesh.quads.size() + 400);
+    for (std::size_t i = 0; i < mesh.triangles.size() + mesh.quads.size(); ++i) {
+        ASSERT_GT(quality[i], 0);
+        ASSERT_LE(quality[i], 1);
+    }
+    EXPECT_EQ(quality.back(), 0);
+    write_mesh(mesh, folder / "plain.vtu");
+    EXPECT_EQ(folder.read("plain.vtu").find("wall_distance"), std::string::npos);
 }
 
 TEST(Su2, ReadsOtherPrograms) {

@@ -1,25 +1,17 @@
-// VTK XML unstructured grid with one piece, all arrays appended as raw bytes: [length, UInt64][bytes] each, offsets
-// counted from behind the underscore.
-// Source: VTK User's Guide, "VTK File Formats", XML.
-//
-// Beyond points and cells the files hold, so that a mesh comes back as it was:
-//   cell data    region (0 layer, 1 isotropic), piece, layer, where the mesh has them; marker
-//   cells        triangles, quads, then each marker's edges as lines: their `marker` is 1 for the first name, ...; 0 on
-//                triangles and quads. Lines repeat nothing else: their region is 2, their piece and layer 0
-//   field data   marker_names (UTF-8, a zero byte behind each: not every reader knows strings), marker_kinds (as
-//   MarkerKind), constraints (pairs of points)
-// Read back: little-endian files of one piece with raw appended, uncompressed arrays of any numeric type, of triangles
-// (5), quads (9) and lines (3); z and other arrays are ignored; lines with marker 0 or without the array, too.
+// Reads VTK XML unstructured grids of one piece with appended arrays, raw or compressed by zlib, of any numeric type,
+// in little-endian files: triangles (5), quads (9) and lines (3). z and arrays that lamina does not write are ignored,
+// and lines with marker 0 or without the array, too. What the arrays mean: vtu_write.cpp. Source: VTK User's Guide,
+// "VTK File Formats", XML.
 #include <fmt/format.h>
+#include <zlib.h>
 
-#include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <map>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -32,165 +24,7 @@ namespace lamina::detail {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
-
 enum CellType : std::uint8_t { line_type = 3, triangle_type = 5, quad_type = 9 };
-
-template <class T>
-constexpr const char* type_name() {
-    if constexpr (std::is_same_v<T, double>) return "Float64";
-    if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
-    if constexpr (std::is_same_v<T, std::uint32_t>) return "UInt32";
-    if constexpr (std::is_same_v<T, std::uint16_t>) return "UInt16";
-    if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
-}
-
-// --- Writing
-
-/// The header, and behind it the arrays it announces; they are made only when they are written.
-class VtuWriter {
-public:
-    std::string xml;
-
-    /// put(emit) calls emit(value) for each of the tuples x components values.
-    template <class T, class Put>
-    void array(const char* name, std::size_t tuples, std::size_t components, Put put, bool in_field_data = false) {
-        announce(type_name<T>(), name, tuples, components, in_field_data);
-        append(tuples * components * sizeof(T), [put = std::move(put)](std::ostream& out) {
-            std::vector<T> buffer;
-            buffer.reserve(1 << 15);
-            const auto flush = [&] {
-                out.write(reinterpret_cast<const char*>(buffer.data()),
-                          static_cast<std::streamsize>(buffer.size() * sizeof(T)));
-                buffer.clear();
-            };
-            put([&](auto value) {
-                buffer.push_back(static_cast<T>(value));
-                if (buffer.size() == buffer.capacity()) flush();
-            });
-            flush();
-        });
-    }
-    void write(std::ostream& out) const {
-        out << xml << "  <AppendedData encoding=\"raw\">\n_";
-        for (const Appended& data : appended_) {
-            const std::uint64_t size = data.bytes;
-            out.write(reinterpret_cast<const char*>(&size), sizeof size);
-            data.write(out);
-        }
-        out << "\n  </AppendedData>\n</VTKFile>\n";
-    }
-
-private:
-    struct Appended {
-        std::size_t bytes;
-        std::function<void(std::ostream&)> write;
-    };
-    void announce(const char* type, const char* name, std::size_t tuples, std::size_t components, bool in_field_data) {
-        xml += fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" ", type, name,
-                           components);
-        if (in_field_data) xml += fmt::format("NumberOfTuples=\"{}\" ", tuples);
-        xml += fmt::format("format=\"appended\" offset=\"{}\"/>\n", offset_);
-    }
-    void append(std::size_t bytes, std::function<void(std::ostream&)> write) {
-        appended_.push_back({bytes, std::move(write)});
-        offset_ += sizeof(std::uint64_t) + bytes;
-    }
-
-    std::vector<Appended> appended_;
-    std::size_t offset_ = 0;
-};
-
-std::size_t line_count(const Mesh& mesh) {
-    std::size_t lines = 0;
-    for (const Marker& marker : mesh.markers) lines += marker.edges.size();
-    return lines;
-}
-
-/// Values of the cells, then `of_line` for each line.
-template <class T, class V>
-void put_cell_array(VtuWriter& vtu, const char* name, const std::vector<V>& values, std::size_t lines, T of_line) {
-    if (values.empty()) return;
-    vtu.array<T>(name, values.size() + lines, 1, [&values, lines, of_line](auto emit) {
-        for (const V value : values) emit(value);
-        for (std::size_t i = 0; i < lines; ++i) emit(of_line);
-    });
-}
-
-void put_field_data(const Mesh& mesh, VtuWriter& vtu) {
-    std::string names;
-    for (const Marker& marker : mesh.markers) names += marker.name + '\0';
-    vtu.xml += "    <FieldData>\n";
-    constexpr bool in_field_data = true;
-    vtu.array<std::uint8_t>(
-        "marker_names", names.size(), 1,
-        [names](auto emit) {
-            for (const char c : names) emit(c);
-        },
-        in_field_data);
-    vtu.array<std::uint32_t>(
-        "constraints", mesh.constraints.size(), 2,
-        [&mesh](auto emit) {
-            for (const Segment& edge : mesh.constraints) emit(edge.a.value), emit(edge.b.value);
-        },
-        in_field_data);
-    vtu.array<std::uint8_t>(
-        "marker_kinds", mesh.markers.size(), 1,
-        [&mesh](auto emit) {
-            for (const Marker& marker : mesh.markers) emit(marker.kind);
-        },
-        in_field_data);
-    vtu.xml += "    </FieldData>\n";
-}
-
-void put_cell_data(const Mesh& mesh, VtuWriter& vtu) {
-    const std::size_t cells = mesh.triangles.size() + mesh.quads.size(), lines = line_count(mesh);
-    vtu.xml += "      <CellData>\n";
-    put_cell_array<std::uint8_t>(vtu, "region", mesh.region, lines, 2);
-    put_cell_array<std::uint32_t>(vtu, "piece", mesh.piece, lines, 0);
-    put_cell_array<std::uint16_t>(vtu, "layer", mesh.layer, lines, 0);
-    vtu.array<std::uint32_t>("marker", cells + lines, 1, [&mesh, cells](auto emit) {
-        for (std::size_t i = 0; i < cells; ++i) emit(0);
-        for (std::size_t m = 0; m < mesh.markers.size(); ++m)
-            for (std::size_t i = 0; i < mesh.markers[m].edges.size(); ++i) emit(m + 1);
-    });
-    vtu.xml += "      </CellData>\n";
-}
-
-void put_points(const Mesh& mesh, VtuWriter& vtu) {
-    vtu.xml += "      <Points>\n";
-    vtu.array<double>("Points", mesh.points.size(), 3, [&mesh](auto emit) {
-        for (const Point p : mesh.points) emit(p.x), emit(p.y), emit(0.0);
-    });
-    vtu.xml += "      </Points>\n";
-}
-
-void put_cells(const Mesh& mesh, VtuWriter& vtu) {
-    const std::size_t triangles = mesh.triangles.size(), quads = mesh.quads.size(), lines = line_count(mesh);
-    vtu.xml += "      <Cells>\n";
-    vtu.array<std::int64_t>("connectivity", 3 * triangles + 4 * quads + 2 * lines, 1, [&mesh](auto emit) {
-        for (const Triangle& t : mesh.triangles)
-            for (const VertexId v : t.v) emit(v.value);
-        for (const Quad& q : mesh.quads)
-            for (const VertexId v : q.v) emit(v.value);
-        for (const Marker& marker : mesh.markers)
-            for (const Segment& edge : marker.edges) emit(edge.a.value), emit(edge.b.value);
-    });
-    vtu.array<std::int64_t>("offsets", triangles + quads + lines, 1, [=](auto emit) {
-        std::int64_t offset = 0;
-        for (std::size_t i = 0; i < triangles; ++i) emit(offset += 3);
-        for (std::size_t i = 0; i < quads; ++i) emit(offset += 4);
-        for (std::size_t i = 0; i < lines; ++i) emit(offset += 2);
-    });
-    vtu.array<std::uint8_t>("types", triangles + quads + lines, 1, [=](auto emit) {
-        for (std::size_t i = 0; i < triangles; ++i) emit(triangle_type);
-        for (std::size_t i = 0; i < quads; ++i) emit(quad_type);
-        for (std::size_t i = 0; i < lines; ++i) emit(line_type);
-    });
-    vtu.xml += "      </Cells>\n";
-}
-
-// --- Reading
 
 /// An element's name and attributes; closing ones have a name that begins with '/'.
 struct Tag {
@@ -304,7 +138,8 @@ private:
                 demand(tag, "type", "UnstructuredGrid");
                 demand(tag, "byte_order", "LittleEndian");
                 demand(tag, "header_type", "UInt64");
-                if (tag.attributes.contains("compressor")) fail("compressed files cannot be read");
+                compressed_ = tag.attributes.contains("compressor");
+                if (compressed_) demand(tag, "compressor", "vtkZLibDataCompressor");
                 is_vtu = true;
             } else if (tag.name == "Piece") {
                 if (has_piece) fail("files of more than one piece cannot be read");
@@ -331,21 +166,65 @@ private:
 
     bool has(const std::string& name) const { return arrays_.contains(name); }
 
-    std::string_view array_bytes(const std::string& name) const {
+    /// Reads numbers of the headers of arrays.
+    class Cursor {
+    public:
+        Cursor(const VtuReader& reader, const std::string& name, std::size_t at)
+            : reader_(reader), name_(name), at_(at) {}
+        std::size_t number() {
+            std::uint64_t value = 0;
+            std::memcpy(&value, bytes(sizeof value).data(), sizeof value);
+            return value;
+        }
+        std::string_view bytes(std::size_t count) {
+            if (at_ > reader_.bytes_.size() || reader_.bytes_.size() - at_ < count)
+                reader_.fail(fmt::format("cut short within array '{}'", name_));
+            const std::string_view found = std::string_view(reader_.bytes_).substr(at_, count);
+            at_ += count;
+            return found;
+        }
+
+    private:
+        const VtuReader& reader_;
+        const std::string& name_;
+        std::size_t at_;
+    };
+
+    std::string array_bytes(const std::string& name) const {
         const auto found = arrays_.find(name);
         if (found == arrays_.end()) fail(fmt::format("array '{}' is missing", name));
         const std::size_t size = bytes_.size() - data_, offset = found->second.offset;
-        std::uint64_t length = 0;
-        if (offset > size || size - offset < sizeof length) fail(fmt::format("cut short before array '{}'", name));
-        std::memcpy(&length, bytes_.data() + data_ + offset, sizeof length);
-        if (length > size - offset - sizeof length) fail(fmt::format("cut short within array '{}'", name));
-        return std::string_view(bytes_).substr(data_ + offset + sizeof length, length);
+        if (offset > size) fail(fmt::format("cut short before array '{}'", name));
+        Cursor cursor(*this, name, data_ + offset);
+        return compressed_ ? inflated(cursor, name) : std::string(cursor.bytes(cursor.number()));
+    }
+    /// [blocks][bytes of a block][bytes of the last, 0 = as the others][compressed bytes of each], then the blocks.
+    std::string inflated(Cursor& cursor, const std::string& name) const {
+        const std::size_t blocks = cursor.number(), block = cursor.number(), last = cursor.number();
+        // Nothing is compressed to less than a thousandth.
+        if (blocks > bytes_.size() / 8 || (blocks > 0 && block > 2000 * bytes_.size() / blocks) || last > block)
+            fail(fmt::format("array '{}' has a broken header", name));
+        std::vector<std::size_t> sizes(blocks);
+        for (std::size_t& compressed : sizes) compressed = cursor.number();
+        std::string whole;
+        for (std::size_t i = 0; i < blocks; ++i) {
+            const std::size_t expected = i + 1 == blocks && last > 0 ? last : block;
+            const std::string_view compressed = cursor.bytes(sizes[i]);
+            std::string plain(expected, '\0');
+            uLongf length = expected;
+            if (uncompress(reinterpret_cast<Bytef*>(plain.data()), &length,
+                           reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()) != Z_OK ||
+                length != expected)
+                fail(fmt::format("array '{}' cannot be decompressed", name));
+            whole += plain;
+        }
+        return whole;
     }
 
     /// The values of an array, converted from whatever type they have. Integers that T cannot hold are refused.
     template <class T>
     std::vector<T> values(const std::string& name) const {
-        const std::string_view raw = array_bytes(name);
+        const std::string raw = array_bytes(name);
         const std::string_view type = arrays_.find(name)->second.type;
         if (type == "Float64") return convert<T, double>(name, raw);
         if (type == "Float32") return convert<T, float>(name, raw);
@@ -402,7 +281,8 @@ private:
 
     void read_markers_and_constraints() {
         if (has("FieldData/marker_names")) {
-            std::string_view names = array_bytes("FieldData/marker_names");
+            const std::string stored = array_bytes("FieldData/marker_names");
+            std::string_view names = stored;
             for (std::size_t end; (end = names.find('\0')) != std::string_view::npos; names.remove_prefix(end + 1))
                 mesh_.markers.push_back({std::string(names.substr(0, end)), MarkerKind::other, {}});
             if (!names.empty()) fail("the last marker's name does not end");
@@ -471,26 +351,11 @@ private:
     std::string file_;
     std::map<std::string, Array> arrays_;
     std::size_t data_ = 0, points_ = 0, cells_ = 0;
+    bool compressed_ = false;
     Mesh mesh_;
 };
 
 }  // namespace
-
-void write_vtu(const Mesh& mesh, const std::filesystem::path&, std::ostream& out) {
-    VtuWriter vtu;
-    vtu.xml =
-        "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-        "  <UnstructuredGrid>\n";
-    put_field_data(mesh, vtu);
-    vtu.xml += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.size(),
-                           mesh.triangles.size() + mesh.quads.size() + line_count(mesh));
-    put_cell_data(mesh, vtu);
-    put_points(mesh, vtu);
-    put_cells(mesh, vtu);
-    vtu.xml += "    </Piece>\n  </UnstructuredGrid>\n";
-    vtu.write(out);
-}
 
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file) {
     return VtuReader(bytes, file.string()).read();

@@ -1,0 +1,40 @@
+#include "mesh/wall_distance.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/box_tree.hpp"
+#include "core/parallel.hpp"
+#include "layers/segments.hpp"
+
+namespace lamina::detail {
+
+std::vector<double> wall_distances(const Mesh& mesh) {
+    struct Edge {
+        Point a, b;
+    };
+    std::vector<Edge> edges;
+    std::vector<Box> boxes;
+    for (const Marker& marker : mesh.markers) {
+        if (marker.kind != MarkerKind::wall) continue;
+        for (const Segment& edge : marker.edges) {
+            edges.push_back({mesh.points[edge.a.index()], mesh.points[edge.b.index()]});
+            boxes.emplace_back().include(edges.back().a);
+            boxes.back().include(edges.back().b);
+        }
+    }
+    std::vector<double> distances(mesh.points.size(), HUGE_VAL);
+    if (edges.empty()) return distances;
+    const BoxTree tree(std::move(boxes));
+    const auto no_offset = tree.least_values(std::vector<double>(edges.size(), 0.0));
+    parallel_for(distances.size(), std::size_t{1} << 10, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Point p = mesh.points[i];
+            distances[i] = tree.least(p, 1.0, HUGE_VAL, no_offset,
+                                      [&](std::size_t e) { return distance_to_segment(p, edges[e].a, edges[e].b); });
+        }
+    });
+    return distances;
+}
+
+}  // namespace lamina::detail

@@ -1,0 +1,13 @@
+// How far from the walls.
+#pragma once
+
+#include <vector>
+
+#include <lamina/mesh.hpp>
+
+namespace lamina::detail {
+
+/// Distance of each point to the nearest edge of a marker of kind wall; infinite where there is none.
+std::vector<double> wall_distances(const Mesh& mesh);
+
+}  // namespace lamina::detail

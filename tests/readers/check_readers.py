@@ -1,0 +1,236 @@
+#!/usr/bin/python3
+"""Opens lamina's meshes with the programs that its users have, and compares what these report.
+
+usage: check_readers.py LAMINA FOLDER
+
+Readers: Gmsh, meshio, VTK, cgnscheck, and OpenFOAM's checkMesh and gmshToFoam, as Debian packages them. `./dev
+test-readers` installs them and runs this. The reference of every mesh is `lamina check --json` on its SU2 file.
+"""
+
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+LAMINA = sys.argv[1]
+FOLDER = Path(sys.argv[2])
+OPENFOAM = {**os.environ, "WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam")}
+
+SMALL = ["--layers", "20", "--first-height", "1e-4", "--far-field", "10", "--quiet"]
+MESHES = {
+    "single": ["naca:0012:120"],
+    "three": [],  # three files, see three_elements()
+    "quads": ["naca:0012:120", "--layer-topology", "quads"],
+    "blunt": ["naca:0012:121:blunt", "--base-marker"],
+}
+FILES = {  # format: file
+    "su2": "m.su2",
+    "vtu": "m.vtu",
+    "vtu-zlib": "z.vtu",
+    "msh41": "a41.msh",
+    "msh41-binary": "b41.msh",
+    "msh22": "a22.msh",
+    "msh22-binary": "b22.msh",
+    "msh22-extruded": "extruded.msh",
+    "cgns": "m.cgns",
+    "cgns-3d": "m3.cgns",
+    "cgns-adf": "adf.cgns",
+    "openfoam": "case",
+    "ugrid": "m.ugrid",
+    "fun3d": "f.b8.ugrid",
+}
+CONTROL = """FoamFile {{ version 2.0; format ascii; class dictionary; object {}; }}
+application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;
+writeControl timeStep; writeInterval 1; writePrecision 17; writeFormat ascii;
+ddtSchemes {{}} gradSchemes {{}} divSchemes {{}} laplacianSchemes {{}} interpolationSchemes {{}} snGradSchemes {{}}
+"""
+
+failures = 0
+
+
+def expect(condition, what, said=""):
+    global failures
+    print(f"  {'ok    ' if condition else 'FAILED'}  {what}")
+    if not condition:
+        failures += 1
+        print("          " + str(said).strip()[-2000:].replace("\n", "\n          "))
+
+
+def run(*command, **options):
+    done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          **options)
+    return done.returncode, done.stdout
+
+
+def lamina(*arguments):
+    code, said = run(LAMINA, *arguments)
+    if code != 0:
+        sys.exit(f"lamina {' '.join(map(str, arguments))}: {said}")
+    return said
+
+
+def facts(file):
+    return json.loads(lamina("check", file, "--json"))
+
+
+def edges_of(report):
+    return {marker["name"]: marker["edges"] for marker in report["markers"]}
+
+
+def check_gmsh(folder, reference):
+    for name in ["a41.msh", "b41.msh", "a22.msh", "b22.msh"]:
+        for version in ["msh41", "msh22"]:
+            back = folder / f"gmsh_{version}.msh"
+            back.unlink(missing_ok=True)
+            code, said = run("gmsh", folder / name, "-0", "-bin", "-format", version, "-o", back)
+            clean = code == 0 and "Warning" not in said and "Error" not in said and back.exists()
+            same = clean and facts(back)["hash"] == reference["hash"]
+            expect(same, f"gmsh reads {name} and gives the same mesh and names back as binary {version}", said)
+
+
+def check_meshio(folder, reference):
+    import meshio
+
+    def counts(mesh):
+        found = {}
+        for block in mesh.cells:
+            found[block.type] = found.get(block.type, 0) + len(block.data)
+        return found
+
+    edges = sum(edges_of(reference).values())
+    wanted = {"triangle": reference["triangles"], "quad": reference["quads"], "line": edges}
+    wanted = {kind: n for kind, n in wanted.items() if n}
+    for name in ["m.su2", "m.vtu", "z.vtu", "a41.msh", "b41.msh", "a22.msh", "b22.msh"]:
+        mesh = meshio.read(folder / name)
+        same = counts(mesh) == wanted and len(mesh.points) == reference["vertices"]
+        expect(same, f"meshio reads {name}: {len(mesh.points)} points", (counts(mesh), wanted))
+        if name.endswith(".msh"):
+            names = set(edges_of(reference)) | {"layer", "isotropic"}
+            expect(set(mesh.field_data) == names, f"meshio finds the physical names of {name}", mesh.field_data)
+    mesh = meshio.read(folder / "f.b8.ugrid")
+    wanted = {"wedge": reference["triangles"], "hexahedron": reference["quads"],
+              "triangle": 2 * reference["triangles"], "quad": edges + 2 * reference["quads"]}
+    wanted = {kind: n for kind, n in wanted.items() if n}
+    expect(counts(mesh) == wanted, "meshio reads f.b8.ugrid", (counts(mesh), wanted))
+
+
+def check_vtk(folder, reference):
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    for name in ["m.vtu", "z.vtu"]:
+        reader = vtk.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(folder / name))
+        reader.Update()
+        grid = reader.GetOutput()
+        types = vtk_to_numpy(grid.GetCellTypesArray())
+        found = [(types == t).sum() for t in (vtk.VTK_TRIANGLE, vtk.VTK_QUAD, vtk.VTK_LINE)]
+        wanted = [reference["triangles"], reference["quads"], sum(edges_of(reference).values())]
+        expect(found == wanted and grid.GetNumberOfPoints() == reference["vertices"], f"VTK reads {name}", found)
+        arrays = {grid.GetCellData().GetArrayName(i) for i in range(grid.GetCellData().GetNumberOfArrays())}
+        expect({"region", "piece", "layer", "quality", "marker"} <= arrays, f"VTK finds the cell data of {name}", arrays)
+        measure = vtk.vtkMeshQuality()
+        measure.SetInputData(grid)
+        measure.SetTriangleQualityMeasureToShape()
+        measure.SetQuadQualityMeasureToShape()
+        measure.Update()
+        theirs = vtk_to_numpy(measure.GetOutput().GetCellData().GetArray("Quality"))
+        ours = vtk_to_numpy(grid.GetCellData().GetArray("quality"))
+        cells = types != vtk.VTK_LINE
+        difference = abs(theirs - ours)[cells].max()
+        expect(difference < 1e-6, f"VTK measures the same quality: they differ by {difference:.1e}")
+
+    reader = vtk.vtkCGNSReader()
+    reader.SetFileName(str(folder / "m3.cgns"))
+    reader.UpdateInformation()
+    reader.EnableAllBases()
+    reader.Update()
+    block = reader.GetOutput()
+    while block is not None and block.IsA("vtkMultiBlockDataSet"):
+        block = block.GetBlock(0)
+    cells = block.GetNumberOfCells() if block is not None else 0
+    expect(cells >= reference["triangles"] + reference["quads"], f"VTK reads m3.cgns: {cells} cells")
+
+
+def check_cgns(folder, reference):
+    for name, level in [("m.cgns", 3), ("adf.cgns", 3), ("m3.cgns", 1)]:
+        code, said = run("cgnscheck", f"-w{level}", folder / name)
+        clean = code == 0 and "checking complete" in said and not re.search("error|warning", said, re.I)
+        expect(clean, f"cgnscheck -w{level} finds no error and no warning in {name}", said)
+
+
+def foam_case(case):
+    (case / "system").mkdir(parents=True, exist_ok=True)
+    for name in ["controlDict", "fvSchemes", "fvSolution"]:
+        (case / "system" / name).write_text(CONTROL.format(name))
+
+
+def check_openfoam(folder, reference):
+    case = folder / "case"
+    foam_case(case)
+    code, said = run("checkMesh", "-allTopology", "-allGeometry", "-case", case, env=OPENFOAM)
+    topology = said[said.find("Checking topology"):said.find("Checking geometry")]
+    expect(code == 0 and "***" not in topology and "Upper triangular ordering OK" in topology,
+           "checkMesh -allTopology: topology all OK", said)
+    expect("Mesh has 2 geometric (non-empty/wedge) directions (1 1 0)" in said, "checkMesh sees a plane mesh", said)
+    for line in said.splitlines():
+        if "non-orthogonality Max" in line or "aspect ratio" in line or "***" in line or "skewness" in line:
+            print("            " + line.strip())
+
+    case = folder / "from_gmsh"
+    foam_case(case)
+    code, said = run("gmshToFoam", (folder / "extruded.msh").resolve(), "-case", case, env=OPENFOAM)
+    expect(code == 0 and "FATAL" not in said, "gmshToFoam reads extruded.msh", said)
+    back = facts(case)
+    wanted = (reference["triangles"], reference["quads"], edges_of(reference))
+    expect((back["triangles"], back["quads"], edges_of(back)) == wanted and back["hash"] == reference["hash"],
+           "gmshToFoam makes the same mesh and patches of it", back)
+
+
+def main():
+    for name, arguments in MESHES.items():
+        print(f"\n{name}")
+        folder = FOLDER / name
+        folder.mkdir(parents=True, exist_ok=True)
+        inputs = arguments
+        if name == "three":
+            inputs = three_elements(folder)
+        lamina("mesh", *inputs, *SMALL, "-o", folder / "first.vtu")
+        for form, file in FILES.items():
+            lamina("convert", folder / "first.vtu", folder / file, "--format", form)
+        reference = facts(folder / "m.su2")
+        print(f"  {reference['vertices']} vertices, {reference['triangles']} triangles, {reference['quads']} quads, "
+              f"{edges_of(reference)}")
+        expect(reference["valid"] and (name != "quads" or reference["quads"] > 0) and
+               (name != "blunt" or len(reference["markers"]) == 3), "the mesh is what it should be", reference)
+        check_gmsh(folder, reference)
+        check_meshio(folder, reference)
+        check_vtk(folder, reference)
+        check_cgns(folder, reference)
+        check_openfoam(folder, reference)
+    print(f"\n{failures} failures")
+    return 1 if failures else 0
+
+
+def three_elements(folder):
+    """The same section three times, each behind and below the one before."""
+    files = []
+    for k, (scale, x, y) in enumerate([(0.2, -0.25, -0.05), (1.0, 0.0, 0.0), (0.3, 1.05, -0.08)]):
+        points = []
+        n = 60
+        for i in range(2 * n):
+            s = math.cos(math.pi * i / n)
+            u = 0.5 * (1 + s)
+            t = 0.6 * (0.2969 * math.sqrt(u) - 0.126 * u - 0.3516 * u**2 + 0.2843 * u**3 - 0.1036 * u**4)
+            points.append((x + scale * u, y + scale * (t if i <= n else -t)))
+        file = folder / f"{['slat', 'main', 'flap'][k]}.dat"
+        file.write_text(file.stem + "\n" + "".join(f"{px:.10f} {py:.10f}\n" for px, py in points))
+        files.append(file)
+    return files
+
+
+if __name__ == "__main__":
+    sys.exit(main())
