@@ -14,7 +14,14 @@
 
 namespace lamina {
 
-enum class GrowthLaw { geometric };
+/// Height H(n) of layer n, h the first height, r LayerOptions::growth:
+enum class GrowthLaw {
+    geometric,    ///< h (r^n - 1) / (r - 1)
+    polynomial,   ///< h n^r
+    exponential,  ///< T (e^(a n/N) - 1) / (e^a - 1) for N layers of total thickness T; a follows from H(1) = h
+    adaptive,     ///< geometric, r of each ray such that the last of N spacings is that along the wall; 1.05 to 1.5
+    aflr          ///< five equal spacings, each one after that 1.05, 1.05^2, ... 1.5, 1.5 ... times the one below
+};
 enum class Corners { fan, refine };
 
 /// How the layer's points are joined; the points are the same. docs/decisions/0012.
@@ -27,10 +34,14 @@ enum class LayerTopology {
 struct LayerOptions {
     bool enabled = true;
     double first_height = 1e-5;  ///< of the first layer, along the ray, in units of the input
-    double growth = 1.2;         ///< ratio of the heights of successive layers
+    /// Ratio of the heights of successive layers, or the power of the polynomial law; > 1. The other laws have no use
+    /// for it.
+    double growth = 1.2;
     GrowthLaw growth_law = GrowthLaw::geometric;
-    std::uint32_t layers = 30;
-    std::optional<double> thickness;  ///< stop each ray at this total height
+    /// Layers on each ray. None: up to isotropy, where the height of a layer reaches the distance to the neighbouring
+    /// rays.
+    std::optional<std::uint32_t> layers = 30;
+    std::optional<double> thickness;  ///< stop each ray at this total height; the exponential law's T
     double max_ray_angle_deg = 5;     ///< between neighbouring rays
     /// Convex corners that turn by more than 60 degrees: a fan from the vertex, or refining rays beside it.
     Corners corners = Corners::fan;
@@ -58,7 +69,7 @@ struct Ray {
     Point direction;          ///< unit vector
     std::uint32_t layers;     ///< points made on the ray; less than asked where it was truncated
     std::uint32_t requested;  ///< points asked for
-    double growth;            ///< what LayerOptions::growth is on this ray
+    double growth;            ///< r of GrowthLaw on this ray; e^(a/N) for the exponential law
     std::size_t first_point;  ///< Layer::points[first_point + n] lies at height n + 1
     double height_limit;      ///< nothing is placed beyond this height; infinite where nothing is in the way
     /// Each spacing is to the one below as the law says, times this: 1 on rays with all their layers, else within
@@ -105,13 +116,14 @@ struct Layer {
     std::vector<ElementCoverage> coverage;
 };
 
-/// Height of the n-th layer's top, n >= 0, above the wall (height 0 at n = 0).
-/// Source: thesis 3.3; geometric: first_height (growth^n - 1) / (growth - 1).
+/// Height of the n-th layer's top, n >= 0, above the wall (height 0 at n = 0); for the adaptive law on a ray where r is
+/// options.growth. Source: thesis 3.3, GrowthLaw.
 double layer_height(const LayerOptions& options, std::uint32_t n);
 
 /// Makes rays, truncates them where they would meet, places the points and the outer border. Precondition: pslg passes
 /// check_simple(). Neighbouring rays differ by at most one layer; every cell between them is positively oriented.
-/// Throws UsageError for heights <= 0, growth <= 1 and the like, for heights below the resolution of the coordinates
+/// Throws UsageError for heights <= 0, growth <= 1 and the like, for laws without what they need (exponential: layers
+/// and a thickness above layers x first_height; adaptive: layers), for heights below the resolution of the coordinates
 /// and for layers absurdly thicker than the input is wide.
 /// With enabled = false no rays: the walls alone, their edges split like those of any border, and borders equal to
 /// them.

@@ -63,6 +63,14 @@ struct QualitySummary {
     std::array<std::size_t, 18> angle_histogram{};  ///< smallest angles in classes of 5 degrees... [0,5), [5,10), ...
 };
 
+/// Area of the layer's cell over that of the isotropic one, over all edges between the two regions; 0 without any.
+struct HandOverSummary {
+    std::size_t edges = 0;
+    double p01_area_ratio = 0;  ///< 1st percentile
+    double median_area_ratio = 0;
+    double p99_area_ratio = 0;  ///< 99th percentile
+};
+
 struct MeshCheck {
     std::vector<MeshDefect> defects;  ///< empty = valid; at most 20 are kept
     std::size_t defect_count = 0;
@@ -71,6 +79,7 @@ struct MeshCheck {
     std::size_t boundary_loops = 0;
     QualitySummary layer;
     QualitySummary isotropic;             ///< all cells where the mesh holds no regions
+    HandOverSummary hand_over;            ///< from the layer to the isotropic region
     std::size_t interior_edges = 0;       ///< edges between two isotropic triangles that are no constraints
     std::size_t delaunay_violations = 0;  ///< of those, edges with a vertex strictly inside the opposite circle (exact)
     /// Boundary edges of layer cells that reach beyond layer 1: the first height is not kept there.

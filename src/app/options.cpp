@@ -78,6 +78,9 @@ std::vector<std::string> as_words(const Value& value) {
     throw UsageError("must be an array of strings");
 }
 
+/// Stands for a number that the program finds itself.
+const std::string automatic = "auto";
+
 // ---- kinds of options; member(c) is a reference to what the option sets in a MeshCase ----
 
 /// A number that may be optional: then empty where it is not set.
@@ -89,6 +92,12 @@ std::optional<Value> number_value(const Member& member) {
         return static_cast<As>(member);
     }
 }
+
+/// The type of a number that may be optional.
+template <class Number>
+Number number_of(Number);
+template <class Number>
+Number number_of(std::optional<Number>);
 
 template <class Member>
 Option real(std::string name, std::string metavar, const std::string& help, Range range, Member member) {
@@ -102,12 +111,33 @@ Option real(std::string name, std::string metavar, const std::string& help, Rang
 
 template <class Member>
 Option count(std::string name, std::string metavar, const std::string& help, Range range, Member member) {
+    using Number = decltype(number_of(member(std::declval<MeshCase&>())));
     const auto set = [=](MeshCase& c, const Value& value) {
         require(range, static_cast<double>(as_count(value)));
-        member(c) = static_cast<std::decay_t<decltype(member(c))>>(as_count(value));
+        member(c) = static_cast<Number>(as_count(value));
     };
     const auto get = [=](const MeshCase& c) { return number_value<std::int64_t>(member(c)); };
     return {std::move(name), Kind::count, std::move(metavar), help + "; " + range_text(range), set, get};
+}
+
+/// An optional number that is empty for "auto".
+template <class Member>
+Option count_or_auto(std::string name, std::string metavar, const std::string& help, Range range, Member member) {
+    Option option = count(std::move(name), metavar + "|auto", help, range, member);
+    option.kind = Kind::count_or_auto;
+    const auto set_count = option.set;
+    option.set = [=](MeshCase& c, const Value& value) {
+        const auto* word = std::get_if<std::string>(&value);
+        if (word && *word != automatic) throw UsageError("must be a whole number or 'auto'");
+        if (word) {
+            member(c).reset();
+        } else {
+            set_count(c, value);
+        }
+    };
+    const auto get_count = option.get;
+    option.get = [=](const MeshCase& c) { return get_count(c).value_or(automatic); };
+    return option;
 }
 
 /// Sets the member to `meaning` where the flag is given.
@@ -227,11 +257,17 @@ std::vector<Option> make_table() {
     group = "Layer";
     add(real("first-height", "H", "height of the first layer along the ray, in units of the input", positive,
              of_layer(&LayerOptions::first_height)));
-    add(real("growth", "R", "ratio of the heights of successive layers", greater_than(1),
+    add(real("growth", "R", "ratio of the heights of successive layers; power of the polynomial law", greater_than(1),
              of_layer(&LayerOptions::growth)));
-    add(choice("growth-law", "how heights grow along a ray", Choices<GrowthLaw>{{"geometric", GrowthLaw::geometric}},
+    add(choice("growth-law", "how heights grow along a ray",
+               Choices<GrowthLaw>{{"geometric", GrowthLaw::geometric},
+                                  {"polynomial", GrowthLaw::polynomial},
+                                  {"exponential", GrowthLaw::exponential},
+                                  {"adaptive", GrowthLaw::adaptive},
+                                  {"aflr", GrowthLaw::aflr}},
                of_layer(&LayerOptions::growth_law)));
-    add(count("layers", "N", "number of layers", from_to(1, most_layers), of_layer(&LayerOptions::layers)));
+    add(count_or_auto("layers", "N", "number of layers, or up to cells as high as wide", from_to(1, most_layers),
+                      of_layer(&LayerOptions::layers)));
     add(real("thickness", "T", "total height, in units of the input, beyond which no layer goes", positive,
              of_layer(&LayerOptions::thickness)));
     add(flag("no-layers", "isotropic triangles up to the wall", false, of_layer(&LayerOptions::enabled)));
@@ -332,7 +368,7 @@ Value value_of_text(Kind kind, const std::vector<std::string>& texts, const std:
     const std::string& text = texts.back();
     if (kind == Kind::real) return parse_real(text, origin);
     if (kind == Kind::flag) return text == "true";
-    if (kind == Kind::count) {
+    if (kind == Kind::count || (kind == Kind::count_or_auto && text != automatic)) {
         std::int64_t value = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error != std::errc{} || end != text.data() + text.size()) {

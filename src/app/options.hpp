@@ -18,9 +18,9 @@ namespace lamina::app {
 /// A value as it stands in case.toml.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
 
-/// What an option takes: one number, one whole number, nothing, one word, several words (separated by commas), one word
-/// that may hold commas each time it is given, one path, several paths.
-enum class Kind { real, count, flag, word, words, repeated, path, paths };
+/// What an option takes: one number, one whole number, one whole number or "auto", nothing, one word, several words
+/// (separated by commas), one word that may hold commas each time it is given, one path, several paths.
+enum class Kind { real, count, count_or_auto, flag, word, words, repeated, path, paths };
 
 struct Option {
     std::string name;  ///< "first-height"

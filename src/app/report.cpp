@@ -115,6 +115,11 @@ Json quality_report(const MeshCheck& check) {
               {"max_angle_deg", layer.max_angle_deg},
               {"mean_max_angle_deg", layer.mean_max_angle_deg},
               {"edges_without_first_layer", check.edges_without_first_layer}}},
+            {"hand_over",
+             {{"edges", check.hand_over.edges},
+              {"p01_area_ratio", check.hand_over.p01_area_ratio},
+              {"median_area_ratio", check.hand_over.median_area_ratio},
+              {"p99_area_ratio", check.hand_over.p99_area_ratio}}},
             {"delaunay", {{"interior_edges", check.interior_edges}, {"violations", check.delaunay_violations}}}};
 }
 
@@ -164,6 +169,11 @@ std::string quality_summary(const MeshCheck& check) {
         if (check.edges_without_first_layer > 0)
             text += fmt::format("  layer     {} wall edges without a cell of first height (see --layer-topology)\n",
                                 check.edges_without_first_layer);
+    }
+    if (const HandOverSummary& to = check.hand_over; to.edges > 0) {
+        text +=
+            fmt::format("  hand-over {} edges, layer to isotropic areas {:.2f} (1 %), {:.2f} (median), {:.2f} (99 %)\n",
+                        to.edges, to.p01_area_ratio, to.median_area_ratio, to.p99_area_ratio);
     }
     return text + fmt::format("  delaunay  {} of {} edges violate the property\n", check.delaunay_violations,
                               check.interior_edges);

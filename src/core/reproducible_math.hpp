@@ -1,12 +1,13 @@
-// Trigonometry that gives the same bits on every machine: only + - * / and std::floor, all exactly specified.
-// The C library's sin, cos and atan2 differ between versions; wherever a point is placed or a decision made, use these.
-// Source: W. J. Cody, W. Waite, Software Manual for the Elementary Functions (1980): argument reduction by pi/2 in
-// three parts, Taylor polynomials on [-pi/4, pi/4]; arctangent from a table at multiples of 1/8.
-// Errors stay below one unit in the last place or so (tests/core/reproducible_math_test.cpp).
+// Functions that give the same bits on every machine: only + - * /, std::sqrt and std::floor, all exactly specified.
+// The C library's sin, cos, atan2 and pow differ between versions; wherever a point is placed or a decision made, use
+// these. Source: W. J. Cody, W. Waite, Software Manual for the Elementary Functions (1980): argument reduction by pi/2
+// in three parts, Taylor polynomials on [-pi/4, pi/4]; arctangent from a table at multiples of 1/8. Errors stay below
+// one unit in the last place or so (tests/core/reproducible_math_test.cpp).
 #pragma once
 
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 namespace lamina {
 
@@ -92,6 +93,22 @@ inline double cos_reproducible(double angle) {
     const double c =
         quadrant % 2 == 0 ? reproducible_detail::cosine_kernel(x, tail) : reproducible_detail::sine_kernel(x, tail);
     return quadrant == 1 || quadrant == 2 ? -c : c;
+}
+
+/// base^exponent for finite base > 0 and 0 <= exponent < 2^31; whole and half powers by products and one square root.
+/// The fraction of the exponent goes from its last bit to its first, one square root each, which halves every error
+/// made before; products for the whole part add half an ulp each.
+inline double pow_reproducible(double base, double exponent) {
+    assert(base > 0 && exponent >= 0 && exponent < 2147483648.0);
+    constexpr int fraction_bits = 60;
+    auto whole = static_cast<std::uint32_t>(exponent);
+    auto fraction = static_cast<std::uint64_t>((exponent - whole) * 0x1p60);
+    double power = 1;
+    for (int bit = 0; bit < fraction_bits; ++bit, fraction >>= 1)
+        power = std::sqrt(fraction & 1 ? power * base : power);
+    for (double square = base; whole > 0; whole >>= 1, square *= square)
+        if (whole & 1) power *= square;
+    return power;
 }
 
 /// Angle of the vector (x, y) in [-pi, pi], as std::atan2 for finite arguments; odd in y, exactly.

@@ -69,16 +69,8 @@ private:
 
     void lower_locally() {
         do {
-            limit_steps();
+            limit_steps(set_, counts_);
         } while (open_notches() || lower_bad_cells());
-    }
-
-    void limit_steps() {
-        for (std::size_t e = 0; e < set_.bodies(); ++e) {
-            const std::size_t first = set_.begin[e], n = set_.begin[e + 1] - first;
-            for (std::size_t k = 0; k < 2 * n; ++k) lower_to(first + (k + 1) % n, counts_[first + k % n] + 1);
-            for (std::size_t k = 2 * n; k-- > 0;) lower_to(first + k % n, counts_[first + (k + 1) % n] + 1);
-        }
     }
 
     /// A ray lower than a neighbour makes a notch in the border. Where the notch is sharper than 60 degrees the

@@ -1,7 +1,9 @@
 // Where rays start and which way they go; internal to the layer stage.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,6 +27,25 @@ struct RaySet {
     /// Of each ray, the one that follows counter-clockwise round its body.
     std::vector<std::size_t> following() const;
 };
+
+/// Lowers values along each body until none is more than most(neighbour, ray), which allows the ray at least what the
+/// neighbour has: twice round in both directions.
+template <class T, class Most>
+void lower_to_neighbours(const RaySet& set, std::vector<T>& values, Most most) {
+    for (std::size_t e = 0; e < set.bodies(); ++e) {
+        const std::size_t first = set.begin[e], n = set.begin[e + 1] - first;
+        const auto pass_on = [&](std::size_t from, std::size_t to) {
+            values[first + to % n] = std::min<T>(values[first + to % n], most(first + from % n, first + to % n));
+        };
+        for (std::size_t k = 0; k < 2 * n; ++k) pass_on(k, k + 1);
+        for (std::size_t k = 2 * n; k-- > 0;) pass_on(k + 1, k);
+    }
+}
+
+/// Lowers counts until those of neighbouring rays differ by at most one.
+inline void limit_steps(const RaySet& set, std::vector<std::uint32_t>& counts) {
+    lower_to_neighbours(set, counts, [&](std::size_t from, std::size_t) { return counts[from] + 1; });
+}
 
 /// Convex vertices that turn by more than this are corners: the same angle as ElementSummary::sharp_corners.
 inline constexpr double sharp_corner_deg = 60;

@@ -155,12 +155,13 @@ CellsSummary check_cells(const Mesh& mesh, std::size_t begin, std::size_t end, c
     return summary;
 }
 
-// --- Interior edges: Delaunay property, areas of neighbours.
+// --- Interior edges: Delaunay property, areas of neighbours, hand-over from the layer.
 
 struct EdgesSummary {
     std::size_t interior_edges = 0;
     std::size_t delaunay_violations = 0;
     QualityCollector isotropic{0};
+    std::vector<double> hand_over;  ///< area of the layer's cell over the isotropic one's
 };
 
 bool is_isotropic_triangle(const Mesh& mesh, std::size_t cell) {
@@ -197,9 +198,13 @@ EdgesSummary check_edges(const Mesh& mesh, const Adjacency& adjacency, std::size
         const std::size_t first = edges.first(cell);
         for (std::size_t e = first; e < first + edges.corners(cell); ++e) {
             const std::uint32_t twin = adjacency.twin[e];
-            if (twin == detail::no_edge || twin < e) continue;  // each pair once
+            if (twin == detail::no_edge) continue;
             const std::size_t other = edges.cell_of(twin);
-            if (!is_isotropic(mesh, other)) continue;
+            if (!is_isotropic(mesh, other)) {
+                summary.hand_over.push_back(area_of(mesh, edges, other) / area);
+                continue;
+            }
+            if (twin < e) continue;  // each pair once
             summary.isotropic.add_neighbours(area, area_of(mesh, edges, other));
             if (!is_isotropic_triangle(mesh, cell) || !is_isotropic_triangle(mesh, other)) continue;
             ++summary.interior_edges;
@@ -207,6 +212,16 @@ EdgesSummary check_edges(const Mesh& mesh, const Adjacency& adjacency, std::size
         }
     }
     return summary;
+}
+
+HandOverSummary summarize(std::vector<double> area_ratios) {
+    if (area_ratios.empty()) return {};
+    const auto percentile = [&](std::size_t percent) {
+        const auto at = area_ratios.begin() + static_cast<std::ptrdiff_t>((area_ratios.size() - 1) * percent / 100);
+        std::nth_element(area_ratios.begin(), at, area_ratios.end());
+        return *at;
+    };
+    return {area_ratios.size(), percentile(1), percentile(50), percentile(99)};
 }
 
 /// Each with its smaller vertex first, sorted, once.
@@ -423,11 +438,13 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
         all_edges.interior_edges += part.interior_edges;
         all_edges.delaunay_violations += part.delaunay_violations;
         all_cells.isotropic.append(part.isotropic);
+        all_edges.hand_over.insert(all_edges.hand_over.end(), part.hand_over.begin(), part.hand_over.end());
     }
     const std::vector<Segment> constraints = sorted_constraints(mesh);
     exempt_constraints(mesh, adjacency, constraints, all_edges, defects);
     check.interior_edges = all_edges.interior_edges;
     check.delaunay_violations = all_edges.delaunay_violations;
+    check.hand_over = summarize(std::move(all_edges.hand_over));
     check.layer = all_cells.layer.summary();
     check.isotropic = all_cells.isotropic.summary();
     check.isotropic.exempt = count_exempt({mesh, adjacency, constraints}, all_cells.narrow);

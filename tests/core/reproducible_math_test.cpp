@@ -52,5 +52,25 @@ TEST(ReproducibleMath, ArctangentAgreesWithTheLibrary) {
     EXPECT_EQ(atan2_reproducible(1.0, 1.0), pi / 4);
 }
 
+TEST(ReproducibleMath, PowersAgreeWithTheLibrary) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> magnitude(-30, 30), exponent(0, 1);
+    for (double largest : {1e-3, 1.0, 4.0, 9.0}) {
+        for (int i = 0; i < 50000; ++i) {
+            const double base = std::pow(10.0, magnitude(random)), power = largest * exponent(random);
+            const double expected = static_cast<double>(std::pow(static_cast<long double>(base), power));
+            ASSERT_NEAR(pow_reproducible(base, power), expected, (2 + power) * 2.3e-16 * expected)
+                << base << ' ' << power;
+        }
+    }
+    for (double base : {0.3, 1.0, 2.0, 17.0}) {
+        EXPECT_EQ(pow_reproducible(base, 0), 1);
+        EXPECT_EQ(pow_reproducible(base, 1), base);
+        EXPECT_EQ(pow_reproducible(base, 2), base * base);
+        EXPECT_EQ(pow_reproducible(base, 0.5), std::sqrt(base));
+        EXPECT_EQ(pow_reproducible(base, 1.5), std::sqrt(base) * base);
+    }
+}
+
 }  // namespace
 }  // namespace lamina
