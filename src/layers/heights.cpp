@@ -61,13 +61,6 @@ double ratio_for_thickness(double first_height, std::uint32_t layers, double thi
     }
 }
 
-/// What all rays have in common, if they have.
-double growth_of(const LayerOptions& options) {
-    return options.growth_law == GrowthLaw::exponential
-               ? ratio_for_thickness(options.first_height, *options.layers, *options.thickness)
-               : options.growth;
-}
-
 /// Takes away the layers above `thickness`, with a slack of rounding: a thickness of exactly n layers gives n.
 void cut(double thickness, std::vector<double>& heights) {
     heights.erase(std::upper_bound(heights.begin(), heights.end(), thickness * (1 + 1e-12)), heights.end());
@@ -128,6 +121,12 @@ void check_growth(const LayerOptions& o) {
     }
 }
 
+double common_growth(const LayerOptions& options) {
+    return options.growth_law == GrowthLaw::exponential
+               ? ratio_for_thickness(options.first_height, *options.layers, *options.thickness)
+               : options.growth;
+}
+
 std::vector<double> heights_by_law(GrowthLaw law, double first_height, double growth, std::uint32_t layers) {
     if (law == GrowthLaw::polynomial) return polynomial_heights(first_height, growth, layers);
     if (law == GrowthLaw::aflr) return aflr_heights(first_height, layers);
@@ -136,7 +135,7 @@ std::vector<double> heights_by_law(GrowthLaw law, double first_height, double gr
 
 Heights make_heights(const RaySet& set, const LayerOptions& options) {
     if (options.growth_law == GrowthLaw::adaptive) return adaptive_heights(set, options);
-    const double growth = growth_of(options);
+    const double growth = common_growth(options);
     std::vector<double> table = heights_by_law(options.growth_law, options.first_height, growth,
                                                options.layers.value_or(most_automatic_layers));
     // The exponential law meets its thickness itself.
@@ -148,7 +147,7 @@ Heights make_heights(const RaySet& set, const LayerOptions& options) {
 
 double layer_height(const LayerOptions& options, std::uint32_t n) {
     check_growth(options);
-    return heights_by_law(options.growth_law, options.first_height, growth_of(options), n).back();
+    return heights_by_law(options.growth_law, options.first_height, common_growth(options), n).back();
 }
 
 }  // namespace lamina

@@ -45,6 +45,9 @@ private:
 /// Heights of layers 0 ... `layers`.
 std::vector<double> heights_by_law(GrowthLaw law, double first_height, double growth, std::uint32_t layers);
 
+/// Ray::growth of all rays, but for the adaptive law. Precondition: check_growth().
+double common_growth(const LayerOptions& options);
+
 /// Throws UsageError where the options of growth make no sense, alone or together.
 void check_growth(const LayerOptions& options);
 

@@ -153,6 +153,9 @@ private:
     void check_heights(const Ray& ray) {
         const Point origin = at(ray.origin);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
+        const bool adaptive = options_.growth_law == GrowthLaw::adaptive;
+        if (adaptive ? ray.growth < 1.05 || ray.growth > 1.5 : ray.growth != common_growth(options_))
+            find("ray grows at a rate of its own", origin);
         std::vector<double> heights =
             heights_by_law(options_.growth_law, options_.first_height, ray.growth, ray.layers);
         stretch_heights(ray.stretch, heights);

@@ -12,6 +12,7 @@
 #include <lamina/layers.hpp>
 #include <lamina/predicates.hpp>
 
+#include "layers/sound_layer.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina {
@@ -32,15 +33,6 @@ LayerOptions scaled(LayerOptions options, double scale) {
     options.first_height *= scale;
     if (options.thickness) *options.thickness *= scale;
     return options;
-}
-
-Layer sound_layer(const Pslg& pslg, const LayerOptions& options) {
-    Layer layer = make_layer(pslg, options);
-    for (const std::string& finding : validate(layer, options)) ADD_FAILURE() << finding;
-    return layer;
-}
-Layer sound_layer(const Outline& outline, const LayerOptions& options) {
-    return sound_layer(shapes::pslg({outline}), options);
 }
 
 /// Heights of the layers, measured between the points themselves.
@@ -181,25 +173,6 @@ TEST(Layer, MovesWithItsInput) {
                 ASSERT_LT(distance(there.points[i], expected[i]), 1e-13 * scale);
         }
     }
-}
-
-std::vector<Point> sorted_points(std::vector<Point> points, bool mirror) {
-    if (mirror)
-        for (Point& p : points) p.y = -p.y;
-    std::sort(points.begin(), points.end(), lexicographically_less);
-    return points;
-}
-
-/// Largest distance from a point of one set to the nearest of the other; the sets are small.
-double set_distance(const std::vector<Point>& a, const std::vector<Point>& b) {
-    double largest = 0;
-    for (Point p : a) {
-        auto at = std::lower_bound(b.begin(), b.end(), Point{p.x - 1e-9, -HUGE_VAL}, lexicographically_less);
-        double nearest = HUGE_VAL;
-        for (; at != b.end() && at->x <= p.x + 1e-9; ++at) nearest = std::min(nearest, distance(p, *at));
-        largest = std::max(largest, nearest);
-    }
-    return largest;
 }
 
 TEST(Layer, MirroredInputGivesMirroredPoints) {

@@ -1,0 +1,297 @@
+// Heights by every growth law against its formula, and layers that end where they are as high as wide.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <lamina/error.hpp>
+#include <lamina/layers.hpp>
+
+#include "layers/sound_layer.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+using shapes::Outline;
+
+constexpr std::array every_law{GrowthLaw::geometric, GrowthLaw::polynomial, GrowthLaw::exponential, GrowthLaw::adaptive,
+                               GrowthLaw::aflr};
+
+/// Options under which each law gives a layer of a few per cent of a chord.
+LayerOptions options_of(GrowthLaw law) {
+    LayerOptions options;
+    options.first_height = 2e-5;
+    options.growth_law = law;
+    options.layers = 30;
+    if (law == GrowthLaw::polynomial) options.growth = 2.2;
+    if (law == GrowthLaw::exponential) options.thickness = 0.02;
+    if (law == GrowthLaw::aflr) options.layers = 20;
+    return options;
+}
+
+LayerOptions automatic(double growth = 1.2) {
+    LayerOptions options;
+    options.first_height = 2e-5;
+    options.growth = growth;
+    options.layers.reset();
+    return options;
+}
+
+std::vector<Outline> sections() {
+    return {shapes::section(0.12, 0, 80),          shapes::section(0.12, 0.01, 60), shapes::joukowski(0.1, 0.1, 120),
+            shapes::ellipse(1, 0.05, 150),         shapes::circle(0.5, 60),         shapes::plate(0.05, 16),
+            shapes::refined(shapes::l_shape(), 10)};
+}
+
+double tip_distance(const Layer& layer, const Ray& a, const Ray& b) {
+    return distance(layer.points[a.first_point + a.layers - 1], layer.points[b.first_point + b.layers - 1]);
+}
+
+TEST(GrowthLaw, FollowsItsFormula) {
+    using Real = long double;
+    for (const double h : {1e-6, 3e-3}) {
+        for (const double growth : {1.05, 1.2, 1.5, 2.0, 2.7}) {
+            LayerOptions options;
+            options.first_height = h;
+            options.growth = growth;
+            const auto expect = [&](std::uint32_t n, Real expected) {
+                EXPECT_NEAR(static_cast<double>(layer_height(options, n) / expected), 1, 1e-12) << n;
+            };
+            for (std::uint32_t n = 1; n < 60; ++n) {
+                options.growth_law = GrowthLaw::geometric;
+                expect(n, h * (std::pow(Real(growth), Real(n)) - 1) / (Real(growth) - 1));
+                options.growth_law = GrowthLaw::polynomial;
+                expect(n, h * std::pow(Real(n), Real(growth)));
+            }
+        }
+    }
+}
+
+TEST(GrowthLaw, ExponentialMeetsFirstHeightAndThickness) {
+    using Real = long double;
+    for (const std::uint32_t layers : {2u, 5u, 30u, 200u}) {
+        for (const double stretch : {1.0001, 1.5, 10.0, 500.0}) {
+            LayerOptions options;
+            options.growth_law = GrowthLaw::exponential;
+            options.first_height = 2e-5;
+            options.layers = layers;
+            options.thickness = options.first_height * layers * stretch;
+            const auto height = [&](Real a, std::uint32_t n) {
+                return *options.thickness * std::expm1(a * n / layers) / std::expm1(a);
+            };
+            Real low = 1e-9L, high = 10000;  // H(1) falls as a grows
+            for (int k = 0; k < 200; ++k) {
+                const Real a = (low + high) / 2;
+                (height(a, 1) > options.first_height ? low : high) = a;
+            }
+            for (std::uint32_t n = 1; n <= layers; n += 1 + layers / 20)
+                EXPECT_NEAR(static_cast<double>(layer_height(options, n) / height(low, n)), 1, 1e-8)
+                    << n << " of " << layers;
+            EXPECT_NEAR(layer_height(options, layers) / *options.thickness, 1, 1e-12);
+            EXPECT_EQ(layer_height(options, 1), options.first_height);
+        }
+    }
+}
+
+TEST(GrowthLaw, AflrAcceleratesUpToItsCap) {
+    LayerOptions options = options_of(GrowthLaw::aflr);
+    double ratio = 1;
+    for (std::uint32_t n = 1; n < 30; ++n) {
+        const double step = layer_height(options, n) - layer_height(options, n - 1);
+        const double above = layer_height(options, n + 1) - layer_height(options, n);
+        if (n >= 5) ratio *= 1.05;
+        EXPECT_NEAR(above / step, std::min(ratio, 1.5), 1e-9) << n;
+    }
+}
+
+TEST(GrowthLaw, PlacesLayersAtTheirHeights) {
+    for (const GrowthLaw law : every_law) {
+        const LayerOptions options = options_of(law);
+        for (const Outline& outline : sections()) {
+            SCOPED_TRACE(static_cast<int>(law));
+            const Layer layer = sound_layer(outline, options);
+            for (const Ray& ray : layer.rays[0]) {
+                if (ray.layers < ray.requested || ray.stretch != 1) continue;
+                Point below = layer.points[ray.origin.index()];
+                double height = 0;
+                LayerOptions own = options;
+                if (law == GrowthLaw::adaptive) own.growth = ray.growth;
+                for (std::uint32_t n = 1; n <= ray.layers; ++n) {
+                    const Point p = layer.points[ray.first_point + n - 1];
+                    const double step = distance(below, p);
+                    ASSERT_GT(step, 0.999 * options.first_height);
+                    height += step;
+                    ASSERT_NEAR(height / layer_height(own, n), 1, 1e-9);
+                    below = p;
+                }
+            }
+        }
+    }
+}
+
+TEST(GrowthLaw, ExponentialLayersAreAsThickAsAskedFor) {
+    const LayerOptions options = options_of(GrowthLaw::exponential);
+    const Layer layer = sound_layer(shapes::section(0.12, 0, 80), options);
+    EXPECT_EQ(layer.incomplete_rays, 0u);
+    for (const Ray& ray : layer.rays[0]) {
+        EXPECT_EQ(ray.layers, 30u);
+        EXPECT_NEAR(distance(layer.points[ray.origin.index()], layer.points[ray.first_point + 29]), 0.02, 1e-12);
+    }
+}
+
+/// Neighbouring stacks differ by less than 30 % in height where nothing cuts them short, or by one layer.
+void expect_smooth_heights(const Layer& layer, double growth = 1) {
+    const double largest = std::max(1.3, 1.05 * growth);
+    for (const auto& rays : layer.rays) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
+            if (ray.layers < ray.requested || next.layers < next.requested) continue;
+            const auto height = [&](const Ray& r) {
+                return distance(layer.points[r.origin.index()], layer.points[r.first_point + r.layers - 1]);
+            };
+            EXPECT_LT(height(ray), largest * height(next));
+            EXPECT_LT(height(next), largest * height(ray));
+        }
+    }
+}
+
+TEST(AdaptiveGrowth, MeetsTheSpacingAlongTheWall) {
+    for (const std::uint32_t layers : {12u, 25u}) {
+        LayerOptions options = options_of(GrowthLaw::adaptive);
+        options.layers = layers;
+        options.first_height = 0.02 / layers;
+        const Layer layer = sound_layer(shapes::circle(1, 90), options);
+        const auto& rays = layer.rays[0];
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Point* points = &layer.points[rays[i].first_point];
+            const double last = distance(points[layers - 2], points[layers - 1]);
+            EXPECT_NEAR(last / tip_distance(layer, rays[i], rays[(i + 1) % rays.size()]), 1, 1e-6);
+        }
+    }
+    for (const Outline& outline : sections()) {
+        const Layer layer = sound_layer(outline, options_of(GrowthLaw::adaptive));
+        for (const Ray& ray : layer.rays[0]) {
+            EXPECT_GE(ray.growth, 1.05);
+            EXPECT_LE(ray.growth, 1.5);
+        }
+        expect_smooth_heights(layer);
+    }
+}
+
+TEST(AutomaticLayers, EndWhereTheyAreAsHighAsWide) {
+    for (const double growth : {1.1, 1.2, 1.4}) {
+        const Layer layer = sound_layer(shapes::circle(1, 120), automatic(growth));
+        const auto& rays = layer.rays[0];
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            ASSERT_EQ(rays[i].layers, rays[0].layers);
+            ASSERT_EQ(rays[i].requested, rays[0].layers);
+            const Point* points = &layer.points[rays[i].first_point];
+            const std::uint32_t n = rays[i].layers;
+            const double last = distance(points[n - 2], points[n - 1]);
+            const double width = tip_distance(layer, rays[i], rays[(i + 1) % rays.size()]);
+            EXPECT_LE(last, width);
+            EXPECT_GT(last * growth * growth, width);
+        }
+    }
+}
+
+TEST(AutomaticLayers, VarySmoothlyOnAnySection) {
+    for (const double growth : {1.05, 1.2, 1.35}) {
+        for (const Outline& outline : sections()) {
+            const Layer layer = sound_layer(outline, automatic(growth));
+            expect_smooth_heights(layer, growth);
+            for (const auto& rays : layer.rays) {
+                // No saw: a ray that is higher, or lower, than both neighbours has its like beside it.
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    const auto at = [&](std::size_t k) { return rays[(i + k) % rays.size()].requested; };
+                    EXPECT_FALSE(at(1) != at(0) && at(1) != at(2) && at(0) == at(2) && at(3) == at(1)) << i;
+                }
+            }
+        }
+    }
+}
+
+TEST(AutomaticLayers, EndAtTheThicknessIfThatIsLess) {
+    LayerOptions options = automatic();
+    const Outline outline = shapes::section(0.12, 0, 80);
+    const Layer free = sound_layer(outline, options);
+    options.thickness = 0.01;
+    const Layer cut = sound_layer(outline, options);
+    ASSERT_EQ(free.rays[0].size(), cut.rays[0].size());
+    std::uint32_t most = 0;
+    for (const Ray& ray : cut.rays[0]) most = std::max(most, ray.layers);
+    EXPECT_LE(layer_height(options, most), 0.01);
+    EXPECT_GT(layer_height(options, most + 1), 0.01);
+    for (std::size_t i = 0; i < cut.rays[0].size(); ++i) EXPECT_LE(cut.rays[0][i].layers, free.rays[0][i].layers);
+}
+
+TEST(AutomaticLayers, NeedAGrowthThatGetsThere) {
+    EXPECT_THROW(make_layer(shapes::pslg({shapes::circle(1, 20)}), automatic(1.001)), UsageError);
+    LayerOptions options = automatic(1.001);
+    options.thickness = 1e-3;
+    sound_layer(shapes::circle(1, 20), options);
+}
+
+TEST(LocalHeights, MirrorWithTheInput) {
+    for (const LayerOptions& options : {automatic(), options_of(GrowthLaw::adaptive)}) {
+        for (const Outline& outline : {shapes::section(0.12, 0.02, 60), shapes::joukowski(0.1, 0.1, 90)}) {
+            const Layer layer = sound_layer(outline, options);
+            const Layer mirror = sound_layer(shapes::mirrored(outline), options);
+            ASSERT_EQ(layer.points.size(), mirror.points.size());
+            const auto a = sorted_points(layer.points, false), b = sorted_points(mirror.points, true);
+            EXPECT_LT(std::max(set_distance(a, b), set_distance(b, a)), 1e-11);
+        }
+        const Layer layer = sound_layer(shapes::section(0.12, 0, 70), options);
+        EXPECT_LT(set_distance(sorted_points(layer.points, true), sorted_points(layer.points, false)), 1e-11);
+    }
+}
+
+TEST(LocalHeights, DoNotDependOnTheStartOfTheLoop) {
+    for (const LayerOptions& options : {automatic(), options_of(GrowthLaw::adaptive)}) {
+        const Outline outline = shapes::joukowski(0.1, 0.1, 90);
+        const auto reference = sorted_points(sound_layer(outline, options).points, false);
+        for (const std::size_t first : {1u, 7u, 41u}) {
+            const auto points = sorted_points(sound_layer(shapes::started_at(outline, first), options).points, false);
+            ASSERT_EQ(points.size(), reference.size());
+            EXPECT_LT(set_distance(points, reference), 1e-11);
+        }
+    }
+}
+
+TEST(LocalHeights, StaySoundOnRandomStars) {
+    std::mt19937 random(4);
+    for (int k = 0; k < 200; ++k) {
+        SCOPED_TRACE(k);
+        const Outline outline = shapes::refined(shapes::star(3 + random() % 20, 0.3, random), 1 + random() % 8);
+        LayerOptions options = k % 2 == 0 ? automatic(1.05 + 0.01 * (random() % 60)) : options_of(GrowthLaw::adaptive);
+        options.first_height = std::pow(10, -5 + 3 * static_cast<double>(random() % 1000) / 1000);
+        options.max_ray_angle_deg = 3 + random() % 20;
+        options.corners = random() % 2 == 0 ? Corners::fan : Corners::refine;
+        sound_layer(outline, options);
+        if (testing::Test::HasFailure()) break;
+    }
+}
+
+TEST(GrowthLaw, RefusesWhatLacksWhatItNeeds) {
+    const Pslg circle = shapes::pslg({shapes::circle(1, 20)});
+    const auto refused = [&](GrowthLaw law, auto change) {
+        LayerOptions options = options_of(law);
+        change(options);
+        EXPECT_THROW(make_layer(circle, options), UsageError);
+    };
+    for (const GrowthLaw law : every_law) {
+        refused(law, [](LayerOptions& o) { o.growth = 1; });
+        refused(law, [](LayerOptions& o) { o.first_height = 0; });
+        refused(law, [](LayerOptions& o) { o.layers = 0; });
+    }
+    refused(GrowthLaw::exponential, [](LayerOptions& o) { o.thickness.reset(); });
+    refused(GrowthLaw::exponential, [](LayerOptions& o) { o.layers.reset(); });
+    refused(GrowthLaw::exponential, [](LayerOptions& o) { o.layers = 1; });
+    refused(GrowthLaw::exponential, [](LayerOptions& o) { o.thickness = *o.layers * o.first_height; });
+    refused(GrowthLaw::adaptive, [](LayerOptions& o) { o.layers.reset(); });
+}
+
+}  // namespace
+}  // namespace lamina
