@@ -178,7 +178,7 @@ CaseOptions random_options(Random& random) {
     layer.enabled = !random.chance(0.03);
     // Thicker than a chord is rarely meant.
     if (layer.enabled && !random.chance(0.05))
-        while (layer.layers > 1 && layer_height(layer, layer.layers) > 0.3) --layer.layers;
+        while (*layer.layers > 1 && layer_height(layer, *layer.layers) > 0.3) --*layer.layers;
     options.far_field = random.uniform(2, 6);
     options.gradation = random.uniform(0.2, 0.5);
     options.threads = 1;
@@ -204,7 +204,7 @@ Configuration configuration(std::uint64_t seed, std::uint64_t number) {
     c.options.layer.first_height *= scale;
     const LayerOptions& layer = c.options.layer;
     c.what += fmt::format(" first height {:.3g}, growth {:.3f}, {} layers, rays {:.2f} deg, {}, scale {:.3g}",
-                          layer.first_height, layer.growth, layer.enabled ? layer.layers : 0, layer.max_ray_angle_deg,
+                          layer.first_height, layer.growth, layer.enabled ? *layer.layers : 0, layer.max_ray_angle_deg,
                           layer.corners == Corners::fan ? "fan" : "refine", scale);
     return c;
 }

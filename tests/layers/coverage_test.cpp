@@ -12,7 +12,7 @@ LayerOptions ten_layers(double full_height) {
     LayerOptions options;
     options.layers = 10;
     options.first_height = 1;
-    options.first_height = full_height / layer_height(options, options.layers);
+    options.first_height = full_height / layer_height(options, *options.layers);
     return options;
 }
 
