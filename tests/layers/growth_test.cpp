@@ -147,6 +147,7 @@ void expect_smooth_heights(const Layer& layer, double growth = 1) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
             if (ray.layers < ray.requested || next.layers < next.requested) continue;
+            if (ray.stretch != 1 || next.stretch != 1) continue;
             const auto height = [&](const Ray& r) {
                 return distance(layer.points[r.origin.index()], layer.points[r.first_point + r.layers - 1]);
             };
