@@ -133,6 +133,19 @@ std::vector<double> heights_by_law(GrowthLaw law, double first_height, double gr
     return geometric_heights(first_height, growth, layers);
 }
 
+double expected_height(const LayerOptions& options, double spacing) {
+    const auto layers = options.layers.value_or(most_automatic_layers);
+    double growth = common_growth(options);
+    if (options.growth_law == GrowthLaw::adaptive && layers > 1)
+        growth = std::clamp(pow_reproducible(spacing / options.first_height, 1.0 / (layers - 1)),
+                            smallest_adaptive_ratio, largest_adaptive_ratio);
+    const std::vector<double> heights = heights_by_law(options.growth_law, options.first_height, growth, layers);
+    std::size_t n = heights.size() - 1;
+    if (!options.layers)
+        for (n = 1; n < layers && heights[n] - heights[n - 1] < spacing;) ++n;
+    return std::min(heights[n], options.thickness.value_or(HUGE_VAL));
+}
+
 Heights make_heights(const RaySet& set, const LayerOptions& options) {
     if (options.growth_law == GrowthLaw::adaptive) return adaptive_heights(set, options);
     const double growth = common_growth(options);

@@ -51,6 +51,9 @@ double common_growth(const LayerOptions& options);
 /// Throws UsageError where the options of growth make no sense, alone or together.
 void check_growth(const LayerOptions& options);
 
+/// Height of the layers asked for on a wall of evenly spaced points; for laws that go by the spacing, about.
+double expected_height(const LayerOptions& options, double spacing);
+
 Heights make_heights(const RaySet& set, const LayerOptions& options);
 
 /// Multiplies the n-th spacing, n >= 0, by stretch^n. heights[0] = 0 is the wall.

@@ -25,7 +25,6 @@ constexpr double hand_over = 1;
 constexpr double largest_spread = 2;
 /// Rise of the layers' border per unit of distance along it.
 constexpr double steepest_border = 0.3;
-constexpr double smallest_ratio = 1.05, largest_ratio = 1.5;
 /// Ratio of the last spacings, hence more than that of the heights, of neighbouring rays.
 constexpr double neighbour_ratio = 1.25;
 
@@ -154,12 +153,12 @@ std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<co
 }
 
 std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, std::uint32_t layers) {
-    if (layers < 2) return std::vector<double>(set.rays.size(), smallest_ratio);
+    if (layers < 2) return std::vector<double>(set.rays.size(), smallest_adaptive_ratio);
     const Spacing spacing(set);
     std::vector<double> ratios(set.rays.size());
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         if (spacing.inside_fan(i)) continue;
-        ratios[i] = bisect(smallest_ratio, largest_ratio, [&](double ratio) {
+        ratios[i] = bisect(smallest_adaptive_ratio, largest_adaptive_ratio, [&](double ratio) {
             const double last = first_height * whole_power(ratio, layers - 1);
             const double height = (last * ratio - first_height) / (ratio - 1);
             return last <= hand_over * spacing.at(i, height);

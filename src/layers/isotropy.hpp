@@ -9,6 +9,9 @@
 
 namespace lamina {
 
+/// Bounds of the adaptive law's ratio.
+inline constexpr double smallest_adaptive_ratio = 1.05, largest_adaptive_ratio = 1.5;
+
 /// Number of layers on each ray up to the first that is as high as the rays stand apart there, or as many as the table
 /// has. heights[n] is the height of layer n, heights[0] = 0. Neighbours differ by at most one.
 std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<const double> heights);

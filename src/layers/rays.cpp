@@ -6,6 +6,7 @@
 
 #include "core/angles.hpp"
 #include "layers/front.hpp"
+#include "layers/heights.hpp"
 
 namespace lamina {
 namespace {
@@ -57,8 +58,8 @@ std::vector<Corner> make_corners(std::span<const Point> body, const LayerOptions
 double height_to_keep_clear(std::span<const Point> body, const LayerOptions& options) {
     double perimeter = 0;
     for (std::size_t i = 0; i < body.size(); ++i) perimeter += distance(body[i], body[(i + 1) % body.size()]);
-    const double asked = std::min(layer_height(options, options.layers), options.thickness.value_or(HUGE_VAL));
-    return std::min(asked, thickest_share * perimeter);
+    const double spacing = perimeter / static_cast<double>(body.size());
+    return std::min(expected_height(options, spacing), thickest_share * perimeter);
 }
 
 /// Rays that leave a concave corner or a noisy stretch by the bisectors meet at once. Here they may turn towards each

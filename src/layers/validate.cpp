@@ -10,6 +10,7 @@
 #include "core/box_tree.hpp"
 #include "core/reproducible_math.hpp"
 #include "layers/heights.hpp"
+#include "layers/isotropy.hpp"
 #include "layers/segments.hpp"
 
 namespace lamina {
@@ -154,7 +155,8 @@ private:
         const Point origin = at(ray.origin);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
         const bool adaptive = options_.growth_law == GrowthLaw::adaptive;
-        if (adaptive ? ray.growth < 1.05 || ray.growth > 1.5 : ray.growth != common_growth(options_))
+        if (adaptive ? ray.growth < smallest_adaptive_ratio || ray.growth > largest_adaptive_ratio
+                     : ray.growth != common_growth(options_))
             find("ray grows at a rate of its own", origin);
         std::vector<double> heights =
             heights_by_law(options_.growth_law, options_.first_height, ray.growth, ray.layers);
