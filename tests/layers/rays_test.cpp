@@ -17,7 +17,7 @@ using shapes::Outline;
 
 LayerOptions layers_as_high_as(double height) {
     LayerOptions options;
-    options.first_height = height / layer_height(options, options.layers) * options.first_height;
+    options.first_height = height / layer_height(options, *options.layers) * options.first_height;
     return options;
 }
 
