@@ -181,9 +181,10 @@ SurfaceOptions surface_options(const CaseOptions& options) {
     // points. Very slow gradations are for the outer region alone.
     constexpr double slowest = 0.05, margin = 0.9;
     surface.gradation = std::min(surface.gradation, std::max(margin * border_gradation(options), slowest));
-    if (options.layer.enabled) {
+    // Layers that go by the wall's spacing are as high over it as that allows.
+    if (options.layer.enabled && options.layer.layers && options.layer.growth_law != GrowthLaw::adaptive) {
         const double height =
-            std::min(layer_height(options.layer, options.layer.layers), options.layer.thickness.value_or(HUGE_VAL));
+            std::min(layer_height(options.layer, *options.layer.layers), options.layer.thickness.value_or(HUGE_VAL));
         const double fan_edge = height * radians(options.layer.max_ray_angle_deg);
         if (fan_edge > 0 && !surface.fan_spacing) surface.fan_spacing = fan_edge;
     }
