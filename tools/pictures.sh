@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of the documentation, docs/images/*.png, with the program itself.
-#   tools/pictures.sh [PROGRAM]     the program is build/release/src/app/lamina unless given
+#   tools/pictures.sh [PROGRAM [COLLECTION]]     the program is build/release/src/app/lamina unless given
+# The pictures of high-lift sections are made where a folder with the collection of airfoil files is given.
 # Needs the Debian package pngquant, which makes the pictures a fifth as large.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
@@ -53,3 +54,18 @@ for topology in delaunay layered quads; do
 done
 picture separators-equidistributed pieces -1.3,0.3,0.1,1.3
 picture separators-k-rule k-rule -1.3,0.3,0.1,1.3
+
+[ -n "${2:-}" ] || exit 0
+multielement=$2/multielement
+# high_lift NAME FILE...: the default layer.
+high_lift() {
+    local name=$1
+    shift
+    "$lamina" mesh "${@/#/$multielement/}" --quiet -o "$scratch/$name.vtu"
+}
+high_lift 30p30n 30p30n_uiuc.dat
+high_lift nlr7301 nlr7301_clean_main.dat nlr7301_clean_flap.dat
+picture high-lift-slat 30p30n -0.11,0.07,-0.135,0.02 --color layer
+picture high-lift-cove 30p30n 0.70,0.92,-0.045,0.065 --color layer
+picture high-lift-slot nlr7301 0.86,1.03,-0.06,0.04 --color layer
+picture high-lift-slot-end nlr7301 0.99,1.006,-0.0075,0.0025 --color layer
