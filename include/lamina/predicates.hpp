@@ -13,7 +13,14 @@ inline constexpr double smallest_exact_coordinate = 1e-60;
 inline constexpr double largest_exact_coordinate = 1e60;
 
 /// False for NaN and infinities, too.
-bool in_exact_range(Point p);
+constexpr bool in_exact_range(Point p) {
+    const auto in_range = [](double c) {
+        const double magnitude = c < 0 ? -c : c;
+        // No branches: whole arrays are asked about.
+        return (magnitude == 0) | ((magnitude >= smallest_exact_coordinate) & (magnitude <= largest_exact_coordinate));
+    };
+    return in_range(p.x) & in_range(p.y);
+}
 
 /// > 0 if a, b, c turn counter-clockwise, < 0 if clockwise, 0 if collinear. Only the sign is exact.
 double orient2d(Point a, Point b, Point c);

@@ -316,11 +316,6 @@ double break_tie(const std::array<Point, 4>& p) {
     return change_by_lowering(smallest, p);
 }
 
-bool in_exact_range(double c) {
-    const double magnitude = std::abs(c);
-    return magnitude == 0 || (magnitude >= smallest_exact_coordinate && magnitude <= largest_exact_coordinate);
-}
-
 }  // namespace
 
 double detail::orient2d_after_filter(Point pa, Point pb, Point pc) {
@@ -363,8 +358,6 @@ double detail::flattened_turn_after_filter(Point pa, Point pb, Point pc, double 
     const Expansion<24> b_height = square(b) + -aa + square(bt), c_height = square(c) + -aa + square(ct);
     return (c_height * expansion(bt) + -(b_height * expansion(ct))).sign();
 }
-
-bool in_exact_range(Point p) { return in_exact_range(p.x) && in_exact_range(p.y); }
 
 double orient2d(Point a, Point b, Point c) { return detail::inline_orient2d(a, b, c); }
 

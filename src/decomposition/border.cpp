@@ -9,6 +9,7 @@
 #include "decomposition/border.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "core/predicates.hpp"
@@ -21,25 +22,49 @@ enum class Side { low, high, crossing };
 
 constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
 
+/// Finds vertices of a path by their numbers: a hash table with open addressing.
+class Places {
+public:
+    explicit Places(std::span<const Index> vertices)
+        : bits_(static_cast<unsigned>(std::bit_width(2 * vertices.size()))),
+          entries_(std::size_t{1} << bits_, Entry{no_index, 0}) {
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            entries_[slot(vertices[i])] = {vertices[i], static_cast<Index>(i)};
+    }
+    std::size_t of(Index vertex) const {
+        const Entry& entry = entries_[slot(vertex)];
+        return entry.vertex == vertex ? entry.place : nowhere;
+    }
+
+private:
+    struct Entry {
+        Index vertex, place;
+    };
+    /// Where the vertex is, or the free entry where it would be.
+    std::size_t slot(Index vertex) const {
+        std::size_t at = static_cast<std::uint32_t>(vertex * 0x9e3779b1u) >> (32 - bits_);
+        while (entries_[at].vertex != vertex && entries_[at].vertex != no_index)
+            at = at + 1 < entries_.size() ? at + 1 : 0;
+        return at;
+    }
+
+    unsigned bits_;
+    std::vector<Entry> entries_;
+};
+
 /// A path, seen in the frame of its cut.
 class Path {
 public:
     Path(const SortedPoints& sorted, std::span<const Index> vertices, Cut cut)
-        : sorted_(sorted), vertices_(vertices), cut_(cut), frame_{cut.axis} {
-        for (std::size_t i = 0; i < vertices.size(); ++i) {
-            places_.push_back(std::uint64_t{vertices[i]} << 32 | i);
-            extent_.include(point(vertices[i]));
+        : sorted_(sorted), cut_(cut), frame_{cut.axis}, places_(vertices) {
+        for (const Index v : vertices) {
+            points_.push_back(point(v));
+            extent_.include(points_.back());
         }
-        std::sort(places_.begin(), places_.end());
     }
 
     Point point(Index i) const { return frame_(sorted_.points[i]); }
-    std::span<const Index> vertices() const { return vertices_; }
-
-    std::size_t place_of(Index i) const {
-        const auto at = std::lower_bound(places_.begin(), places_.end(), std::uint64_t{i} << 32);
-        return at != places_.end() && *at >> 32 == i ? *at & 0xffffffffu : nowhere;
-    }
+    std::size_t place_of(Index i) const { return places_.of(i); }
 
     /// Where an edge is that lies clear of the path's box in the direction across; most do.
     std::optional<Side> clear_side(Edge e) const {
@@ -62,10 +87,9 @@ public:
         // All vertices of the path between the edge's ends have to be on the other side of the edge.
         Point a = point(e.a), b = point(e.b);
         if (a.y > b.y) std::swap(a, b);
-        const auto first =
-            std::partition_point(vertices_.begin(), vertices_.end(), [&](Index v) { return point(v).y <= a.y; });
-        for (auto v = first; v != vertices_.end() && point(*v).y < b.y; ++v) {
-            const double turn = detail::inline_orient2d(a, b, point(*v));
+        const auto first = std::partition_point(points_.begin(), points_.end(), [&](Point p) { return p.y <= a.y; });
+        for (auto p = first; p != points_.end() && p->y < b.y; ++p) {
+            const double turn = detail::inline_orient2d(a, b, *p);
             if (turn == 0 || !agree(turn < 0 ? Side::low : Side::high)) return Side::crossing;
         }
         return side.value_or(Side::crossing);
@@ -77,11 +101,11 @@ private:
     }
 
     const SortedPoints& sorted_;
-    std::span<const Index> vertices_;
     Cut cut_;
     Frame frame_;
     Box extent_;
-    std::vector<std::uint64_t> places_;  ///< vertex above, place on the path below; sorted
+    std::vector<Point> points_;
+    Places places_;
 };
 
 /// An edge of the border that ends at a vertex of the path.
@@ -90,6 +114,15 @@ struct Spoke {
     Index other;
     bool leaves;  ///< the border runs from the vertex to `other`: the region on the left, turning counter-clockwise
 };
+
+std::vector<Spoke> by_place(const std::vector<Spoke>& spokes, std::size_t places) {
+    std::vector<std::size_t> starts(places + 1, 0);
+    for (const Spoke& s : spokes) ++starts[s.place + 1];
+    for (std::size_t p = 1; p < starts.size(); ++p) starts[p] += starts[p - 1];
+    std::vector<Spoke> sorted(spokes.size());
+    for (const Spoke& s : spokes) sorted[starts[s.place]++] = s;
+    return sorted;
+}
 
 /// Turning clockwise round `center` from `from`: is x met before y? Directions of `from` itself come last.
 bool met_before(Point center, Point from, Point x, Point y) {
@@ -142,18 +175,16 @@ std::optional<DividedBorder> divide_border(const SortedPoints& sorted, std::span
         if (a != nowhere) has[a] = 1;
         if (b != nowhere) has[b] = 1;
     }
-    std::sort(spokes.begin(), spokes.end(), [](const Spoke& l, const Spoke& r) {
-        return l.place != r.place ? l.place < r.place : l.other < r.other;
-    });
+    const std::vector<Spoke> sorted_spokes = by_place(spokes, vertices.size());
 
-    auto here = spokes.begin();
+    auto here = sorted_spokes.begin();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         auto next = here;
-        while (next != spokes.end() && next->place == i) ++next;
+        while (next != sorted_spokes.end() && next->place == i) ++next;
         const std::span<const Spoke> at_vertex(here, next);
         here = next;
         if (i + 1 == vertices.size() || along_border[i]) continue;
-        const bool inside = at_vertex.empty() || next == spokes.end() || next->place != i + 1 ||
+        const bool inside = at_vertex.empty() || next == sorted_spokes.end() || next->place != i + 1 ||
                             leads_inside(path, vertices[i], vertices[i + 1], at_vertex);
         if (!inside) continue;
         result.low.push_back({vertices[i], vertices[i + 1]});
@@ -163,25 +194,75 @@ std::optional<DividedBorder> divide_border(const SortedPoints& sorted, std::span
     return result;
 }
 
+namespace {
+
+/// The points that may be on the lower side (sign 1) or the upper side (-1) of the hull, in ascending order: those on
+/// or beyond the chords between the outermost points of blocks.
+template <int sign>
+std::vector<Index> hull_candidates(std::span<const Point> points) {
+    constexpr std::size_t block = 64;
+    std::vector<Point> outermost;  // of the blocks, y towards the outside counted as low
+    double magnitude = 0;
+    for (std::size_t begin = 0; begin < points.size(); begin += block) {
+        const std::size_t end = std::min(begin + block, points.size());
+        Point lowest{points[begin].x, sign * points[begin].y};
+        for (std::size_t i = begin + 1; i < end; ++i)
+            if (const double y = sign * points[i].y; y < lowest.y) lowest = {points[i].x, y};
+        outermost.push_back(lowest);
+        magnitude = std::max(magnitude, std::abs(lowest.y));
+    }
+    // Rounded: chords between points lie above the hull, whichever they are.
+    const double end_x = points.back().x;
+    std::vector<Point> chain;
+    for (const Point p : outermost) {
+        while (chain.size() >= 2 && cross(chain.back() - chain[chain.size() - 2], p - chain.back()) <= 0)
+            chain.pop_back();
+        if (chain.empty() || p.x > chain.back().x) chain.push_back(p);
+    }
+    std::size_t edge = 0;
+    const auto chord = [&](double x) {
+        while (edge + 2 < chain.size() && chain[edge + 1].x < x) ++edge;
+        const bool beyond = chain.size() < 2 || x < chain[edge].x || x > chain[edge + 1].x;
+        if (beyond) return HUGE_VAL;
+        const Point a = chain[edge], b = chain[edge + 1];
+        return a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x);
+    };
+    std::vector<Index> result;
+    double at_begin = HUGE_VAL;
+    for (std::size_t begin = 0; begin < points.size(); begin += block) {
+        const std::size_t end = std::min(begin + block, points.size());
+        const double at_end = points[end - 1].x < end_x ? chord(points[end - 1].x) : HUGE_VAL;
+        const double highest = std::max(at_begin, at_end) + 0x1p-40 * magnitude;
+        at_begin = at_end;
+        if (outermost[begin / block].y > highest) continue;
+        for (std::size_t i = begin; i < end; ++i)
+            if (sign * points[i].y <= highest) result.push_back(static_cast<Index>(i));
+    }
+    return result;
+}
+
+}  // namespace
+
 std::vector<Edge> convex_hull(const SortedPoints& sorted) {
-    const std::span<const Point> points = sorted.points;
-    const std::size_t n = points.size();
+    const std::span<const Point> points = sorted.points.all();
     std::vector<Index> hull;
-    const auto add_chain = [&](auto&& point_at) {
+    // Collinear points stay. The last one of a chain is the first one of the other.
+    const auto add_chain = [&](const std::vector<Index>& candidates) {
         const std::size_t start = hull.size();
-        for (std::size_t k = 0; k < n; ++k) {
-            const Index c = point_at(k);
+        for (const Index c : candidates) {
             while (hull.size() >= start + 2 &&
                    detail::inline_orient2d(points[hull[hull.size() - 2]], points[hull.back()], points[c]) < 0)
                 hull.pop_back();
             hull.push_back(c);
         }
         hull.pop_back();
+        return hull.size() - start;
     };
-    add_chain([](std::size_t k) { return static_cast<Index>(k); });
-    const std::size_t lower = hull.size();
-    add_chain([n](std::size_t k) { return static_cast<Index>(n - 1 - k); });
-    if (lower + 1 == n && hull.size() - lower + 1 == n) return {};
+    const std::size_t lower = add_chain(hull_candidates<1>(points));
+    std::vector<Index> upper_candidates = hull_candidates<-1>(points);
+    std::reverse(upper_candidates.begin(), upper_candidates.end());
+    const std::size_t upper = add_chain(upper_candidates);
+    if (lower + 1 == points.size() && upper + 1 == points.size()) return {};
     std::vector<Edge> edges;
     for (std::size_t i = 0; i < hull.size(); ++i) edges.push_back({hull[i], hull[i + 1 < hull.size() ? i + 1 : 0]});
     return edges;

@@ -37,16 +37,15 @@ struct PathVertex {
     bool to_low, to_high;
 };
 
-/// Deals an order to the two parts. `path` holds the path's vertices in this order. The low part stays in place.
+/// Deals the order along the cut to the two parts: no branch depends on a point, but for the path's vertices, which are
+/// given in this order. The low part stays in place.
 template <class IsLow>
 Order deal(Order& order, std::span<const PathVertex> path, std::size_t high_size, IsLow&& is_low) {
     Order high(high_size + 1);  // the entry behind the last may be written, too
     Index *to_low = order.data(), *to_high = high.data();
     const Index* from = order.data();
-    const Index* const end = from + order.size();
-    for (auto next = path.begin();; ++next) {
-        const Index* const stop = next == path.end() ? end : std::find(from, end, next->vertex);
-        for (; from != stop; ++from) {
+    for (const PathVertex& v : path) {
+        for (; *from != v.vertex; ++from) {
             const Index i = *from;
             const bool low = is_low(i);
             *to_low = i;
@@ -54,14 +53,54 @@ Order deal(Order& order, std::span<const PathVertex> path, std::size_t high_size
             to_low += low;
             to_high += !low;
         }
-        if (next == path.end()) break;
-        if (next->to_low) *to_low++ = next->vertex;
-        if (next->to_high) *to_high++ = next->vertex;
         ++from;
+        *to_low = v.vertex;
+        *to_high = v.vertex;
+        to_low += v.to_low;
+        to_high += v.to_high;
+    }
+    for (; from != order.end(); ++from) {
+        const Index i = *from;
+        const bool low = is_low(i);
+        *to_low = i;
+        *to_high = i;
+        to_low += low;
+        to_high += !low;
     }
     order.shrink(static_cast<std::size_t>(to_low - order.data()));
     assert(to_high == high.data() + high_size);
     high.shrink(high_size);
+    return high;
+}
+
+/// Splits the order across the cut at the place of the cut: only the path's vertices, given in this order, are looked
+/// at. The low part stays in place.
+template <class Rank>
+Order split(Order& order, std::size_t place, std::span<const PathVertex> path, std::size_t high_size, Rank&& rank) {
+    const auto first_high = std::partition_point(
+        path.begin(), path.end(), [&](const PathVertex& v) { return rank(v.vertex) < rank(order[place]); });
+    // Copies [from, end) without the vertices that do not belong to a part.
+    const auto copy = [&](const Index* from, const Index* end, Index* to, auto vertices, auto&& belongs) {
+        for (const PathVertex& v : vertices) {
+            if (belongs(v)) continue;
+            const Index* const at = std::partition_point(from, end, [&](Index i) { return rank(i) < rank(v.vertex); });
+            to = from == to ? to + (at - from) : std::copy(from, at, to);
+            from = at + 1;
+        }
+        return from == to ? to + (end - from) : std::copy(from, end, to);
+    };
+    const std::span<const PathVertex> in_low(path.begin(), first_high), in_high(first_high, path.end());
+    Order high(high_size);
+    Index* to_high = high.data();
+    for (const PathVertex& v : in_low)
+        if (v.to_high) *to_high++ = v.vertex;
+    to_high = copy(order.data() + place, order.end(), to_high, in_high, [](const PathVertex& v) { return v.to_high; });
+    assert(to_high == high.end());
+    Index* to_low =
+        copy(order.data(), order.data() + place, order.data(), in_low, [](const PathVertex& v) { return v.to_low; });
+    for (const PathVertex& v : in_high)
+        if (v.to_low) *to_low++ = v.vertex;
+    order.shrink(static_cast<std::size_t>(to_low - order.data()));
     return high;
 }
 
@@ -71,7 +110,7 @@ std::optional<Halves> try_cut(const SortedPoints& sorted, Subdomain& subdomain, 
     const Order& across = axis == Axis::x ? subdomain.by_x : subdomain.by_y;
     const std::size_t size = subdomain.size(), place = static_cast<std::size_t>(share * static_cast<double>(size));
     const Cut cut{axis, across[place]};
-    const std::vector<Index> path = dividing_path(sorted, subdomain, cut);
+    const std::vector<Index> path = dividing_path(sorted, subdomain, axis, place);
     std::optional<DividedBorder> borders = divide_border(sorted, subdomain.border, path, cut);
     if (!borders) {
         ++stats.crossing_cuts;
@@ -93,24 +132,24 @@ std::optional<Halves> try_cut(const SortedPoints& sorted, Subdomain& subdomain, 
         return {};
     }
 
+    // In the orders along the cut and across it.
+    std::vector<PathVertex> sorted_vertices = vertices;
+    if (axis == Axis::y) std::reverse(vertices.begin(), vertices.end());
+    std::sort(sorted_vertices.begin(), sorted_vertices.end(),
+              [&](const PathVertex& l, const PathVertex& r) { return rank(l.vertex) < rank(r.vertex); });
     Halves halves;
-    const auto deal_order = [&](Order Subdomain::*order, auto&& place_in_order, auto&& is_low) {
-        std::sort(vertices.begin(), vertices.end(), [&](const PathVertex& l, const PathVertex& r) {
-            return place_in_order(l.vertex) < place_in_order(r.vertex);
-        });
-        halves.high.*order = deal(subdomain.*order, vertices, high_size, is_low);
-        halves.low.*order = std::move(subdomain.*order);
-    };
-    const auto deal_both = [&](auto&& is_low) {
-        deal_order(
-            &Subdomain::by_x, [](Index i) { return i; }, is_low);
-        deal_order(
-            &Subdomain::by_y, [&](Index i) { return sorted.y_rank[i]; }, is_low);
-    };
-    if (axis == Axis::x)
-        deal_both([=](Index i) { return i < rank_of_cut; });
-    else
-        deal_both([=, &sorted](Index i) { return sorted.y_rank[i] < rank_of_cut; });
+    if (axis == Axis::x) {
+        halves.high.by_x = split(subdomain.by_x, place, sorted_vertices, high_size, rank);
+        halves.high.by_y =
+            deal(subdomain.by_y, vertices, high_size, [rank_of_cut](Index i) { return i < rank_of_cut; });
+    } else {
+        halves.high.by_y = split(subdomain.by_y, place, sorted_vertices, high_size, rank);
+        halves.high.by_x =
+            deal(subdomain.by_x, vertices, high_size,
+                 [ranks = sorted.y_rank.begin(), rank_of_cut](Index i) { return ranks[i] < rank_of_cut; });
+    }
+    halves.low.by_x = std::move(subdomain.by_x);
+    halves.low.by_y = std::move(subdomain.by_y);
     assert(halves.low.size() == low_size);
     halves.low.border = std::move(borders->low);
     halves.high.border = std::move(borders->high);
@@ -126,7 +165,7 @@ bool is_leaf(const Subdomain& subdomain, const DecompositionOptions& options) {
 }
 
 std::optional<Halves> cut_subdomain(const SortedPoints& sorted, Subdomain& subdomain, DecompositionStats& stats) {
-    const std::span<const Point> points = sorted.points;
+    const std::span<const Point> points = sorted.points.all();
     const std::span<const Index> by_x = subdomain.by_x.all(), by_y = subdomain.by_y.all();
     const bool wide = points[by_x.back()].x - points[by_x.front()].x >= points[by_y.back()].y - points[by_y.front()].y;
     for (const Trial& trial : trials) {

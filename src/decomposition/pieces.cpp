@@ -3,13 +3,13 @@
 #include "decomposition/pieces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include <lamina/error.hpp>
-#include <lamina/predicates.hpp>
 
 #include "core/parallel.hpp"
 #include "decomposition/border.hpp"
@@ -20,9 +20,12 @@ namespace lamina::decomposition {
 
 namespace {
 
+/// Vertices as numbers of the input.
+using PieceTriangles = UninitializedArray<std::array<Index, 3>>;
+
 /// Leaves in the order of the decomposition.
 struct Pieces {
-    std::vector<std::vector<Triangle>> triangles;
+    std::vector<PieceTriangles> triangles;
     DecompositionStats stats;
 };
 
@@ -37,7 +40,7 @@ void add(DecompositionStats& sum, const DecompositionStats& stats) {
 }
 
 /// The triangles inside a leaf's border, in the numbers of the input.
-std::vector<Triangle> triangulate_leaf(const SortedPoints& sorted, Subdomain leaf) {
+PieceTriangles triangulate_leaf(const SortedPoints& sorted, Subdomain leaf) {
     leaf.by_y = {};
     const std::span<const Index> numbers = leaf.by_x.all();
     std::vector<Point> points;
@@ -51,16 +54,18 @@ std::vector<Triangle> triangulate_leaf(const SortedPoints& sorted, Subdomain lea
     border.reserve(leaf.border.size());
     for (const Edge& e : leaf.border) border.push_back({local(e.a), local(e.b)});
 
-    kernel::Tris tris = kernel::triangulate_points(points);
-    std::vector<kernel::SegmentPiece> split = kernel::insert_and_split_segments(points, border, tris);
-    border.clear();
-    for (const kernel::SegmentPiece& piece : split) border.push_back(piece.segment);
-    const kernel::Marks marks = kernel::mark_not_right_of_segments(border, tris, points.size());
-    std::vector<Triangle> triangles;
-    triangles.reserve(static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1)));
-    const auto original = [&](Index i) { return VertexId{sorted.original[numbers[i]]}; };
-    for (std::size_t t = 0; t < tris.size(); ++t)
-        if (marks[t]) triangles.push_back({original(tris[t].v[0]), original(tris[t].v[1]), original(tris[t].v[2])});
+    kernel::Tris tris = kernel::triangulate_checked_points(points);
+    const kernel::Marks inside = kernel::mark_region(points, border, tris);
+    leaf.border = {};
+    // From here on each point's number in the input.
+    for (Index& i : leaf.by_x) i = sorted.original[i];
+    PieceTriangles triangles(static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1)));
+    auto* to = triangles.begin();
+    for (std::size_t t = 0; t < tris.size(); ++t) {
+        if (!inside[t]) continue;
+        const auto& v = tris[t].v;
+        *to++ = {leaf.by_x[v[0]], leaf.by_x[v[1]], leaf.by_x[v[2]]};
+    }
     return triangles;
 }
 
@@ -91,11 +96,14 @@ PiecewiseTriangulation join(Pieces pieces) {
     result.stats = pieces.stats;
     result.first.push_back(0);
     for (const auto& piece : pieces.triangles) result.first.push_back(result.first.back() + piece.size());
-    result.triangles.reserve(result.first.back());
-    for (auto& piece : pieces.triangles) {
-        result.triangles.insert(result.triangles.end(), piece.begin(), piece.end());
-        piece = {};
-    }
+    result.triangles.resize(result.first.back());
+    parallel_for(pieces.triangles.size(), 1, [&](std::size_t begin, std::size_t) {
+        const PieceTriangles piece = std::move(pieces.triangles[begin]);
+        std::transform(piece.begin(), piece.end(), result.triangles.begin() + std::ptrdiff_t(result.first[begin]),
+                       [](const std::array<Index, 3>& v) {
+                           return Triangle{{VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}}};
+                       });
+    });
     return result;
 }
 
@@ -111,19 +119,15 @@ PiecewiseTriangulation one_piece(std::vector<Triangle> triangles, std::size_t ve
 /// they are few, or because it names what is wrong with them.
 std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const DecompositionOptions& options) {
     if (points.size() <= options.leaf_vertices || points.size() < 4 || options.depth == 0) return {};
-    if (!std::all_of(points.begin(), points.end(), in_exact_range)) return {};
-    std::optional<SortedPoints> sorted = sort_points(points);
-    if (has_duplicates(*sorted)) return {};
-    return sorted;
+    return sort_points(points);
 }
 
 /// The whole region as a subdomain.
 Subdomain whole(SortedPoints& sorted, std::vector<Edge> border) {
     Subdomain root;
     root.by_x = Order(sorted.points.size());
-    std::iota(root.by_x.data(), root.by_x.data() + root.by_x.size(), Index{0});
-    root.by_y = Order(sorted.by_y);
-    sorted.by_y = {};
+    std::iota(root.by_x.begin(), root.by_x.end(), Index{0});
+    root.by_y = std::move(sorted.by_y);
     root.border = std::move(border);
     return root;
 }

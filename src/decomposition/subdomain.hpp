@@ -1,38 +1,17 @@
 // A part of a triangulation, and the line it is cut along.
 #pragma once
 
-#include <cassert>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "core/uninitialized.hpp"
 #include "decomposition/sorted_points.hpp"
 
 namespace lamina::decomposition {
 
-/// An array whose entries start uninitialised: every one of them is written once by the cut that makes it.
-class Order {
-public:
-    Order() = default;
-    explicit Order(std::size_t room) : data_(std::make_unique_for_overwrite<Index[]>(room)), size_(room) {}
-    explicit Order(std::span<const Index> entries) : Order(entries.size()) {
-        std::copy(entries.begin(), entries.end(), data_.get());
-    }
-
-    std::size_t size() const { return size_; }
-    void shrink(std::size_t size) {
-        assert(size <= size_);
-        size_ = size;
-    }
-    Index* data() { return data_.get(); }
-    std::span<const Index> all() const { return {data_.get(), size_}; }
-    Index operator[](std::size_t i) const { return data_[i]; }
-
-private:
-    std::unique_ptr<Index[]> data_;
-    std::size_t size_ = 0;
-};
+/// Points in one of the two orders: every entry is written once by the cut that makes it.
+using Order = UninitializedArray<Index>;
 
 /// Directed.
 struct Edge {

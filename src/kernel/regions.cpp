@@ -78,17 +78,6 @@ Marks mark_left_of_segments(std::span<const Segment> segments, const Tris& tris,
     return marks;
 }
 
-Marks mark_not_right_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count) {
-    const std::vector<Index> at_vertex = triangle_at_vertex(tris, point_count);
-    Marks marks = mark_all(tris);
-    std::vector<Index> front;
-    for (const Segment& s : segments) {
-        const Link right = find_edge(tris, at_vertex, s.b.value, s.a.value);
-        if (!right.is_border()) flood(tris, right.triangle(), 0, marks, front);
-    }
-    return marks;
-}
-
 void carve_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris, Marks& marks) {
     Index t = 0;
     while (t < tris.size() && tris[t].is_ghost()) ++t;
@@ -111,6 +100,27 @@ void carve_holes(std::span<const Point> points, std::span<const Point> seeds, co
                              fmt::format("hole {} lies on a {}", i, touched == 2 ? "vertex" : "segment"));
         flood(tris, t, 0, marks, front);
     }
+}
+
+Marks mark_region(std::span<const Point> points, std::span<const Segment> border, Tris& tris) {
+    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
+    const std::vector<SegmentPiece> pieces = insert_and_split_segments(points, border, tris, at_vertex);
+    // What lies outside is little: it is flooded, through the ghosts, instead of the region.
+    Marks marks(tris.size(), 1);
+    std::vector<Index> front;
+    const auto reach = [&](Index t) {
+        if (std::exchange(marks[t], 0)) front.push_back(t);
+    };
+    for (const SegmentPiece& piece : pieces) {
+        reach(find_edge(tris, at_vertex, piece.segment.b.value, piece.segment.a.value).triangle());
+        while (!front.empty()) {
+            const Tri& t = tris[front.back()];
+            front.pop_back();
+            for (Link n : t.n)
+                if (!n.is_fixed()) reach(n.triangle());
+        }
+    }
+    return marks;
 }
 
 Tris keep_marked(const Tris& tris, const Marks& marks) {

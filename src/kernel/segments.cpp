@@ -368,11 +368,16 @@ void check_segments(std::span<const Point> points, std::span<const Segment> segm
 
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
                                                     Tris& tris) {
+    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
+    return insert_and_split_segments(points, segments, tris, at_vertex);
+}
+
+std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                                    Tris& tris, std::vector<Index>& at_vertex) {
     const Input input{points, segments};
     check_segments(points, segments, tris);
     std::vector<SegmentPiece> pieces;
     pieces.reserve(segments.size());
-    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
     Workspace work;
     for (std::size_t i = 0; i < segments.size(); ++i) {
         Index from = segments[i].a.value;

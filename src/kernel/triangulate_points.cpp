@@ -24,18 +24,13 @@ namespace {
                      fmt::format("points {} and {} are the same", std::min(a, b), std::max(a, b)));
 }
 
-/// The box of points that are all in the exact range and not too many.
-Box checked_box(std::span<const Point> points) {
+void check_points(std::span<const Point> points) {
     if (points.size() > max_triangles / 2)
         throw InputError(
             {}, fmt::format("{} points are more than the {} of one triangulation", points.size(), max_triangles / 2));
-    Box box;
     bool in_range = true;
-    for (const Point p : points) {
-        box.include(p);
-        in_range &= in_exact_range(p);
-    }
-    if (in_range) return box;
+    for (const Point p : points) in_range &= in_exact_range(p);
+    if (in_range) return;
     const auto bad = std::find_if_not(points.begin(), points.end(), [](Point p) { return in_exact_range(p); });
     throw InputError({.file = {}, .line = 0, .at = *bad},
                      fmt::format("point {} is outside the range of exact arithmetic", bad - points.begin()));
@@ -163,7 +158,14 @@ void insert_vertices(std::span<const Point> vertices, std::span<const Point> poi
 }  // namespace
 
 Tris triangulate_points(std::span<const Point> points) {
-    std::vector<Index> order = insertion_order(points, checked_box(points));
+    check_points(points);
+    return triangulate_checked_points(points);
+}
+
+Tris triangulate_checked_points(std::span<const Point> points) {
+    Box box;
+    for (const Point p : points) box.include(p);
+    std::vector<Index> order = insertion_order(points, box);
     if (order.size() < 3 || !bring_triangle_to_front(points, order)) {
         refuse_duplicates_on_line(points, std::move(order));
         return {};

@@ -14,6 +14,8 @@ namespace lamina::kernel {
 /// The Delaunay triangulation of distinct points, closed by ghost triangles; empty where all points are on one line.
 /// Throws InputError for duplicates and coordinates outside the exact range.
 Tris triangulate_points(std::span<const Point> points);
+/// The same. Precondition: coordinates in the exact range, no more points than a triangulation numbers.
+Tris triangulate_checked_points(std::span<const Point> points);
 
 /// Throws InputError for segments that do not join two of the points, and for any where there are no triangles.
 void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris);
@@ -30,6 +32,10 @@ struct SegmentPiece {
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
                                                     Tris& tris);
 
+/// The same, with a triangle at each vertex handed in and kept up to date.
+std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                                    Tris& tris, std::vector<Index>& at_vertex);
+
 /// The same for segments that run through no vertex; throws InputError where one does.
 void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris);
 
@@ -45,9 +51,6 @@ using Marks = std::vector<char>;
 
 /// What can be reached from the left of a segment without crossing a fixed edge. Precondition: segments are edges.
 Marks mark_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
-/// What cannot be reached from the right of a segment without crossing a fixed edge: the same, but quicker, where the
-/// segments bound a region all round. Precondition: segments are edges.
-Marks mark_not_right_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
 /// What cannot be reached from the outside of the hull without crossing a fixed edge.
 Marks mark_inside_segments(const Tris& tris);
 Marks mark_all(const Tris& tris);
@@ -56,6 +59,9 @@ Marks mark_all(const Tris& tris);
 void carve_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris, Marks& marks);
 /// The marked triangles in ascending order of the old indices; links across their rim become borders.
 Tris keep_marked(const Tris& tris, const Marks& marks);
+/// Inserts the segments, as insert_and_split_segments() does, and marks the region on their left, which they bound all
+/// round.
+Marks mark_region(std::span<const Point> points, std::span<const Segment> border, Tris& tris);
 Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
 
 /// Everything but the ghosts.
