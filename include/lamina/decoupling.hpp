@@ -23,15 +23,24 @@ enum class SeparatorRule {
     k_rule,           ///< thesis ch. 5, equation 1: k = 1/2 sqrt(A / sqrt 2)
 };
 
+enum class FarFieldShape {
+    box,
+    circle,
+    convex,  ///< DecouplingOptions::outline
+};
+
 struct DecouplingOptions {
-    double far_field = 100;  ///< half-width of the far-field box, in chords
-    double chord = 1;        ///< extent in x of the whole configuration
-    Point center;            ///< middle of the configuration
+    FarFieldShape far_field_shape = FarFieldShape::box;
+    double far_field = 100;      ///< half-width of the far-field box or radius of the circle, in chords
+    std::vector<Point> outline;  ///< corners of a convex far field, counter-clockwise; else empty
+    double chord = 1;            ///< extent in x of the whole configuration
+    Point center;                ///< middle of the configuration
     SeparatorRule rule = SeparatorRule::equidistributed;
     double pieces_target = 50'000;  ///< triangles a piece, about
     double min_angle_deg = 20.7;
 };
 
+/// The box round the far field.
 Box far_field_box(const DecouplingOptions& options);
 
 /// A self-contained piece of work: refine(subdomain) needs nothing else, on a thread, on a rank or from a file.
@@ -54,7 +63,7 @@ struct Decoupling {
 
 /// points: those of the layer. borders: closed loops of their ids, counter-clockwise, round each body and its layer.
 /// Depends on the input alone, never on the number of threads. Throws UsageError for a far field that does not
-/// enclose the borders.
+/// enclose the borders with some room, or is not convex.
 Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                     const SizeField& size, const DecouplingOptions& options);
 

@@ -39,8 +39,10 @@ struct CaseOptions {
     GeometryOptions geometry;
     SurfaceOptions surface;  ///< max_turning_deg is an upper bound: the layer's largest ray angle goes over it
     LayerOptions layer;
-    double far_field = 100;  ///< half-width of the far-field box, chords
-    double gradation = 0.1;  ///< growth of the target edge length per unit of distance (docs/decisions)
+    double far_field = 100;  ///< half-width of the far-field box or radius of the circle, chords
+    FarFieldShape far_field_shape = FarFieldShape::box;
+    std::vector<Point> far_field_outline;  ///< for FarFieldShape::convex
+    double gradation = 0.1;                ///< growth of the target edge length per unit of distance (docs/decisions)
     std::optional<double>
         wall_size;                   ///< longest target edge length at the layer's outer border: its edges ask for less
     std::optional<double> far_size;  ///< cap of the target edge length
@@ -72,7 +74,7 @@ struct MeshResult {
     std::vector<ThreadSeconds> refinement_threads;
     unsigned threads = 1;
     std::size_t layer_pieces = 0, inviscid_pieces = 0;
-    DecompositionStats decomposition;  ///< of the layer
+    DecompositionStats decomposition;        ///< of the layer
     std::size_t largest_inviscid_piece = 0;  ///< triangles
     double estimates_within_15_percent = 1;  ///< share of the inviscid pieces whose load was foreseen so well
     std::size_t surface_vertices = 0;

@@ -283,8 +283,12 @@ std::vector<Option> make_table() {
                of_layer(&LayerOptions::topology)));
 
     group = "Outer region";
-    add(real("far-field", "CHORDS", "half-width of the far-field box, in chords (extents in x of the configuration)",
+    add(real("far-field", "CHORDS",
+             "half-width of the far-field box or radius of the circle, in chords (extents in x of the configuration)",
              positive, of_case(&CaseOptions::far_field)));
+    add(choice("far-field-shape", "round the middle of the configuration",
+               Choices<FarFieldShape>{{"box", FarFieldShape::box}, {"circle", FarFieldShape::circle}},
+               of_case(&CaseOptions::far_field_shape)));
     add(real("gradation", "G", "growth of the edge length per unit of distance", above_up_to(0, 1),
              of_case(&CaseOptions::gradation)));
     add(real("wall-size", "H", "longest edge length at the layer's outer border, in units of the input", positive,

@@ -3,11 +3,13 @@
 // Source: J. K. Pardue, thesis (2015), chapter 5.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include <lamina/decoupling.hpp>
 #include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
 
 #include "core/parallel.hpp"
 #include "outer/cut.hpp"
@@ -26,18 +28,67 @@ Box box_around(std::span<const Point> points, std::span<const std::vector<Vertex
     return box;
 }
 
-/// The near-body box stands half the bodies' extent away from the layers. Where the far field leaves little room it is
-/// the far field itself: the corners of rings between boxes so near would be sharp.
-Box near_body_box(const Box& bodies, const Box& far_field, const DecouplingOptions& options) {
-    const double room = std::min({bodies.lower.x - far_field.lower.x, bodies.lower.y - far_field.lower.y,
-                                  far_field.upper.x - bodies.upper.x, far_field.upper.y - bodies.upper.y});
+/// The largest box about the centre that all but touches the far field; the far field itself where that is a box.
+Box inscribed_box(const DecouplingOptions& options) {
+    const Box around = far_field_box(options);
+    if (options.far_field_shape == FarFieldShape::box) return around;
+    constexpr double room = 0.8;  // beyond the box's corners
+    double half = 0;
+    if (options.far_field_shape == FarFieldShape::circle) {
+        half = options.far_field * options.chord / std::sqrt(2.0);
+    } else {
+        half = std::max(around.width(), around.height());
+        for (std::size_t i = 0; i < options.outline.size(); ++i) {
+            const Point a = options.outline[i], along = options.outline[(i + 1) % options.outline.size()] - a;
+            half = std::min(half, cross(along, options.center - a) / (std::abs(along.x) + std::abs(along.y)));
+        }
+    }
+    half *= room;
+    return {options.center - Point{half, half}, options.center + Point{half, half}};
+}
+
+void require_convex(const DecouplingOptions& options) {
+    if (options.far_field_shape != FarFieldShape::convex) return;
+    const std::size_t n = options.outline.size();
+    if (n < 3) throw UsageError("far field: an outline has three corners or more");
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point a = options.outline[i], b = options.outline[(i + 1) % n], c = options.outline[(i + 2) % n];
+        if (!(orient2d(a, b, c) > 0))
+            throw UsageError(
+                fmt::format("far field: the outline is not convex and counter-clockwise at ({}, {})", b.x, b.y));
+        if (!(orient2d(a, b, options.center) > 0))
+            throw UsageError("far field: the outline does not enclose the middle of the configuration");
+    }
+}
+
+/// The shortest way from the box to the far field.
+double room_around(const Box& bodies, const DecouplingOptions& options) {
+    const Box around = far_field_box(options);
+    double room = std::min({bodies.lower.x - around.lower.x, bodies.lower.y - around.lower.y,
+                            around.upper.x - bodies.upper.x, around.upper.y - bodies.upper.y});
+    for (Point corner : corners_of(bodies)) {
+        if (options.far_field_shape == FarFieldShape::circle)
+            room = std::min(room, options.far_field * options.chord - distance(corner, options.center));
+        for (std::size_t i = 0; i < options.outline.size(); ++i) {
+            const Point a = options.outline[i], along = options.outline[(i + 1) % options.outline.size()] - a;
+            room = std::min(room, cross(along, corner - a) / length(along));
+        }
+    }
+    return room;
+}
+
+/// The near-body box stands half the bodies' extent away from the layers. None where the far field leaves little room:
+/// the corners of rings between boxes so near would be sharp.
+std::optional<Box> near_body_box(const Box& bodies, const Box& outermost, const DecouplingOptions& options) {
     const double extent = std::max(bodies.width(), bodies.height());
-    if (!(room > 0.1 * extent))
+    if (!(room_around(bodies, options) > 0.1 * extent))
         throw UsageError(
             fmt::format("far field of {} chords leaves no room around the bodies and their layers", options.far_field));
-    if (room < 1.5 * extent) return far_field;
+    const double room = std::min({bodies.lower.x - outermost.lower.x, bodies.lower.y - outermost.lower.y,
+                                  outermost.upper.x - bodies.upper.x, outermost.upper.y - bodies.upper.y});
+    if (room < 1.5 * extent) return std::nullopt;
     const double margin = 0.5 * extent;
-    return {bodies.lower - Point{margin, margin}, bodies.upper + Point{margin, margin}};
+    return Box{bodies.lower - Point{margin, margin}, bodies.upper + Point{margin, margin}};
 }
 
 Subdomain make_subdomain(const Skeleton& skeleton, const SizedPiece& sized, const SizeField& size,
@@ -68,22 +119,34 @@ Subdomain make_subdomain(const Skeleton& skeleton, const SizedPiece& sized, cons
 }  // namespace outer
 
 Box far_field_box(const DecouplingOptions& options) {
+    if (options.far_field_shape == FarFieldShape::convex) {
+        Box box;
+        for (Point p : options.outline) box.include(p);
+        return box;
+    }
     const double half = options.far_field * options.chord;
     return {options.center - Point{half, half}, options.center + Point{half, half}};
 }
 
 Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                     const SizeField& size, const DecouplingOptions& options) {
-    const Box far_field = far_field_box(options);
-    const Box near_body = outer::near_body_box(outer::box_around(points, borders), far_field, options);
+    outer::require_convex(options);
+    const bool is_box = options.far_field_shape == FarFieldShape::box;
+    const Box outermost = outer::inscribed_box(options);
+    const auto near_body = outer::near_body_box(outer::box_around(points, borders), outermost, options);
 
     outer::Skeleton skeleton;
     skeleton.points.assign(points.begin(), points.end());
     for (const auto& border : borders)
         for (std::size_t i = 0; i < border.size(); ++i)
             skeleton.edges.push_back({border[i + 1 < border.size() ? i + 1 : 0], border[i]});
-    const auto rings = outer::plan_rings(near_body, far_field, size, options.pieces_target);
-    auto far_field_edges = outer::add_rings(skeleton, rings, near_body, far_field, size, options.rule);
+    std::vector<Segment> far_field_edges;
+    if (near_body || is_box) {
+        const Box innermost = near_body.value_or(outermost);
+        const auto rings = outer::plan_rings(innermost, outermost, size, options.pieces_target);
+        far_field_edges = outer::add_rings(skeleton, rings, innermost, outermost, size, options.rule, !is_box);
+    }
+    if (!is_box) far_field_edges = outer::add_outline(skeleton, options, size);
 
     const auto pieces = outer::cut_to_size(skeleton, outer::trace_pieces(skeleton.points, skeleton.edges), size,
                                            options.rule, options.pieces_target);

@@ -107,7 +107,10 @@ std::vector<Piece> trace_pieces(std::span<const Point> points, std::span<const S
     for (std::vector<VertexId>& hole : holes) {
         std::size_t owner = pieces.size();
         for (std::size_t p = 0; p < pieces.size(); ++p) {
-            if (inside(points, pieces[p].loops.front(), points[hole.front().index()]) &&
+            // Pieces inside the hole have its vertices on their borders.
+            const std::vector<VertexId>& outer = pieces[p].loops.front();
+            if (std::find(outer.begin(), outer.end(), hole.front()) == outer.end() &&
+                inside(points, outer, points[hole.front().index()]) &&
                 (owner == pieces.size() || area[p] < area[owner]))
                 owner = p;
         }

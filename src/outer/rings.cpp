@@ -11,9 +11,9 @@ namespace lamina::outer {
 
 namespace {
 
-Box box_at(const Box& near_body, const Box& far_field, double t) {
-    return {near_body.lower + t * (far_field.lower - near_body.lower),
-            near_body.upper + t * (far_field.upper - near_body.upper)};
+Box box_at(const Box& near_body, const Box& outermost, double t) {
+    return {near_body.lower + t * (outermost.lower - near_body.lower),
+            near_body.upper + t * (outermost.upper - near_body.upper)};
 }
 
 /// What a quarter of the ring between two parameters holds, on the average over the four sides.
@@ -24,17 +24,17 @@ struct QuarterRing {
 };
 
 /// Integrates from `inner` to `outer` in steps that grow with the box, sampling each side at its quarters.
-QuarterRing measure(const Box& near_body, const Box& far_field, const SizeField& size, double inner, double outer) {
+QuarterRing measure(const Box& near_body, const Box& outermost, const SizeField& size, double inner, double outer) {
     QuarterRing quarter;
     const double extent = std::max(near_body.width(), near_body.height());
-    const double growth = std::max(far_field.width(), far_field.height()) - extent;
+    const double growth = std::max(outermost.width(), outermost.height()) - extent;
     double t = inner;
     while (t < outer) {
         const double step = std::min(0.1 * (extent / growth + t), outer - t);
         const double next = t + step < outer * (1 - 1e-12) ? t + step : outer;
-        const auto from = corners_of(box_at(near_body, far_field, t));
-        const auto to = corners_of(box_at(near_body, far_field, next));
-        const auto middle = corners_of(box_at(near_body, far_field, 0.5 * (t + next)));
+        const auto from = corners_of(box_at(near_body, outermost, t));
+        const auto to = corners_of(box_at(near_body, outermost, next));
+        const auto middle = corners_of(box_at(near_body, outermost, 0.5 * (t + next)));
         for (int side = 0; side < 4; ++side) {
             const int end = (side + 1) % 4;
             const Point a = middle[side], b = middle[end];
@@ -53,9 +53,9 @@ QuarterRing measure(const Box& near_body, const Box& far_field, const SizeField&
     return quarter;
 }
 
-void plan(const Box& near_body, const Box& far_field, const SizeField& size, double pieces_target, double inner,
+void plan(const Box& near_body, const Box& outermost, const SizeField& size, double pieces_target, double inner,
           double outer, std::size_t per_side, std::vector<Ring>& rings) {
-    const QuarterRing quarter = measure(near_body, far_field, size, inner, outer);
+    const QuarterRing quarter = measure(near_body, outermost, size, inner, outer);
     const auto n = static_cast<double>(per_side);
     constexpr double fewest_segments = 8;  // no side of a piece gets shorter than this when it is halved
     const bool wide = quarter.tangential / n > quarter.radial;
@@ -63,14 +63,14 @@ void plan(const Box& near_body, const Box& far_field, const SizeField& size, dou
     if (quarter.triangles <= pieces_target * n || longer < 2 * fewest_segments) {
         rings.push_back({inner, outer, per_side});
     } else if (wide) {
-        plan(near_body, far_field, size, pieces_target, inner, outer, 2 * per_side, rings);
+        plan(near_body, outermost, size, pieces_target, inner, outer, 2 * per_side, rings);
     } else {
         // The box grows linearly with t: halve the logarithm of its extent, along which edge lengths are even.
         const double extent = std::max(near_body.width(), near_body.height());
-        const double s = extent / (std::max(far_field.width(), far_field.height()) - extent);
+        const double s = extent / (std::max(outermost.width(), outermost.height()) - extent);
         const double cut = std::sqrt((s + inner) * (s + outer)) - s;
-        plan(near_body, far_field, size, pieces_target, inner, cut, per_side, rings);
-        plan(near_body, far_field, size, pieces_target, cut, outer, per_side, rings);
+        plan(near_body, outermost, size, pieces_target, inner, cut, per_side, rings);
+        plan(near_body, outermost, size, pieces_target, cut, outer, per_side, rings);
     }
 }
 
@@ -97,15 +97,15 @@ void Skeleton::add_chain(std::span<const VertexId> chain, bool both_directions) 
     }
 }
 
-std::vector<Ring> plan_rings(const Box& near_body, const Box& far_field, const SizeField& size, double pieces_target) {
+std::vector<Ring> plan_rings(const Box& near_body, const Box& outermost, const SizeField& size, double pieces_target) {
     std::vector<Ring> rings;
-    if (near_body.width() < far_field.width()) plan(near_body, far_field, size, pieces_target, 0, 1, 1, rings);
+    if (near_body.width() < outermost.width()) plan(near_body, outermost, size, pieces_target, 0, 1, 1, rings);
     return rings;
 }
 
 std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body,
-                               const Box& far_field, const SizeField& size, SeparatorRule rule) {
-    std::vector<Segment> far_field_edges;
+                               const Box& outermost, const SizeField& size, SeparatorRule rule, bool something_beyond) {
+    std::vector<Segment> outermost_edges;
     // junctions[level][side * per_side + j]: where separators meet the box between two rings.
     std::vector<std::vector<VertexId>> junctions(rings.size() + 1);
     std::vector<std::size_t> per_side(rings.size() + 1);
@@ -114,18 +114,18 @@ std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, 
         const std::size_t above = level < rings.size() ? rings[level].per_side : 1;
         const std::size_t n = per_side[level] = std::max(below, above);
         const auto corner =
-            corners_of(level < rings.size() ? box_at(near_body, far_field, rings[level].inner) : far_field);
+            corners_of(level < rings.size() ? box_at(near_body, outermost, rings[level].inner) : outermost);
         for (std::size_t side = 0; side < 4; ++side)
             for (std::size_t j = 0; j < n; ++j)
                 junctions[level].push_back(
                     skeleton.add_point(corner[side] + (static_cast<double>(j) / static_cast<double>(n)) *
                                                           (corner[(side + 1) % 4] - corner[side])));
-        const bool outermost = level == rings.size();
+        const bool last = level == rings.size();
         for (std::size_t j = 0; j < 4 * n; ++j) {
             const auto chain = add_line(skeleton, junctions[level][j], junctions[level][(j + 1) % (4 * n)], size, rule);
-            skeleton.add_chain(chain, !outermost);
-            if (outermost)
-                for (std::size_t i = 0; i + 1 < chain.size(); ++i) far_field_edges.push_back({chain[i], chain[i + 1]});
+            skeleton.add_chain(chain, !last || something_beyond);
+            if (last)
+                for (std::size_t i = 0; i + 1 < chain.size(); ++i) outermost_edges.push_back({chain[i], chain[i + 1]});
         }
     }
     for (std::size_t ring = 0; ring < rings.size(); ++ring) {
@@ -136,7 +136,27 @@ std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, 
             skeleton.add_chain(add_line(skeleton, inner, outer, size, rule), true);
         }
     }
-    return far_field_edges;
+    return outermost_edges;
+}
+
+std::vector<Segment> add_outline(Skeleton& skeleton, const DecouplingOptions& options, const SizeField& size) {
+    constexpr std::size_t fewest = 3, fewest_round_a_circle = 16;
+    std::vector<VertexId> loop;
+    if (options.far_field_shape == FarFieldShape::circle) {
+        for (Point p : divide_circle(options.center, options.far_field * options.chord, size, fewest_round_a_circle))
+            loop.push_back(skeleton.add_point(p));
+    } else {
+        for (std::size_t i = 0; i < options.outline.size(); ++i) {
+            const Point u = options.outline[i], v = options.outline[(i + 1) % options.outline.size()];
+            loop.push_back(skeleton.add_point(u));
+            for (Point p : separate(u, v, size, options.rule, fewest)) loop.push_back(skeleton.add_point(p));
+        }
+    }
+    loop.push_back(loop.front());
+    skeleton.add_chain(loop, false);
+    std::vector<Segment> edges;
+    for (std::size_t i = 0; i + 1 < loop.size(); ++i) edges.push_back({loop[i], loop[i + 1]});
+    return edges;
 }
 
 }  // namespace lamina::outer

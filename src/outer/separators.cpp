@@ -6,22 +6,23 @@
 #include <cmath>
 
 #include "core/equilateral.hpp"
+#include "core/reproducible_math.hpp"
 
 namespace lamina::outer {
 
 namespace {
 
-/// Equal shares of the integral of ds / h along the line. The integral is the trapezoidal sum over steps of about h
-/// / 8.
-std::vector<Point> equidistribute(Point u, Point v, const SizeField& size, std::size_t fewest) {
-    const double total = distance(u, v);
+/// Equal shares of the integral of ds / h along a curve, point(s) at arc length s: the points between them. The
+/// integral is the trapezoidal sum over steps of about h / 8.
+template <class Curve>
+std::vector<Point> equidistribute(const Curve& point, double total, const SizeField& size, std::size_t fewest) {
     std::vector<double> at{0}, integral{0};  // arc length, integral up to there
-    double h = size(u);
+    double h = size(point(0));
     while (at.back() < total) {
         const double step = std::min(h / 8, total - at.back());
         // The last step would otherwise be lost to rounding.
         const double s = at.back() + step < total * (1 - 1e-12) ? at.back() + step : total;
-        const double ahead = size(u + (s / total) * (v - u));
+        const double ahead = size(point(s));
         integral.push_back(integral.back() + 0.5 * (s - at.back()) * (1 / h + 1 / ahead));
         at.push_back(s);
         h = ahead;
@@ -34,8 +35,7 @@ std::vector<Point> equidistribute(Point u, Point v, const SizeField& size, std::
         const double wanted = integral.back() * (static_cast<double>(k) / static_cast<double>(n));
         while (integral[i + 1] < wanted) ++i;
         const double share = (wanted - integral[i]) / (integral[i + 1] - integral[i]);
-        const double s = at[i] + share * (at[i + 1] - at[i]);
-        points.push_back(u + (s / total) * (v - u));
+        points.push_back(point(at[i] + share * (at[i + 1] - at[i])));
     }
     return points;
 }
@@ -85,9 +85,21 @@ std::vector<Point> separate(Point u, Point v, const SizeField& size, SeparatorRu
     const double hu = size(u), hv = size(v);
     const bool forward = hu != hv ? hu < hv : lexicographically_less(u, v);
     const Point from = forward ? u : v, to = forward ? v : u;
+    const double total = distance(from, to);
     std::vector<Point> points =
-        rule == SeparatorRule::k_rule ? cut_by_k_rule(from, to, size, fewest) : equidistribute(from, to, size, fewest);
+        rule == SeparatorRule::k_rule
+            ? cut_by_k_rule(from, to, size, fewest)
+            : equidistribute([&](double s) { return from + (s / total) * (to - from); }, total, size, fewest);
     if (!forward) std::reverse(points.begin(), points.end());
+    return points;
+}
+
+std::vector<Point> divide_circle(Point center, double radius, const SizeField& size, std::size_t fewest) {
+    const auto at = [&](double s) {
+        return center + radius * Point{cos_reproducible(s / radius), sin_reproducible(s / radius)};
+    };
+    std::vector<Point> points = equidistribute(at, 2 * pi * radius, size, fewest);
+    points.insert(points.begin(), at(0));
     return points;
 }
 

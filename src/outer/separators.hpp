@@ -19,4 +19,7 @@ namespace lamina::outer {
 /// Both directions of a line give the same points.
 std::vector<Point> separate(Point u, Point v, const SizeField& size, SeparatorRule rule, std::size_t fewest = 1);
 
+/// Vertices of a closed circle, counter-clockwise, equidistributed in the same way; at least `fewest` of them.
+std::vector<Point> divide_circle(Point center, double radius, const SizeField& size, std::size_t fewest);
+
 }  // namespace lamina::outer

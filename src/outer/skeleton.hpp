@@ -25,20 +25,24 @@ struct Skeleton {
 /// Counter-clockwise corners of a box, from the lower left one.
 std::array<Point, 4> corners_of(const Box& box);
 
-/// One ring of trapezoids between the boxes at parameters `inner` and `outer`, 0 being the near-body box and 1 the far
-/// field, with `per_side` of them on each of its four sides.
+/// One ring of trapezoids between the boxes at parameters `inner` and `outer`, 0 being the near-body box and 1 the
+/// outermost one, with `per_side` of them on each of its four sides.
 struct Ring {
     double inner, outer;
     std::size_t per_side;
 };
 
-/// Rings from near_body to far_field such that no trapezoid has more than about `pieces_target` triangles.
+/// Rings from near_body to `outermost` such that no trapezoid has more than about `pieces_target` triangles.
 /// Trapezoids are halved along their longer extent as measured in edge lengths; powers of two keep junctions of
-/// neighbouring rings in common. None where the near-body box is the far field.
-std::vector<Ring> plan_rings(const Box& near_body, const Box& far_field, const SizeField& size, double pieces_target);
+/// neighbouring rings in common. None where the near-body box is the outermost one.
+std::vector<Ring> plan_rings(const Box& near_body, const Box& outermost, const SizeField& size, double pieces_target);
 
-/// Adds near-body box, rings and far field to the skeleton. The far field's edges.
+/// Adds near-body box, rings and outermost box to the skeleton. The edges of the outermost box, with the region on
+/// their left; where something lies beyond it, they stand in the other direction as well.
 std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body,
-                               const Box& far_field, const SizeField& size, SeparatorRule rule);
+                               const Box& outermost, const SizeField& size, SeparatorRule rule, bool something_beyond);
+
+/// Adds the outline of a far field that is no box to the skeleton. Its edges, with the region on their left.
+std::vector<Segment> add_outline(Skeleton& skeleton, const DecouplingOptions& options, const SizeField& size);
 
 }  // namespace lamina::outer

@@ -54,6 +54,8 @@ DecouplingOptions decoupling_options(const Pslg& pslg, const CaseOptions& option
     const Box bodies = box_of(pslg);
     DecouplingOptions d;
     d.far_field = options.far_field;
+    d.far_field_shape = options.far_field_shape;
+    d.outline = options.far_field_outline;
     d.chord = bodies.width();
     d.center = bodies.center();
     d.rule = options.separators;

@@ -189,6 +189,54 @@ TEST(FarField, AnyDistanceWithRoom) {
     }
 }
 
+TEST(FarField, Circle) {
+    for (double chords : {0.8, 1.5, 5.0, 50.0, 500.0})
+        for (double target : {50'000.0, 1'000.0}) {
+            SCOPED_TRACE(chords);
+            CaseOptions options = judged_options();
+            options.far_field = chords;
+            options.far_field_shape = FarFieldShape::circle;
+            options.pieces_target = target;
+            const MeshResult result = mesh_of({naca("0012")}, options);
+            expect_sound(result, options);
+            expect_nothing_left_over(result);
+            EXPECT_LT(double(result.largest_inviscid_piece), 2 * target);
+            double turned = 0;
+            for (const Segment& edge : result.mesh.markers.back().edges) {
+                const Point a = result.mesh.points[edge.a.index()] - Point{0.5, 0};
+                const Point b = result.mesh.points[edge.b.index()] - Point{0.5, 0};
+                ASSERT_NEAR(length(a), chords, 1e-6 * chords);
+                turned += std::atan2(cross(a, b), dot(a, b));
+            }
+            EXPECT_NEAR(turned, 2 * M_PI, 1e-9);
+        }
+}
+
+TEST(FarField, AnyConvexOutline) {
+    const std::vector<std::vector<Point>> outlines{{{-20, -10}, {40, -10}, {30, 25}},
+                                                   {{-2, -1}, {3, -1.5}, {4, 0.3}, {1, 2}, {-1.5, 1}},
+                                                   {{-5, 0}, {0, -5}, {30, -5}, {30, 5}, {0, 5}}};
+    for (const auto& outline : outlines)
+        for (double target : {50'000.0, 1'000.0}) {
+            SCOPED_TRACE(outline.size());
+            CaseOptions options = judged_options();
+            options.far_field_shape = FarFieldShape::convex;
+            options.far_field_outline = outline;
+            options.pieces_target = target;
+            const MeshResult result = mesh_of({naca("0012")}, options);
+            expect_sound(result, options);
+            EXPECT_EQ(result.refinement.oversized, 0u);
+            EXPECT_NEAR(result.check.area, enclosed_area(outline) - enclosed_area(naca("0012")), 1e-9 * 3600);
+            EXPECT_LT(double(result.largest_inviscid_piece), 2 * target);
+        }
+    CaseOptions options = judged_options();
+    options.far_field_shape = FarFieldShape::convex;
+    options.far_field_outline = {{-5, -5}, {5, -5}, {1, 0.5}, {5, 5}, {-5, 5}};
+    EXPECT_THROW(mesh_of({naca("0012")}, options), UsageError);
+    options.far_field_outline = {{5, 5}, {9, 5}, {9, 9}};
+    EXPECT_THROW(mesh_of({naca("0012")}, options), UsageError);
+}
+
 TEST(FarField, WithoutRoomIsRefused) {
     for (double chords : {0.0, -1.0, 0.1, 0.5, 0.55}) {
         CaseOptions options = judged_options();
