@@ -179,6 +179,13 @@ CaseOptions random_options(Random& random) {
     // Thicker than a chord is rarely meant.
     if (layer.enabled && !random.chance(0.05))
         while (*layer.layers > 1 && layer_height(layer, *layer.layers) > 0.3) --*layer.layers;
+    if (random.chance(0.15)) {
+        layer.layers.reset();
+        layer.growth = random.uniform(1.1, 1.6);
+    } else if (random.chance(0.2)) {
+        layer.growth_law = random.chance(0.5) ? GrowthLaw::aflr : GrowthLaw::adaptive;
+    }
+    layer.topology = std::array{LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads}[random.below(3)];
     options.far_field = random.uniform(2, 6);
     options.gradation = random.uniform(0.2, 0.5);
     options.threads = 1;
@@ -204,8 +211,8 @@ Configuration configuration(std::uint64_t seed, std::uint64_t number) {
     c.options.layer.first_height *= scale;
     const LayerOptions& layer = c.options.layer;
     c.what += fmt::format(" first height {:.3g}, growth {:.3f}, {} layers, rays {:.2f} deg, {}, scale {:.3g}",
-                          layer.first_height, layer.growth, layer.enabled ? *layer.layers : 0, layer.max_ray_angle_deg,
-                          layer.corners == Corners::fan ? "fan" : "refine", scale);
+                          layer.first_height, layer.growth, layer.enabled ? layer.layers.value_or(0) : 0,
+                          layer.max_ray_angle_deg, layer.corners == Corners::fan ? "fan" : "refine", scale);
     return c;
 }
 
