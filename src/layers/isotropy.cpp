@@ -82,9 +82,12 @@ void fill_fans(const RaySet& set, const Spacing& spacing, std::vector<double>& v
         while (spacing.same_origin(i, spacing.next(fan.back()))) fan.push_back(spacing.next(fan.back()));
         const std::size_t steps = fan.size() - 1;
         const double first = values[fan.front()], last = values[fan.back()];
-        for (std::size_t k = 1; k < steps; ++k)
-            values[fan[k]] =
-                (first * static_cast<double>(steps - k) + last * static_cast<double>(k)) / static_cast<double>(steps);
+        const auto [least, most] = std::minmax(first, last);
+        for (std::size_t k = 1; k < steps; ++k) {
+            const double share = static_cast<double>(k), rest = static_cast<double>(steps - k);
+            // Rounding must not lead out of the range that values may lie in.
+            values[fan[k]] = std::clamp((first * rest + last * share) / static_cast<double>(steps), least, most);
+        }
     }
 }
 

@@ -180,6 +180,20 @@ TEST(AdaptiveGrowth, MeetsTheSpacingAlongTheWall) {
     }
 }
 
+/// Rays of a fan stand between those at its ends; rounding must not lead them out of the range of the ratio.
+TEST(AdaptiveGrowth, StaysInItsRangeAcrossFans) {
+    const Outline outline = shapes::section(0.12, 0, 80);
+    for (const double first_height : {1e-9, 1e-2}) {
+        for (int k = 0; k < 40; ++k) {
+            LayerOptions options = options_of(GrowthLaw::adaptive);
+            options.first_height = first_height;
+            options.layers = 8;
+            options.max_ray_angle_deg = 2 + 0.2 * k;
+            sound_layer(outline, options);
+        }
+    }
+}
+
 TEST(AutomaticLayers, EndWhereTheyAreAsHighAsWide) {
     for (const double growth : {1.1, 1.2, 1.4}) {
         const Layer layer = sound_layer(shapes::circle(1, 120), automatic(growth));
