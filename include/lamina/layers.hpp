@@ -116,6 +116,12 @@ struct Layer {
     std::vector<ElementCoverage> coverage;
 };
 
+/// First height whose top lies at this y+ on a flat plate of the length `chord` in turbulent flow:
+///   y+ chord / (Re sqrt(cf / 2)),  cf = 0.026 / Re^(1/7),  Re = reynolds, based on the chord.
+/// Source: F. M. White, Fluid Mechanics, 5th edition (2003), p. 467. Throws UsageError for numbers that are not
+/// positive.
+double first_height_for(double y_plus, double reynolds, double chord);
+
 /// Height of the n-th layer's top, n >= 0, above the wall (height 0 at n = 0); for the adaptive law on a ray where r is
 /// options.growth. Source: thesis 3.3, GrowthLaw.
 double layer_height(const LayerOptions& options, std::uint32_t n);

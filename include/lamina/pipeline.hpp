@@ -34,12 +34,20 @@ struct WakeOptions {
     std::optional<double> size = {};  ///< at the trailing edge; empty = what the layer's border has there
 };
 
+/// The flow that the first height is made for.
+struct YPlusOptions {
+    double y_plus = 1;                 ///< of the first layer's top
+    double reynolds = 0;               ///< based on the chord
+    std::optional<double> chord = {};  ///< in units of the input; empty = extent in x of the whole configuration
+};
+
 /// Everything that decides a mesh. Defaults are those of the command line.
 struct CaseOptions {
     GeometryOptions geometry;
     SurfaceOptions surface;  ///< max_turning_deg is an upper bound: the layer's largest ray angle goes over it
     LayerOptions layer;
-    double far_field = 100;  ///< half-width of the far-field box or radius of the circle, chords
+    std::optional<YPlusOptions> y_plus;  ///< goes over layer.first_height (first_height_for)
+    double far_field = 100;              ///< half-width of the far-field box or radius of the circle, chords
     FarFieldShape far_field_shape = FarFieldShape::box;
     std::vector<Point> far_field_outline;  ///< for FarFieldShape::convex
     double gradation = 0.1;                ///< growth of the target edge length per unit of distance (docs/decisions)
@@ -78,9 +86,14 @@ struct MeshResult {
     std::size_t largest_inviscid_piece = 0;  ///< triangles
     double estimates_within_15_percent = 1;  ///< share of the inviscid pieces whose load was foreseen so well
     std::size_t surface_vertices = 0;
+    double first_height = 0;                      ///< of the layers; 0 without
+    std::optional<YPlusOptions> y_plus;           ///< where the first height was made for it, with the chord in force
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     RefineStats refinement;                       ///< summed over pieces
 };
+
+/// The options with what follows from the outlines filled in: the chord of y_plus and the layer's first height.
+CaseOptions options_in_force(const Pslg& pslg, CaseOptions options);
 
 /// The surface stage's options in force: turning bounded by the angle between the layer's rays, too.
 SurfaceOptions surface_options(const CaseOptions& options);

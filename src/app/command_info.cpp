@@ -20,7 +20,8 @@ void add_info_command(CLI::App& app) {
     command->callback([inputs] {
         const MeshCase mesh_case = case_of_inputs(*inputs);
         Pslg pslg = read_geometry(mesh_case.inputs, mesh_case.options.geometry);
-        fmt::print("{}", describe(prepare_surfaces(std::move(pslg), surface_options(mesh_case.options))));
+        const CaseOptions options = options_in_force(pslg, case_options(mesh_case));
+        fmt::print("{}", describe(prepare_surfaces(std::move(pslg), surface_options(options))));
     });
 }
 

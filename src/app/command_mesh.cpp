@@ -76,8 +76,9 @@ void require_outputs(const MeshCase& mesh_case) {
 }
 
 void mesh(const MeshCase& mesh_case) {
+    const CaseOptions options = case_options(mesh_case);
     require_outputs(mesh_case);
-    const MeshResult result = generate_mesh(mesh_case.inputs, mesh_case.options, progress_printer(mesh_case));
+    const MeshResult result = generate_mesh(mesh_case.inputs, options, progress_printer(mesh_case));
 
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -104,6 +105,7 @@ void add_mesh_command(CLI::App& app) {
     command->callback([options, dump] {
         const MeshCase mesh_case = case_in_force(*options);
         if (*dump) {
+            case_options(mesh_case);  // refuses what contradicts itself
             fmt::print("{}", dump_case(mesh_case));
         } else {
             mesh(mesh_case);

@@ -255,8 +255,19 @@ std::vector<Option> make_table() {
              member_at(&MeshCase::options, &CaseOptions::geometry, &GeometryOptions::names)));
 
     group = "Layer";
-    add(real("first-height", "H", "height of the first layer along the ray, in units of the input", positive,
-             of_layer(&LayerOptions::first_height)));
+    Option first_height = real("first-height", "H", "height of the first layer along the ray, in units of the input",
+                               positive, member_at(&MeshCase::first_height));
+    first_height.get = [given = first_height.get](const MeshCase& c) {
+        if (c.first_height || c.y_plus) return given(c);
+        return std::optional<Value>(c.options.layer.first_height);
+    };
+    add(std::move(first_height));
+    add(real("y-plus", "Y", "instead: y+ of the first layer's top, on a flat plate", positive,
+             member_at(&MeshCase::y_plus)));
+    add(real("reynolds", "RE", "Reynolds number of y-plus, based on the chord", positive,
+             member_at(&MeshCase::reynolds)));
+    add(real("chord", "C", "chord of y-plus, in units of the input; else the extent in x of the configuration",
+             positive, member_at(&MeshCase::chord)));
     add(real("growth", "R", "ratio of the heights of successive layers; power of the polynomial law", greater_than(1),
              of_layer(&LayerOptions::growth)));
     add(choice("growth-law", "how heights grow along a ray",

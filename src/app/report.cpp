@@ -94,6 +94,17 @@ Json threads_report(const std::vector<ThreadSeconds>& threads) {
     return report;
 }
 
+/// The first height in force, and the flow it was made for, if it was.
+Json first_height_report(const MeshResult& result) {
+    Json report = {{"height", result.first_height}};
+    if (const auto& flow = result.y_plus; flow) {
+        report["y_plus"] = flow->y_plus;
+        report["reynolds"] = flow->reynolds;
+        report["chord"] = *flow->chord;
+    }
+    return report;
+}
+
 }  // namespace
 
 Json quality_report(const MeshCheck& check) {
@@ -143,6 +154,7 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
               {"inviscid", result.inviscid_pieces},
               {"largest_inviscid", result.largest_inviscid_piece},
               {"estimates_within_15_percent", result.estimates_within_15_percent}}},
+            {"first_layer", first_height_report(result)},
             {"layer_cells", layer_cells_report(result)},
             {"seconds", seconds_report(result.seconds, write_seconds)},
             {"thread_seconds", {{"refinement", threads_report(result.refinement_threads)}}},
@@ -192,6 +204,10 @@ std::string mesh_summary(const MeshResult& result, const std::vector<std::string
                         result.mesh.triangles.size(), quads > 0 ? fmt::format("{} quads, ", quads) : "",
                         result.layer_pieces + result.inviscid_pieces);
     text += quality_summary(result.check);
+    if (const auto& flow = result.y_plus; flow) {
+        text += fmt::format("  y+        {} at Re {}, chord {}: first height {:.4g}\n", flow->y_plus, flow->reynolds,
+                            *flow->chord, result.first_height);
+    }
     if (const auto [all, open] = total_coverage(result); all.requested_cells > 0) {
         text += fmt::format(
             "  rays      {} of {} cut short; {:.2f} % of the requested layer cells made, {:.2f} % in the open\n",

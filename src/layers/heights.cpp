@@ -158,6 +158,17 @@ Heights make_heights(const RaySet& set, const LayerOptions& options) {
     return Heights(std::move(table), std::vector<Stack>(set.rays.size(), all));
 }
 
+double first_height_for(double y_plus, double reynolds, double chord) {
+    const auto demand = [](const char* name, double value) {
+        require(value > 0 && std::isfinite(value), fmt::format("{} must be greater than 0, not {}", name, value));
+    };
+    demand("y+", y_plus);
+    demand("the Reynolds number", reynolds);
+    demand("the chord", chord);
+    const double friction = 0.026 / pow_reproducible(reynolds, 1.0 / 7);
+    return y_plus * chord / (reynolds * std::sqrt(0.5 * friction));
+}
+
 double layer_height(const LayerOptions& options, std::uint32_t n) {
     check_growth(options);
     return heights_by_law(options.growth_law, options.first_height, common_growth(options), n).back();

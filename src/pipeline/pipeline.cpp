@@ -117,8 +117,13 @@ void demand_valid(const MeshCheck& check) {
                                 check.defect_count > 1 ? fmt::format(", and {} more", check.defect_count - 1) : ""));
 }
 
-MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geometry_seconds) {
+MeshResult run(Pslg pslg, const CaseOptions& given, Clock& clock, double geometry_seconds) {
+    const CaseOptions options = options_in_force(pslg, given);
     MeshResult result;
+    if (options.layer.enabled) {
+        result.first_height = options.layer.first_height;
+        result.y_plus = options.y_plus;
+    }
     StageSeconds& seconds = result.seconds;
     seconds.geometry = geometry_seconds;
     clock.lap();
@@ -174,6 +179,15 @@ MeshResult run(Pslg pslg, const CaseOptions& options, Clock& clock, double geome
 }
 
 }  // namespace
+
+CaseOptions options_in_force(const Pslg& pslg, CaseOptions options) {
+    if (options.y_plus) {
+        auto& [y_plus, reynolds, chord] = *options.y_plus;
+        if (!chord) chord = box_of(pslg).width();
+        options.layer.first_height = first_height_for(y_plus, reynolds, *chord);
+    }
+    return options;
+}
 
 SurfaceOptions surface_options(const CaseOptions& options) {
     SurfaceOptions surface = options.surface;

@@ -86,6 +86,29 @@ TEST(BadInput, WakesAndSizeSources) {
     expect_refused(folder, {"mesh", "case.toml", "-o", "out.su2"}, usage, "case.toml:2: refine");
 }
 
+TEST(BadInput, AFirstHeightGivenTwiceOrByHalf) {
+    const TemporaryFolder folder;
+    const auto refuse = [&](const std::vector<std::string>& options, const std::string& said) {
+        expect_refused(folder, mesh_naca_with(options), usage, said);
+    };
+    refuse({"--first-height", "1e-5", "--y-plus", "1", "--reynolds", "1e6"}, "given twice");
+    refuse({"--y-plus", "1"}, "needs reynolds");
+    refuse({"--reynolds", "1e6"}, "y-plus");
+    refuse({"--chord", "2"}, "y-plus");
+    refuse({"--y-plus", "0", "--reynolds", "1e6"}, "y-plus");
+    refuse({"--y-plus", "1", "--reynolds", "-1"}, "reynolds");
+    refuse({"--y-plus", "1", "--dump-config"}, "needs reynolds");
+}
+
+TEST(BadInput, GrowthLawsThatLackSomething) {
+    const TemporaryFolder folder;
+    expect_refused(folder, mesh_naca_with({"--layers", "many"}), usage, "layers");
+    expect_refused(folder, mesh_naca_with({"--growth-law", "exponential"}), usage, "thickness");
+    expect_refused(folder, mesh_naca_with({"--growth-law", "adaptive", "--layers", "auto"}), usage, "adaptive");
+    expect_refused(folder, mesh_naca_with({"--growth-law", "exponential", "--thickness", "1e-4"}), usage, "thickness");
+    expect_refused(folder, mesh_naca_with({"--growth", "1.0001", "--layers", "auto"}), usage, "1000 layers");
+}
+
 TEST(BadInput, AFarFieldThatDoesNotEncloseTheBodies) {
     const TemporaryFolder folder;
     expect_refused(folder, mesh_naca_with({"--far-field", "0.2"}), usage, "far field of 0.2 chords");

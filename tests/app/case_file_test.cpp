@@ -1,8 +1,11 @@
 // case.toml and --dump-config: what is dumped reproduces the run.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
+
+#include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
 
@@ -47,6 +50,34 @@ TEST(CaseFile, HoldsWakesAndSizeSources) {
     const std::string dumped = run_lamina(folder, {"mesh", "short.toml", "--dump-config"}).out;
     EXPECT_NE(dumped.find("wake = '10:2'\n"), std::string::npos) << dumped;
     EXPECT_NE(dumped.find("refine = [ 'circle:1,2,3,4' ]\n"), std::string::npos) << dumped;
+}
+
+TEST(CaseFile, AFirstHeightFromTheFlowIsDumpedAndReported) {
+    const TemporaryFolder folder;
+    const ProgramRun dump =
+        run_lamina(folder, {"mesh", "naca:0012", "-o", "a.su2", "--report", "a.json", "--far-field", "5", "--y-plus",
+                            "2", "--reynolds", "3e6", "--layers", "auto", "--growth-law", "aflr", "--dump-config"});
+    ASSERT_EQ(dump.exit_code, 0) << dump.err;
+    EXPECT_NE(dump.out.find("# first_height is not set\n"), std::string::npos) << dump.out;
+    EXPECT_NE(dump.out.find("layers = 'auto'\n"), std::string::npos) << dump.out;
+    folder.write("case.toml", dump.out);
+    EXPECT_EQ(run_lamina(folder, {"mesh", "case.toml", "--dump-config"}).out, dump.out);
+
+    const ProgramRun run = run_lamina(folder, {"mesh", "case.toml"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("first height 1.697e-05"), std::string::npos) << run.out;
+    const auto report = nlohmann::json::parse(folder.read("a.json"));
+    const double height = 2 / (3e6 * std::sqrt(0.5 * 0.026 / std::pow(3e6, 1.0 / 7)));
+    EXPECT_NEAR(report["first_layer"]["height"].get<double>() / height, 1, 1e-9);
+    EXPECT_EQ(report["first_layer"]["chord"], 1);
+    EXPECT_GT(report["quality"]["hand_over"]["edges"], 100);
+
+    // The same height, given as such, makes the same mesh.
+    const ProgramRun given =
+        run_lamina(folder, {"mesh", "naca:0012", "-o", "b.su2", "--far-field", "5", "--first-height",
+                            report["first_layer"]["height"].dump(), "--layers", "auto", "--growth-law", "aflr"});
+    ASSERT_EQ(given.exit_code, 0) << given.err;
+    EXPECT_EQ(folder.read("a.su2"), folder.read("b.su2"));
 }
 
 TEST(CaseFile, TheCommandLineGoesOverTheFile) {

@@ -288,6 +288,17 @@ TEST(LocalHeights, StaySoundOnRandomStars) {
     }
 }
 
+TEST(FirstHeight, FollowsTheFlatPlate) {
+    EXPECT_NEAR(first_height_for(1, 6e6, 1), 4.456878e-6, 1e-12);
+    for (const double reynolds : {1e4, 3e6, 1e9}) {
+        const double expected = 0.5 * 3 / (reynolds * std::sqrt(0.5 * 0.026 / std::pow(reynolds, 1.0 / 7)));
+        EXPECT_NEAR(first_height_for(0.5, reynolds, 3) / expected, 1, 1e-14);
+    }
+    EXPECT_THROW(first_height_for(0, 1e6, 1), UsageError);
+    EXPECT_THROW(first_height_for(1, NAN, 1), UsageError);
+    EXPECT_THROW(first_height_for(1, 1e6, -1), UsageError);
+}
+
 TEST(GrowthLaw, RefusesWhatLacksWhatItNeeds) {
     const Pslg circle = shapes::pslg({shapes::circle(1, 20)});
     const auto refused = [&](GrowthLaw law, auto change) {
