@@ -159,18 +159,13 @@ void carry_over(const RaySet& set, const Sample& sample, std::span<const double>
     }
 }
 
-/// Bounds the slope of the limits along each wall: twice round in both directions.
+/// Bounds the slope of the limits along each wall.
 void smooth_limits(const RaySet& set, const Heights& heights, std::vector<double>& limits) {
-    const auto pass_on = [&](std::size_t from, std::size_t to) {
+    lower_to_neighbours(set, limits, [&](std::size_t from, std::size_t to) {
         const double height = std::min(limits[from], heights.full(from));
-        const double gap = distance(at_height(set.rays[from], height), at_height(set.rays[to], height));
-        limits[to] = std::min(limits[to], limits[from] + limit_slope * gap);
-    };
-    for (std::size_t e = 0; e < set.bodies(); ++e) {
-        const std::size_t first = set.begin[e], n = set.begin[e + 1] - first;
-        for (std::size_t k = 0; k < 2 * n; ++k) pass_on(first + k % n, first + (k + 1) % n);
-        for (std::size_t k = 2 * n; k-- > 0;) pass_on(first + (k + 1) % n, first + k % n);
-    }
+        return limits[from] +
+               limit_slope * distance(at_height(set.rays[from], height), at_height(set.rays[to], height));
+    });
 }
 
 }  // namespace
