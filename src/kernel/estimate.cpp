@@ -1,6 +1,7 @@
 #include "kernel/estimate.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/equilateral.hpp"
 #include "kernel/triangulator.hpp"
@@ -9,8 +10,22 @@ namespace lamina::kernel {
 
 namespace {
 
-/// Mean area of the triangles that refinement makes, as a share of the bound (measured over pieces: docs/decisions/0015).
-constexpr double mean_area_share = 0.66;
+/// Mean area of the triangles that refinement makes, as a share of the bound: the lattice of a level fits the better
+/// the less h varies (measured: docs/decisions/0015).
+double mean_area_share(double gradation) {
+    struct Measured {
+        double gradation, share;
+    };
+    constexpr Measured table[] = {{0.007, 0.79}, {0.01, 0.763}, {0.015, 0.683}, {0.05, 0.664},
+                                  {0.1, 0.636},  {0.2, 0.592},  {0.3, 0.585}};
+    if (gradation <= table[0].gradation) return table[0].share;
+    for (std::size_t i = 1; i < std::size(table); ++i) {
+        if (gradation > table[i].gradation) continue;
+        const double t = (gradation - table[i - 1].gradation) / (table[i].gradation - table[i - 1].gradation);
+        return table[i - 1].share + t * (table[i].share - table[i - 1].share);
+    }
+    return std::end(table)[-1].share;
+}
 
 /// Triangles with edges longer than this many times h are looked into. A source inside lowers h up to a distance of h /
 /// gradation; and parts of a triangle are kept small enough to tell which side of a line they lie on.
@@ -78,15 +93,15 @@ void integrate(std::span<const Point> points, const Tris& tris, const SizeField&
 
 }  // namespace
 
-double estimated_triangles(double area, double mean_inverse_square_size) {
-    return area * mean_inverse_square_size / (equilateral_area * mean_area_share);
+double estimated_triangles(double area, double mean_inverse_square_size, double gradation) {
+    return area * mean_inverse_square_size / (equilateral_area * mean_area_share(gradation));
 }
 
 double estimate_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size) {
     double integral = 0;
     integrate(
         points, tris, size, [&](Point, double part) { integral += part; }, [] {});
-    return estimated_triangles(1, integral);
+    return estimated_triangles(1, integral, size.gradation());
 }
 
 Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size) {
@@ -94,7 +109,7 @@ Loads estimate_loads(std::span<const Point> points, const Tris& tris, const Size
     integrate(
         points, tris, size,
         [&](Point p, double part) {
-            result.loads.push_back({p, estimated_triangles(1, part)});
+            result.loads.push_back({p, estimated_triangles(1, part, size.gradation())});
         },
         [&] { result.begin.push_back(result.loads.size()); });
     return result;

@@ -12,8 +12,8 @@
 
 namespace lamina::kernel {
 
-/// From an area and the mean of 1 / h^2 over it.
-double estimated_triangles(double area, double mean_inverse_square_size);
+/// From an area, the mean of 1 / h^2 over it, and the growth of h per unit of distance.
+double estimated_triangles(double area, double mean_inverse_square_size, double gradation);
 
 /// From a triangulation of the region.
 double estimate_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size);

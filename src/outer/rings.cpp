@@ -43,7 +43,8 @@ QuarterRing measure(const Box& near_body, const Box& outermost, const SizeField&
             constexpr int samples = 4;
             for (int i = 0; i < samples; ++i) {
                 const double h = size(a + ((i + 0.5) / samples) * (b - a));
-                quarter.triangles += kernel::estimated_triangles(std::abs(area), 1 / (h * h)) / (4 * samples);
+                quarter.triangles +=
+                    kernel::estimated_triangles(std::abs(area), 1 / (h * h), size.gradation()) / (4 * samples);
                 quarter.radial += width / h / (4 * samples);
                 quarter.tangential += distance(a, b) * (next - t) / ((outer - inner) * h) / (4 * samples);
             }
