@@ -21,6 +21,7 @@
 #include <lamina/error.hpp>
 
 #include "core/box_tree.hpp"
+#include "core/parallel.hpp"
 
 namespace lamina {
 namespace {
@@ -145,28 +146,76 @@ struct Candidates {
     bool constant = false;
 };
 
+// All sources, grouped.
+struct Sources {
+    std::vector<Group> groups;
+    std::vector<Cone> cones;
+};
+
+// A part of the tree: entries of nodes lead to nodes and leaves of the same part.
+struct Part {
+    std::vector<Slots> nodes;
+    std::vector<Leaf> leaves;
+};
+
 class Builder {
 public:
-    Builder(std::vector<SizeSource> sources, const SizingOptions& options, Point lower, double side,
-            std::vector<Slots>& nodes, std::vector<Leaf>& leaves)
+    Builder(const Sources& sources, const SizingOptions& options, double unit)
         : gradation_(options.gradation),
           inverse_gradation_(1 / std::max(options.gradation, 1e-300)),
           max_size_(options.max_size),
-          unit_(side),
-          nodes_(nodes),
-          leaves_(leaves) {
-        if (!sources.empty()) {
-            groups_.reserve(2 * sources.size());
-            cones_.reserve(sources.size());
-            group_sources(sources, groups_, cones_);
-            candidates_.push_back(0);
-        }
+          unit_(unit),
+          groups_(sources.groups),
+          cones_(sources.cones) {}
+
+    // A cell whose node is still to be made, and where the node is entered.
+    struct Task {
+        Cell cell;
+        std::vector<std::uint32_t> candidates;
+        Samples samples;
+        std::uint32_t parent, slot;
+    };
+
+    Task root(Point lower, double side) {
+        if (!groups_.empty()) candidates_.push_back(0);
         const Candidates all{0, candidates_.size(), 0};
         Cell root{lower, side, 0, {}};
         for (int i = 0; i < 4; ++i)
             root.h[i] = evaluate({lower.x + (i & 1) * side, lower.y + (i >> 1) * side}, all, max_size_);
-        split_twice(root, all, sample(root, all));
+        const Samples samples = sample(root, all);
+        return {root, std::move(candidates_), samples, 0, 0};
     }
+
+    // Makes the node of one cell; its quarters that need nodes of their own become tasks.
+    void expand(const Task& task, std::vector<Task>& tasks) {
+        candidates_ = task.candidates;
+        make_node(task.cell, {0, candidates_.size(), 0}, task.samples,
+                  [&](std::uint32_t node, int slot, const Cell& quarter, const Candidates& in, const Samples& s) {
+                      const auto from = candidates_.begin() + static_cast<std::ptrdiff_t>(in.begin);
+                      const auto to = candidates_.begin() + static_cast<std::ptrdiff_t>(in.end);
+                      tasks.push_back({quarter, {from, to}, s, node, static_cast<std::uint32_t>(slot)});
+                  });
+    }
+
+    // Makes all nodes below a cell; its own is the first.
+    void finish(const Task& task) {
+        candidates_ = task.candidates;
+        split_twice(task.cell, {0, candidates_.size(), 0}, task.samples);
+    }
+
+    // Puts another part behind this one and enters it.
+    void append(const Part& other, const Task& task) {
+        const auto nodes = static_cast<std::uint32_t>(part.nodes.size());
+        const auto leaves = static_cast<std::uint32_t>(part.leaves.size());
+        part.nodes[task.parent][task.slot] = nodes;
+        part.leaves.insert(part.leaves.end(), other.leaves.begin(), other.leaves.end());
+        for (Slots slots : other.nodes) {
+            for (std::uint32_t& entry : slots) entry += (entry & leaf_bit) != 0 ? leaves : nodes;
+            part.nodes.push_back(slots);
+        }
+    }
+
+    Part part;
 
 private:
     // The exact field at p, given an upper bound.
@@ -297,8 +346,8 @@ private:
     std::uint32_t add_leaf(const Cell& c) {
         Leaf leaf;
         for (int i = 0; i < 4; ++i) leaf[i] = static_cast<float>(c.h[i] / unit_);
-        leaves_.push_back(leaf);
-        return leaf_bit | static_cast<std::uint32_t>(leaves_.size() - 1);
+        part.leaves.push_back(leaf);
+        return leaf_bit | static_cast<std::uint32_t>(part.leaves.size() - 1);
     }
 
     // Calls leaf(quadrant, its cell) or inner(quadrant, its cell, candidates, samples) for the four quadrants.
@@ -320,37 +369,79 @@ private:
         }
     }
 
-    // Makes the wide node of a cell that needs one. The recursion is at most max_level deep.
-    std::uint32_t split_twice(const Cell& cell, const Candidates& candidates, const Samples& samples) {
-        const auto node = static_cast<std::uint32_t>(nodes_.size());
-        nodes_.emplace_back();
+    // Makes the wide node of a cell that needs one; inner(node, slot, quarter, candidates, samples) for its quarters
+    // that need one, too.
+    template <class OnInner>
+    std::uint32_t make_node(const Cell& cell, const Candidates& candidates, const Samples& samples, OnInner inner) {
+        const auto node = static_cast<std::uint32_t>(part.nodes.size());
+        part.nodes.emplace_back();
         const auto slot = [](int q, int r) { return 8 * (q >> 1) + 4 * (r >> 1) + 2 * (q & 1) + (r & 1); };
         split(
             cell, candidates, samples,
             [&](int q, const Cell& half) {
                 const std::uint32_t leaf = add_leaf(half) | half_bit;
-                for (int r = 0; r < 4; ++r) nodes_[node][slot(q, r)] = leaf;
+                for (int r = 0; r < 4; ++r) part.nodes[node][slot(q, r)] = leaf;
             },
             [&](int q, const Cell& half, const Candidates& half_candidates, const Samples& half_samples) {
                 split(
                     half, half_candidates, half_samples,
-                    [&](int r, const Cell& quarter) { nodes_[node][slot(q, r)] = add_leaf(quarter); },
+                    [&](int r, const Cell& quarter) { part.nodes[node][slot(q, r)] = add_leaf(quarter); },
                     [&](int r, const Cell& quarter, const Candidates& in, const Samples& s) {
-                        const std::uint32_t next = split_twice(quarter, in, s);
-                        nodes_[node][slot(q, r)] = next;
+                        inner(node, slot(q, r), quarter, in, s);
                     });
             });
         return node;
     }
 
+    // The recursion is at most max_level deep.
+    std::uint32_t split_twice(const Cell& cell, const Candidates& candidates, const Samples& samples) {
+        return make_node(
+            cell, candidates, samples,
+            [&](std::uint32_t node, int slot, const Cell& quarter, const Candidates& in, const Samples& s) {
+                const std::uint32_t next = split_twice(quarter, in, s);
+                part.nodes[node][slot] = next;
+            });
+    }
+
     double gradation_, inverse_gradation_, max_size_, unit_;
-    std::vector<Slots>& nodes_;
-    std::vector<Leaf>& leaves_;
-    std::vector<Group> groups_;
-    std::vector<Cone> cones_;
+    const std::vector<Group>& groups_;
+    const std::vector<Cone>& cones_;
     std::vector<std::uint32_t> candidates_;  // of the cells on the way from the root to the present one
     std::vector<std::uint32_t> pending_;     // scratch
 };
+
+// Nodes are made one by one until there are enough cells for all threads, then those are finished side by side.
+Part build_tree(std::span<const SizeSource> given, const SizingOptions& options, Point lower, double side) {
+    constexpr std::size_t enough_tasks = 64;
+    Sources sources;
+    if (!given.empty()) {
+        std::vector<SizeSource> sorted(given.begin(), given.end());
+        sources.groups.reserve(2 * sorted.size());
+        sources.cones.reserve(sorted.size());
+        group_sources(sorted, sources.groups, sources.cones);
+    }
+    Builder top(sources, options, side);
+    std::vector<Builder::Task> tasks;
+    top.expand(top.root(lower, side), tasks);
+    while (!tasks.empty() && tasks.size() < enough_tasks) {
+        std::vector<Builder::Task> next;
+        for (const Builder::Task& task : tasks) {
+            top.part.nodes[task.parent][task.slot] = static_cast<std::uint32_t>(top.part.nodes.size());
+            top.expand(task, next);
+        }
+        tasks = std::move(next);
+    }
+    std::vector<Part> parts(tasks.size());
+    parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Builder builder(sources, options, side);
+            builder.finish(tasks[i]);
+            parts[i] = std::move(builder.part);
+        }
+    });
+    for (std::size_t i = 0; i < tasks.size(); ++i) top.append(parts[i], tasks[i]);
+    return std::move(top.part);
+}
 
 void require_valid(std::span<const SizeSource> sources, const SizingOptions& options, const Box& domain) {
     if (!(options.gradation >= 0 && options.gradation < HUGE_VAL))
@@ -428,7 +519,9 @@ SizeField::SizeField(std::span<const SizeSource> sources, const SizingOptions& o
     tree->domain = domain;
     tree->side = std::max(domain.width(), domain.height());
     tree->keys_per_length = static_cast<double>(std::uint64_t{1} << key_bits) / tree->side;
-    Builder({sources.begin(), sources.end()}, options, domain.lower, tree->side, tree->nodes, tree->leaves);
+    Part part = build_tree(sources, options, domain.lower, tree->side);
+    tree->nodes = std::move(part.nodes);
+    tree->leaves = std::move(part.leaves);
     tree_ = std::move(tree);
     start_.shift = root_shift;
     gradation_ = options.gradation;
