@@ -63,15 +63,16 @@ struct CaseOptions {
     unsigned threads = 0;                ///< 0 = all cores; never changes the mesh
 };
 
-/// Wall-clock seconds of each stage.
+/// Wall-clock seconds of each stage. Decomposition and triangulation of the layer and refinement run at the same time:
+/// their common time is divided among them as the threads' time is.
 struct StageSeconds {
     double geometry = 0, layers = 0, decomposition = 0, layer_triangulation = 0, sizing = 0, decoupling = 0,
            refinement = 0, assembly = 0, check = 0, total = 0;
 };
 
-/// Time each worker thread spent in the parallel stage, and waiting in it.
+/// What a thread did in the common time of these stages, in seconds.
 struct ThreadSeconds {
-    double busy = 0, idle = 0;
+    double decomposition = 0, layer_triangulation = 0, refinement = 0, idle = 0;
 };
 
 struct MeshResult {
@@ -79,7 +80,7 @@ struct MeshResult {
     MeshCheck check;
     Pslg pslg;
     StageSeconds seconds;
-    std::vector<ThreadSeconds> refinement_threads;
+    std::vector<ThreadSeconds> thread_seconds;
     unsigned threads = 1;
     std::size_t layer_pieces = 0, inviscid_pieces = 0;
     DecompositionStats decomposition;        ///< of the layer

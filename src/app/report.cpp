@@ -89,8 +89,13 @@ Json decomposition_report(const DecompositionStats& stats) {
 }
 
 Json threads_report(const std::vector<ThreadSeconds>& threads) {
-    Json report = Json::array();
-    for (const ThreadSeconds& thread : threads) report.push_back({{"busy", thread.busy}, {"idle", thread.idle}});
+    Json report = {
+        {"decomposition", Json::array()}, {"layer_triangulation", Json::array()}, {"refinement", Json::array()}};
+    for (const ThreadSeconds& thread : threads) {
+        report["decomposition"].push_back({{"busy", thread.decomposition}});
+        report["layer_triangulation"].push_back({{"busy", thread.layer_triangulation}});
+        report["refinement"].push_back({{"busy", thread.refinement}, {"idle", thread.idle}});
+    }
     return report;
 }
 
@@ -157,7 +162,7 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
             {"first_layer", first_height_report(result)},
             {"layer_cells", layer_cells_report(result)},
             {"seconds", seconds_report(result.seconds, write_seconds)},
-            {"thread_seconds", {{"refinement", threads_report(result.refinement_threads)}}},
+            {"thread_seconds", threads_report(result.thread_seconds)},
             {"quality", quality},
             {"hash", mesh_hash(result.mesh)}};
 }

@@ -69,13 +69,19 @@ PieceTriangles triangulate_leaf(const SortedPoints& sorted, Subdomain leaf) {
     return triangles;
 }
 
-Pieces triangulate(const SortedPoints& sorted, Subdomain subdomain, const DecompositionOptions& options) {
+Pieces triangulate(const SortedPoints& sorted, Subdomain subdomain, const DecompositionOptions& options,
+                   BusyTimes* times) {
     Pieces pieces;
     if (!is_leaf(subdomain, options)) {
-        if (std::optional<Halves> halves = cut_subdomain(sorted, subdomain, pieces.stats)) {
+        std::optional<Halves> halves;
+        {
+            const BusyTimes::Scope busy(times, Work::decomposition);
+            halves = cut_subdomain(sorted, subdomain, pieces.stats);
+        }
+        if (halves) {
             Pieces low, high;
-            parallel_invoke([&] { low = triangulate(sorted, std::move(halves->low), options); },
-                            [&] { high = triangulate(sorted, std::move(halves->high), options); });
+            parallel_invoke([&] { low = triangulate(sorted, std::move(halves->low), options, times); },
+                            [&] { high = triangulate(sorted, std::move(halves->high), options, times); });
             pieces.triangles = std::move(low.triangles);
             std::move(high.triangles.begin(), high.triangles.end(), std::back_inserter(pieces.triangles));
             add(pieces.stats, low.stats);
@@ -86,6 +92,7 @@ Pieces triangulate(const SortedPoints& sorted, Subdomain subdomain, const Decomp
     }
     pieces.stats.pieces = 1;
     pieces.stats.piece_vertices = pieces.stats.largest_piece = subdomain.size();
+    const BusyTimes::Scope busy(times, Work::layer_triangulation);
     pieces.triangles.push_back(triangulate_leaf(sorted, std::move(subdomain)));
     return pieces;
 }
@@ -122,6 +129,15 @@ std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const D
     return sort_points(points);
 }
 
+std::vector<Edge> in_sorted_numbers(const SortedPoints& sorted, std::span<const Segment> border) {
+    UninitializedArray<Index> place(sorted.original.size());
+    for (std::size_t i = 0; i < place.size(); ++i) place[sorted.original[i]] = static_cast<Index>(i);
+    std::vector<Edge> edges;
+    edges.reserve(border.size());
+    for (const Segment& s : border) edges.push_back({place[s.a.index()], place[s.b.index()]});
+    return edges;
+}
+
 /// The whole region as a subdomain.
 Subdomain whole(SortedPoints& sorted, std::vector<Edge> border) {
     Subdomain root;
@@ -139,25 +155,30 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, cons
     std::vector<Edge> hull = sorted ? convex_hull(*sorted) : std::vector<Edge>{};
     if (hull.empty())
         return one_piece(kernel::without_ghosts(kernel::triangulate_points(points)).triangles, points.size());
-    return join(triangulate(*sorted, whole(*sorted, std::move(hull)), options));
+    return join(triangulate(*sorted, whole(*sorted, std::move(hull)), options, nullptr));
 }
 
 PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std::span<const Segment> border,
-                                             const DecompositionOptions& options) {
+                                             const DecompositionOptions& options, BusyTimes* times) {
     std::size_t fallbacks = 0;
-    if (std::optional<SortedPoints> sorted = sort_for_cuts(points, options)) {
-        std::vector<Index> place(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i) place[sorted->original[i]] = static_cast<Index>(i);
-        std::vector<Edge> edges;
-        for (const Segment& s : border) edges.push_back({place[s.a.index()], place[s.b.index()]});
-        place = {};
+    std::optional<SortedPoints> sorted;
+    Subdomain root;
+    {
+        const BusyTimes::Scope busy(times, Work::decomposition);
+        sorted = sort_for_cuts(points, options);
+        if (sorted) root = whole(*sorted, in_sorted_numbers(*sorted, border));
+    }
+    if (sorted) {
         try {
-            return join(triangulate(*sorted, whole(*sorted, std::move(edges)), options));
+            Pieces pieces = triangulate(*sorted, std::move(root), options, times);
+            const BusyTimes::Scope busy(times, Work::layer_triangulation);
+            return join(std::move(pieces));
         } catch (const InputError&) {
             // Segments that cross are named by their numbers in a piece. The whole set names them right.
             fallbacks = 1;
         }
     }
+    const BusyTimes::Scope busy(times, Work::layer_triangulation);
     auto result =
         one_piece(constrained_delaunay(points, border, {.keep = Keep::left_of_segments}).triangles, points.size());
     result.stats.fallbacks = fallbacks;

@@ -6,6 +6,8 @@
 
 #include <lamina/delaunay.hpp>
 
+#include "core/busy_times.hpp"
+
 namespace lamina::decomposition {
 
 /// Triangles of all pieces, piece by piece in the order of the decomposition.
@@ -22,6 +24,6 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, cons
 /// with Keep::left_of_segments, piece by piece. Throws as it does.
 /// Precondition: the border bounds the region all round, and every point lies in the region or on its border.
 PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std::span<const Segment> border,
-                                             const DecompositionOptions& options);
+                                             const DecompositionOptions& options, BusyTimes* times = nullptr);
 
 }  // namespace lamina::decomposition

@@ -34,7 +34,7 @@ LayerEdges layer_edges(const Layer& layer) {
 }
 
 decomposition::PiecewiseTriangulation triangulate_layer(const Layer& layer, const LayerEdges& edges,
-                                                        const DecompositionOptions& options) {
+                                                        const DecompositionOptions& options, BusyTimes* times) {
     if (edges.region.empty()) return {};
     // Where the layer is truncated to nothing, wall vertices are no part of it.
     std::vector<char> used(layer.points.size(), 1);
@@ -42,7 +42,7 @@ decomposition::PiecewiseTriangulation triangulate_layer(const Layer& layer, cons
         for (VertexId v : wall) used[v.index()] = 0;
     for (const Segment& s : edges.region) used[s.a.index()] = used[s.b.index()] = 1;
     if (std::find(used.begin(), used.end(), 0) == used.end())
-        return decomposition::triangulate_in_pieces(layer.points, edges.region, options);
+        return decomposition::triangulate_in_pieces(layer.points, edges.region, options, times);
 
     std::vector<Point> points;
     std::vector<VertexId> whole, part(layer.points.size());
@@ -54,7 +54,7 @@ decomposition::PiecewiseTriangulation triangulate_layer(const Layer& layer, cons
     }
     std::vector<Segment> region = edges.region;
     for (Segment& s : region) s = {part[s.a.index()], part[s.b.index()]};
-    auto pieces = decomposition::triangulate_in_pieces(points, region, options);
+    auto pieces = decomposition::triangulate_in_pieces(points, region, options, times);
     for (Triangle& t : pieces.triangles)
         for (VertexId& v : t.v) v = whole[v.index()];
     return pieces;
@@ -77,15 +77,16 @@ LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
 }  // namespace
 
 LayerFill fill_layer(const Layer& layer, const LayerEdges& edges, LayerTopology topology,
-                     const DecompositionOptions& options) {
+                     const DecompositionOptions& options, BusyTimes* times) {
     LayerFill fill;
     if (edges.region.empty()) return fill;
     if (topology == LayerTopology::delaunay) {
-        auto triangulation = triangulate_layer(layer, edges, options);
+        auto triangulation = triangulate_layer(layer, edges, options, times);
         fill.cells = cells_of(layer, std::move(triangulation.triangles));
         fill.first_triangle = std::move(triangulation.first);
         fill.decomposition = triangulation.stats;
     } else {
+        const BusyTimes::Scope busy(times, Work::layer_triangulation);
         fill.cells = connect_layer(layer, topology == LayerTopology::quads ? GridCells::whole : GridCells::split);
         fill.first_triangle = {0, fill.cells.triangles.size()};
     }

@@ -31,10 +31,11 @@ struct LayerFill {
 
 /// In the topology asked for; only that of triangles is made in several pieces.
 LayerFill fill_layer(const Layer& layer, const LayerEdges& edges, LayerTopology topology,
-                     const DecompositionOptions& options = {});
+                     const DecompositionOptions& options = {}, BusyTimes* times = nullptr);
 
 /// Constrained Delaunay triangles of the layer's points between walls and outer borders, in pieces.
 decomposition::PiecewiseTriangulation triangulate_layer(const Layer& layer, const LayerEdges& edges,
-                                                        const DecompositionOptions& options = {});
+                                                        const DecompositionOptions& options = {},
+                                                        BusyTimes* times = nullptr);
 
 }  // namespace lamina

@@ -9,6 +9,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/busy_times.hpp"
 #include "core/parallel.hpp"
 #include "core/reproducible_math.hpp"
 #include "pipeline/assemble.hpp"
@@ -64,30 +65,38 @@ DecouplingOptions decoupling_options(const Pslg& pslg, const CaseOptions& option
     return d;
 }
 
-struct RefinedPieces {
-    std::vector<Refinement> pieces;
-    std::vector<ThreadSeconds> threads;
-};
-
 /// Largest first, each on whichever thread is free; every piece depends on its subdomain alone.
-RefinedPieces refine_all(const std::vector<Subdomain>& subdomains) {
+std::vector<Refinement> refine_all(const std::vector<Subdomain>& subdomains, BusyTimes& times) {
     std::vector<std::size_t> order(subdomains.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return subdomains[a].estimated_triangles > subdomains[b].estimated_triangles;
     });
-    RefinedPieces result;
-    result.pieces.resize(subdomains.size());
-    result.threads.resize(thread_count());
-    const double start = seconds_now();
+    std::vector<Refinement> pieces(subdomains.size());
     parallel_for(order.size(), 1, [&](std::size_t begin, std::size_t end) {
-        const double begun = seconds_now();
-        for (std::size_t i = begin; i < end; ++i) result.pieces[order[i]] = refine(subdomains[order[i]]);
-        result.threads[thread_index()].busy += seconds_now() - begun;
+        const BusyTimes::Scope busy(&times, Work::refinement);
+        for (std::size_t i = begin; i < end; ++i) pieces[order[i]] = refine(subdomains[order[i]]);
     });
-    const double elapsed = seconds_now() - start;
-    for (ThreadSeconds& t : result.threads) t.idle = std::max(0.0, elapsed - t.busy);
-    return result;
+    return pieces;
+}
+
+/// Times of the threads in a stage that took `elapsed` seconds, which are divided among its kinds of work.
+void take_times(const BusyTimes& times, double elapsed, MeshResult& result) {
+    ThreadSeconds sum;
+    for (std::size_t i = 0; i < times.threads(); ++i) {
+        const auto [decomposition, layer_triangulation, refinement] = times.of_thread(i);
+        const double busy = decomposition + layer_triangulation + refinement;
+        result.thread_seconds.push_back(
+            {decomposition, layer_triangulation, refinement, std::max(0.0, elapsed - busy)});
+        sum.decomposition += decomposition;
+        sum.layer_triangulation += layer_triangulation;
+        sum.refinement += refinement;
+    }
+    const double all = sum.decomposition + sum.layer_triangulation + sum.refinement;
+    const double share = all > 0 ? elapsed / all : 0;
+    result.seconds.decomposition = share * sum.decomposition;
+    result.seconds.layer_triangulation = share * sum.layer_triangulation;
+    result.seconds.refinement = share * sum.refinement;
 }
 
 void add(RefineStats& sum, const RefineStats& stats) {
@@ -139,10 +148,6 @@ MeshResult run(Pslg pslg, const CaseOptions& given, Clock& clock, double geometr
     const LayerEdges edges = layer_edges(layer);
     seconds.layers = clock.lap();
 
-    clock.begin("layer triangulation");
-    LayerFill layer_fill = fill_layer(layer, edges, options.layer.topology, options.decomposition);
-    seconds.layer_triangulation = clock.lap();
-
     clock.begin("sizing");
     const SizeField size = make_size_field(sized_layer, options, far_field_box(outer_options));
     seconds.sizing = clock.lap();
@@ -151,21 +156,26 @@ MeshResult run(Pslg pslg, const CaseOptions& given, Clock& clock, double geometr
     Decoupling decoupling = decouple(layer.points, layer.borders, size, outer_options);
     seconds.decoupling = clock.lap();
 
-    clock.begin("refinement");
-    RefinedPieces refined = refine_all(decoupling.subdomains);
-    seconds.refinement = clock.lap();
+    // The layer's first cuts occupy one thread each: the others refine meanwhile (thesis 6.6).
+    clock.begin("layer triangulation and refinement");
+    LayerFill layer_fill;
+    std::vector<Refinement> refined;
+    BusyTimes times;
+    parallel_invoke(
+        [&] { layer_fill = fill_layer(layer, edges, options.layer.topology, options.decomposition, &times); },
+        [&] { refined = refine_all(decoupling.subdomains, times); });
+    take_times(times, clock.lap(), result);
 
     clock.begin("assembly");
-    result.refinement_threads = std::move(refined.threads);
     result.threads = thread_count();
     result.layer_pieces = layer_fill.pieces();
     result.decomposition = layer_fill.decomposition;
-    result.inviscid_pieces = refined.pieces.size();
-    for (const Refinement& piece : refined.pieces) add(result.refinement, piece.stats);
-    compare_loads(decoupling.subdomains, refined.pieces, result);
+    result.inviscid_pieces = refined.size();
+    for (const Refinement& piece : refined) add(result.refinement, piece.stats);
+    compare_loads(decoupling.subdomains, refined, result);
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
     result.layer_coverage = layer.coverage;
-    result.mesh = assemble(pslg, edges, std::move(layer_fill), std::move(decoupling), std::move(refined.pieces));
+    result.mesh = assemble(pslg, edges, std::move(layer_fill), std::move(decoupling), std::move(refined));
     seconds.assembly = clock.lap();
 
     clock.begin("check");

@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "core/busy_times.hpp"
 #include "core/parallel.hpp"
 
 namespace lamina {
@@ -95,6 +98,31 @@ TEST(ParallelBlocks, ComeInOrder) {
         const auto first = parallel_blocks(1000, 7, [](std::size_t begin, std::size_t) { return begin; });
         ASSERT_EQ(first.size(), 143u);
         for (std::size_t b = 0; b < first.size(); ++b) EXPECT_EQ(first[b], 7 * b);
+    });
+}
+
+TEST(BusyTimes, WorkWithinWorkCountsOnce) {
+    const auto wait = [](int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); };
+    with_threads(1, [&] {
+        BusyTimes times;
+        const auto begun = std::chrono::steady_clock::now();
+        {
+            const BusyTimes::Scope outer(&times, Work::decomposition);
+            wait(2);
+            {
+                const BusyTimes::Scope inner(&times, Work::refinement);
+                wait(20);
+            }
+            wait(2);
+        }
+        const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+        ASSERT_EQ(times.threads(), 1u);
+        const auto [decomposition, triangulation, refinement] = times.of_thread(0);
+        EXPECT_GE(decomposition, 0.004);
+        EXPECT_GE(refinement, 0.02);
+        EXPECT_EQ(triangulation, 0);
+        EXPECT_LE(decomposition + refinement, elapsed);
+        const BusyTimes::Scope none(nullptr, Work::refinement);
     });
 }
 
