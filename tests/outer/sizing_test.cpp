@@ -104,6 +104,12 @@ TEST(SizeField, CloseToExactRoundABorder) {
         expect_close_to_exact(sources, {.gradation = gradation}, random);
 }
 
+TEST(SizeField, CloseToExactForManySources) {
+    Random random(11);
+    expect_close_to_exact(closed_curve(20'000), {.gradation = 0.1}, random);
+    expect_close_to_exact(scattered(5'000, random), {.gradation = 0.1}, random);
+}
+
 TEST(SizeField, CloseToExactForScatteredSources) {
     Random random(2);
     for (const int count : {1, 2, 7, 40, 300})
