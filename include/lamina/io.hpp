@@ -32,6 +32,11 @@ struct WriteOptions {
 /// format cannot hold.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 
+/// One line of CSV for each vertex of the walls, body by body in the order of the outline: marker, vertex (from 0), x,
+/// y, arc length from the body's first vertex, unit normal into the flow (bisector at corners), and first height: that
+/// of the lowest vertex, above the wall, of the cells on the edges beside it. 17 significant digits. Throws IoError.
+void write_wall_data(const Mesh& mesh, const std::filesystem::path& file);
+
 /// By the extension of the file. Throws IoError where it cannot be read, InputError (with the line, for text formats)
 /// where it is malformed, UsageError for an unknown extension.
 Mesh read_mesh(const std::filesystem::path& file);

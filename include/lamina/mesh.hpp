@@ -41,6 +41,10 @@ struct Mesh {
     std::vector<Segment> constraints;
 };
 
+/// Gives the base of each blunt trailing edge a marker of its own, of kind wall, named as its element's with `_base`
+/// behind it. Returns how many there are. Markers whose edges are no closed loop in order stay as they are.
+std::size_t add_base_markers(Mesh& mesh);
+
 /// One way in which a mesh is not valid.
 struct MeshDefect {
     std::string what;  ///< "inverted triangle 17 (areas, indices ...)"

@@ -14,9 +14,12 @@ enum class ProgressShown { automatic, always, never };
 struct MeshCase {
     std::vector<std::string> inputs;  ///< airfoil files and NACA names; never a case file
     std::vector<std::string> outputs;
-    std::string format;   ///< of every output; empty = by extension
-    std::string report;   ///< empty = none
-    CaseOptions options;  ///< but for the first height, of which only one of the next two may be given
+    std::string format;          ///< of every output; empty = by extension
+    bool base_marker = false;    ///< for the base of a blunt trailing edge
+    bool wall_distance = false;  ///< in VTU files
+    std::string wall_data;       ///< CSV file; empty = none
+    std::string report;          ///< empty = none
+    CaseOptions options;         ///< but for the first height, of which only one of the next two may be given
     std::optional<double> first_height;
     std::optional<double> y_plus, reynolds, chord;
     ProgressShown progress = ProgressShown::automatic;

@@ -58,6 +58,8 @@ void add_convert_command(CLI::App& app) {
     command->add_option("--symmetry", arguments->symmetries, "markers that are planes of symmetry")
         ->type_name("NAME")
         ->allow_extra_args(false);
+    command->add_flag("--wall-distance", arguments->options.wall_distance,
+                      "VTU: the distance to the nearest wall as point data");
     command->footer(format_help());
     command->callback([arguments] { convert(*arguments); });
 }

@@ -68,21 +68,28 @@ Progress progress_printer(const MeshCase& mesh_case) {
     return [](const std::string& stage) { fmt::print(stderr, "lamina: {}\n", stage); };
 }
 
+WriteOptions write_options(const MeshCase& mesh_case) {
+    return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance};
+}
+
 /// Everything that can be refused before the work begins.
 void require_outputs(const MeshCase& mesh_case) {
     if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
-    for (const std::string& output : mesh_case.outputs) check_writable(output, {.format = mesh_case.format});
+    for (const std::string& output : mesh_case.outputs) check_writable(output, write_options(mesh_case));
+    if (!mesh_case.wall_data.empty()) check_folder_writable(mesh_case.wall_data);
     if (!mesh_case.report.empty()) check_folder_writable(mesh_case.report);
 }
 
 void mesh(const MeshCase& mesh_case) {
     const CaseOptions options = case_options(mesh_case);
     require_outputs(mesh_case);
-    const MeshResult result = generate_mesh(mesh_case.inputs, options, progress_printer(mesh_case));
+    MeshResult result = generate_mesh(mesh_case.inputs, options, progress_printer(mesh_case));
+    if (mesh_case.base_marker) add_base_markers(result.mesh);
 
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
-    for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, {.format = mesh_case.format});
+    for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, write_options(mesh_case));
+    if (!mesh_case.wall_data.empty()) write_wall_data(result.mesh, mesh_case.wall_data);
     const double write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
 
     if (!mesh_case.report.empty()) {

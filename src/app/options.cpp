@@ -240,6 +240,12 @@ std::vector<Option> make_table() {
     add(list("output", Kind::paths, "FILE", "mesh file; may be given several times", member_at(&MeshCase::outputs)));
     add(text("format", Kind::word, format_names(), "format of every mesh file; else each by its extension",
              member_at(&MeshCase::format)));
+    add(flag("base-marker", "the base of a blunt trailing edge is a marker of its own, NAME_base", true,
+             member_at(&MeshCase::base_marker)));
+    add(flag("wall-distance", "in VTU files: the distance to the nearest wall as point data", true,
+             member_at(&MeshCase::wall_distance)));
+    add(text("wall-data", Kind::path, "FILE", "CSV of the wall's vertices: arc length, normal, first height",
+             member_at(&MeshCase::wall_data)));
     add(text("report", Kind::path, "FILE", "JSON report of the run", member_at(&MeshCase::report)));
 
     group = "Geometry";

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/reproducible_math.hpp"
+#include "geometry/base.hpp"
 #include "geometry/corners.hpp"
 
 namespace lamina {
@@ -20,30 +21,6 @@ std::vector<double> turnings_deg(const std::vector<Point>& points) {
     std::vector<double> result = turnings(points);
     for (double& angle : result) angle = degrees(angle);
     return result;
-}
-
-/// A straight base at the downstream end: two convex corners of 45 to 135 degrees with nothing but straight edges
-/// between them, shorter than half of the element and in its rear half. The corners of the rearmost one.
-struct Base {
-    std::size_t first, last;
-};
-std::optional<Base> find_base(const std::vector<Point>& points, const std::vector<double>& turnings, const Box& box) {
-    std::optional<Base> base;
-    double rearmost = box.center().x;
-    const std::size_t n = points.size();
-    const auto is_corner = [&](std::size_t i) { return turnings[i] > 45 && turnings[i] < 135; };
-    for (std::size_t i = 0; i < n; ++i) {
-        if (!is_corner(i)) continue;
-        std::size_t j = (i + 1) % n;
-        while (j != i && std::abs(turnings[j]) < 1) j = (j + 1) % n;
-        if (j == i || !is_corner(j)) continue;
-        const bool is_short = distance(points[i], points[j]) < 0.5 * std::max(box.width(), box.height());
-        const double x = midpoint(points[i], points[j]).x;
-        if (!is_short || x <= rearmost) continue;
-        base = {i, j};
-        rearmost = x;
-    }
-    return base;
 }
 
 /// The rearmost sharp corner behind the middle of the element that is none of the base's; else the base's middle; else
@@ -94,7 +71,7 @@ ElementSummary summarize(const Element& element) {
         }
         if (turnings[i] > sharp_corner_deg) ++s.sharp_corners;
     }
-    const std::optional<Base> base = find_base(points, turnings, s.box);
+    const std::optional<Base> base = find_base(points);
     s.blunt_trailing_edge = base.has_value();
     s.trailing_edge = find_trailing_edge(points, turnings, s.box, base);
     return s;

@@ -156,10 +156,12 @@ def check_vtk(folder, reference):
 
 
 def check_cgns(folder, reference):
-    for name, level in [("m.cgns", 3), ("adf.cgns", 3), ("m3.cgns", 1)]:
-        code, said = run("cgnscheck", f"-w{level}", folder / name)
+    for name in ["m.cgns", "adf.cgns", "m3.cgns"]:
+        code, said = run("cgnscheck", "-w3", folder / name)
+        if name == "m3.cgns":  # z = 0 throughout, as asked for
+            said = re.sub("WARNING:coordinate range is 0|1 warnings.*", "", said)
         clean = code == 0 and "checking complete" in said and not re.search("error|warning", said, re.I)
-        expect(clean, f"cgnscheck -w{level} finds no error and no warning in {name}", said)
+        expect(clean, f"cgnscheck -w3 finds no error and no warning in {name}", said)
 
 
 def foam_case(case):
