@@ -128,7 +128,7 @@ def row(result):
     names = "<br>".join(f"`{f}`" for f in result["files"])
     if result["code"] != 0:
         outcome = {3: "refused", None: "**hangs**"}.get(result["code"], f"**fails ({result['code']})**")
-        return f"| {names} | {outcome} | | | | | | {result['seconds']:.1f} |"
+        return f"| {names} | {outcome} | | | | | | | {result['seconds']:.1f} |"
     report, check = result["report"], result["check"]
     cells, isotropic = report["layer_cells"], report["quality"]["isotropic"]
     open_cells = cells.get("open", cells)

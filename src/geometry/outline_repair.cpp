@@ -54,22 +54,44 @@ void check_extent(const Outline& points, const std::string& file) {
     if (flat) throw InputError(place, fmt::format("all {} points lie on one line", points.size()));
 }
 
-/// Surfaces that cross just before the trailing edge, their ends nearer to each other than anyone can see, as rounding
-/// to a few digits makes them: the last point goes, and both end at the first one.
+/// Neighbours nearer to each other than anyone can see whose other edges cross, as rounding to a few digits makes them
+/// where the two surfaces meet: one of the two points goes, never the first of the outline.
 ///
 ///       ---___                       ---___
 ///     ___---==x=-- first            ___---===- first
 ///              \\ last
-void merge_crossed_ends(Outline& points, std::vector<Repair>& repairs) {
+void merge_crossed_neighbours(Outline& points, std::vector<Repair>& repairs) {
     constexpr double invisible = 1e-4;  // of the extent
-    const std::size_t n = points.size();
-    if (n < 5) return;
-    const SourcePoint first = points.front(), last = points.back();
-    if (distance(first.at, last.at) > invisible * extent(points)) return;
-    if (!segments_meet(first.at, points[1].at, points[n - 2].at, last.at)) return;
-    points.pop_back();
-    repairs.push_back({fmt::format("lines {} and {}: the surfaces cross at the trailing edge; {} merged with {}",
-                                   last.line, first.line, coordinates(last.at), coordinates(first.at))});
+    const double near = invisible * extent(points);
+    for (std::size_t i = 0; i < points.size() && points.size() >= 5; ++i) {
+        const std::size_t n = points.size(), next = (i + 1) % n;
+        if (distance(points[i].at, points[next].at) > near ||
+            !segments_meet(points[(i + n - 1) % n].at, points[i].at, points[next].at, points[(i + 2) % n].at))
+            continue;
+        const std::size_t gone = next == 0 ? i : next, kept = next == 0 ? next : i;
+        repairs.push_back(
+            {fmt::format("lines {} and {}: the edges on both sides of them cross; {} merged with {}", points[gone].line,
+                         points[kept].line, coordinates(points[gone].at), coordinates(points[kept].at))});
+        points.erase(points.begin() + static_cast<std::ptrdiff_t>(gone));
+    }
+}
+
+/// A trailing edge drawn as a line: the two surfaces have their last points in common.
+///
+///     ---___                         ---___
+///            x------ first   ->             x first
+///     ___---                         ___---
+void cut_flat_tail(Outline& points, std::vector<Repair>& repairs) {
+    constexpr double longest = 0.01;  // of the extent
+    const double tolerance = merge_tolerance(points), most = longest * extent(points);
+    while (points.size() >= 5 && distance(points[1].at, points.back().at) <= tolerance &&
+           distance(points[0].at, points[1].at) <= most) {
+        repairs.push_back(
+            {fmt::format("lines {}, {} and {}: a tail of no thickness cut off, from {} to {}", points[0].line,
+                         points[1].line, points.back().line, coordinates(points[1].at), coordinates(points[0].at))});
+        points.erase(points.begin());
+        points.pop_back();
+    }
 }
 
 /// The edge from the last point back to the first gets vertices at about the spacing of the shorter neighbour.
@@ -123,9 +145,10 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     const bool closed = points.size() > 1 && distance(points.front().at, points.back().at) <= merge_tolerance(points);
     remove_duplicates(points, element.repairs);
     check_extent(points, file);
-    const std::size_t open = points.size();
-    if (!closed) merge_crossed_ends(points, element.repairs);
-    if (!closed && points.size() == open) close_outline(points, file, element.repairs);
+    const SourcePoint last = points.back();
+    merge_crossed_neighbours(points, element.repairs);
+    cut_flat_tail(points, element.repairs);
+    if (!closed && points.back().at == last.at) close_outline(points, file, element.repairs);
     if (is_clockwise(points)) {
         std::reverse(points.begin() + 1, points.end());
         element.repairs.push_back({fmt::format("line {}: clockwise order reversed, starting from {}", points[0].line,

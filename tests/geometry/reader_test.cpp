@@ -165,6 +165,35 @@ TEST(Reader, MergesATrailingEdgeClosedButForRounding) {
     EXPECT_TRUE(has_repair(e, "closing point merged"));
 }
 
+TEST(Reader, MergesSurfacesThatCrossByRounding) {
+    const Pslg pslg = read(
+        "ROUNDED\n1.00000 0.0\n0.99681 0.00031\n0.7 0.04\n0.3 0.06\n0 0\n0.3 -0.03\n0.7 -0.01\n0.99679 0.00011\n"
+        "1.00001 -0.00000\n");
+    EXPECT_EQ(pslg.elements[0].points.size(), 8u);
+    EXPECT_EQ(pslg.elements[0].points[0], (Point{1, 0}));
+    ASSERT_FALSE(pslg.elements[0].repairs.empty());
+    EXPECT_NE(pslg.elements[0].repairs[0].text.find("the edges on both sides of them cross"), std::string::npos);
+    // At the nose, as where each surface brings its own.
+    const Element nose =
+        read("NOSE\n1 0\n0.6 0.05\n0.0005 0.01\n0 0\n0 0.00001\n0.0005 -0.01\n0.6 -0.04\n").elements[0];
+    EXPECT_EQ(nose.points.size(), 6u);
+    EXPECT_TRUE(
+        has_repair(nose, "lines 6 and 5: the edges on both sides of them cross; (0, 1e-05) merged with (0, 0)"));
+    // A crossing that can be seen is the user's to mend.
+    EXPECT_THROW(read("CROSSED\n1 0\n0.98 0.002\n0.7 0.04\n0.3 0.06\n0 0\n0.3 -0.03\n0.7 -0.01\n0.98 0.001\n"
+                      "1.003 0.002\n"),
+                 InputError);
+}
+
+TEST(Reader, CutsOffATailWithoutThickness) {
+    const Element e = read("TAIL\n1 0\n0.995 0.001\n0.6 0.05\n0 0\n0.6 -0.04\n0.995 0.001\n1 0\n").elements[0];
+    EXPECT_EQ(e.points.size(), 4u);
+    EXPECT_EQ(e.points[0], (Point{0.995, 0.001}));
+    EXPECT_TRUE(has_repair(e, "a tail of no thickness cut off, from (0.995, 0.001) to (1, 0)"));
+    // A long one is no tail.
+    EXPECT_THROW(read("TAIL\n1 0\n0.9 0.01\n0.6 0.05\n0 0\n0.6 -0.04\n0.9 0.01\n1 0\n"), InputError);
+}
+
 TEST(Reader, ReversesClockwiseOrderFromTheSamePoint) {
     const Element e = read(fixtures::clockwise).elements[0];
     EXPECT_EQ(e.points.front(), (Point{1, 0}));

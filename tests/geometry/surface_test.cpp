@@ -366,19 +366,5 @@ TEST(SurfaceOptionsOutOfRange, AreRefused) {
     }
 }
 
-TEST(TrailingEdgeRepair, SurfacesThatCrossByRoundingEndInOnePoint) {
-    const Pslg pslg = fixtures::read(
-        "ROUNDED\n1.00000 0.0\n0.99681 0.00031\n0.7 0.04\n0.3 0.06\n0 0\n0.3 -0.03\n0.7 -0.01\n0.99679 0.00011\n"
-        "1.00001 -0.00000\n");
-    EXPECT_EQ(pslg.elements[0].points.size(), 8u);
-    EXPECT_EQ(pslg.elements[0].points[0], (Point{1, 0}));
-    ASSERT_FALSE(pslg.elements[0].repairs.empty());
-    EXPECT_NE(pslg.elements[0].repairs[0].text.find("cross at the trailing edge"), std::string::npos);
-    // A crossing that can be seen is the user's to mend.
-    EXPECT_THROW(fixtures::read("CROSSED\n1 0\n0.98 0.002\n0.7 0.04\n0.3 0.06\n0 0\n0.3 -0.03\n0.7 -0.01\n0.98 0.001\n"
-                                "1.003 0.002\n"),
-                 InputError);
-}
-
 }  // namespace
 }  // namespace lamina
