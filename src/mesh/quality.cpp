@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/reproducible_math.hpp"
+
 namespace lamina::detail {
 
 namespace {
@@ -24,8 +26,8 @@ CellShape measure_triangle(Point a, Point b, Point c) {
     if (middle < shortest) std::swap(shortest, middle);
     // Law of cosines: half of the sums below is the scalar product of the edges at the angle.
     return {.area = 0.5 * twice_area,
-            .min_angle_deg = degrees * std::atan2(twice_area, 0.5 * (longest + middle - shortest)),
-            .max_angle_deg = degrees * std::atan2(twice_area, 0.5 * (shortest + middle - longest)),
+            .min_angle_deg = degrees * atan2_reproducible(twice_area, 0.5 * (longest + middle - shortest)),
+            .max_angle_deg = degrees * atan2_reproducible(twice_area, 0.5 * (shortest + middle - longest)),
             .aspect_ratio = longest / twice_area};
 }
 
@@ -36,7 +38,7 @@ CellShape measure_quad(Point a, Point b, Point c, Point d) {
     CellShape shape{.area = 0.5 * twice_area, .min_angle_deg = 360};
     for (int i = 0; i < 4; ++i) {
         const Point ahead = corner[(i + 1) % 4] - corner[i], back = corner[(i + 3) % 4] - corner[i];
-        double angle = degrees * std::atan2(cross(ahead, back), dot(ahead, back));
+        double angle = degrees * atan2_reproducible(cross(ahead, back), dot(ahead, back));
         if (angle < 0) angle += 360;
         shape.min_angle_deg = std::min(shape.min_angle_deg, angle);
         shape.max_angle_deg = std::max(shape.max_angle_deg, angle);
