@@ -62,7 +62,7 @@ struct QualitySummary {
     /// (boundary, layer, another piece, constraints), as far as the mesh tells them.
     std::size_t exempt = 0;
     double max_neighbour_area_ratio = 0;            ///< over edges between two isotropic cells; 0 for the layer
-    double p999_neighbour_area_ratio = 0;           ///< 99.9th percentile
+    double p999_neighbour_area_ratio = 0;           ///< 99.9th percentile, within 0.2 %
     double max_aspect_ratio = 0;                    ///< longest edge over the height on it
     std::array<std::size_t, 18> angle_histogram{};  ///< smallest angles in classes of 5 degrees... [0,5), [5,10), ...
 };

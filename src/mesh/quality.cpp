@@ -1,9 +1,11 @@
 #include "mesh/quality.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "core/reproducible_math.hpp"
@@ -13,6 +15,20 @@ namespace lamina::detail {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
+/// Classes of ratios: floats by their leading bits, 512 to a factor of 2, up to 256.
+constexpr unsigned class_shift = 14;
+constexpr std::uint32_t bits_of_one = std::bit_cast<std::uint32_t>(1.0f);
+constexpr std::size_t ratio_classes = 8 * 512;
+
+std::size_t class_of(float ratio) {
+    return std::min<std::size_t>((std::bit_cast<std::uint32_t>(ratio) - bits_of_one) >> class_shift, ratio_classes - 1);
+}
+
+/// The upper end of a class.
+double largest_of(std::size_t ratio_class) {
+    return std::bit_cast<float>(bits_of_one + ((static_cast<std::uint32_t>(ratio_class) + 1) << class_shift));
+}
+
 constexpr CellShape flat{0, 0, 180, std::numeric_limits<double>::infinity()};
 
 }  // namespace
@@ -76,7 +92,10 @@ void QualityCollector::add(const CellShape& shape) {
 }
 
 void QualityCollector::add_neighbours(double area, double other_area) {
-    area_ratios_.push_back(static_cast<float>(std::max(area, other_area) / std::min(area, other_area)));
+    if (area_ratios_.empty()) area_ratios_.assign(ratio_classes, 0);
+    const double ratio = std::max(area, other_area) / std::min(area, other_area);
+    max_area_ratio_ = std::max(max_area_ratio_, ratio);
+    ++area_ratios_[class_of(static_cast<float>(ratio))];
 }
 
 void QualityCollector::append(const QualityCollector& part) {
@@ -88,7 +107,18 @@ void QualityCollector::append(const QualityCollector& part) {
     max_angle_sum_ += part.max_angle_sum_;
     max_aspect_ = std::max(max_aspect_, part.max_aspect_);
     for (std::size_t i = 0; i < histogram_.size(); ++i) histogram_[i] += part.histogram_[i];
-    area_ratios_.insert(area_ratios_.end(), part.area_ratios_.begin(), part.area_ratios_.end());
+    max_area_ratio_ = std::max(max_area_ratio_, part.max_area_ratio_);
+    if (area_ratios_.empty()) area_ratios_.assign(part.area_ratios_.size(), 0);
+    for (std::size_t i = 0; i < part.area_ratios_.size(); ++i) area_ratios_[i] += part.area_ratios_[i];
+}
+
+double QualityCollector::percentile_999() const {
+    const std::size_t n = std::accumulate(area_ratios_.begin(), area_ratios_.end(), std::size_t{0});
+    if (n == 0) return 0;
+    const std::size_t rank = (n - 1) - (n - 1) / 1000;
+    std::size_t ratio_class = 0;
+    for (std::size_t below = area_ratios_[0]; below <= rank; below += area_ratios_[ratio_class]) ++ratio_class;
+    return ratio_class + 1 < ratio_classes ? std::min(largest_of(ratio_class), max_area_ratio_) : max_area_ratio_;
 }
 
 QualitySummary QualityCollector::summary() const {
@@ -102,14 +132,8 @@ QualitySummary QualityCollector::summary() const {
     summary.angles_below_bound = below_bound_;
     summary.max_aspect_ratio = max_aspect_;
     summary.angle_histogram = histogram_;
-    if (!area_ratios_.empty()) {
-        std::vector<float> ratios = area_ratios_;
-        const std::size_t rank = (ratios.size() - 1) - (ratios.size() - 1) / 1000;
-        std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(rank), ratios.end());
-        summary.p999_neighbour_area_ratio = ratios[rank];
-        summary.max_neighbour_area_ratio =
-            *std::max_element(ratios.begin() + static_cast<std::ptrdiff_t>(rank), ratios.end());
-    }
+    summary.max_neighbour_area_ratio = max_area_ratio_;
+    summary.p999_neighbour_area_ratio = percentile_999();
     return summary;
 }
 
