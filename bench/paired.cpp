@@ -10,10 +10,7 @@
 
 namespace lamina::bench {
 
-namespace {
-
-/// Seconds of processor time: unlike those of the wall clock they do not grow with other programs' demands.
-double seconds_of(const Work& work, std::size_t& made) {
+double cpu_seconds(const Work& work, std::size_t& made) {
     timespec begin, end;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &begin);
     made = work();
@@ -26,6 +23,8 @@ double median(std::vector<double> values) {
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
+
+namespace {
 
 /// Kilobytes from /proc/self/status: VmRSS is what is resident now, VmHWM the most since reset_peak_memory().
 double memory(const std::string& field) {
@@ -55,11 +54,11 @@ void measure(benchmark::State& state, const std::string& made_name, const Work& 
         if (first) malloc_trim(0);  // or the call would be served from what earlier ones left
         const double resident = memory("VmRSS");
         if (first) reset_peak_memory();
-        with_threads(1, [&] { our_seconds.push_back(seconds_of(ours, our_made)); });
+        with_threads(1, [&] { our_seconds.push_back(cpu_seconds(ours, our_made)); });
         if (first) bytes = memory("VmHWM") - resident;
         state.SetIterationTime(our_seconds.back());
         for (std::size_t r = 0; r < references.size(); ++r)
-            seconds[r].push_back(seconds_of(references[r].work, made[r]));
+            seconds[r].push_back(cpu_seconds(references[r].work, made[r]));
     }
     const double our_median = median(our_seconds), count = static_cast<double>(our_made);
     state.counters[made_name] = count;

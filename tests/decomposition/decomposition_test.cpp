@@ -89,6 +89,11 @@ TEST(Decomposition, EqualsSequentialAtEveryDepth) {
 TEST(Decomposition, EqualsSequentialOnManyPoints) {
     for (const auto& points : {random_points(200'000, 4), naca_layer_points(200'000), square_lattice(400, 400)})
         EXPECT_EQ(canonical(parallel_delaunay(points).triangles), sequential(points));
+    const auto million = random_points(1'000'000, 4);
+    const PiecewiseTriangulation t = triangulate_in_pieces(million, {.depth = 6, .leaf_vertices = 10});
+    EXPECT_EQ(canonical(t.triangles), sequential(million));
+    EXPECT_EQ(t.stats.pieces, 64u);
+    EXPECT_LE(t.stats.largest_piece * t.stats.pieces, 2 * t.stats.piece_vertices);
 }
 
 TEST(Decomposition, TurnedPointsToo) {

@@ -1,4 +1,6 @@
 // Layers in pieces: the triangles of the layer in one piece, whatever the depth.
+#include <initializer_list>
+
 #include <gtest/gtest.h>
 
 #include <lamina/geometry.hpp>
@@ -45,11 +47,12 @@ Pslg three_element(std::size_t points) {
 enum class Balance { demanded, whatever };
 
 /// Balance: at depth 6 nearly all cuts are made, and the largest piece has at most twice the mean number of vertices.
-void expect_same_at_every_depth(const std::string& name, const Layer& layer, Balance balance) {
+void expect_same_at_depths(const std::string& name, const Layer& layer, Balance balance,
+                           std::initializer_list<unsigned> depths) {
     const LayerEdges edges = layer_edges(layer);
     const auto expected =
         canonical(constrained_delaunay(layer.points, edges.region, {.keep = Keep::left_of_segments}).triangles);
-    for (unsigned depth = 0; depth <= 7; ++depth) {
+    for (const unsigned depth : depths) {
         const PiecewiseTriangulation t = triangulate_layer(layer, edges, {.depth = depth, .leaf_vertices = 10});
         ASSERT_EQ(canonical(t.triangles), expected) << name << ", depth " << depth;
         EXPECT_EQ(t.stats.fallbacks, 0u) << name << ", depth " << depth;
@@ -60,9 +63,18 @@ void expect_same_at_every_depth(const std::string& name, const Layer& layer, Bal
     }
 }
 
+void expect_same_at_every_depth(const std::string& name, const Layer& layer, Balance balance) {
+    expect_same_at_depths(name, layer, balance, {0, 1, 2, 3, 4, 5, 6, 7});
+}
+
 TEST(LayerDecomposition, Naca0012) {
     expect_same_at_every_depth("30 layers", make_layer(naca("0012", 2000), layers(30)), Balance::demanded);
     expect_same_at_every_depth("60 layers", make_layer(naca("0012", 2000), layers(60)), Balance::demanded);
+}
+
+TEST(LayerDecomposition, ManySurfacePoints) {
+    expect_same_at_depths("NACA 0012", make_layer(naca("0012", 20'000), layers(30)), Balance::demanded, {0, 3, 6, 7});
+    expect_same_at_depths("three elements", make_layer(three_element(20'000 / 3), layers(30)), Balance::demanded, {6});
 }
 
 TEST(LayerDecomposition, Cambered) {

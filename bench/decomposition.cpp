@@ -1,0 +1,198 @@
+// Triangulation in pieces beside one kernel on the same points in the same run: what a depth costs, how decomposition
+// and leaves grow with the number of points, what threads gain. As Figs. 23 and 31 of J. K. Pardue, thesis (2015).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include <lamina/geometry.hpp>
+#include <lamina/layers.hpp>
+
+#include "core/busy_times.hpp"
+#include "core/parallel.hpp"
+#include "decomposition/border.hpp"
+#include "decomposition/pieces.hpp"
+#include "kernel/triangulator.hpp"
+#include "paired.hpp"
+#include "pipeline/layer_region.hpp"
+#include "support/kernel_families.hpp"
+
+namespace lamina::bench {
+namespace {
+
+/// Points and the edges that bound them all round, the region on their left.
+struct Region {
+    std::vector<Point> points;
+    std::vector<Segment> border;
+};
+
+Region in_convex_hull(std::vector<Point> points) {
+    const auto sorted = decomposition::sort_points(points).value();
+    Region region{std::move(points), {}};
+    for (const decomposition::Edge& e : decomposition::convex_hull(sorted))
+        region.border.push_back({VertexId{sorted.original[e.a]}, VertexId{sorted.original[e.b]}});
+    return region;
+}
+Region uniform(std::size_t n) { return in_convex_hull(test::random_points(n, 3)); }
+Region naca_points(std::size_t n) { return in_convex_hull(test::naca_layer_points(n)); }
+
+/// The layer of NACA 0012 itself, 30 layers, between wall and outer border: about n points.
+Region naca_layer(std::size_t n) {
+    LayerOptions options;
+    options.first_height = 1e-5;
+    options.growth = 1.1;
+    options.layers = 30;
+    Pslg pslg;
+    pslg.elements.push_back(naca_airfoil("0012", n / 32));
+    Layer layer = make_layer(pslg, options);
+    LayerEdges edges = layer_edges(layer);
+    return {std::move(layer.points), std::move(edges.region)};
+}
+
+/// The depth alone decides where the decomposition ends.
+DecompositionOptions to_depth(unsigned depth) { return {.depth = depth, .leaf_vertices = 10}; }
+
+std::size_t sequential(const std::vector<Point>& points) {
+    return kernel::without_ghosts(kernel::triangulate_points(points)).triangles.size();
+}
+std::size_t sequential(const Region& region) {
+    return constrained_delaunay(region.points, region.border, {.keep = Keep::left_of_segments}).triangles.size();
+}
+
+Work on_one_thread(Work work) {
+    return [work = std::move(work)] {
+        std::size_t made = 0;
+        with_threads(1, [&] { made = work(); });
+        return made;
+    };
+}
+
+/// Counters `ratio_to_depth_D`: time in pieces over that of one kernel.
+template <class Sequential, class InPieces>
+void measure_depths(benchmark::State& state, Sequential&& sequential, InPieces&& in_pieces) {
+    std::vector<Reference> references;
+    for (unsigned depth = 3; depth <= 7; ++depth)
+        references.push_back({"depth_" + std::to_string(depth),
+                              on_one_thread([&, depth] { return in_pieces(to_depth(depth)).triangles.size(); })});
+    measure(state, "triangles", sequential, references);
+}
+
+void depths_of_points(benchmark::State& state, Region (*make)(std::size_t)) {
+    const std::vector<Point> points = make(static_cast<std::size_t>(state.range(0))).points;
+    measure_depths(
+        state, [&] { return sequential(points); },
+        [&](const DecompositionOptions& options) { return decomposition::triangulate_in_pieces(points, options); });
+}
+
+void depths_of_region(benchmark::State& state, Region (*make)(std::size_t)) {
+    const Region region = make(static_cast<std::size_t>(state.range(0)));
+    measure_depths(
+        state, [&] { return sequential(region); },
+        [&](const DecompositionOptions& options) {
+            return decomposition::triangulate_in_pieces(region.points, region.border, options);
+        });
+}
+
+/// Medians of five up to a million points, one run beyond.
+void usual(benchmark::internal::Benchmark* b) {
+    b->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+void large(benchmark::internal::Benchmark* b) {
+    b->Arg(10'000'000)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(depths_of_region, naca_layer, naca_layer)->Apply(usual);
+BENCHMARK_CAPTURE(depths_of_points, naca_points, naca_points)->Apply(usual);
+BENCHMARK_CAPTURE(depths_of_points, uniform, uniform)->Apply(usual);
+BENCHMARK_CAPTURE(depths_of_points, naca_points, naca_points)->Apply(large);
+BENCHMARK_CAPTURE(depths_of_points, uniform, uniform)->Apply(large);
+
+/// Slope of the straight line that fits log y over log x best.
+double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double u = std::log(x[i]), v = std::log(y[i]);
+        sx += u, sy += v, sxx += u * u, sxy += u * v;
+    }
+    const auto n = static_cast<double>(x.size());
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+/// Processor seconds at depth 6 over 1e4, 1e5 ... points up to the argument: exponents of decomposition and leaves.
+/// Processor time is split as the wall clock's is.
+void growth(benchmark::State& state, Region (*make)(std::size_t)) {
+    std::vector<double> points, decomposition_s, leaves_s;
+    for (auto _ : state) {
+        for (std::size_t n = 10'000; n <= static_cast<std::size_t>(state.range(0)); n *= 10) {
+            const Region region = make(n);
+            std::vector<double> decomposition, leaves;
+            for (int round = 0; round < (n > 1'000'000 ? 1 : 5); ++round)
+                with_threads(1, [&] {
+                    BusyTimes times;
+                    std::size_t made = 0;
+                    const double cpu_s = cpu_seconds(
+                        [&] {
+                            return decomposition::triangulate_in_pieces(region.points, region.border, to_depth(6),
+                                                                        &times)
+                                .triangles.size();
+                        },
+                        made);
+                    const auto& wall = times.of_thread(0);
+                    const double cut = wall[static_cast<std::size_t>(lamina::Work::decomposition)],
+                                 fill = wall[static_cast<std::size_t>(lamina::Work::layer_triangulation)];
+                    decomposition.push_back(cpu_s * cut / (cut + fill));
+                    leaves.push_back(cpu_s * fill / (cut + fill));
+                });
+            points.push_back(static_cast<double>(region.points.size()));
+            decomposition_s.push_back(median(decomposition));
+            leaves_s.push_back(median(leaves));
+            const std::string size = std::to_string(n);
+            state.counters["decomposition_ns_" + size] = 1e9 * decomposition_s.back() / points.back();
+            state.counters["leaves_ns_" + size] = 1e9 * leaves_s.back() / points.back();
+        }
+    }
+    state.counters["decomposition_exponent"] = fitted_exponent(points, decomposition_s);
+    state.counters["leaves_exponent"] = fitted_exponent(points, leaves_s);
+}
+void up_to_ten_million(benchmark::internal::Benchmark* b) {
+    b->ArgName("up_to")->Arg(1'000'000)->Arg(10'000'000)->Iterations(1)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(growth, naca_layer, naca_layer)->Apply(up_to_ten_million);
+BENCHMARK_CAPTURE(growth, uniform, uniform)->Apply(up_to_ten_million);
+
+/// Seconds of the wall clock for 2e6 layer points: one thread and several in turn. Counter `speed_up`: ratio of
+/// medians.
+void threads(benchmark::State& state) {
+    const Region region = naca_layer(2'000'000);
+    const auto seconds = [&](unsigned count) {
+        const auto begin = std::chrono::steady_clock::now();
+        with_threads(count, [&] {
+            benchmark::DoNotOptimize(
+                decomposition::triangulate_in_pieces(region.points, region.border, to_depth(6)).triangles.data());
+        });
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    std::vector<double> one, several;
+    for (auto _ : state) {
+        one.push_back(seconds(1));
+        several.push_back(seconds(static_cast<unsigned>(state.range(0))));
+        state.SetIterationTime(several.back());
+    }
+    state.counters["points"] = static_cast<double>(region.points.size());
+    state.counters["one_thread_s"] = median(one);
+    state.counters["median_s"] = median(several);
+    state.counters["speed_up"] = median(one) / median(several);
+}
+void up_to_all_cores(benchmark::internal::Benchmark* b) {
+    const unsigned cores = std::max(2u, std::thread::hardware_concurrency());
+    for (unsigned count = 2; count <= cores; count *= 2) b->Arg(count);
+    b->ArgName("threads")->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(threads)->Apply(up_to_all_cores);
+
+}  // namespace
+}  // namespace lamina::bench
