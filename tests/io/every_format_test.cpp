@@ -16,6 +16,10 @@
 #include "support/temporary_folder.hpp"
 
 namespace lamina {
+
+/// What GoogleTest calls a parameter in its messages.
+static void PrintTo(const MeshFormat& format, std::ostream* stream) { *stream << format.name; }
+
 namespace {
 
 using test::annulus;
