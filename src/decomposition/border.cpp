@@ -9,48 +9,15 @@
 #include "decomposition/border.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 
 #include "core/predicates.hpp"
+#include "decomposition/places.hpp"
 
 namespace lamina::decomposition {
 
 namespace {
 
 enum class Side { low, high, crossing };
-
-constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
-
-/// Finds vertices of a path by their numbers: a hash table with open addressing.
-class Places {
-public:
-    explicit Places(std::span<const Index> vertices)
-        : bits_(static_cast<unsigned>(std::bit_width(2 * vertices.size()))),
-          entries_(std::size_t{1} << bits_, Entry{no_index, 0}) {
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            entries_[slot(vertices[i])] = {vertices[i], static_cast<Index>(i)};
-    }
-    std::size_t of(Index vertex) const {
-        const Entry& entry = entries_[slot(vertex)];
-        return entry.vertex == vertex ? entry.place : nowhere;
-    }
-
-private:
-    struct Entry {
-        Index vertex, place;
-    };
-    /// Where the vertex is, or the free entry where it would be.
-    std::size_t slot(Index vertex) const {
-        std::size_t at = static_cast<std::uint32_t>(vertex * 0x9e3779b1u) >> (32 - bits_);
-        while (entries_[at].vertex != vertex && entries_[at].vertex != no_index)
-            at = at + 1 < entries_.size() ? at + 1 : 0;
-        return at;
-    }
-
-    unsigned bits_;
-    std::vector<Entry> entries_;
-};
 
 /// A path, seen in the frame of its cut.
 class Path {

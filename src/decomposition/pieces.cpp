@@ -14,6 +14,8 @@
 #include "core/parallel.hpp"
 #include "decomposition/border.hpp"
 #include "decomposition/decompose.hpp"
+#include "decomposition/leaf_order.hpp"
+#include "decomposition/places.hpp"
 #include "kernel/triangulator.hpp"
 
 namespace lamina::decomposition {
@@ -41,30 +43,35 @@ void add(DecompositionStats& sum, const DecompositionStats& stats) {
 
 /// The triangles inside a leaf's border, in the numbers of the input.
 PieceTriangles triangulate_leaf(const SortedPoints& sorted, Subdomain leaf) {
+    std::vector<Index> numbers = leaf_order(sorted, leaf);
+    leaf.by_x = {};
     leaf.by_y = {};
-    const std::span<const Index> numbers = leaf.by_x.all();
+    std::vector<Index> border_vertices;
+    border_vertices.reserve(leaf.border.size());
+    for (const Edge& e : leaf.border) border_vertices.push_back(e.a);
+    const Places border_places(border_vertices);
     std::vector<Point> points;
     points.reserve(numbers.size());
-    for (const Index i : numbers) points.push_back(sorted.points[i]);
-    const auto local = [&](Index i) {
-        return VertexId{
-            static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), i) - numbers.begin())};
-    };
+    for (Index local = 0; local < numbers.size(); ++local) {
+        points.push_back(sorted.points[numbers[local]]);
+        if (const std::size_t at = border_places.of(numbers[local]); at != nowhere) border_vertices[at] = local;
+    }
+    const auto local = [&](Index i) { return VertexId{border_vertices[border_places.of(i)]}; };
     std::vector<Segment> border;
     border.reserve(leaf.border.size());
     for (const Edge& e : leaf.border) border.push_back({local(e.a), local(e.b)});
-
-    kernel::Tris tris = kernel::triangulate_checked_points(points);
-    const kernel::Marks inside = kernel::mark_region(points, border, tris);
     leaf.border = {};
+
+    kernel::Tris tris = kernel::triangulate_in_order(points);
+    const kernel::Marks inside = kernel::mark_region(points, border, tris);
     // From here on each point's number in the input.
-    for (Index& i : leaf.by_x) i = sorted.original[i];
+    for (Index& i : numbers) i = sorted.original[i];
     PieceTriangles triangles(static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1)));
     auto* to = triangles.begin();
     for (std::size_t t = 0; t < tris.size(); ++t) {
         if (!inside[t]) continue;
         const auto& v = tris[t].v;
-        *to++ = {leaf.by_x[v[0]], leaf.by_x[v[1]], leaf.by_x[v[2]]};
+        *to++ = {numbers[v[0]], numbers[v[1]], numbers[v[2]]};
     }
     return triangles;
 }

@@ -13,7 +13,6 @@ namespace lamina::kernel {
 namespace {
 
 constexpr unsigned hilbert_bits = 20;  // per axis: layer points stand 1e-6 of the extent apart
-constexpr unsigned rounds = 16;
 
 // State = orientation of the curve in the current square; quadrant = 2 x-bit + y-bit.
 //   state 0: visits (0,0) (0,1) (1,1) (1,0); 1: transposed; 2: transposed in the other diagonal; 3: turned by 180
@@ -46,19 +45,6 @@ std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
         state = entry & 3u;
     }
     return key;
-}
-
-// splitmix64 (S. Vigna, public domain description): the program's random numbers are its own on every platform.
-std::uint64_t scramble(std::uint64_t z) {
-    z += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-// Three quarters of all points are in the last round, three sixteenths in the one before, ...
-unsigned round_of(Index point) {
-    return rounds - 1 - static_cast<unsigned>(std::countr_zero(scramble(point) | 1ull << 2 * (rounds - 1))) / 2;
 }
 
 void radix_sort(std::vector<std::uint64_t>& items, unsigned first_bit) {
@@ -96,13 +82,13 @@ std::vector<Index> insertion_order(std::span<const Point> points, const Box& box
         radix_sort(items, 64 - key_bits);
 
     const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
-    std::array<std::size_t, rounds + 1> start{};
-    for (std::size_t i = 0; i < items.size(); ++i) ++start[round_of(static_cast<Index>(i)) + 1];
-    for (unsigned r = 1; r < rounds; ++r) start[r] += start[r - 1];
+    std::array<std::size_t, insertion_rounds + 1> start{};
+    for (std::size_t i = 0; i < items.size(); ++i) ++start[insertion_round(static_cast<Index>(i)) + 1];
+    for (unsigned r = 1; r < insertion_rounds; ++r) start[r] += start[r - 1];
     std::vector<Index> order(items.size());
     for (const std::uint64_t item : items) {
         const auto point = static_cast<Index>(item & index_mask);
-        order[start[round_of(point)]++] = point;
+        order[start[insertion_round(point)]++] = point;
     }
     return order;
 }

@@ -1,12 +1,30 @@
-// The order in which points enter a plain Delaunay triangulation.
+// In which order points are inserted into a triangulation.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <vector>
+
+#include <lamina/point.hpp>
 
 #include "kernel/triangles.hpp"
 
 namespace lamina::kernel {
+
+inline constexpr unsigned insertion_rounds = 16;
+
+/// The random round in which the point of this number is inserted: three quarters of all points are in the last one,
+/// three sixteenths in the one before, ...
+inline unsigned insertion_round(Index point) {
+    // splitmix64 (S. Vigna, public domain description): the program's random numbers are its own on every platform.
+    std::uint64_t z = point + 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+    constexpr unsigned last = insertion_rounds - 1;
+    return last - static_cast<unsigned>(std::countr_zero(z | 1ull << 2 * last)) / 2;
+}
 
 /// Biased randomised insertion order: rounds that grow by a factor of four, each sorted along a Hilbert curve.
 /// A permutation of the indices of `points`, whose box is given; depends on the points alone.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -155,17 +156,8 @@ void insert_vertices(std::span<const Point> vertices, std::span<const Point> poi
     }
 }
 
-}  // namespace
-
-Tris triangulate_points(std::span<const Point> points) {
-    check_points(points);
-    return triangulate_checked_points(points);
-}
-
-Tris triangulate_checked_points(std::span<const Point> points) {
-    Box box;
-    for (const Point p : points) box.include(p);
-    std::vector<Index> order = insertion_order(points, box);
+/// The points in this order.
+Tris triangulate(std::span<const Point> points, std::vector<Index> order) {
     if (order.size() < 3 || !bring_triangle_to_front(points, order)) {
         refuse_duplicates_on_line(points, std::move(order));
         return {};
@@ -180,6 +172,21 @@ Tris triangulate_checked_points(std::span<const Point> points) {
     for (Tri& t : tris)
         for (Index& v : t.v) v = v == ghost ? ghost_vertex : order[v - 1];
     return tris;
+}
+
+}  // namespace
+
+Tris triangulate_points(std::span<const Point> points) {
+    check_points(points);
+    Box box;
+    for (const Point p : points) box.include(p);
+    return triangulate(points, insertion_order(points, box));
+}
+
+Tris triangulate_in_order(std::span<const Point> points) {
+    std::vector<Index> order(points.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    return triangulate(points, std::move(order));
 }
 
 Triangulation without_ghosts(const Tris& tris) {

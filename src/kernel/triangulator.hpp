@@ -14,8 +14,9 @@ namespace lamina::kernel {
 /// The Delaunay triangulation of distinct points, closed by ghost triangles; empty where all points are on one line.
 /// Throws InputError for duplicates and coordinates outside the exact range.
 Tris triangulate_points(std::span<const Point> points);
-/// The same. Precondition: coordinates in the exact range, no more points than a triangulation numbers.
-Tris triangulate_checked_points(std::span<const Point> points);
+/// The same for points that come in the order in which they are to be inserted, as insertion_order() would have them.
+/// Precondition: coordinates in the exact range, no more points than a triangulation numbers.
+Tris triangulate_in_order(std::span<const Point> points);
 
 /// Throws InputError for segments that do not join two of the points, and for any where there are no triangles.
 void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris);
