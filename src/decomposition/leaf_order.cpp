@@ -20,13 +20,13 @@ namespace lamina::decomposition {
 
 namespace {
 
-/// As many strips for the last round as make steps along and across them alike.
+/// For the last round; measured (docs/decisions/0013).
 std::size_t strip_count(const SortedPoints& sorted, const Subdomain& leaf) {
     const double width = sorted.points[leaf.by_x.all().back()].x - sorted.points[leaf.by_x.all().front()].x;
     const double height = sorted.points[leaf.by_y.all().back()].y - sorted.points[leaf.by_y.all().front()].y;
     const double points = static_cast<double>(leaf.size());
     const double aspect = std::clamp(height > 0 ? width / height : HUGE_VAL, 1 / points, points);
-    return 1 + static_cast<std::size_t>(std::min(0.5 * std::sqrt(points * aspect), points / 16));
+    return 1 + static_cast<std::size_t>(std::min(std::sqrt(points * aspect), points / 16));
 }
 
 /// The strip of each point by its place in the order by x, to a fraction of a strip.
