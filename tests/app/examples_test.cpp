@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "app/program.hpp"
 
@@ -13,10 +15,12 @@ namespace {
 using Json = nlohmann::json;
 
 /// Runs a case file of examples/ and expects its mesh to be valid, Delaunay and within the angle bound.
-Json mesh_of_example(const std::string& name) {
+Json mesh_of_example(const std::string& name, const std::vector<std::string>& options = {}) {
     const TemporaryFolder folder;
-    const ProgramRun mesh = run_lamina(
-        folder, {"mesh", std::string(LAMINA_SOURCE "/examples/") + name, "-o", "m.vtu", "--report", "r.json"});
+    std::vector<std::string> arguments{
+        "mesh", std::string(LAMINA_SOURCE "/examples/") + name, "-o", "m.vtu", "--report", "r.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramRun mesh = run_lamina(folder, arguments);
     EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
     if (mesh.exit_code != 0) return {};
     const ProgramRun check = run_lamina(folder, {"check", "m.vtu", "--require-delaunay", "--min-angle", "20.7",
@@ -29,6 +33,34 @@ TEST(Examples, TheCaseOfTheReadmeIsMeshed) {
     const Json report = mesh_of_example("case.toml");
     ASSERT_TRUE(report.is_object());
     EXPECT_GT(report["triangles"].get<double>(), 10'000);
+    EXPECT_EQ(report["layer_cells"]["share"], 1);
+}
+
+TEST(Examples, TheLayerOfTheThesisInPieces) {
+    struct Case {
+        const char* file;
+        unsigned depth;
+    };
+    std::map<std::string, double> triangles;
+    for (const auto& [file, depth] :
+         {Case{"thesis/fig21.toml", 6}, {"thesis/fig23.toml", 3}, {"thesis/fig23.toml", 7}}) {
+        SCOPED_TRACE(file + (", depth " + std::to_string(depth)));
+        const Json report = mesh_of_example(file, {"--decomposition-depth", std::to_string(depth)});
+        ASSERT_TRUE(report.is_object());
+        EXPECT_EQ(report["layer_cells"]["share"], 1);
+        const Json& decomposition = report["decomposition"];
+        EXPECT_EQ(decomposition["pieces"], 1u << depth);
+        EXPECT_EQ(decomposition["sequential_fallbacks"], 0);
+        EXPECT_LE(decomposition["largest_piece_vertices"].get<double>() * (1u << depth),
+                  1.25 * decomposition["piece_vertices"].get<double>());
+        const auto count = report["triangles"].get<double>();
+        EXPECT_EQ(triangles.try_emplace(file, count).first->second, count);  // whatever the depth
+    }
+}
+
+TEST(Examples, TheDenseLayerOfTheThesisIsMeshed) {
+    const Json report = mesh_of_example("thesis/fig22.toml");
+    ASSERT_TRUE(report.is_object());
     EXPECT_EQ(report["layer_cells"]["share"], 1);
 }
 
