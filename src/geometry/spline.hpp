@@ -37,9 +37,9 @@ private:
 };
 
 /// The run with every point moved by at most `tolerance`, ends of an open run by nothing, such that the integral of the
-/// squared second derivative is about the least that this allows: a smoothing spline of as large a penalty as most points
-/// allow, those that it would move too far held back by weights.
-/// Source: C. H. Reinsch, Smoothing by spline functions, Numer. Math. 10 (1967).
+/// squared second derivative is about the least that this allows: a smoothing spline of as large a penalty as most
+/// points allow, those that it would move too far held back by weights. Source: C. H. Reinsch, Smoothing by spline
+/// functions, Numer. Math. 10 (1967).
 SmoothRun smoothed(const SmoothRun& run, double tolerance);
 
 }  // namespace lamina
