@@ -17,6 +17,7 @@ struct MeshFormat {
     std::vector<std::string> extensions;  ///< of its files, with the dot; each stands for the first format that has it
     std::string holds;                    ///< one line: what it is
     bool readable = false;                ///< by read_mesh
+    bool quads = true;                    ///< holds quadrilaterals, too
 };
 
 /// All of them, in the order of the guide's table.

@@ -58,7 +58,7 @@ std::vector<Format> make_table() {
     std::vector<Format> table;
     const auto add = [&](const char* name, std::vector<std::string> extensions, const char* holds, auto write,
                          Mesh (*read)(const fs::path&), auto check) {
-        table.push_back({name, std::move(extensions), holds, write, read, check});
+        table.push_back({name, std::move(extensions), holds, write, read, true, check});
     };
     constexpr auto msh = read_file<read_msh>;
     add("su2", {".su2"}, "SU2 native mesh, ASCII", write_file<write_su2>, read_file<read_su2>, check_folder_writable);
@@ -86,6 +86,9 @@ std::vector<Format> make_table() {
         check_ugrid_writable);
     add("fun3d", {".b8.ugrid", ".lb8.ugrid"}, "UGRID for FUN3D, one cell thick, with .mapbc", write_files<write_fun3d>,
         read_file<read_ugrid>, check_ugrid_writable);
+    add("triangle", {".node", ".ele"}, "Triangle's .node, .ele, .edge and .poly", write_files<write_triangle_mesh>,
+        read_triangle_mesh, check_triangle_writable);
+    table.back().quads = false;
     return table;
 }
 

@@ -24,6 +24,7 @@ struct Format {
     void (*write)(const Mesh&, const std::filesystem::path&, const WriteOptions&);
     /// Throws IoError, InputError; null where the format cannot be read.
     Mesh (*read)(const std::filesystem::path&);
+    bool quads;  ///< holds quadrilaterals, too
     /// Throws IoError where `file` can be seen now not to be writable.
     void (*check)(const std::filesystem::path& file);
 };
@@ -82,6 +83,11 @@ void write_ugrid(const Mesh& mesh, const std::filesystem::path& file);
 void write_fun3d(const Mesh& mesh, const std::filesystem::path& file);
 /// Either.
 Mesh read_ugrid(const std::string& bytes, const std::filesystem::path& file);
+
+// Four files of one stem.
+void check_triangle_writable(const std::filesystem::path& file);
+void write_triangle_mesh(const Mesh& mesh, const std::filesystem::path& file);
+Mesh read_triangle_mesh(const std::filesystem::path& file);
 
 /// Lower case, with the dot.
 std::string extension_of(const std::filesystem::path& file);

@@ -25,7 +25,7 @@ void check_writable(const fs::path& file, const WriteOptions& options) {
 std::vector<MeshFormat> mesh_formats() {
     std::vector<MeshFormat> formats;
     for (const detail::Format& format : detail::formats())
-        formats.push_back({format.name, format.extensions, format.holds, format.read != nullptr});
+        formats.push_back({format.name, format.extensions, format.holds, format.read != nullptr, format.quads});
     return formats;
 }
 

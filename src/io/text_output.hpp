@@ -35,6 +35,12 @@ public:
         *at_++ = ' ';
         return *this;
     }
+    /// The same, without an exponent where it is shorter so.
+    LineText& general(double value) {
+        at_ = std::to_chars(at_, at_ + 30, value, std::chars_format::general, 17).ptr;
+        *at_++ = ' ';
+        return *this;
+    }
     LineText& operator<<(Point p) { return *this << p.x << p.y; }
     LineText& operator<<(std::string_view word) {
         at_ += word.copy(at_, word.size());

@@ -2,11 +2,9 @@
 #include "io/triangle_files.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +16,7 @@
 
 #include "core/atomic_file.hpp"
 #include "io/text_lines.hpp"
+#include "io/text_output.hpp"
 
 namespace lamina {
 
@@ -161,85 +160,53 @@ void read_holes_and_regions(NumberLines& in, TriangleInput& input) {
 
 // --- Writing
 
-/// Text that grows; numbers with 17 significant digits, so that every double comes back as it was.
-class Text {
-public:
-    Text& operator<<(std::size_t value) {
-        return put([&](char* p, char* end) { return std::to_chars(p, end, value); });
-    }
-    Text& operator<<(long value) {
-        return put([&](char* p, char* end) { return std::to_chars(p, end, value); });
-    }
-    Text& operator<<(double value) {
-        return put([&](char* p, char* end) { return std::to_chars(p, end, value, std::chars_format::general, 17); });
-    }
-    Text& operator<<(Point p) { return *this << p.x << ' ' << p.y; }
-    Text& operator<<(char c) {
-        text_ += c;
-        return *this;
-    }
-    const std::string& str() const { return text_; }
+using detail::LineText;
+using detail::write_lines;
 
-private:
-    template <class Convert>
-    Text& put(Convert&& convert) {
-        char digits[40];
-        text_.append(digits, convert(digits, digits + sizeof digits).ptr);
-        return *this;
-    }
-    std::string text_;
-};
+LineText& put(LineText& line, Point p) { return line.general(p.x).general(p.y); }
 
-void write_text(const fs::path& file, const Text& text) {
-    write_stream_atomically(file, [&](std::ostream& out) { out << text.str(); });
+void write_node(const TriangleOutput& o, std::ostream& out) {
+    out << fmt::format("{} 2 {} {}\n", o.points.size(), o.attribute_count, o.markers.empty() ? 0 : 1);
+    const auto put_vertex = [&](LineText& line, std::size_t i) {
+        put(line << i + o.first_index, o.points[i]);
+        for (std::size_t a = 0; a < o.attribute_count; ++a) line.general(o.attributes[i * o.attribute_count + a]);
+        if (!o.markers.empty()) line << o.markers[i];
+    };
+    write_lines(out, o.points.size(), put_vertex, detail::longest_line + 30 * o.attribute_count);
 }
 
-Text node_text(const TriangleOutput& o) {
-    Text text;
-    text << o.points.size() << ' ' << std::size_t{2} << ' ' << o.attribute_count << ' '
-         << std::size_t{!o.markers.empty()} << '\n';
-    for (std::size_t i = 0; i < o.points.size(); ++i) {
-        text << i + o.first_index << ' ' << o.points[i];
-        for (std::size_t a = 0; a < o.attribute_count; ++a) text << ' ' << o.attributes[i * o.attribute_count + a];
-        if (!o.markers.empty()) text << ' ' << o.markers[i];
-        text << '\n';
-    }
-    return text;
+void write_ele(const TriangleOutput& o, std::ostream& out) {
+    out << fmt::format("{} 3 {}\n", o.triangles.size(), o.regional.empty() ? 0 : 1);
+    write_lines(out, o.triangles.size(), [&](LineText& line, std::size_t i) {
+        line << i + o.first_index;
+        for (const VertexId v : o.triangles[i].v) line << v.index() + o.first_index;
+        if (!o.regional.empty()) line.general(o.regional[i]);
+    });
 }
 
-Text ele_text(const TriangleOutput& o) {
-    Text text;
-    text << o.triangles.size() << ' ' << std::size_t{3} << ' ' << std::size_t{!o.regional.empty()} << '\n';
-    for (std::size_t i = 0; i < o.triangles.size(); ++i) {
-        text << i + o.first_index;
-        for (VertexId v : o.triangles[i].v) text << ' ' << v.index() + o.first_index;
-        if (!o.regional.empty()) text << ' ' << o.regional[i];
-        text << '\n';
-    }
-    return text;
+/// Lines "index a b [marker]", as segments and edges have them.
+void write_pairs(const TriangleOutput& o, const std::vector<Segment>& pairs, const std::vector<long>& markers,
+                 std::ostream& out) {
+    out << fmt::format("{} {}\n", pairs.size(), markers.empty() ? 0 : 1);
+    write_lines(out, pairs.size(), [&](LineText& line, std::size_t i) {
+        line << i + o.first_index << pairs[i].a.index() + o.first_index << pairs[i].b.index() + o.first_index;
+        if (!markers.empty()) line << markers[i];
+    });
 }
 
 /// Vertices stand in the .node file.
-Text poly_text(const TriangleOutput& o) {
-    Text text;
-    text << std::size_t{0} << ' ' << std::size_t{2} << ' ' << o.attribute_count << ' '
-         << std::size_t{!o.markers.empty()} << '\n';
-    text << o.segments.size() << ' ' << std::size_t{!o.segment_markers.empty()} << '\n';
-    for (std::size_t i = 0; i < o.segments.size(); ++i) {
-        text << i + o.first_index << ' ' << o.segments[i].a.index() + o.first_index << ' '
-             << o.segments[i].b.index() + o.first_index;
-        if (!o.segment_markers.empty()) text << ' ' << o.segment_markers[i];
-        text << '\n';
-    }
-    text << o.holes.size() << '\n';
-    for (std::size_t i = 0; i < o.holes.size(); ++i) text << i + o.first_index << ' ' << o.holes[i] << '\n';
-    if (!o.regions.empty()) {
-        text << o.regions.size() << '\n';
-        for (std::size_t i = 0; i < o.regions.size(); ++i)
-            text << i + o.first_index << ' ' << o.regions[i].at << ' ' << o.regions[i].attribute << ' '
-                 << o.regions[i].max_area << '\n';
-    }
-    return text;
+void write_poly(const TriangleOutput& o, std::ostream& out) {
+    for (const std::string& comment : o.comments) out << "# " << comment << '\n';
+    out << fmt::format("0 2 {} {}\n", o.attribute_count, o.markers.empty() ? 0 : 1);
+    write_pairs(o, o.segments, o.segment_markers, out);
+    out << o.holes.size() << '\n';
+    write_lines(out, o.holes.size(),
+                [&](LineText& line, std::size_t i) { put(line << i + o.first_index, o.holes[i]); });
+    if (o.regions.empty()) return;
+    out << o.regions.size() << '\n';
+    write_lines(out, o.regions.size(), [&](LineText& line, std::size_t i) {
+        put(line << i + o.first_index, o.regions[i].at).general(o.regions[i].attribute).general(o.regions[i].max_area);
+    });
 }
 
 fs::path with_suffix(const fs::path& stem, const char* suffix) {
@@ -276,10 +243,48 @@ TriangleInput read_triangle_files(const fs::path& file) {
     return input;
 }
 
+std::vector<Triangle> read_triangle_elements(const fs::path& file, std::size_t first_index, std::size_t points) {
+    const std::string bytes = read_whole_file(file);
+    NumberLines in(bytes, file.string());
+    in.next("the number of triangles");
+    const std::size_t n = in.count("number of triangles");
+    if (in.number_or<std::size_t>(3, "vertices a triangle") != 3)
+        in.fail("only triangles of three vertices can be read");
+    const auto attributes = in.number_or<std::size_t>(0, "number of attributes");
+    in.end_line();
+    std::vector<Triangle> triangles(n);
+    for (Triangle& triangle : triangles) {
+        in.next("a triangle");
+        in.number<std::size_t>("triangle index");
+        for (VertexId& v : triangle.v) {
+            const auto index = in.number<std::size_t>("vertex index");
+            if (index < first_index || index - first_index >= points)
+                in.fail(fmt::format("vertex index {} where there are {} vertices", index, points));
+            v = VertexId(index - first_index);
+        }
+        for (std::size_t a = 0; a < attributes; ++a) in.real("attribute");
+        in.end_line();
+    }
+    if (in.next()) in.fail("something follows the last triangle");
+    return triangles;
+}
+
 void write_triangle_files(const TriangleOutput& output, const fs::path& stem, bool with_poly) {
-    write_text(with_suffix(stem, ".node"), node_text(output));
-    write_text(with_suffix(stem, ".ele"), ele_text(output));
-    if (with_poly) write_text(with_suffix(stem, ".poly"), poly_text(output));
+    std::vector<fs::path> targets{with_suffix(stem, ".node"), with_suffix(stem, ".ele")};
+    std::vector<void (*)(const TriangleOutput&, std::ostream&)> writers{write_node, write_ele};
+    if (with_poly) {
+        targets.push_back(with_suffix(stem, ".poly"));
+        writers.push_back(write_poly);
+    }
+    if (!output.edges.empty()) {
+        targets.push_back(with_suffix(stem, ".edge"));
+        writers.push_back(
+            [](const TriangleOutput& o, std::ostream& out) { write_pairs(o, o.edges, o.edge_markers, out); });
+    }
+    write_files_atomically(targets, [&](std::span<const fs::path> temporaries) {
+        for (std::size_t i = 0; i < targets.size(); ++i)
+            write_stream(temporaries[i], targets[i], [&](std::ostream& out) { writers[i](output, out); });
+    });
 }
 
 }  // namespace lamina

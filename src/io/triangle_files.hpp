@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <lamina/ids.hpp>
@@ -56,10 +57,17 @@ struct TriangleOutput {
     std::vector<long> segment_markers;
     std::vector<Point> holes;
     std::vector<TriangleRegion> regions;
+    std::vector<std::string> comments;  ///< lines at the head of the .poly file
+    std::vector<Segment> edges;         ///< of the .edge file; empty = none is written
+    std::vector<long> edge_markers;
 };
 
-/// Writes STEM.node and STEM.ele, and STEM.poly if asked for: numbers with 17 significant digits, each file whole or
-/// not at all. Throws IoError.
+/// The triangles of a .ele file over so many points. Throws IoError, InputError with file and line.
+std::vector<Triangle> read_triangle_elements(const std::filesystem::path& file, std::size_t first_index,
+                                             std::size_t points);
+
+/// Writes STEM.node and STEM.ele, STEM.poly if asked for, and STEM.edge if there are edges: numbers with 17 significant
+/// digits, no file before all are complete. Throws IoError.
 void write_triangle_files(const TriangleOutput& output, const std::filesystem::path& stem, bool with_poly);
 
 }  // namespace lamina

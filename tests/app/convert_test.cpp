@@ -28,7 +28,7 @@ std::string file_name(const MeshFormat& format) {
 
 TEST(Convert, AnyFormatToAnyOther) {
     const TemporaryFolder folder;
-    const Mesh mesh = annulus({.quads_in_layer = true});
+    const Mesh mesh = annulus();
     write_mesh(mesh, folder / "first.vtu");
     std::string last = "first.vtu";
     int step = 0;

@@ -58,8 +58,11 @@ protected:
         return parts;
     }
     /// The hash of what is read, empty where an InputError of one line is thrown.
-    std::string hash_or_complaint(const Parts& parts) const {
+    std::string hash_or_complaint(const Parts& parts) {
         for (const auto& [part, content] : parts) {
+            const auto written = on_disk_.find(part);
+            if (written != on_disk_.end() && written->second == content) continue;
+            on_disk_[part] = content;
             const std::filesystem::path file = folder_ / "damaged" / part;
             std::filesystem::create_directories(file.parent_path());
             std::filesystem::remove(file);  // some file systems wait for the disk where a file is overwritten
@@ -76,6 +79,7 @@ protected:
     }
 
     TemporaryFolder folder_;
+    Parts on_disk_;  ///< of the damaged mesh
 };
 
 std::vector<Mesh> sample_meshes() {
@@ -94,6 +98,10 @@ std::vector<Mesh> sample_meshes() {
 
 TEST_P(EveryFormat, ComesBackAsItWas) {
     for (const Mesh& mesh : sample_meshes()) {
+        if (!mesh.quads.empty() && !GetParam().quads) {
+            EXPECT_THROW(write(mesh), UsageError);
+            continue;
+        }
         write(mesh);
         const Mesh back = read();
         EXPECT_EQ(mesh_hash(mesh), mesh_hash(back));
@@ -113,18 +121,19 @@ TEST_P(EveryFormat, ComesBackAsItWas) {
 
 TEST_P(EveryFormat, IsTheSameForAnyNumberOfThreads) {
     if (GetParam().name.starts_with("cgns")) GTEST_SKIP() << "the library writes times and what lies in its buffers";
-    const Mesh mesh = annulus({.around = 500, .rings = 100, .layer_rings = 50, .quads_in_layer = true});
+    const Mesh mesh = annulus({.around = 500, .rings = 100, .layer_rings = 50, .quads_in_layer = GetParam().quads});
     with_threads(1, [&] { write(mesh, "one"); });
     with_threads(4, [&] { write(mesh, "four"); });
     EXPECT_TRUE(parts("one") == parts("four"));
 }
 
 TEST_P(EveryFormat, LosesNothingInSilenceWhereItIsCutShort) {
-    const Mesh mesh = annulus({.around = 4, .rings = 2, .layer_rings = 1, .quads_in_layer = true});
+    const Mesh mesh = annulus({.around = 4, .rings = 2, .layer_rings = 1, .quads_in_layer = GetParam().quads});
     write(mesh);
     const Parts whole = parts();
     EXPECT_EQ(hash_or_complaint(whole), mesh_hash(mesh));
     for (const auto& [part, content] : whole) {
+        if (part.extension() == ".edge") continue;  // follows from the triangles, and is not read
         const std::size_t step = 1 + content.size() / 1000;
         Parts cut = whole;
         // The name that ends a .mapbc may be shortened: nothing tells.
@@ -140,7 +149,7 @@ TEST_P(EveryFormat, LosesNothingInSilenceWhereItIsCutShort) {
 
 TEST_P(EveryFormat, SurvivesRandomDamage) {
     std::mt19937 random(7);
-    write(annulus({.around = 6, .rings = 2, .layer_rings = 1, .quads_in_layer = true}));
+    write(annulus({.around = 6, .rings = 2, .layer_rings = 1, .quads_in_layer = GetParam().quads}));
     const Parts whole = parts();
     // The CGNS library keeps damaged files open, up to its limit.
     const int trials = GetParam().name.starts_with("cgns") ? 30 : 1000;
