@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lamina/mesh.hpp>
+#include <lamina/sizing.hpp>
 
 namespace lamina {
 
@@ -41,6 +42,12 @@ void write_wall_data(const Mesh& mesh, const std::filesystem::path& file);
 /// By the extension of the file. Throws IoError where it cannot be read, InputError (with the line, for text formats)
 /// where it is malformed, UsageError for an unknown extension.
 Mesh read_mesh(const std::filesystem::path& file);
+
+/// A background mesh from a VTU file (point data) or an MSH file ($NodeData of one component): the sizes are the array
+/// named `size`, or the only scalar one where none is. Quadrilaterals are cut in two; points of no triangle are left
+/// out. Throws IoError, UsageError for another extension, InputError where the file is malformed, has no triangles or
+/// no such array, or the size at a vertex is missing or not positive.
+SizedMesh read_sizes(const std::filesystem::path& file);
 
 /// Throws UsageError now rather than after minutes of meshing if write_mesh knows no format of this name, IoError if
 /// the folder does not exist or is not writable.

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,9 @@ struct CaseOptions {
     std::optional<double> far_size;  ///< cap of the target edge length
     std::optional<WakeOptions> wake;
     std::vector<SizeSource> size_sources;  ///< boxes, discs and lines of the user's own
+    /// Sizes of the user's own, too: nowhere in a triangle does the target edge length exceed the linear interpolation
+    /// by more than a tenth, and the size field's relative error.
+    std::shared_ptr<const SizedMesh> background;
     double min_angle_deg = 20.7;
     SeparatorRule separators = SeparatorRule::equidistributed;
     double pieces_target = 50'000;

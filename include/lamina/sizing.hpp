@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
@@ -26,6 +27,14 @@ struct SizeSource {
 
 double distance_to(const SizeSource& source, Point p);
 Box box_of(const SizeSource& source);
+
+/// A background mesh: a size at each point, linear inside the triangles. Triangles may overlap, have any orientation
+/// and need not cover the domain: beyond them sizes grow by the gradation.
+struct SizedMesh {
+    std::vector<Point> points;
+    std::vector<Triangle> triangles;
+    std::vector<double> sizes;  ///< one a point, in units of the input, positive
+};
 
 struct SizingOptions {
     double gradation = 0.1;      ///< dh/dx away from a source

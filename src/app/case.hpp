@@ -19,7 +19,9 @@ struct MeshCase {
     bool wall_distance = false;  ///< in VTU files
     std::string wall_data;       ///< CSV file; empty = none
     std::string report;          ///< empty = none
-    CaseOptions options;         ///< but for the first height, of which only one of the next two may be given
+    std::string background;      ///< mesh file with sizes; empty = none
+    CaseOptions options;         ///< but for the background mesh, which is read when the work begins, and for the first
+                                 ///< height, of which only one of the next two may be given
     std::optional<double> first_height;
     std::optional<double> y_plus, reynolds, chord;
     ProgressShown progress = ProgressShown::automatic;

@@ -81,8 +81,10 @@ void require_outputs(const MeshCase& mesh_case) {
 }
 
 void mesh(const MeshCase& mesh_case) {
-    const CaseOptions options = case_options(mesh_case);
+    CaseOptions options = case_options(mesh_case);
     require_outputs(mesh_case);
+    if (!mesh_case.background.empty())
+        options.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));
     MeshResult result = generate_mesh(mesh_case.inputs, options, progress_printer(mesh_case));
     if (mesh_case.base_marker) add_base_markers(result.mesh);
 

@@ -320,6 +320,11 @@ std::vector<Option> make_table() {
               "edge length h in and round a shape, box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or "
               "line:X0,Y0,X1,Y1,H, in units of the input; may be given several times",
               parse_size_source, size_source_text, of_case(&CaseOptions::size_sources)));
+    add(text(
+        "background", Kind::path, "FILE",
+        "VTU or MSH mesh with a size at each vertex, point data 'size' or the only scalar one: edge lengths, linear "
+        "in its triangles",
+        member_at(&MeshCase::background)));
     add(real("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees", above_up_to(0, 33),
              of_case(&CaseOptions::min_angle_deg)));
     add(choice(

@@ -49,6 +49,14 @@ struct VtuVariant {
 void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
 
+/// A mesh and a value at each point; NaN where the file has none.
+struct PointValues {
+    Mesh mesh;
+    std::vector<double> values;
+};
+/// With the array of its point data that holds sizes (size_array).
+PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path& file);
+
 struct MshVariant {
     bool version_4 = true;  ///< 4.1, else 2.2
     bool binary = false;
@@ -56,6 +64,11 @@ struct MshVariant {
 void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out);
 /// Either version, ASCII or binary.
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file);
+/// With the $NodeData that holds sizes (size_array).
+PointValues read_msh_sizes(const std::string& bytes, const std::filesystem::path& file);
+
+/// The one named `size`, or the only one. Throws InputError.
+std::string size_array(const std::vector<std::string>& scalar_arrays, const std::filesystem::path& file);
 
 /// 2.2, ASCII, one cell thick.
 void write_msh_extruded(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);

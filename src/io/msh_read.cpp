@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -81,6 +82,8 @@ public:
                 version_4_ ? read_nodes_4() : read_nodes_2();
             else if (name == "$Elements")
                 version_4_ ? read_elements_4() : read_elements_2();
+            else if (name == "$NodeData")
+                read_node_data();
             else if (name == "$PartitionedEntities")
                 in_.fail("partitioned meshes cannot be read");
             else
@@ -89,6 +92,12 @@ public:
         if (!has_nodes_ || !has_elements_) in_.fail("the file ends without $Nodes or $Elements");
         finish();
         return std::move(mesh_);
+    }
+    /// After read().
+    std::vector<double> sizes(const std::filesystem::path& file) {
+        std::vector<std::string> names;
+        for (const auto& [name, values] : node_data_) names.emplace_back(name);
+        return std::move(node_data_.find(size_array(names, file))->second);
     }
 
 private:
@@ -262,6 +271,43 @@ private:
         }
     }
 
+    /// Keeps the values of one component; of several steps in time the last.
+    void read_node_data() {
+        if (!has_nodes_) in_.fail("$NodeData before $Nodes");
+        // The tags are text in binary files, too.
+        std::string_view name;
+        const auto strings = in_.figures<std::size_t>("number of string tags");
+        in_.rest_of_line();
+        for (std::size_t i = 0; i < strings; ++i) {
+            const std::string_view line = in_.rest_of_line();
+            if (line.empty()) in_.fail("string tag expected");
+            if (i == 0) name = line;
+        }
+        if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+        const auto reals = in_.figures<std::size_t>("number of real tags");
+        for (std::size_t i = 0; i < reals; ++i) in_.figures<double>("real tag");
+        const auto integers = in_.figures<std::size_t>("number of integer tags");
+        if (integers < 3) in_.fail("$NodeData has three integer tags or more");
+        std::size_t tags[3] = {};  // step in time, components, values
+        for (std::size_t i = 0; i < integers; ++i) {
+            const auto tag = in_.figures<std::size_t>("integer tag");
+            if (i < 3) tags[i] = tag;
+        }
+        in_.rest_of_line();
+        if (tags[1] != 1) return in_.skip_behind("$EndNodeData");
+
+        std::vector<double> values(mesh_.points.size(), std::nan(""));
+        const std::size_t n = in_.count(tags[2], 12, "number of values");
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto node = in_.number<int>("node number");
+            const auto found = nodes_.find(static_cast<std::size_t>(node));
+            if (!found) in_.fail(fmt::format("node {} is not in $Nodes", node));
+            values[found->index()] = in_.number<double>("value");
+        }
+        in_.expect("$EndNodeData");
+        node_data_[std::string(name)] = std::move(values);
+    }
+
     void finish() {
         for (auto& [group, edges] : edges_) {
             const auto named = names_.find({1, group});
@@ -289,6 +335,7 @@ private:
     std::map<EntityKey, int> group_of_entity_;
     std::map<int, std::vector<Segment>> edges_;
     std::vector<int> triangle_groups_, quad_groups_;
+    std::map<std::string, std::vector<double>, std::less<>> node_data_;
     Mesh mesh_;
 };
 
@@ -296,6 +343,14 @@ private:
 
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file) {
     return MshReader(bytes, file.string()).read();
+}
+
+PointValues read_msh_sizes(const std::string& bytes, const std::filesystem::path& file) {
+    MshReader reader(bytes, file.string());
+    PointValues result;
+    result.mesh = reader.read();
+    result.values = reader.sizes(file);
+    return result;
 }
 
 }  // namespace lamina::detail

@@ -104,11 +104,20 @@ public:
         read_cells();
         return std::move(mesh_);
     }
+    /// After read().
+    std::vector<double> sizes() const {
+        const std::string section = "PointData/";
+        std::vector<std::string> scalars;
+        for (const auto& [name, array] : arrays_)
+            if (name.starts_with(section) && array.components == 1) scalars.push_back(name.substr(section.size()));
+        return values<double>(section + size_array(scalars, file_), points_);
+    }
 
 private:
     struct Array {
         std::string_view type;
         std::size_t offset = 0;
+        std::size_t components = 1;
     };
 
     [[noreturn]] void fail(const std::string& reason) const { throw InputError({file_, 0, {}}, reason); }
@@ -152,7 +161,8 @@ private:
             } else if (tag.name == "DataArray") {
                 demand(tag, "format", "appended");
                 arrays_[fmt::format("{}/{}", section, section == "Points" ? "" : tag.attributes["Name"])] = {
-                    tag.attributes["type"], number(tag, "offset")};
+                    tag.attributes["type"], number(tag, "offset"),
+                    tag.attributes.contains("NumberOfComponents") ? number(tag, "NumberOfComponents") : 1};
             } else if (tag.name == "AppendedData") {
                 demand(tag, "encoding", "raw");
                 const std::size_t underscore = bytes_.find('_', tags.position());
@@ -359,6 +369,14 @@ private:
 
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file) {
     return VtuReader(bytes, file.string()).read();
+}
+
+PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path& file) {
+    VtuReader reader(bytes, file.string());
+    PointValues result;
+    result.mesh = reader.read();
+    result.values = reader.sizes();
+    return result;
 }
 
 }  // namespace lamina::detail

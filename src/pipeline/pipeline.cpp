@@ -143,7 +143,7 @@ MeshResult run(Pslg pslg, const CaseOptions& given, Clock& clock, double geometr
     seconds.geometry += clock.lap();
 
     clock.begin("layers");
-    const SizedLayer sized_layer = make_sized_layer(pslg, options);
+    const SizedLayer sized_layer = make_sized_layer(pslg, options, far_field_box(outer_options));
     const Layer& layer = sized_layer.layer;
     const LayerEdges edges = layer_edges(layer);
     seconds.layers = clock.lap();

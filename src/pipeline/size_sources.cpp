@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/reproducible_math.hpp"
+#include "pipeline/background.hpp"
 
 namespace lamina {
 
@@ -130,20 +131,33 @@ double border_gradation(const CaseOptions& options) {
     return frozen_share * options.gradation / rounding_of_pieces;
 }
 
-SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options) {
+SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options, const Box& domain) {
     SizedLayer result{{}, options.size_sources};
     const std::vector<Wake> wakes = options.wake ? find_wakes(pslg, *options.wake) : std::vector<Wake>{};
     if (options.wake && options.wake->size)
         for (const Wake& wake : wakes) add_sources(wake, *options.wake->size, options.gradation, result.sources);
-    result.layer = make_layer(pslg, layer_options(options, result.sources));
+    // Those that the layer's border has to heed: of a background mesh only few.
+    std::vector<SizeSource> at_border = result.sources;
+    result.layer = make_layer(pslg, layer_options(options, at_border));
+    if (options.background) {
+        const std::vector<SizeSource> all = background_sources(*options.background, options.gradation, domain);
+        const std::vector<SizeSource> binding =
+            binding_sources(all, result.layer, border_gradation(options), frozen_share);
+        result.sources.insert(result.sources.end(), all.begin(), all.end());
+        at_border.insert(at_border.end(), binding.begin(), binding.end());
+        if (!binding.empty()) result.layer = make_layer(pslg, layer_options(options, at_border));
+    }
     if (!options.wake || options.wake->size) return result;
 
     // Wakes begin with the size that the layer has at the trailing edge without them.
     std::vector<SizeSource> without = border_sources(result.layer, options);
     without.insert(without.end(), result.sources.begin(), result.sources.end());
+    std::vector<SizeSource> along_wakes;
     for (const Wake& wake : wakes)
-        add_sources(wake, size_at(wake.from, without, options.gradation), options.gradation, result.sources);
-    result.layer = make_layer(pslg, layer_options(options, result.sources));
+        add_sources(wake, size_at(wake.from, without, options.gradation), options.gradation, along_wakes);
+    result.sources.insert(result.sources.end(), along_wakes.begin(), along_wakes.end());
+    at_border.insert(at_border.end(), along_wakes.begin(), along_wakes.end());
+    result.layer = make_layer(pslg, layer_options(options, at_border));
     return result;
 }
 

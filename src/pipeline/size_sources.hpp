@@ -11,12 +11,12 @@ namespace lamina {
 double border_gradation(const CaseOptions& options);
 
 /// The layer with an outer border fit to be frozen for refinement to the angle and sizes asked for, and the sources
-/// that are not its border: those of the options and the wakes.
+/// that are not its border: those of the options, the wakes and the background mesh.
 struct SizedLayer {
     Layer layer;
     std::vector<SizeSource> sources;
 };
-SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options);
+SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options, const Box& domain);
 
 /// h(x) from the layers' borders and the sources.
 SizeField make_size_field(const SizedLayer& layer, const CaseOptions& options, const Box& domain);

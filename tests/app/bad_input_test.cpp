@@ -86,6 +86,18 @@ TEST(BadInput, WakesAndSizeSources) {
     expect_refused(folder, {"mesh", "case.toml", "-o", "out.su2"}, usage, "case.toml:2: refine");
 }
 
+TEST(BadInput, BackgroundMeshes) {
+    const TemporaryFolder folder;
+    folder.write("text.vtu", "no mesh\n");
+    folder.write("text.msh", "no mesh\n");
+    expect_refused(folder, mesh_naca_with({"--background", "text.vtu"}), bad_input, "text.vtu");
+    expect_refused(folder, mesh_naca_with({"--background", "text.msh"}), bad_input, "text.msh:1");
+    expect_refused(folder, mesh_naca_with({"--background", "missing.vtu"}), io_failed, "missing.vtu");
+    expect_refused(folder, mesh_naca_with({"--background", "text.dat"}), usage, "text.dat");
+    folder.write("case.toml", "input = 'naca:0012'\nbackground = 'missing.msh'\n");
+    expect_refused(folder, {"mesh", "case.toml", "-o", "out.su2"}, io_failed, "missing.msh");
+}
+
 TEST(BadInput, AFirstHeightGivenTwiceOrByHalf) {
     const TemporaryFolder folder;
     const auto refuse = [&](const std::vector<std::string>& options, const std::string& said) {

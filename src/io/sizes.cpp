@@ -1,0 +1,74 @@
+// Background meshes: a size at each vertex of a mesh that another program, or lamina before it, wrote.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+
+#include "core/atomic_file.hpp"
+#include "io/formats.hpp"
+
+namespace lamina {
+
+namespace detail {
+
+std::string size_array(const std::vector<std::string>& scalar_arrays, const std::filesystem::path& file) {
+    const std::string wanted = "size";
+    if (std::find(scalar_arrays.begin(), scalar_arrays.end(), wanted) != scalar_arrays.end()) return wanted;
+    if (scalar_arrays.size() == 1) return scalar_arrays.front();
+    throw InputError({file.string(), 0, {}},
+                     scalar_arrays.empty()
+                         ? "no sizes: no array of one value a point"
+                         : fmt::format("no array of one value a point is named 'size', and there are several: {}",
+                                       fmt::join(scalar_arrays, ", ")));
+}
+
+namespace {
+
+/// Of triangles, and quads cut in two, with the points that they use.
+SizedMesh sized_mesh(const PointValues& read, const std::filesystem::path& file) {
+    SizedMesh result;
+    result.triangles = read.mesh.triangles;
+    for (const Quad& quad : read.mesh.quads) {
+        result.triangles.push_back({{quad.v[0], quad.v[1], quad.v[2]}});
+        result.triangles.push_back({{quad.v[0], quad.v[2], quad.v[3]}});
+    }
+    if (result.triangles.empty()) throw InputError({file.string(), 0, {}}, "no triangles to interpolate sizes in");
+
+    std::vector<char> used(read.mesh.points.size(), 0);
+    for (const Triangle& triangle : result.triangles)
+        for (VertexId v : triangle.v) used[v.index()] = 1;
+    std::vector<VertexId> place(used.size());
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (used[i] == 0) continue;
+        const Point p = read.mesh.points[i];
+        const double size = read.values[i];
+        if (std::isnan(size)) throw InputError({file.string(), 0, p}, fmt::format("vertex {} has no size", i));
+        if (!(size > 0 && std::isfinite(size)))
+            throw InputError({file.string(), 0, p}, fmt::format("size {} of vertex {}: must be positive", size, i));
+        place[i] = VertexId(result.points.size());
+        result.points.push_back(p);
+        result.sizes.push_back(size);
+    }
+    for (Triangle& triangle : result.triangles)
+        for (VertexId& v : triangle.v) v = place[v.index()];
+    return result;
+}
+
+}  // namespace
+}  // namespace detail
+
+SizedMesh read_sizes(const std::filesystem::path& file) {
+    const std::string extension = detail::extension_of(file);
+    if (extension != ".vtu" && extension != ".msh")
+        throw UsageError(fmt::format("{}: sizes are read from .vtu and .msh files", file.string()));
+    const std::string bytes = read_whole_file(file);
+    const auto read = extension == ".vtu" ? detail::read_vtu_sizes : detail::read_msh_sizes;
+    return detail::sized_mesh(read(bytes, file), file);
+}
+
+}  // namespace lamina
