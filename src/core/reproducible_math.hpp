@@ -111,6 +111,25 @@ inline double pow_reproducible(double base, double exponent) {
     return power;
 }
 
+/// Angle of the vector (x, y), x >= 0 and y >= 0 but not both 0, to 2e-15 radians and without branches: for statistics
+/// of many angles. Turned by -pi/8 or -3 pi/8 the vector is within pi/8 of the x axis; arctan(u) / u there is a
+/// polynomial in u^2 (Chebyshev nodes, degree 9, relative error 1e-15).
+inline double first_quadrant_angle(double y, double x) {
+    const bool steep = y > x;
+    const double tangent = steep ? 0x1.3504f333f9de6p+1 : 0x1.a827999fcef32p-2;
+    const double u = (y - tangent * x) / (x + tangent * y);
+    const double z = u * u;
+    // Estrin's scheme: a chain of 4 steps instead of 9.
+    const double z2 = z * z, z4 = z2 * z2;
+    const double p01 = 0x1.ffffffffffff7p-1 - 0x1.5555555550697p-2 * z;
+    const double p23 = 0x1.999999922cffap-3 - 0x1.249246f68f241p-3 * z;
+    const double p45 = 0x1.c71bcaa82de12p-4 - 0x1.744ea12fe95dbp-4 * z;
+    const double p67 = 0x1.3a4ed9d1662d7p-4 - 0x1.0a7c2d0b92b5ep-4 * z;
+    const double p89 = 0x1.9ba0e636ba92ep-5 - 0x1.9ec902f46e221p-6 * z;
+    const double p = (p01 + z2 * p23) + z4 * ((p45 + z2 * p67) + z4 * p89);
+    return (steep ? 0.375 * pi : 0.125 * pi) + u * p;
+}
+
 /// Angle of the vector (x, y) in [-pi, pi], as std::atan2 for finite arguments; odd in y, exactly.
 /// The quotient may underflow harmlessly.
 inline double atan2_reproducible(double y, double x) {

@@ -59,9 +59,10 @@ EdgeList internal_faces(const CellEdges& edges, const Adjacency& adjacency) {
 /// The edges of the cells that the marker's edges are.
 EdgeList marker_faces(const Mesh& mesh, const Marker& marker, const CellEdges& edges, const Adjacency& adjacency,
                       const fs::path& file) {
-    EdgeList faces;
-    for (const Segment& edge : marker.edges) {
-        const std::uint32_t e = adjacency.find(std::min(edge.a, edge.b), std::max(edge.a, edge.b));
+    EdgeList faces = detail::find_edges(mesh, marker.edges);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const Segment& edge = marker.edges[i];
+        const std::uint32_t e = faces[i];
         if (e == no_edge || adjacency.twin[e] != no_edge || edges.origin(e) != edge.a) {
             const Point at = mesh.points[edge.a.index()];
             throw MeshError(
@@ -69,7 +70,6 @@ EdgeList marker_faces(const Mesh& mesh, const Marker& marker, const CellEdges& e
                             "the boundary, with its cell on the left",
                             file.string(), marker.name, at.x, at.y));
         }
-        faces.push_back(e);
     }
     return faces;
 }

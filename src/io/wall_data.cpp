@@ -16,7 +16,6 @@ namespace lamina {
 
 namespace {
 
-using detail::Adjacency;
 using detail::CellEdges;
 using detail::no_edge;
 
@@ -41,10 +40,9 @@ struct Walls {
     std::vector<std::uint32_t> before;  ///< edge that ends there, or none
 };
 
-/// Height of the lowest vertex of the edge's cell above the edge's line.
-double cell_height(const Mesh& mesh, const CellEdges& cells, const Adjacency& adjacency, Segment edge) {
+/// Height of the lowest vertex of the cell with the directed edge e above the wall's edge that it is.
+double cell_height(const Mesh& mesh, const CellEdges& cells, Segment edge, std::uint32_t e) {
     const Point a = mesh.points[edge.a.index()], b = mesh.points[edge.b.index()];
-    const std::uint32_t e = adjacency.find(std::min(edge.a, edge.b), std::max(edge.a, edge.b));
     double height = HUGE_VAL;
     if (e == no_edge) return height;
     const std::size_t cell = cells.cell_of(e);
@@ -61,7 +59,7 @@ double cell_height(const Mesh& mesh, const CellEdges& cells, const Adjacency& ad
 void write_wall_data(const Mesh& mesh, const std::filesystem::path& file) {
     const Walls walls(mesh);
     const CellEdges cells(mesh);
-    const Adjacency adjacency = detail::find_adjacency(mesh);
+    const std::vector<std::uint32_t> cell_edges = detail::find_edges(mesh, walls.edges);
     std::string text = "marker,vertex,x,y,arc_length,normal_x,normal_y,first_height\n";
     std::vector<bool> done(mesh.points.size(), false);
 
@@ -77,7 +75,7 @@ void write_wall_data(const Mesh& mesh, const std::filesystem::path& file) {
         for (const std::uint32_t e : {in, out}) {
             if (e == none) continue;
             normal = normal + outward(e);
-            height = std::min(height, cell_height(mesh, cells, adjacency, walls.edges[e]));
+            height = std::min(height, cell_height(mesh, cells, walls.edges[e], cell_edges[e]));
         }
         // At a cusp the normals cancel: straight on.
         if (squared_length(normal) < 1e-20 && in != none) normal = -perpendicular(-outward(in));

@@ -27,7 +27,8 @@ using detail::CellShape;
 using detail::DefectList;
 using detail::QualityCollector;
 
-constexpr std::size_t grain = 1 << 14;
+/// Cells or vertices a block: what a block of cells takes stays in the second-level cache.
+constexpr std::size_t grain = 1 << 13;
 
 /// "triangle 7 (3, 5, 9)"
 std::string name_of(const Mesh& mesh, std::size_t cell) {
@@ -101,12 +102,16 @@ void check_arrays(const Mesh& mesh, DefectList& defects) {
             });
 }
 
-// --- Cells: orientation, area, shape.
+// --- Cells and interior edges: orientation, area, shape; Delaunay property, areas of neighbours, hand-over from the
+// layer.
 
 struct CellsSummary {
     double area = 0;
     QualityCollector layer, isotropic;
     std::vector<std::uint32_t> narrow;  ///< isotropic cells with an angle below the bound
+    std::size_t interior_edges = 0;     ///< between isotropic triangles; constraints are taken out afterwards
+    std::size_t delaunay_violations = 0;
+    std::vector<double> hand_over;  ///< area of the layer's cell over the isotropic one's
     DefectList defects;
 
     explicit CellsSummary(double bound = 0) : layer(bound), isotropic(bound) {}
@@ -115,12 +120,19 @@ struct CellsSummary {
         layer.append(part.layer);
         isotropic.append(part.isotropic);
         narrow.insert(narrow.end(), part.narrow.begin(), part.narrow.end());
+        interior_edges += part.interior_edges;
+        delaunay_violations += part.delaunay_violations;
+        hand_over.insert(hand_over.end(), part.hand_over.begin(), part.hand_over.end());
         defects.append(std::move(part.defects));
     }
 };
 
 bool is_isotropic(const Mesh& mesh, std::size_t cell) {
     return mesh.region.empty() || mesh.region[cell] == Region::isotropic;
+}
+
+bool is_isotropic_triangle(const Mesh& mesh, std::size_t cell) {
+    return cell < mesh.triangles.size() && is_isotropic(mesh, cell);
 }
 
 /// > 0 for counter-clockwise, 0 for flat. A quad is simple and counter-clockwise if one of its diagonals splits it in
@@ -132,40 +144,25 @@ double cell_orientation(const Point* p, std::size_t corners) {
                     std::min(inline_orient2d(p[0], p[1], p[3]), inline_orient2d(p[1], p[2], p[3])));
 }
 
-CellsSummary check_cells(const Mesh& mesh, std::size_t begin, std::size_t end, const MeshCheckOptions& options) {
-    CellsSummary summary(options.min_angle_deg);
-    const CellEdges edges(mesh);
-    for (std::size_t cell = begin; cell < end; ++cell) {
-        Point p[4];
-        const std::size_t corners = edges.corners(cell);
-        for (std::size_t i = 0; i < corners; ++i) p[i] = mesh.points[edges.corner(cell, i).index()];
-        if (const double sign = cell_orientation(p, corners); !(sign > 0))
-            summary.defects.add([&] {
-                return MeshDefect{fmt::format("{} {}", sign < 0 ? "clockwise or folded" : "flat", name_of(mesh, cell)),
-                                  p[0]};
-            });
-        const CellShape shape =
-            corners == 3 ? detail::measure_triangle(p[0], p[1], p[2]) : detail::measure_quad(p[0], p[1], p[2], p[3]);
-        summary.area += shape.area;
-        const bool isotropic = is_isotropic(mesh, cell);
-        (isotropic ? summary.isotropic : summary.layer).add(shape);
-        if (isotropic && shape.min_angle_deg < options.min_angle_deg)
-            summary.narrow.push_back(static_cast<std::uint32_t>(cell));
-    }
-    return summary;
-}
-
-// --- Interior edges: Delaunay property, areas of neighbours, hand-over from the layer.
-
-struct EdgesSummary {
-    std::size_t interior_edges = 0;
-    std::size_t delaunay_violations = 0;
-    QualityCollector isotropic{0};
-    std::vector<double> hand_over;  ///< area of the layer's cell over the isotropic one's
-};
-
-bool is_isotropic_triangle(const Mesh& mesh, std::size_t cell) {
-    return cell < mesh.triangles.size() && is_isotropic(mesh, cell);
+/// Orientation and shape of one cell; its area.
+double check_cell(const Mesh& mesh, const CellEdges& edges, std::size_t cell, const MeshCheckOptions& options,
+                  CellsSummary& summary) {
+    Point p[4];
+    const std::size_t corners = edges.corners(cell);
+    for (std::size_t i = 0; i < corners; ++i) p[i] = mesh.points[edges.corner(cell, i).index()];
+    if (const double sign = cell_orientation(p, corners); !(sign > 0))
+        summary.defects.add([&] {
+            return MeshDefect{fmt::format("{} {}", sign < 0 ? "clockwise or folded" : "flat", name_of(mesh, cell)),
+                              p[0]};
+        });
+    const CellShape shape =
+        corners == 3 ? detail::measure_triangle(p[0], p[1], p[2]) : detail::measure_quad(p[0], p[1], p[2], p[3]);
+    summary.area += shape.area;
+    const bool isotropic = is_isotropic(mesh, cell);
+    (isotropic ? summary.isotropic : summary.layer).add(shape);
+    if (isotropic && shape.min_angle_deg < options.min_angle_deg)
+        summary.narrow.push_back(static_cast<std::uint32_t>(cell));
+    return shape.area;
 }
 
 /// Exact; counter-clockwise a, b, c.
@@ -188,29 +185,49 @@ double area_of(const Mesh& mesh, const CellEdges& edges, std::size_t cell) {
                                     : 0.5 * cross(corner(2) - corner(0), corner(3) - corner(1));
 }
 
-/// Constraints included: they are taken out afterwards.
-EdgesSummary check_edges(const Mesh& mesh, const Adjacency& adjacency, std::size_t begin, std::size_t end) {
-    EdgesSummary summary;
-    const CellEdges edges(mesh);
-    for (std::size_t cell = begin; cell < end; ++cell) {
-        if (!is_isotropic(mesh, cell)) continue;
-        const double area = area_of(mesh, edges, cell);
-        const std::size_t first = edges.first(cell);
-        for (std::size_t e = first; e < first + edges.corners(cell); ++e) {
-            const std::uint32_t twin = adjacency.twin[e];
-            if (twin == detail::no_edge) continue;
-            const std::size_t other = edges.cell_of(twin);
-            if (!is_isotropic(mesh, other)) {
-                summary.hand_over.push_back(area_of(mesh, edges, other) / area);
-                continue;
-            }
-            if (twin < e) continue;  // each pair once
-            summary.isotropic.add_neighbours(area, area_of(mesh, edges, other));
-            if (!is_isotropic_triangle(mesh, cell) || !is_isotropic_triangle(mesh, other)) continue;
-            ++summary.interior_edges;
-            summary.delaunay_violations += violates_delaunay(mesh, e, twin);
-        }
+/// An edge between two cells; area_of(cell) gives areas of cells.
+template <class AreaOf>
+void check_edge(const Mesh& mesh, const CellEdges& edges, std::size_t edge, std::size_t twin, AreaOf&& area_of,
+                CellsSummary& summary) {
+    const std::size_t cell = edges.cell_of(edge), other = edges.cell_of(twin);
+    const bool isotropic = is_isotropic(mesh, cell), other_isotropic = is_isotropic(mesh, other);
+    if (!isotropic && !other_isotropic) return;
+    const double area = area_of(cell), other_area = area_of(other);
+    if (isotropic != other_isotropic) {
+        summary.hand_over.push_back(isotropic ? other_area / area : area / other_area);
+        return;
     }
+    summary.isotropic.add_neighbours(area, other_area);
+    if (!is_isotropic_triangle(mesh, cell) || !is_isotropic_triangle(mesh, other)) return;
+    ++summary.interior_edges;
+    summary.delaunay_violations += violates_delaunay(mesh, edge, twin);
+}
+
+/// Of the edges [begin, end), those to a cell whose edge comes later: each pair once. Without a branch, which would be
+/// guessed wrong half of the time.
+std::vector<std::uint32_t> first_of_pairs(const Adjacency& adjacency, std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> firsts(end - begin + 1);
+    std::size_t n = 0;
+    for (std::size_t e = begin; e < end; ++e) {
+        firsts[n] = static_cast<std::uint32_t>(e);
+        n += (adjacency.twin[e] > e) & (adjacency.twin[e] != detail::no_edge);
+    }
+    firsts.resize(n);
+    return firsts;
+}
+
+CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, std::size_t begin, std::size_t end,
+                         const MeshCheckOptions& options) {
+    CellsSummary summary(options.min_angle_deg);
+    const CellEdges edges(mesh);
+    std::vector<double> areas(end - begin);
+    for (std::size_t cell = begin; cell < end; ++cell)
+        areas[cell - begin] = check_cell(mesh, edges, cell, options, summary);
+    const auto area = [&](std::size_t cell) {
+        return begin <= cell && cell < end ? areas[cell - begin] : area_of(mesh, edges, cell);
+    };
+    for (const std::uint32_t e : first_of_pairs(adjacency, edges.first(begin), edges.first(end)))
+        check_edge(mesh, edges, e, adjacency.twin[e], area, summary);
     return summary;
 }
 
@@ -236,10 +253,12 @@ std::vector<Segment> sorted_constraints(const Mesh& mesh) {
 
 /// Takes constraints between isotropic triangles out of the count again: they are few.
 void exempt_constraints(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
-                        EdgesSummary& summary, DefectList& defects) {
+                        CellsSummary& summary, DefectList& defects) {
     const CellEdges edges(mesh);
-    for (const Segment& constraint : constraints) {
-        const std::uint32_t found = adjacency.find(constraint.a, constraint.b);
+    const std::vector<std::uint32_t> edge_of = detail::find_edges(mesh, constraints);
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+        const Segment& constraint = constraints[i];
+        const std::uint32_t found = edge_of[i];
         if (found == detail::no_edge) {
             defects.add([&] {
                 return MeshDefect{fmt::format("constraint {} is no edge of the mesh", name_of(constraint)),
@@ -419,35 +438,27 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     if (!defects.empty()) return finish();
     const std::size_t cells = CellEdges(mesh).cells();
 
-    CellsSummary all_cells(options.min_angle_deg);
-    const auto cell_block = [&](std::size_t begin, std::size_t end) { return check_cells(mesh, begin, end, options); };
-    for (CellsSummary& part : parallel_blocks(cells, grain, cell_block)) all_cells.append(std::move(part));
-    defects.append(std::move(all_cells.defects));
-    check.area = all_cells.area;
-
     const Adjacency adjacency = detail::find_adjacency(mesh);
+    CellsSummary all(options.min_angle_deg);
+    const auto cell_block = [&](std::size_t begin, std::size_t end) {
+        return check_cells(mesh, adjacency, begin, end, options);
+    };
+    for (CellsSummary& part : parallel_blocks(cells, grain, cell_block)) all.append(std::move(part));
+    defects.append(std::move(all.defects));
+    check.area = all.area;
+
     report_topology(mesh, adjacency, defects);
     check.euler_characteristic = static_cast<long>(mesh.points.size() - adjacency.orphans.size()) -
                                  static_cast<long>(adjacency.edges) + static_cast<long>(cells);
 
-    EdgesSummary all_edges;
-    const auto edge_block = [&](std::size_t begin, std::size_t end) {
-        return check_edges(mesh, adjacency, begin, end);
-    };
-    for (const EdgesSummary& part : parallel_blocks(cells, grain, edge_block)) {
-        all_edges.interior_edges += part.interior_edges;
-        all_edges.delaunay_violations += part.delaunay_violations;
-        all_cells.isotropic.append(part.isotropic);
-        all_edges.hand_over.insert(all_edges.hand_over.end(), part.hand_over.begin(), part.hand_over.end());
-    }
     const std::vector<Segment> constraints = sorted_constraints(mesh);
-    exempt_constraints(mesh, adjacency, constraints, all_edges, defects);
-    check.interior_edges = all_edges.interior_edges;
-    check.delaunay_violations = all_edges.delaunay_violations;
-    check.hand_over = summarize(std::move(all_edges.hand_over));
-    check.layer = all_cells.layer.summary();
-    check.isotropic = all_cells.isotropic.summary();
-    check.isotropic.exempt = count_exempt({mesh, adjacency, constraints}, all_cells.narrow);
+    exempt_constraints(mesh, adjacency, constraints, all, defects);
+    check.interior_edges = all.interior_edges;
+    check.delaunay_violations = all.delaunay_violations;
+    check.hand_over = summarize(std::move(all.hand_over));
+    check.layer = all.layer.summary();
+    check.isotropic = all.isotropic.summary();
+    check.isotropic.exempt = count_exempt({mesh, adjacency, constraints}, all.narrow);
 
     check.edges_without_first_layer = count_edges_without_first_layer(mesh, adjacency);
     const std::vector<Segment> edges = boundary_edges(mesh, adjacency);

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
-#include <utility>
-
-#include "core/reproducible_math.hpp"
 
 namespace lamina::detail {
 
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
 /// Classes of ratios: floats by their leading bits, 512 to a factor of 2, up to 256.
 constexpr unsigned class_shift = 14;
 constexpr std::uint32_t bits_of_one = std::bit_cast<std::uint32_t>(1.0f);
@@ -29,32 +24,16 @@ double largest_of(std::size_t ratio_class) {
     return std::bit_cast<float>(bits_of_one + ((static_cast<std::uint32_t>(ratio_class) + 1) << class_shift));
 }
 
-constexpr CellShape flat{0, 0, 180, std::numeric_limits<double>::infinity()};
-
 }  // namespace
-
-CellShape measure_triangle(Point a, Point b, Point c) {
-    const double twice_area = cross(b - a, c - a);
-    if (!(twice_area > 0)) return flat;
-    double shortest = squared_length(c - b), middle = squared_length(a - c), longest = squared_length(b - a);
-    if (middle < shortest) std::swap(shortest, middle);
-    if (longest < middle) std::swap(middle, longest);
-    if (middle < shortest) std::swap(shortest, middle);
-    // Law of cosines: half of the sums below is the scalar product of the edges at the angle.
-    return {.area = 0.5 * twice_area,
-            .min_angle_deg = degrees * atan2_reproducible(twice_area, 0.5 * (longest + middle - shortest)),
-            .max_angle_deg = degrees * atan2_reproducible(twice_area, 0.5 * (shortest + middle - longest)),
-            .aspect_ratio = longest / twice_area};
-}
 
 CellShape measure_quad(Point a, Point b, Point c, Point d) {
     const double twice_area = cross(c - a, d - b);
-    if (!(twice_area > 0)) return flat;
+    if (!(twice_area > 0)) return flat_shape;
     const Point corner[4] = {a, b, c, d};
     CellShape shape{.area = 0.5 * twice_area, .min_angle_deg = 360};
     for (int i = 0; i < 4; ++i) {
         const Point ahead = corner[(i + 1) % 4] - corner[i], back = corner[(i + 3) % 4] - corner[i];
-        double angle = degrees * atan2_reproducible(cross(ahead, back), dot(ahead, back));
+        double angle = degrees(atan2_reproducible(cross(ahead, back), dot(ahead, back)));
         if (angle < 0) angle += 360;
         shape.min_angle_deg = std::min(shape.min_angle_deg, angle);
         shape.max_angle_deg = std::max(shape.max_angle_deg, angle);
