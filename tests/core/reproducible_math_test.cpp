@@ -52,6 +52,18 @@ TEST(ReproducibleMath, ArctangentAgreesWithTheLibrary) {
     EXPECT_EQ(atan2_reproducible(1.0, 1.0), pi / 4);
 }
 
+TEST(ReproducibleMath, FirstQuadrantAnglesAgreeWithTheLibrary) {
+    std::mt19937_64 random(4);
+    std::uniform_real_distribution<double> coordinate(0, 1), exponent(-100, 100);
+    for (int i = 0; i < 300000; ++i) {
+        double x = coordinate(random), y = coordinate(random);
+        if (i % 3 == 0) x *= std::pow(10.0, exponent(random));
+        ASSERT_NEAR(first_quadrant_angle(y, x), std::atan2(y, x), 2e-15) << y << ' ' << x;
+    }
+    EXPECT_NEAR(first_quadrant_angle(0, 1), 0, 2e-15);
+    EXPECT_NEAR(first_quadrant_angle(1, 0), pi / 2, 2e-15);
+}
+
 TEST(ReproducibleMath, PowersAgreeWithTheLibrary) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> magnitude(-30, 30), exponent(0, 1);

@@ -1,0 +1,111 @@
+// Against a map of all edges, on meshes of several blocks, whole and damaged.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "core/parallel.hpp"
+#include "mesh/adjacency.hpp"
+#include "support/sample_meshes.hpp"
+
+namespace lamina {
+namespace {
+
+using detail::Adjacency;
+using detail::CellEdges;
+using detail::no_edge;
+
+struct Expected {
+    std::vector<std::uint32_t> twin, boundary, overused;
+    std::vector<VertexId> orphans;
+    std::map<std::pair<VertexId, VertexId>, std::vector<std::uint32_t>> users;
+};
+
+Expected by_map(const Mesh& mesh) {
+    const CellEdges edges(mesh);
+    Expected expected;
+    std::vector<bool> used(mesh.points.size(), false);
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        const VertexId a = edges.origin(e), b = edges.target(e);
+        used[a.index()] = true;
+        expected.users[std::pair(std::min(a, b), std::max(a, b))].push_back(e);
+    }
+    expected.twin.assign(edges.size(), no_edge);
+    for (const auto& [_, users] : expected.users) {
+        if (users.size() == 1) {
+            expected.boundary.push_back(users[0]);
+        } else if (users.size() == 2 && edges.origin(users[0]) == edges.target(users[1])) {
+            expected.twin[users[0]] = users[1];
+            expected.twin[users[1]] = users[0];
+        } else {
+            expected.overused.insert(expected.overused.end(), users.begin(), users.end());
+        }
+    }
+    std::sort(expected.boundary.begin(), expected.boundary.end());
+    std::sort(expected.overused.begin(), expected.overused.end());
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (!used[v]) expected.orphans.emplace_back(v);
+    return expected;
+}
+
+void expect_as_by_map(const Mesh& mesh) {
+    const Expected expected = by_map(mesh);
+    for (const unsigned threads : {1u, 4u})
+        with_threads(threads, [&] {
+            const Adjacency adjacency = detail::find_adjacency(mesh);
+            EXPECT_TRUE(
+                std::equal(adjacency.twin.begin(), adjacency.twin.end(), expected.twin.begin(), expected.twin.end()));
+            EXPECT_EQ(adjacency.boundary, expected.boundary);
+            EXPECT_EQ(adjacency.overused, expected.overused);
+            EXPECT_EQ(adjacency.orphans, expected.orphans);
+            EXPECT_EQ(adjacency.edges, expected.users.size());
+
+            std::vector<Segment> sought;
+            std::vector<std::uint32_t> lowest;
+            for (const auto& [ends, users] : expected.users) {
+                if (users.front() % 7 != 0) continue;
+                sought.push_back(users.front() % 2 == 0 ? Segment{ends.first, ends.second}
+                                                        : Segment{ends.second, ends.first});
+                lowest.push_back(users.front());
+            }
+            sought.push_back({VertexId{0}, VertexId{0}});
+            lowest.push_back(no_edge);
+            EXPECT_EQ(detail::find_edges(mesh, sought), lowest);
+        });
+}
+
+/// Cells of several blocks.
+std::vector<Mesh> large_meshes() {
+    const test::AnnulusOptions options{.around = 600, .rings = 25, .layer_rings = 5};
+    test::AnnulusOptions with_quads = options;
+    with_quads.quads_in_layer = true;
+    return {test::annulus(options), test::annulus(with_quads), test::shuffled(test::annulus(with_quads), 1)};
+}
+
+TEST(Adjacency, IsThatOfAMap) {
+    expect_as_by_map(test::annulus({.around = 5, .rings = 1, .layer_rings = 0}));
+    for (const Mesh& mesh : large_meshes()) expect_as_by_map(mesh);
+}
+
+TEST(Adjacency, FindsEveryDefect) {
+    std::mt19937 random(5);
+    for (Mesh mesh : large_meshes()) {
+        const std::size_t n = mesh.triangles.size();
+        const auto any = [&] { return random() % n; };
+        mesh.points.push_back({9, 9});  // of no cell
+        for (int i = 0; i < 40; ++i) {
+            mesh.triangles.push_back(mesh.triangles[any()]);                    // twice, far apart
+            std::swap(mesh.triangles[any()].v[0], mesh.triangles[any()].v[1]);  // folds, edges used on one side
+            std::swap(mesh.triangles[any()], mesh.triangles.back());
+        }
+        for (int i = 0; i < 40; ++i) mesh.triangles.erase(mesh.triangles.begin() + std::ptrdiff_t(any() / 2));
+        expect_as_by_map(mesh);
+    }
+    // Every cell twice, the copies in blocks of their own.
+    Mesh twice = test::annulus({.around = 600, .rings = 25});
+    twice.triangles.insert(twice.triangles.end(), twice.triangles.begin(), twice.triangles.end());
+    expect_as_by_map(twice);
+}
+
+}  // namespace
+}  // namespace lamina
