@@ -156,6 +156,18 @@ struct Sources {
 struct Part {
     std::vector<Slots> nodes;
     std::vector<Leaf> leaves;
+
+    // Puts another part behind this one. Its first node is the one returned.
+    std::uint32_t append(const Part& other) {
+        const auto first_node = static_cast<std::uint32_t>(nodes.size());
+        const auto first_leaf = static_cast<std::uint32_t>(leaves.size());
+        leaves.insert(leaves.end(), other.leaves.begin(), other.leaves.end());
+        for (Slots slots : other.nodes) {
+            for (std::uint32_t& entry : slots) entry += (entry & leaf_bit) != 0 ? first_leaf : first_node;
+            nodes.push_back(slots);
+        }
+        return first_node;
+    }
 };
 
 class Builder {
@@ -201,18 +213,6 @@ public:
     void finish(const Task& task) {
         candidates_ = task.candidates;
         split_twice(task.cell, {0, candidates_.size(), 0}, task.samples);
-    }
-
-    // Puts another part behind this one and enters it.
-    void append(const Part& other, const Task& task) {
-        const auto nodes = static_cast<std::uint32_t>(part.nodes.size());
-        const auto leaves = static_cast<std::uint32_t>(part.leaves.size());
-        part.nodes[task.parent][task.slot] = nodes;
-        part.leaves.insert(part.leaves.end(), other.leaves.begin(), other.leaves.end());
-        for (Slots slots : other.nodes) {
-            for (std::uint32_t& entry : slots) entry += (entry & leaf_bit) != 0 ? leaves : nodes;
-            part.nodes.push_back(slots);
-        }
     }
 
     Part part;
@@ -410,7 +410,7 @@ private:
     std::vector<std::uint32_t> pending_;     // scratch
 };
 
-// Nodes are made one by one until there are enough cells for all threads, then those are finished side by side.
+// Level by level until there are enough cells for all threads, then the whole of what is below each: side by side.
 Part build_tree(std::span<const SizeSource> given, const SizingOptions& options, Point lower, double side) {
     constexpr std::size_t enough_tasks = 64;
     Sources sources;
@@ -420,27 +420,39 @@ Part build_tree(std::span<const SizeSource> given, const SizingOptions& options,
         sources.cones.reserve(sorted.size());
         group_sources(sorted, sources.groups, sources.cones);
     }
-    Builder top(sources, options, side);
-    std::vector<Builder::Task> tasks;
-    top.expand(top.root(lower, side), tasks);
-    while (!tasks.empty() && tasks.size() < enough_tasks) {
+    struct Made {
+        Part part;
+        std::vector<Builder::Task> below;
+    };
+    const auto make = [&](const std::vector<Builder::Task>& tasks, bool finish) {
+        return parallel_blocks(tasks.size(), 1, [&](std::size_t i, std::size_t) {
+            Builder builder(sources, options, side);
+            Made made;
+            if (finish)
+                builder.finish(tasks[i]);
+            else
+                builder.expand(tasks[i], made.below);
+            made.part = std::move(builder.part);
+            return made;
+        });
+    };
+    std::vector<Builder::Task> tasks{Builder(sources, options, side).root(lower, side)};
+    Part tree;
+    for (bool finish = false; !tasks.empty();) {
         std::vector<Builder::Task> next;
-        for (const Builder::Task& task : tasks) {
-            top.part.nodes[task.parent][task.slot] = static_cast<std::uint32_t>(top.part.nodes.size());
-            top.expand(task, next);
+        std::vector<Made> made = make(tasks, finish);
+        for (std::size_t i = 0; i < tasks.size(); ++i) {
+            const std::uint32_t node = tree.append(made[i].part);
+            if (node > 0) tree.nodes[tasks[i].parent][tasks[i].slot] = node;
+            for (Builder::Task& task : made[i].below) {
+                task.parent += node;
+                next.push_back(std::move(task));
+            }
         }
         tasks = std::move(next);
+        finish = tasks.size() >= enough_tasks;
     }
-    std::vector<Part> parts(tasks.size());
-    parallel_for(tasks.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            Builder builder(sources, options, side);
-            builder.finish(tasks[i]);
-            parts[i] = std::move(builder.part);
-        }
-    });
-    for (std::size_t i = 0; i < tasks.size(); ++i) top.append(parts[i], tasks[i]);
-    return std::move(top.part);
+    return tree;
 }
 
 void require_valid(std::span<const SizeSource> sources, const SizingOptions& options, const Box& domain) {

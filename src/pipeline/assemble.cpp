@@ -1,6 +1,8 @@
 #include "pipeline/assemble.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -41,24 +43,33 @@ Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerFill layer_fill, D
     mesh.markers = make_markers(pslg, edges, std::move(decoupling.far_field));
     mesh.constraints = edges.interfaces;
     mesh.points = std::move(decoupling.points);
-    mesh.points.resize(first_point.back());
     mesh.triangles = std::move(layer_cells.triangles);
-    mesh.triangles.resize(first_triangle.back());
     mesh.quads = std::move(layer_cells.quads);
-    const auto of_cells = [&](auto of_layer, auto of_pieces) {
-        std::vector<decltype(of_layer)> values(layer_count, of_layer);
-        values.resize(first_triangle.back(), of_pieces);
-        values.resize(first_triangle.back() + quads, of_layer);
-        return values;
+    mesh.layer = std::move(layer_cells.triangle_layer);
+    const std::size_t triangles = first_triangle.back(), cells = triangles + quads;
+    // The system hands out pages as they are first written: one thread alone would wait for all of them.
+    const std::function<void()> arrays[] = {
+        [&] { mesh.triangles.resize(triangles); },
+        [&] { mesh.points.resize(first_point.back()); },
+        [&] { mesh.piece.resize(cells); },
+        [&] {
+            mesh.layer.reserve(cells);
+            mesh.layer.resize(triangles, 0);
+            mesh.layer.insert(mesh.layer.end(), layer_cells.quad_layer.begin(), layer_cells.quad_layer.end());
+        },
+        [&] {
+            mesh.region.reserve(cells);
+            mesh.region.resize(layer_count, Region::layer);
+            mesh.region.resize(triangles, Region::isotropic);
+            mesh.region.resize(cells, Region::layer);
+        },
     };
-    mesh.region = of_cells(Region::layer, Region::isotropic);
-    mesh.piece = of_cells(std::uint32_t{0}, std::uint32_t{0});
+    parallel_for(std::size(arrays), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) arrays[i]();
+    });
     for (std::size_t i = 0; i < layer_pieces; ++i)
         std::fill(mesh.piece.begin() + std::ptrdiff_t(layer_fill.first_triangle[i]),
                   mesh.piece.begin() + std::ptrdiff_t(layer_fill.first_triangle[i + 1]), std::uint32_t(i));
-    mesh.layer = std::move(layer_cells.triangle_layer);
-    mesh.layer.resize(first_triangle.back(), 0);
-    mesh.layer.insert(mesh.layer.end(), layer_cells.quad_layer.begin(), layer_cells.quad_layer.end());
     parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             Refinement piece = std::move(pieces[i]);
