@@ -51,6 +51,7 @@ struct Subdomain {
     SizeField size{1.0};
     double min_angle_deg = 20.7;
     double estimated_triangles = 0;
+    bool lattice = true;  ///< RefineOptions::lattice: off where h grows so fast that looking for patches does not pay
 };
 
 struct Decoupling {

@@ -12,11 +12,8 @@
 
 namespace lamina::kernel {
 
-/// From an area, the mean of 1 / h^2 over it, and the growth of h per unit of distance.
-double estimated_triangles(double area, double mean_inverse_square_size, double gradation);
-
-/// From a triangulation of the region.
-double estimate_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size);
+/// Of a region far larger than its triangles, in which h grows by `gradient` per unit of distance.
+double estimated_triangles(double area, double mean_inverse_square_size, double gradient);
 
 /// Where they will be: points in a triangle of a triangulation, each with a share of what the triangle will hold.
 struct Load {
@@ -27,7 +24,11 @@ struct Load {
 struct Loads {
     std::vector<Load> loads;
     std::vector<std::size_t> begin{0};
+    double total = 0;
+    bool lattice = false;  ///< whether a lattice may pay (RefineOptions::lattice)
 };
+
+/// From a triangulation of a piece, all of whose fixed edges are frozen.
 Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size);
 
 }  // namespace lamina::kernel

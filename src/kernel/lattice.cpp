@@ -23,15 +23,8 @@ namespace lamina::kernel {
 
 namespace {
 
-/// Lattice edges are at most this share of h. Below 1, triangles of them obey the size bound wherever they lie; what is
-/// missing to 1 lets refinement close the seams beside them (docs/decisions/0002).
-constexpr double lattice_share = 0.97;
-/// Ratio of the edge lengths of successive levels: sqrt(4/3), a third in area.
-constexpr double level_ratio = 1.1547005383792517;
 /// Patches keep this distance from border and other patches, in lattice edges.
 constexpr double seam_margin = 0.75;
-/// Blocks of fewer edges across are not worth a patch.
-constexpr double smallest_block = 6;
 constexpr double row_height = 0.86602540378443865;  // sqrt(3) / 2
 
 using Word = std::uint64_t;
@@ -100,12 +93,6 @@ void for_columns(std::size_t first, std::size_t last, F&& f) {
     }
 }
 
-/// Edge lengths of the levels, from the smallest size in the region on; level l serves sizes from edges[l] to
-/// edges[l + 1] (divided by lattice_share).
-int level_of(double size, const std::vector<double>& edges) {
-    return static_cast<int>(std::upper_bound(edges.begin(), edges.end(), lattice_share * size) - edges.begin()) - 1;
-}
-
 /// Part of the region's box, and the levels that the sizes in it belong to.
 struct Block {
     Box box;
@@ -127,7 +114,11 @@ Blocks find_smooth_blocks(const Box& region, const SizeField& size, const std::v
         open.pop_back();
         const auto [low, high] = size.range(box, level_ratio * level_ratio);
         const Block block{box, level_of(low, edges), level_of(high, edges)};
-        if (block.first != block.last && std::max(box.width(), box.height()) > 2 * smallest_block * high) {
+        const double extent = std::max(box.width(), box.height());
+        bool divisible = block.first != block.last && extent > 2 * smallest_block * low;
+        if (!divisible && high > level_ratio * level_ratio * low)
+            divisible = extent > 2 * smallest_block * size.range(box).low;
+        if (divisible) {
             const Point c = box.center();
             Box first = box, second = box;
             if (box.width() > box.height())
@@ -411,14 +402,23 @@ void emit(const Level& level, const Rings& rings, LatticePatches& patches) {
 
 }  // namespace
 
+std::vector<double> level_edges(double low, double high) {
+    std::vector<double> edges{lattice_share * low};
+    while (edges.back() <= lattice_share * high) edges.push_back(edges.back() * level_ratio);
+    return edges;
+}
+
+int level_of(double size, const std::vector<double>& edges) {
+    return static_cast<int>(std::upper_bound(edges.begin(), edges.end(), lattice_share * size) - edges.begin()) - 1;
+}
+
 LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const Segment> segments,
                                  const SizeField& size, std::size_t max_points) {
     LatticePatches patches;
     Box region;
     for (const Segment& s : segments) region.include(points[s.a.index()]);
     const auto [low, high] = size.range(region);
-    std::vector<double> edges{lattice_share * low};
-    while (edges.back() <= lattice_share * high) edges.push_back(edges.back() * level_ratio);
+    const std::vector<double> edges = level_edges(low, high);
 
     const Blocks blocks = find_smooth_blocks(region, size, edges);
     constexpr double worthwhile_share = 0.4;

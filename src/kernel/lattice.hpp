@@ -10,6 +10,19 @@
 
 namespace lamina::kernel {
 
+/// Lattice edges are at most this share of h. Below 1, triangles of them obey the size bound wherever they lie; what is
+/// missing to 1 lets refinement close the seams beside them (docs/decisions/0002).
+inline constexpr double lattice_share = 0.97;
+/// Ratio of the edge lengths of successive levels: sqrt(4/3), a third in area.
+inline constexpr double level_ratio = 1.1547005383792517;
+/// Blocks of fewer edges across are not worth a patch.
+inline constexpr double smallest_block = 6;
+
+/// Edge lengths of the levels for sizes from `low` to `high`: level l serves sizes from edges[l] to edges[l + 1]
+/// (divided by lattice_share).
+std::vector<double> level_edges(double low, double high);
+int level_of(double size, const std::vector<double>& edges);
+
 /// Triangulated patches strictly inside a region, and the collar of loose lattice points round each of them; what lies
 /// between the patches and the border is the seam.
 struct LatticePatches {

@@ -94,7 +94,7 @@ public:
         for (Point p : border) sizes_.push_back(static_cast<float>(size(p)));
         reserve(options.expected_triangles > 0
                     ? options.expected_triangles
-                    : static_cast<std::size_t>(std::min(estimate_triangles(points_, tris_, size), 1e9)));
+                    : static_cast<std::size_t>(std::min(estimate_loads(points_, tris_, size).total, 1e9)));
     }
 
     /// Size first, from a stack, so that work stays in cache; then angles, shortest edge first.

@@ -46,6 +46,7 @@ struct Line {
 /// What becomes of a piece: a cut with the points inside its line, or none.
 struct Verdict {
     double triangles = 0;
+    bool lattice = true;
     struct Cut {
         Corner from, to;
         std::vector<Point> interior;
@@ -59,7 +60,7 @@ public:
         : piece_(points, piece, size), size_(size), rule_(rule) {}
 
     Verdict run(double pieces_target) {
-        Verdict verdict{piece_.triangles()};
+        Verdict verdict{piece_.triangles(), piece_.lattice()};
         if (verdict.triangles <= keep_whole * pieces_target) return verdict;
         std::vector<Line> lines = candidates();
         const std::size_t tried = std::min(lines.size(), most_tried);
@@ -216,7 +217,7 @@ std::vector<SizedPiece> cut_to_size(Skeleton& skeleton, std::vector<Piece> piece
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             const auto& cut = verdicts[i].cut;
             if (!cut) {
-                whole.push_back({std::move(pieces[i]), verdicts[i].triangles});
+                whole.push_back({std::move(pieces[i]), verdicts[i].triangles, verdicts[i].lattice});
                 continue;
             }
             std::vector<VertexId> line;

@@ -14,6 +14,7 @@ namespace lamina::outer {
 struct SizedPiece {
     Piece piece;
     double triangles;  ///< estimated
+    bool lattice;      ///< whether a lattice may pay in it
 };
 
 /// Cuts every piece of more than about 1.5 x `pieces_target` triangles in two, and the halves again, by lines between

@@ -96,6 +96,7 @@ Subdomain make_subdomain(const Skeleton& skeleton, const SizedPiece& sized, cons
     Subdomain s;
     s.min_angle_deg = min_angle_deg;
     s.estimated_triangles = sized.triangles;
+    s.lattice = sized.lattice;
     for (const auto& loop : sized.piece.loops) s.global.insert(s.global.end(), loop.begin(), loop.end());
     std::sort(s.global.begin(), s.global.end());
     s.global.erase(std::unique(s.global.begin(), s.global.end()), s.global.end());
@@ -165,6 +166,7 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
 Refinement refine(const Subdomain& subdomain) {
     return refine(subdomain.points, subdomain.segments, subdomain.size,
                   {.min_angle_deg = subdomain.min_angle_deg,
+                   .lattice = subdomain.lattice,
                    .expected_triangles = static_cast<std::size_t>(subdomain.estimated_triangles)});
 }
 

@@ -42,7 +42,6 @@ PieceTriangulation::PieceTriangulation(std::span<const Point> points, const Piec
     kernel::insert_segments(points_, segments, tris_);
     tris_ = kernel::keep_left_of_segments(segments, tris_, points_.size());
     loads_ = kernel::estimate_loads(points_, tris_, size);
-    for (const kernel::Load& load : loads_.loads) total_ += load.triangles;
 
     for (std::size_t l = 0; l < loops_.size(); ++l)
         for (std::size_t i = 0; i < loops_[l].size(); ++i)
@@ -86,7 +85,7 @@ void PieceTriangulation::sum_up() {
 double PieceTriangulation::beyond(Index t, unsigned edge) const {
     const Link link = tris_[t].n[edge];
     if (link.is_fixed() || below_.empty()) return 0;
-    return to_root_[t] == edge ? total_ - below_[t] : below_[link.triangle()];
+    return to_root_[t] == edge ? triangles() - below_[t] : below_[link.triangle()];
 }
 
 const PieceTriangulation::BorderEdge& PieceTriangulation::border_edge(Index a, Index b) const {

@@ -21,7 +21,9 @@ public:
     /// `points` holds the piece's vertices by their ids.
     PieceTriangulation(std::span<const Point> points, const Piece& piece, const SizeField& size);
 
-    double triangles() const { return total_; }
+    double triangles() const { return loads_.total; }
+    /// Whether a lattice may pay in it.
+    bool lattice() const { return loads_.lattice; }
 
     Point point(Corner c) const { return points_[vertex(c)]; }
     Corner next(Corner c) const { return {c.loop, c.place + 1 < loops_[c.loop].size() ? c.place + 1 : 0}; }
@@ -61,7 +63,6 @@ private:
     std::vector<Point> points_;
     kernel::Tris tris_;
     kernel::Loads loads_;
-    double total_ = 0;
     std::vector<BorderEdge> border_;  ///< sorted
     /// Triangles of a piece with one loop form a tree: the edge towards the root, and what the triangles below hold
     /// together with this one.

@@ -42,9 +42,12 @@ QuarterRing measure(const Box& near_body, const Box& outermost, const SizeField&
             const double width = distance(midpoint(from[side], from[end]), midpoint(to[side], to[end]));
             constexpr int samples = 4;
             for (int i = 0; i < samples; ++i) {
-                const double h = size(a + ((i + 0.5) / samples) * (b - a));
-                quarter.triangles +=
-                    kernel::estimated_triangles(std::abs(area), 1 / (h * h), size.gradation()) / (4 * samples);
+                const double along = (i + 0.5) / samples;
+                const double h = size(a + along * (b - a));
+                const double nearer = size(from[side] + along * (from[end] - from[side]));
+                const double farther = size(to[side] + along * (to[end] - to[side]));
+                const double gradient = std::abs(farther - nearer) / width;
+                quarter.triangles += kernel::estimated_triangles(std::abs(area), 1 / (h * h), gradient) / (4 * samples);
                 quarter.radial += width / h / (4 * samples);
                 quarter.tangential += distance(a, b) * (next - t) / ((outer - inner) * h) / (4 * samples);
             }

@@ -118,11 +118,8 @@ TEST(Refine, LatticePatchesKeepEveryPromise) {
     }
 }
 
-TEST(Refine, LatticePatchesOfManyLevelsKeepEveryPromise) {
-    // Sizes grow from a corner by a factor of 8, under one percent an edge.
-    const std::vector<SizeSource> sources{{{-0.1, -0.2}, {-0.1, -0.2}, 1e-3}};
-    const SizeField size(sources, {.gradation = 0.006}, {{-1, -1}, {2, 2}});
-    const std::vector<Point> corners{{0, 0}, {0.9, -0.1}, {1.2, 0.8}, {0.3, 1}, {0.1, 0.5}};
+/// The polygon's sides divided as the size field asks.
+Border graded_border(const std::vector<Point>& corners, const SizeField& size) {
     Border border;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         border.points.push_back(corners[i]);
@@ -130,12 +127,37 @@ TEST(Refine, LatticePatchesOfManyLevelsKeepEveryPromise) {
              outer::separate(corners[i], corners[(i + 1) % corners.size()], size, SeparatorRule::equidistributed))
             border.points.push_back(p);
     }
+    for (std::size_t i = 0; i < border.points.size(); ++i)
+        border.segments.push_back({VertexId{i}, VertexId{(i + 1) % border.points.size()}});
+    return border;
+}
+
+double enclosed_area(const Border& border) {
     double area = 0;
-    for (std::size_t i = 0; i < border.points.size(); ++i) {
-        const std::size_t next = (i + 1) % border.points.size();
-        border.segments.push_back({VertexId{i}, VertexId{next}});
-        area += 0.5 * cross(border.points[i], border.points[next]);
-    }
+    for (const Segment& s : border.segments)
+        area += 0.5 * cross(border.points[s.a.index()], border.points[s.b.index()]);
+    return area;
+}
+
+TEST(Refine, LatticePatchesAreFoundInACornerOfASteepField) {
+    // One size in a thousandth of the region, which holds most of the triangles; outside it h doubles within ten edges.
+    const std::vector<SizeSource> sources{{.a = {-1, -1}, .b = {1, 1}, .size = 0.01, .shape = SizeSource::Shape::box}};
+    const SizeField size(sources, {.gradation = 0.1}, {{-1, -1}, {31, 31}});
+    const Border border = graded_border({{0, 0}, {31, 0}, {31, 31}, {0, 31}}, size);
+    const RefineOptions with, without{.lattice = false};
+    const Refinement r = refine(border.points, border.segments, size, with);
+    expect_promises(border, r, size, with, enclosed_area(border));
+    EXPECT_LT(double(r.triangles.size()),
+              0.85 * double(refine(border.points, border.segments, size, without).triangles.size()));
+}
+
+TEST(Refine, LatticePatchesOfManyLevelsKeepEveryPromise) {
+    // Sizes grow from a corner by a factor of 8, under one percent an edge.
+    const std::vector<SizeSource> sources{{{-0.1, -0.2}, {-0.1, -0.2}, 1e-3}};
+    const SizeField size(sources, {.gradation = 0.006}, {{-1, -1}, {2, 2}});
+    const std::vector<Point> corners{{0, 0}, {0.9, -0.1}, {1.2, 0.8}, {0.3, 1}, {0.1, 0.5}};
+    const Border border = graded_border(corners, size);
+    const double area = enclosed_area(border);
     const RefineOptions with, without{.lattice = false};
     const Refinement r = refine(border.points, border.segments, size, with);
     expect_promises(border, r, size, with, area);
@@ -152,13 +174,10 @@ TEST(Refine, LatticePatchesStayOutOfHolesNotchesAndThinParts) {
     border.add_loop({{0, 0}, {2, 0}, {2, 0.05}, {1.2, 0.06}, {1.2, 1}, {1.02, 0.1}, {1, 1}, {0.5, 1.2}, {0, 1}},
                     0.8 * h);
     border.add_loop({{0.3, 0.3}, {0.35, 0.7}, {0.7, 0.75}, {0.6, 0.3}}, 0.8 * h);
-    double area = 0;
-    for (const Segment& s : border.segments)
-        area += 0.5 * cross(border.points[s.a.index()], border.points[s.b.index()]);
     const SizeField size(h);
     const RefineOptions options;
     const Refinement r = refine(border.points, border.segments, size, options);
-    expect_promises(border, r, size, options, area);
+    expect_promises(border, r, size, options, enclosed_area(border));
     // The needle's tip leaves what it leaves without patches, too.
     const Refinement pure = refine(border.points, border.segments, size, {.lattice = false});
     EXPECT_EQ(r.stats.below_bound, pure.stats.below_bound);
@@ -177,11 +196,10 @@ TEST(Refine, LatticePatchesOfRandomPolygons) {
         const double h = random.real(0.008, 0.03);
         Border border;
         border.add_loop(corners, 0.8 * h);
-        double area = 0;
-        for (int i = 0; i < n; ++i) area += 0.5 * cross(corners[i], corners[(i + 1) % n]);
         const SizeField size(h);
         const RefineOptions options;
-        expect_promises(border, refine(border.points, border.segments, size, options), size, options, area);
+        expect_promises(border, refine(border.points, border.segments, size, options), size, options,
+                        enclosed_area(border));
     }
 }
 
