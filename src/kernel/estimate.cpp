@@ -167,7 +167,10 @@ Loads estimate_loads(std::span<const Point> points, const Tris& tris, const Size
         sums.low = std::min(sums.low, part.low);
         sums.high = std::max(sums.high, part.high);
     }
-    const std::vector<double> edges = parts.empty() ? std::vector<double>{} : level_edges(sums.low, 1.01 * sums.high);
+    std::vector<SizeCount> counts;
+    for (const Part& part : parts) counts.push_back({part.low, part.high, part.bound});
+    const std::vector<double> edges =
+        parts.empty() ? std::vector<double>{} : level_edges(sums.low, 1.01 * sums.high, std::move(counts));
     for (const Part& part : parts) {
         sums.bound += part.bound;
         if (!is_even(part)) continue;

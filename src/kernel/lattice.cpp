@@ -93,9 +93,10 @@ void for_columns(std::size_t first, std::size_t last, F&& f) {
     }
 }
 
-/// Part of the region's box, and the levels that the sizes in it belong to.
+/// Part of the region's box, the sizes in it, and the levels that they belong to.
 struct Block {
     Box box;
+    SizeCount count;
     int first, last;
 };
 
@@ -113,9 +114,9 @@ Blocks find_smooth_blocks(const Box& region, const SizeField& size, const std::v
         const Box box = open.back();
         open.pop_back();
         const auto [low, high] = size.range(box, level_ratio * level_ratio);
-        const Block block{box, level_of(low, edges), level_of(high, edges)};
+        const int first_level = level_of(low, edges), last_level = level_of(high, edges);
         const double extent = std::max(box.width(), box.height());
-        bool divisible = block.first != block.last && extent > 2 * smallest_block * low;
+        bool divisible = first_level != last_level && extent > 2 * smallest_block * low;
         if (!divisible && high > level_ratio * level_ratio * low)
             divisible = extent > 2 * smallest_block * size.range(box).low;
         if (divisible) {
@@ -133,9 +134,21 @@ Blocks find_smooth_blocks(const Box& region, const SizeField& size, const std::v
         blocks.triangles += triangles;
         if (high > level_ratio * low) continue;
         blocks.triangles_in_smooth += triangles;
-        blocks.smooth.push_back(block);
+        blocks.smooth.push_back({box, {low, high, triangles}, first_level, last_level});
     }
     return blocks;
+}
+
+/// Levels for the sizes of the blocks, which are told theirs.
+std::vector<double> choose_levels(double low, double high, std::vector<Block>& blocks) {
+    std::vector<SizeCount> counts;
+    for (const Block& block : blocks) counts.push_back(block.count);
+    std::vector<double> edges = level_edges(low, high, std::move(counts));
+    for (Block& block : blocks) {
+        block.first = level_of(block.count.low, edges);
+        block.last = level_of(block.count.high, edges);
+    }
+    return edges;
 }
 
 /// Sets the vertices inside the block whose size belongs to the level.
@@ -402,8 +415,24 @@ void emit(const Level& level, const Rings& rings, LatticePatches& patches) {
 
 }  // namespace
 
-std::vector<double> level_edges(double low, double high) {
-    std::vector<double> edges{lattice_share * low};
+std::vector<double> level_edges(double low, double high, std::vector<SizeCount> counts) {
+    // Of single precision, as the size field is; of one size is what differs by less.
+    constexpr double rounding = 1e-6, alike = 1e-3;
+    std::erase_if(counts, [](const SizeCount& c) { return c.high > (1 + alike) * c.low; });
+    std::sort(counts.begin(), counts.end(), [](const SizeCount& a, const SizeCount& b) {
+        return a.low != b.low ? a.low < b.low : a.triangles < b.triangles;
+    });
+    double foot = low, most = 0;
+    for (std::size_t i = 0; i < counts.size();) {
+        const double first = counts[i].low;
+        double triangles = 0;
+        for (; i < counts.size() && counts[i].low <= (1 + alike) * first; ++i) triangles += counts[i].triangles;
+        if (triangles <= most) continue;
+        most = triangles;
+        foot = (1 - rounding) * first;
+    }
+    while (foot > low) foot /= level_ratio;
+    std::vector<double> edges{lattice_share * foot};
     while (edges.back() <= lattice_share * high) edges.push_back(edges.back() * level_ratio);
     return edges;
 }
@@ -418,12 +447,11 @@ LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const 
     Box region;
     for (const Segment& s : segments) region.include(points[s.a.index()]);
     const auto [low, high] = size.range(region);
-    const std::vector<double> edges = level_edges(low, high);
-
-    const Blocks blocks = find_smooth_blocks(region, size, edges);
+    Blocks blocks = find_smooth_blocks(region, size, level_edges(low, high, {}));
     constexpr double worthwhile_share = 0.4;
     if (blocks.triangles_in_smooth < worthwhile_share * blocks.triangles) return patches;
 
+    const std::vector<double> edges = choose_levels(low, high, blocks.smooth);
     std::vector<Level> levels(edges.size() - 1);
     for (std::size_t l = 0; l < levels.size(); ++l) levels[l].edge = edges[l];
     for (const Block& b : blocks.smooth)

@@ -18,9 +18,15 @@ inline constexpr double level_ratio = 1.1547005383792517;
 /// Blocks of fewer edges across are not worth a patch.
 inline constexpr double smallest_block = 6;
 
+/// Where sizes are from low to high, about so many triangles.
+struct SizeCount {
+    double low, high, triangles;
+};
+
 /// Edge lengths of the levels for sizes from `low` to `high`: level l serves sizes from edges[l] to edges[l + 1]
-/// (divided by lattice_share).
-std::vector<double> level_edges(double low, double high);
+/// (divided by lattice_share). The foot of a level, where its lattice fits best, is at the one size that most triangles
+/// have: in a box, a disc or under a cap; at `low` where there is none.
+std::vector<double> level_edges(double low, double high, std::vector<SizeCount> counts);
 int level_of(double size, const std::vector<double>& edges);
 
 /// Triangulated patches strictly inside a region, and the collar of loose lattice points round each of them; what lies

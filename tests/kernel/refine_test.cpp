@@ -151,6 +151,20 @@ TEST(Refine, LatticePatchesAreFoundInACornerOfASteepField) {
               0.85 * double(refine(border.points, border.segments, size, without).triangles.size()));
 }
 
+TEST(Refine, LatticePatchesFitTheCommonestSize) {
+    // Something finer beside it does not make the lattice finer.
+    const Border border = square_border(1, 0.008);
+    const RefineOptions options;
+    const double alone = double(refine(border.points, border.segments, SizeField(0.01), options).triangles.size());
+    for (double fine : {0.0051, 0.0055, 0.006, 0.0065}) {
+        const std::vector<SizeSource> sources{{{0.5, 0.5}, {0.5, 0.5}, fine}};
+        const SizeField size(sources, {.gradation = 0.1, .max_size = 0.01}, {{0, 0}, {1, 1}});
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, 1);
+        EXPECT_LT(double(r.triangles.size()), 1.05 * alone) << fine;
+    }
+}
+
 TEST(Refine, LatticePatchesOfManyLevelsKeepEveryPromise) {
     // Sizes grow from a corner by a factor of 8, under one percent an edge.
     const std::vector<SizeSource> sources{{{-0.1, -0.2}, {-0.1, -0.2}, 1e-3}};
