@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/equilateral.hpp"
+#include "core/parallel.hpp"
 #include "kernel/lattice.hpp"
 
 namespace lamina::kernel {
@@ -70,14 +71,15 @@ Part make_part(const Corner& a, const Corner& b, const Corner& c, double inside,
 struct Limits {
     double short_edges;  ///< all edges shorter than this: h in the middle is taken for the mean of the corners'
     /// Edges longer than this are halved: a source inside lowers h up to a distance of h / gradation, and parts are
-    /// small enough to tell which side of a line they lie on.
+    /// small enough, against the whole of the piece, to tell which side of a line they lie on.
     double long_edge;
     double little_area;  ///< unless there is so little in the triangle that it does not matter
 };
 
-Limits limits(const SizeField& size) {
+Limits limits(const SizeField& size, std::size_t border_points) {
     const double reach = 1 / size.gradation();
-    return {std::clamp(0.3 * reach, 1.0, 40.0), std::clamp(1.6 * reach, 16.0, 40.0), 4};
+    const double widest = std::max(40.0, static_cast<double>(border_points) / 40);
+    return {std::clamp(0.3 * reach, 1.0, 40.0), std::clamp(1.6 * reach, 16.0, widest), 4};
 }
 
 /// Appends the parts of a triangle, which is halved at its longest edge until h differs little between the corners and
@@ -149,18 +151,35 @@ double estimated_triangles(double area, double mean_inverse_square_size, double 
 }
 
 Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size) {
-    constexpr int deepest = 40;  // halvings of one triangle: a guard only
-    const Limits limit = limits(size);
+    constexpr int deepest = 40;         // halvings of one triangle: a guard only
+    constexpr std::size_t grain = 256;  // triangles a block
+    const Limits limit = limits(size, points.size());
     std::vector<double> sizes(points.size());
     std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return size(p); });
+    struct Divided {
+        std::vector<Part> parts;
+        std::vector<std::size_t> ends;  // of each triangle's parts
+        std::size_t border_edges = 0;
+    };
+    const auto divide_block = [&](std::size_t begin, std::size_t end) {
+        Divided divided;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Tri& t = tris[i];
+            const auto corner = [&](Index v) { return Corner{points[v], sizes[v]}; };
+            divide(corner(t.v[0]), corner(t.v[1]), corner(t.v[2]), size, limit, deepest, divided.parts);
+            divided.ends.push_back(divided.parts.size());
+            divided.border_edges +=
+                static_cast<std::size_t>(std::count_if(t.n, t.n + 3, [](Link n) { return n.is_fixed(); }));
+        }
+        return divided;
+    };
     Loads result;
     Sums sums;
     std::vector<Part> parts;
-    for (const Tri& t : tris) {
-        const auto corner = [&](Index v) { return Corner{points[v], sizes[v]}; };
-        divide(corner(t.v[0]), corner(t.v[1]), corner(t.v[2]), size, limit, deepest, parts);
-        result.begin.push_back(parts.size());
-        sums.border_edges += static_cast<double>(std::count_if(t.n, t.n + 3, [](Link n) { return n.is_fixed(); }));
+    for (const Divided& divided : parallel_blocks(tris.size(), grain, divide_block)) {
+        for (const std::size_t end : divided.ends) result.begin.push_back(parts.size() + end);
+        parts.insert(parts.end(), divided.parts.begin(), divided.parts.end());
+        sums.border_edges += static_cast<double>(divided.border_edges);
     }
 
     for (const Part& part : parts) {

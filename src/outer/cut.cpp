@@ -103,9 +103,17 @@ private:
         std::size_t corners = 0;
         for (std::size_t l = 0; l < piece_.loops(); ++l) corners += piece_.corners(l);
         const std::size_t stride = std::max<std::size_t>(1, corners / most_origins);
-        std::vector<Line> lines;
+        std::vector<Corner> origins;
         for (std::size_t l = 0; l < piece_.loops(); ++l)
-            for (std::size_t i = 0; i < piece_.corners(l); i += stride) add_lines_from({l, i}, lines);
+            for (std::size_t i = 0; i < piece_.corners(l); i += stride) origins.push_back({l, i});
+        std::vector<Line> lines;
+        const auto lines_of = [&](std::size_t begin, std::size_t end) {
+            std::vector<Line> found;
+            for (std::size_t i = begin; i < end; ++i) add_lines_from(origins[i], found);
+            return found;
+        };
+        for (const std::vector<Line>& found : parallel_blocks(origins.size(), 4, lines_of))
+            lines.insert(lines.end(), found.begin(), found.end());
         return lines;
     }
 
