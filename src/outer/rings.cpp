@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "kernel/estimate.hpp"
 #include "outer/separators.hpp"
 #include "outer/skeleton.hpp"
@@ -78,14 +79,41 @@ void plan(const Box& near_body, const Box& outermost, const SizeField& size, dou
     }
 }
 
-/// The line from u to v as a chain of vertices, its interior ones new.
-std::vector<VertexId> add_line(Skeleton& skeleton, VertexId u, VertexId v, const SizeField& size, SeparatorRule rule) {
-    constexpr std::size_t fewest = 3;
-    std::vector<VertexId> chain{u};
-    for (Point p : separate(skeleton.points[u.index()], skeleton.points[v.index()], size, rule, fewest))
-        chain.push_back(skeleton.add_point(p));
-    chain.push_back(v);
-    return chain;
+/// A straight line between two vertices of the skeleton, still to be divided.
+struct RingLine {
+    VertexId from, to;
+    bool outermost = false;
+};
+
+/// The lines round the boxes, from the near-body box outwards, and the separators of the rings. Where they meet the
+/// skeleton gets vertices.
+std::vector<RingLine> add_junctions(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body,
+                                    const Box& outermost) {
+    std::vector<RingLine> lines;
+    // junctions[level][side * per_side + j]: where separators meet the box between two rings.
+    std::vector<std::vector<VertexId>> junctions(rings.size() + 1);
+    std::vector<std::size_t> per_side(rings.size() + 1);
+    for (std::size_t level = 0; level <= rings.size(); ++level) {
+        const std::size_t below = level > 0 ? rings[level - 1].per_side : 1;
+        const std::size_t above = level < rings.size() ? rings[level].per_side : 1;
+        const std::size_t n = per_side[level] = std::max(below, above);
+        const auto corner =
+            corners_of(level < rings.size() ? box_at(near_body, outermost, rings[level].inner) : outermost);
+        for (std::size_t side = 0; side < 4; ++side)
+            for (std::size_t j = 0; j < n; ++j)
+                junctions[level].push_back(
+                    skeleton.add_point(corner[side] + (static_cast<double>(j) / static_cast<double>(n)) *
+                                                          (corner[(side + 1) % 4] - corner[side])));
+        for (std::size_t j = 0; j < 4 * n; ++j)
+            lines.push_back({junctions[level][j], junctions[level][(j + 1) % (4 * n)], level == rings.size()});
+    }
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+        const std::size_t n = rings[ring].per_side;
+        for (std::size_t j = 0; j < 4 * n; ++j)
+            lines.push_back(
+                {junctions[ring][j * (per_side[ring] / n)], junctions[ring + 1][j * (per_side[ring + 1] / n)]});
+    }
+    return lines;
 }
 
 }  // namespace
@@ -109,36 +137,20 @@ std::vector<Ring> plan_rings(const Box& near_body, const Box& outermost, const S
 
 std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const Box& near_body,
                                const Box& outermost, const SizeField& size, SeparatorRule rule, bool something_beyond) {
+    const std::vector<RingLine> lines = add_junctions(skeleton, rings, near_body, outermost);
+    const auto interiors = parallel_blocks(lines.size(), 1, [&](std::size_t i, std::size_t) {
+        constexpr std::size_t fewest = 3;
+        return separate(skeleton.points[lines[i].from.index()], skeleton.points[lines[i].to.index()], size, rule,
+                        fewest);
+    });
     std::vector<Segment> outermost_edges;
-    // junctions[level][side * per_side + j]: where separators meet the box between two rings.
-    std::vector<std::vector<VertexId>> junctions(rings.size() + 1);
-    std::vector<std::size_t> per_side(rings.size() + 1);
-    for (std::size_t level = 0; level <= rings.size(); ++level) {
-        const std::size_t below = level > 0 ? rings[level - 1].per_side : 1;
-        const std::size_t above = level < rings.size() ? rings[level].per_side : 1;
-        const std::size_t n = per_side[level] = std::max(below, above);
-        const auto corner =
-            corners_of(level < rings.size() ? box_at(near_body, outermost, rings[level].inner) : outermost);
-        for (std::size_t side = 0; side < 4; ++side)
-            for (std::size_t j = 0; j < n; ++j)
-                junctions[level].push_back(
-                    skeleton.add_point(corner[side] + (static_cast<double>(j) / static_cast<double>(n)) *
-                                                          (corner[(side + 1) % 4] - corner[side])));
-        const bool last = level == rings.size();
-        for (std::size_t j = 0; j < 4 * n; ++j) {
-            const auto chain = add_line(skeleton, junctions[level][j], junctions[level][(j + 1) % (4 * n)], size, rule);
-            skeleton.add_chain(chain, !last || something_beyond);
-            if (last)
-                for (std::size_t i = 0; i + 1 < chain.size(); ++i) outermost_edges.push_back({chain[i], chain[i + 1]});
-        }
-    }
-    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
-        const std::size_t n = rings[ring].per_side;
-        for (std::size_t j = 0; j < 4 * n; ++j) {
-            const VertexId inner = junctions[ring][j * (per_side[ring] / n)];
-            const VertexId outer = junctions[ring + 1][j * (per_side[ring + 1] / n)];
-            skeleton.add_chain(add_line(skeleton, inner, outer, size, rule), true);
-        }
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        std::vector<VertexId> chain{lines[i].from};
+        for (Point p : interiors[i]) chain.push_back(skeleton.add_point(p));
+        chain.push_back(lines[i].to);
+        skeleton.add_chain(chain, !lines[i].outermost || something_beyond);
+        if (!lines[i].outermost) continue;
+        for (std::size_t k = 0; k + 1 < chain.size(); ++k) outermost_edges.push_back({chain[k], chain[k + 1]});
     }
     return outermost_edges;
 }
