@@ -77,9 +77,10 @@ struct Limits {
 };
 
 Limits limits(const SizeField& size, std::size_t border_points) {
-    const double reach = 1 / size.gradation();
-    const double widest = std::max(40.0, static_cast<double>(border_points) / 40);
-    return {std::clamp(0.3 * reach, 1.0, 40.0), std::clamp(1.6 * reach, 16.0, widest), 4};
+    const double reach = 1 / size.gradation(), border = static_cast<double>(border_points);
+    // A piece is about border / 4 edges wide: parts up to a tenth of that, or with 0.05 % of what it holds.
+    return {std::clamp(0.3 * reach, 1.0, 40.0), std::clamp(1.6 * reach, 16.0, std::max(40.0, border / 40)),
+            std::clamp(3e-5 * border * border, 4.0, 64.0)};
 }
 
 /// Appends the parts of a triangle, which is halved at its longest edge until h differs little between the corners and
