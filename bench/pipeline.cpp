@@ -1,17 +1,33 @@
-// The whole way from a NACA name to a checked mesh, by threads; counters: triangles, and triangles a second.
+// The whole way from a NACA name to a checked mesh.
+#include <string>
+#include <vector>
+
 #include <benchmark/benchmark.h>
 
 #include <lamina/pipeline.hpp>
 
-namespace lamina {
+#include "paired.hpp"
+#include "pipeline/size_sources.hpp"
+
+namespace lamina::bench {
 namespace {
 
-void naca0012(benchmark::State& state) {
+/// The thesis's case (Figs. 24 to 28).
+CaseOptions naca0012_options(double gradation) {
     CaseOptions options;
     options.layer.first_height = 2.5e-5;
     options.layer.growth = 1.15;
+    options.layer.layers = 30;
     options.layer.max_ray_angle_deg = 4;
     options.far_field = 50;
+    options.gradation = gradation;
+    options.threads = 1;
+    return options;
+}
+
+/// By threads.
+void naca0012(benchmark::State& state) {
+    CaseOptions options = naca0012_options(0.1);
     options.threads = static_cast<unsigned>(state.range(0));
     std::size_t triangles = 0;
     for (auto _ : state) triangles = generate_mesh({"naca:0012"}, options).mesh.triangles.size();
@@ -21,5 +37,52 @@ void naca0012(benchmark::State& state) {
 }
 BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->UseRealTime();
 
+#ifdef LAMINA_BENCH_TRIANGLE
+/// What lies between the layer and the far field, both divided as ours are.
+Work triangle_outside_the_layer(const CaseOptions& options) {
+    Pslg pslg = prepare_surfaces(read_geometry(std::vector<std::string>{"naca:0012"}), surface_options(options));
+    const DecouplingOptions far{.far_field = options.far_field, .chord = 1, .center = {0.5, 0}};
+    const SizedLayer layer = make_sized_layer(pslg, options, far_field_box(far));
+    const SizeField field = make_size_field(layer, options, far_field_box(far));
+    const Decoupling outer = decouple(layer.layer.points, layer.layer.borders, field, far);
+
+    std::vector<Point> points;
+    std::vector<VertexId> number(outer.points.size());
+    std::vector<Segment> segments = outer.far_field;
+    for (const auto& border : layer.layer.borders)
+        for (std::size_t i = 0; i < border.size(); ++i)
+            segments.push_back({border[i], border[i + 1 < border.size() ? i + 1 : 0]});
+    for (Segment& s : segments)
+        for (VertexId* v : {&s.a, &s.b}) {
+            VertexId& mine = number[v->index()];
+            if (!mine.valid()) {
+                mine = VertexId{points.size()};
+                points.push_back(outer.points[v->index()]);
+            }
+            *v = mine;
+        }
+    return triangle_refine(points, segments, {0.5, 0}, field, options.min_angle_deg);
+}
+#endif
+
+/// All of our run, layer and check included, on one thread, and Triangle for the region outside the layer alone.
+/// Argument: gradation in units of 1e-5.
+void whole_run(benchmark::State& state) {
+    const CaseOptions options = naca0012_options(1e-5 * static_cast<double>(state.range(0)));
+    std::vector<Reference> references;
+#ifdef LAMINA_BENCH_TRIANGLE
+    references.push_back({"triangle", triangle_outside_the_layer(options)});
+#endif
+    measure(
+        state, "triangles",
+        [&] {
+            const MeshResult result = generate_mesh({"naca:0012"}, options);
+            state.counters["check_s"] = result.seconds.check;
+            return result.mesh.triangles.size();
+        },
+        references);
+}
+BENCHMARK(whole_run)->Arg(597)->Arg(472)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
+
 }  // namespace
-}  // namespace lamina
+}  // namespace lamina::bench

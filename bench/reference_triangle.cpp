@@ -20,7 +20,9 @@ namespace {
 
 /// The size function in force: Triangle's hook has no other way to it.
 struct {
-    double size, gradation, factor;
+    double size, gradation;
+    const SizeField* field;  // where there is one it counts
+    double factor;
 } sizing;
 
 /// Input as Triangle wants it.
@@ -74,31 +76,52 @@ Work triangle_constrained(std::span<const Point> points, std::span<const Segment
     return single_call(Input(points, segments), "pczQBPN");
 }
 
+namespace {
+
+/// With `sizing` but for its factor set by the caller. `area`: sqrt(3)/4 h^2 where h is the same everywhere, else 0.
+std::size_t refine_in_passes(triangulateio io, double area, double min_angle_deg) {
+    char angle[32];
+    std::snprintf(angle, sizeof angle, "%.4f", min_angle_deg);
+    bool first = true;
+    for (const double factor : {4096.0, 256.0, 16.0, 1.0}) {
+        sizing.factor = factor;
+        std::string switches = std::string(first ? "p" : "rp") + "YYzQBq" + angle;
+        if (area > 0) {  // its own test, without a call for each triangle
+            char bound[64];
+            std::snprintf(bound, sizeof bound, "a%.24f", area * factor);
+            switches += bound;
+        } else {
+            switches += "u";
+        }
+        triangulateio out = call(switches, io);
+        if (!first) free_output(io);
+        io = out;
+        first = false;
+    }
+    const auto triangles = static_cast<std::size_t>(io.numberoftriangles);
+    free_output(io);
+    return triangles;
+}
+
+}  // namespace
+
 Work triangle_refine(std::span<const Point> points, std::span<const Segment> segments, double size, double gradation,
                      double min_angle_deg) {
     return [input = Input(points, segments), size, gradation, min_angle_deg]() mutable {
-        char angle[32];
-        std::snprintf(angle, sizeof angle, "%.4f", min_angle_deg);
-        triangulateio io = view(input);
-        bool first = true;
-        for (const double factor : {4096.0, 256.0, 16.0, 1.0}) {
-            sizing = {size, gradation, factor};
-            std::string switches = std::string(first ? "p" : "rp") + "YYzQBq" + angle;
-            if (gradation == 0) {  // its own test, without a call for each triangle
-                char area[64];
-                std::snprintf(area, sizeof area, "a%.24f", std::sqrt(3.0) / 4 * size * size * factor);
-                switches += area;
-            } else {
-                switches += "u";
-            }
-            triangulateio out = call(switches, io);
-            if (!first) free_output(io);
-            io = out;
-            first = false;
-        }
-        const auto triangles = static_cast<std::size_t>(io.numberoftriangles);
-        free_output(io);
-        return triangles;
+        sizing = {size, gradation, nullptr, 1};
+        return refine_in_passes(view(input), gradation == 0 ? std::sqrt(3.0) / 4 * size * size : 0, min_angle_deg);
+    };
+}
+
+Work triangle_refine(std::span<const Point> points, std::span<const Segment> segments, Point hole,
+                     const SizeField& field, double min_angle_deg) {
+    return [input = Input(points, segments), hole, field, min_angle_deg]() mutable {
+        sizing = {0, 0, &field, 1};
+        triangulateio in = view(input);
+        REAL holes[] = {hole.x, hole.y};
+        in.holelist = holes;
+        in.numberofholes = 1;
+        return refine_in_passes(in, 0, min_angle_deg);
     };
 }
 
@@ -106,6 +129,7 @@ Work triangle_refine(std::span<const Point> points, std::span<const Segment> seg
 
 int triunsuitable(REAL* a, REAL* b, REAL* c, REAL area) {
     const auto& s = lamina::bench::sizing;
-    const double h = s.size + s.gradation * ((a[0] + b[0] + c[0]) / 3);
+    const lamina::Point center{(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3};
+    const double h = s.field != nullptr ? (*s.field)(center) : s.size + s.gradation * center.x;
     return area > s.factor * 0.43301270189221932 * h * h;
 }

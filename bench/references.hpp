@@ -8,6 +8,7 @@
 
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
 
 namespace lamina::bench {
 
@@ -28,5 +29,9 @@ Work triangle_constrained(std::span<const Point> points, std::span<const Segment
 /// bounded by sqrt(3)/4 h^2, h being the mean over its vertices of h(x) = size + gradation x.
 Work triangle_refine(std::span<const Point> points, std::span<const Segment> segments, double size, double gradation,
                      double min_angle_deg);
+
+/// The same with the size field at the middle of each triangle, in the region round one hole.
+Work triangle_refine(std::span<const Point> points, std::span<const Segment> segments, Point hole,
+                     const SizeField& field, double min_angle_deg);
 
 }  // namespace lamina::bench
