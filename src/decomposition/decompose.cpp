@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "decomposition/border.hpp"
 #include "decomposition/dividing_path.hpp"
@@ -44,29 +45,28 @@ Order deal(Order& order, std::span<const PathVertex> path, std::size_t high_size
     Order high(high_size + 1);  // the entry behind the last may be written, too
     Index *to_low = order.data(), *to_high = high.data();
     const Index* from = order.data();
-    for (const PathVertex& v : path) {
-        for (; *from != v.vertex; ++from) {
-            const Index i = *from;
-            const bool low = is_low(i);
-            *to_low = i;
-            *to_high = i;
-            to_low += low;
-            to_high += !low;
+    // The next entries up to the one that `ends` says is the end.
+    const auto deal_until = [&](auto&& ends) {
+        std::size_t taken = 0, low = 0;
+        for (; !ends(from + taken); ++taken) {
+            const Index i = from[taken];
+            to_low[low] = i;
+            to_high[taken - low] = i;
+            low += is_low(i);
         }
+        from += taken;
+        to_low += low;
+        to_high += taken - low;
+    };
+    for (const PathVertex& v : path) {
+        deal_until([&](const Index* at) { return *at == v.vertex; });
         ++from;
         *to_low = v.vertex;
         *to_high = v.vertex;
         to_low += v.to_low;
         to_high += v.to_high;
     }
-    for (; from != order.end(); ++from) {
-        const Index i = *from;
-        const bool low = is_low(i);
-        *to_low = i;
-        *to_high = i;
-        to_low += low;
-        to_high += !low;
-    }
+    deal_until([end = order.end()](const Index* at) { return at == end; });
     order.shrink(static_cast<std::size_t>(to_low - order.data()));
     assert(to_high == high.data() + high_size);
     high.shrink(high_size);
@@ -104,6 +104,16 @@ Order split(Order& order, std::size_t place, std::span<const PathVertex> path, s
     return high;
 }
 
+template <class Rank>
+std::vector<PathVertex> sorted_by(std::span<const PathVertex> vertices, Rank&& rank) {
+    std::vector<std::uint64_t> places(vertices.size());  // the rank above
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = std::uint64_t{rank(vertices[i].vertex)} << 32 | i;
+    std::sort(places.begin(), places.end());
+    std::vector<PathVertex> sorted(vertices.size());
+    for (std::size_t i = 0; i < places.size(); ++i) sorted[i] = vertices[static_cast<std::uint32_t>(places[i])];
+    return sorted;
+}
+
 /// Both parts, where the cut will do.
 std::optional<Halves> try_cut(const SortedPoints& sorted, Subdomain& subdomain, Axis axis, double share,
                               DecompositionStats& stats) {
@@ -133,10 +143,8 @@ std::optional<Halves> try_cut(const SortedPoints& sorted, Subdomain& subdomain, 
     }
 
     // In the orders along the cut and across it.
-    std::vector<PathVertex> sorted_vertices = vertices;
+    const std::vector<PathVertex> sorted_vertices = sorted_by(vertices, rank);
     if (axis == Axis::y) std::reverse(vertices.begin(), vertices.end());
-    std::sort(sorted_vertices.begin(), sorted_vertices.end(),
-              [&](const PathVertex& l, const PathVertex& r) { return rank(l.vertex) < rank(r.vertex); });
     Halves halves;
     if (axis == Axis::x) {
         halves.high.by_x = split(subdomain.by_x, place, sorted_vertices, high_size, rank);

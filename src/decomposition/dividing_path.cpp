@@ -4,12 +4,11 @@
 // Delaunay algorithm, Algorithmica 24 (1999); C. Kadow, PhD thesis, Carnegie Mellon (2004); J. K. Pardue, thesis
 // (2015), 4.3; monotone chain: A. M. Andrew, Inf. Proc. Letters 9 (1979).
 //
-//        height                                   Only points near the cut can be on the hull. The few points nearest
-//        to
-//          |  o      o                            it, which stand side by side in the order across, make a rough chain.
-//          |    o       o  o   o                  The hull lies below the chain, so a point counts only if it is no
-//          |  *   o  *         *                  farther from the cut than the chain is high above the parabola over
-//          |   \__*__/ \__*___/     along         the cut: which is a range of places in the order across.
+//        height                                   Only points near the cut can be on the hull. Some points near it and
+//          |  o      o                            some of all along it make a rough chain. The hull lies below the chain,
+//          |    o       o  o   o                  so a point counts only if it is no farther from the cut than the chain
+//          |  *   o  *         *                  is high above the parabola over the cut. Where that reaches few points
+//          |   \__*__/ \__*___/     along         they are found in the order across, else in the order along the cut.
 //
 // Ties: the height of every point is lowered infinitesimally, the smallest point's most.
 #include "decomposition/dividing_path.hpp"
@@ -17,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "core/predicates.hpp"
 
@@ -25,8 +23,8 @@ namespace lamina::decomposition {
 
 namespace {
 
-/// Points in a block of the order along the cut, which is looked at together.
-constexpr std::size_t block = 64;
+/// One of so many points along the cut helps to make the rough chain.
+constexpr std::size_t points_per_foot = 64;
 
 /// A cut with everything its path asks for, seen in its frame.
 template <Axis axis>
@@ -44,22 +42,36 @@ public:
     double cut() const { return cut_; }
     std::size_t place() const { return place_; }
     Point operator()(Index i) const { return Frame{axis}(points_[i]); }
+    std::span<const Index> across() const { return across_; }
+    Index rank(Index i) const { return axis == Axis::x ? i : y_rank_[i]; }
     /// The i-th point along the cut.
     Index along(std::size_t i) const { return axis == Axis::x ? along_[i] : along_[along_.size() - 1 - i]; }
-    Index rank(Index i) const { return axis == Axis::x ? i : y_rank_[i]; }
-    std::span<const Index> across() const { return across_; }
+    bool comes_before(Index p, Index q) const { return axis == Axis::x ? y_rank_[p] < y_rank_[q] : p > q; }
 
-    struct Ranks {  // places in the order across
-        Index first, last;
-    };
-    /// Ranks that hold those of all points at most so far from the cut.
-    Ranks within(double distance) const {
+    /// How many points have a lower coordinate along the cut.
+    std::size_t count_below(double y) const {
+        std::size_t low = 0, high = size();
+        while (low < high) {
+            const std::size_t middle = (low + high) / 2;
+            if ((*this)(along(middle)).y < y)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        return low;
+    }
+    /// All points at most so far from the cut, in the order across. The cut's own point is always among them.
+    std::span<const Index> within(double distance) const {
         const double low = std::nextafter(cut_ - distance, -HUGE_VAL), high = std::nextafter(cut_ + distance, HUGE_VAL);
         const auto first =
             std::partition_point(across_.begin(), across_.end(), [&](Index i) { return (*this)(i).x < low; });
         const auto last = std::partition_point(first, across_.end(), [&](Index i) { return (*this)(i).x <= high; });
-        // The cut's own point is always among them.
-        return {rank(*first), rank(*(last - 1))};
+        return {first, last};
+    }
+    /// At most `count` points are nearer to the cut than this.
+    double distance_of(std::size_t count) const {
+        const std::size_t low = place_ - std::min(place_, count / 2), high = std::min(place_ + count / 2, size() - 1);
+        return std::min(cut_ - (*this)(across_[low]).x, (*this)(across_[high]).x - cut_);
     }
 
 private:
@@ -93,7 +105,7 @@ std::vector<Foot> sample_feet(const View<axis>& view, double origin) {
     const std::size_t end = std::min(view.size(), view.place() + few);
     for (const Index i : view.across().subspan(begin, end - begin)) near.push_back(foot(view, view(i), origin));
     std::sort(near.begin(), near.end(), before);
-    for (std::size_t i = 0; i < view.size(); i += block) spread.push_back(foot(view, view(view.along(i)), origin));
+    for (std::size_t i = 0; i < view.size(); i += points_per_foot) spread.push_back(foot(view, view(view.along(i)), origin));
     spread.push_back(foot(view, view(view.along(view.size() - 1)), origin));
     std::merge(near.begin(), near.end(), spread.begin(), spread.end(), std::back_inserter(feet), before);
     return feet;
@@ -120,10 +132,8 @@ double reach(const Foot& a, const Foot& b) {
     return more_than_rounding * std::sqrt(std::max(a.squared_distance, b.squared_distance) + half * half);
 }
 
-/// May a point over this edge of the chain be below the chord? Nothing is lost to rounding: all terms are positive.
-bool near_enough(const std::vector<Foot>& feet, std::size_t edge, Point p, double cut) {
-    if (edge + 1 >= feet.size()) return true;
-    const Foot &a = feet[edge], &b = feet[edge + 1];
+/// May a point over the chord from a to b be below it? Nothing is lost to rounding: all terms are positive.
+bool near_enough(const Foot& a, const Foot& b, Point p, double cut) {
     const double from_a = p.y - a.along, to_b = b.along - p.y, whole = b.along - a.along;
     if (!(from_a >= 0 && to_b >= 0 && whole > 0)) return true;
     constexpr double more_than_rounding = 1 + 0x1p-40;
@@ -132,36 +142,50 @@ bool near_enough(const std::vector<Foot>& feet, std::size_t edge, Point p, doubl
            more_than_rounding * (to_b * a.squared_distance + from_a * b.squared_distance + from_a * to_b * whole);
 }
 
-/// The points that may be below the chain, along the cut.
+/// The points that may be below the chain, along the cut. A point belongs to the chord that starts at or before it.
 template <Axis axis>
-std::vector<Index> points_below(const View<axis> view, const std::vector<Foot>& chain) {
-    using Ranks = typename View<axis>::Ranks;
-    std::vector<Ranks> near;
-    for (std::size_t e = 0; e + 1 < chain.size(); ++e) near.push_back(view.within(reach(chain[e], chain[e + 1])));
-    if (near.empty()) near.push_back({0, std::numeric_limits<Index>::max()});
+std::vector<Index> points_below(const View<axis>& view, const std::vector<Foot>& chain) {
+    if (chain.size() < 2) return {view.across().begin(), view.across().end()};
+    const std::size_t chords = chain.size() - 1;
+    const auto may_be_below = [&](std::size_t chord, Index i) {
+        return near_enough(chain[chord], chain[chord + 1], view(i), view.cut());
+    };
+    // A point looked at in the order across costs as much as some ten in the order along.
+    const double few = view.distance_of(view.size() / 32);
+    std::vector<double> reaches(chords);
+    for (std::size_t c = 0; c < chords; ++c) reaches[c] = reach(chain[c], chain[c + 1]);
 
-    std::vector<Index> result;
-    std::size_t edge = 0;
-    for (std::size_t begin = 0; begin < view.size(); begin += block) {
-        const std::size_t end = std::min(begin + block, view.size());
-        // Places near enough for any edge of the chain over the block.
-        std::size_t edge_of_point = edge;
-        Ranks ranks = near[edge];
-        for (const double last = view(view.along(end - 1)).y;
-             edge + 1 < near.size() && chain[edge + 1].along <= last;) {
-            ++edge;
-            ranks = {std::min(ranks.first, near[edge].first), std::max(ranks.last, near[edge].last)};
+    std::vector<Index> near;
+    double longest = -1;
+    for (const double r : reaches)
+        if (r < few) longest = std::max(longest, r);
+    if (longest >= 0) {
+        for (const Index i : view.within(longest)) {
+            const auto after = std::upper_bound(chain.begin() + 1, chain.end() - 1, view(i).y,
+                                                [](double y, const Foot& foot) { return y < foot.along; });
+            const auto chord = static_cast<std::size_t>(after - chain.begin()) - 1;
+            if (reaches[chord] < few && may_be_below(chord, i)) near.push_back(i);
         }
-        const Index first = ranks.first, range = ranks.last - ranks.first;
+        std::sort(near.begin(), near.end(), [&](Index p, Index q) { return view.comes_before(p, q); });
+    }
+
+    std::vector<Index> far;
+    for (std::size_t c = 0, end = 0; c < chords; ++c) {
+        if (reaches[c] < few) continue;
+        const std::size_t begin = c > 0 && reaches[c - 1] < few ? view.count_below(chain[c].along) : end;
+        end = c + 1 < chords ? view.count_below(chain[c + 1].along) : view.size();
+        const std::span<const Index> within = view.within(reaches[c]);
+        const Index first = view.rank(within.front()), range = view.rank(within.back()) - first;
         for (std::size_t i = begin; i < end; ++i) {
-            const Index candidate = view.along(i);
-            if (view.rank(candidate) - first > range) continue;
-            const Point p = view(candidate);
-            while (edge_of_point < edge && chain[edge_of_point + 1].along < p.y) ++edge_of_point;
-            if (near_enough(chain, edge_of_point, p, view.cut())) result.push_back(candidate);
+            const Index point = view.along(i);
+            if (view.rank(point) - first <= range && may_be_below(c, point)) far.push_back(point);
         }
     }
-    return result;
+
+    std::vector<Index> all(near.size() + far.size());
+    std::merge(near.begin(), near.end(), far.begin(), far.end(), all.begin(),
+               [&](Index p, Index q) { return view.comes_before(p, q); });
+    return all;
 }
 
 /// The points that may be on the path, along the cut.
