@@ -5,10 +5,11 @@
 // (2015), 4.3; monotone chain: A. M. Andrew, Inf. Proc. Letters 9 (1979).
 //
 //        height                                   Only points near the cut can be on the hull. Some points near it and
-//          |  o      o                            some of all along it make a rough chain. The hull lies below the chain,
-//          |    o       o  o   o                  so a point counts only if it is no farther from the cut than the chain
-//          |  *   o  *         *                  is high above the parabola over the cut. Where that reaches few points
-//          |   \__*__/ \__*___/     along         they are found in the order across, else in the order along the cut.
+//          |  o      o                            some of all along it make a rough chain. The hull lies below the
+//          chain, |    o       o  o   o                  so a point counts only if it is no farther from the cut than
+//          the chain |  *   o  *         *                  is high above the parabola over the cut. Where that reaches
+//          few points |   \__*__/ \__*___/     along         they are found in the order across, else in the order
+//          along the cut.
 //
 // Ties: the height of every point is lowered infinitesimally, the smallest point's most.
 #include "decomposition/dividing_path.hpp"
@@ -105,7 +106,8 @@ std::vector<Foot> sample_feet(const View<axis>& view, double origin) {
     const std::size_t end = std::min(view.size(), view.place() + few);
     for (const Index i : view.across().subspan(begin, end - begin)) near.push_back(foot(view, view(i), origin));
     std::sort(near.begin(), near.end(), before);
-    for (std::size_t i = 0; i < view.size(); i += points_per_foot) spread.push_back(foot(view, view(view.along(i)), origin));
+    for (std::size_t i = 0; i < view.size(); i += points_per_foot)
+        spread.push_back(foot(view, view(view.along(i)), origin));
     spread.push_back(foot(view, view(view.along(view.size() - 1)), origin));
     std::merge(near.begin(), near.end(), spread.begin(), spread.end(), std::back_inserter(feet), before);
     return feet;
