@@ -41,37 +41,37 @@ void add(DecompositionStats& sum, const DecompositionStats& stats) {
     sum.fallbacks += stats.fallbacks;
 }
 
+/// The border between vertices as kernel::triangulate_in_order() numbers them.
+std::vector<Segment> in_order_of_insertion(std::span<const Edge> border, std::span<const Index> order) {
+    std::vector<Index> vertices;
+    vertices.reserve(border.size());
+    for (const Edge& e : border) vertices.push_back(e.a);
+    const Places places(vertices);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        if (const std::size_t at = places.of(order[i]); at != nowhere) vertices[at] = static_cast<Index>(i + 1);
+    const auto inserted = [&](Index i) { return VertexId{vertices[places.of(i)]}; };
+    std::vector<Segment> segments;
+    segments.reserve(border.size());
+    for (const Edge& e : border) segments.push_back({inserted(e.a), inserted(e.b)});
+    return segments;
+}
+
 /// The triangles inside a leaf's border, in the numbers of the input.
 PieceTriangles triangulate_leaf(const SortedPoints& sorted, Subdomain leaf) {
     std::vector<Index> numbers = leaf_order(sorted, leaf);
     leaf.by_x = {};
     leaf.by_y = {};
-    std::vector<Index> border_vertices;
-    border_vertices.reserve(leaf.border.size());
-    for (const Edge& e : leaf.border) border_vertices.push_back(e.a);
-    const Places border_places(border_vertices);
-    std::vector<Point> points;
-    points.reserve(numbers.size());
-    for (Index local = 0; local < numbers.size(); ++local) {
-        points.push_back(sorted.points[numbers[local]]);
-        if (const std::size_t at = border_places.of(numbers[local]); at != nowhere) border_vertices[at] = local;
-    }
-    const auto local = [&](Index i) { return VertexId{border_vertices[border_places.of(i)]}; };
-    std::vector<Segment> border;
-    border.reserve(leaf.border.size());
-    for (const Edge& e : leaf.border) border.push_back({local(e.a), local(e.b)});
-    leaf.border = {};
-
-    kernel::Tris tris = kernel::triangulate_in_order(points);
-    const kernel::Marks inside = kernel::mark_region(points, border, tris);
-    // From here on each point's number in the input.
+    kernel::OrderedTriangulation triangulation = kernel::triangulate_in_order(sorted.points.all(), numbers);
+    const kernel::Marks inside =
+        kernel::mark_region(triangulation, in_order_of_insertion(std::exchange(leaf.border, {}), numbers));
+    // From here on each vertex's number in the input.
     for (Index& i : numbers) i = sorted.original[i];
     PieceTriangles triangles(static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1)));
     auto* to = triangles.begin();
-    for (std::size_t t = 0; t < tris.size(); ++t) {
+    for (std::size_t t = 0; t < inside.size(); ++t) {
         if (!inside[t]) continue;
-        const auto& v = tris[t].v;
-        *to++ = {numbers[v[0]], numbers[v[1]], numbers[v[2]]};
+        const auto& v = triangulation.tris[t].v;
+        *to++ = {numbers[v[0] - 1], numbers[v[1] - 1], numbers[v[2] - 1]};
     }
     return triangles;
 }

@@ -102,9 +102,9 @@ void carve_holes(std::span<const Point> points, std::span<const Point> seeds, co
     }
 }
 
-Marks mark_region(std::span<const Point> points, std::span<const Segment> border, Tris& tris) {
-    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
-    const std::vector<SegmentPiece> pieces = insert_and_split_segments(points, border, tris, at_vertex);
+Marks mark_region(OrderedTriangulation& triangulation, std::span<const Segment> border) {
+    auto& [vertices, tris, at_vertex] = triangulation;
+    const std::vector<SegmentPiece> pieces = insert_and_split_segments(vertices, border, tris, at_vertex);
     // What lies outside is little: it is flooded, through the ghosts, instead of the region.
     Marks marks(tris.size(), 1);
     std::vector<Index> front;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -156,22 +155,35 @@ void insert_vertices(std::span<const Point> vertices, std::span<const Point> poi
     }
 }
 
-/// The points in this order.
-Tris triangulate(std::span<const Point> points, std::vector<Index> order) {
-    if (order.size() < 3 || !bring_triangle_to_front(points, order)) {
-        refuse_duplicates_on_line(points, std::move(order));
-        return {};
-    }
+/// A triangulation as it grows: vertices as vertices_in_order() numbers them.
+struct Grown {
+    std::vector<Point> vertices;
     Tris tris;
-    tris.reserve(2 * points.size());
-    {
-        const std::vector<Point> vertices = vertices_in_order(points, order);
-        add_first_triangle(vertices.data(), tris);
-        insert_vertices(vertices, points, order, tris);
+};
+
+/// No triangles where all points are on one line. The order may change in its first three places.
+Grown grow(std::span<const Point> points, std::vector<Index>& order) {
+    Grown grown;
+    if (order.size() < 3 || !bring_triangle_to_front(points, order)) {
+        refuse_duplicates_on_line(points, order);
+        return grown;
     }
-    for (Tri& t : tris)
-        for (Index& v : t.v) v = v == ghost ? ghost_vertex : order[v - 1];
-    return tris;
+    grown.vertices = vertices_in_order(points, order);
+    grown.tris.reserve(2 * order.size());
+    add_first_triangle(grown.vertices.data(), grown.tris);
+    insert_vertices(grown.vertices, points, order, grown.tris);
+    return grown;
+}
+
+/// Gives the vertex at infinity its usual number in all triangles round it.
+void name_ghosts(Tris& tris, Index first) {
+    Index t = first;
+    do {
+        Tri& tri = tris[t];
+        const unsigned i = tri.v[0] == ghost ? 0 : tri.v[1] == ghost ? 1 : 2;
+        tri.v[i] = ghost_vertex;
+        t = tri.n[next(i)].triangle();
+    } while (t != first);
 }
 
 }  // namespace
@@ -180,13 +192,22 @@ Tris triangulate_points(std::span<const Point> points) {
     check_points(points);
     Box box;
     for (const Point p : points) box.include(p);
-    return triangulate(points, insertion_order(points, box));
+    std::vector<Index> order = insertion_order(points, box);
+    Tris tris = grow(points, order).tris;
+    for (Tri& t : tris)
+        for (Index& v : t.v) v = v == ghost ? ghost_vertex : order[v - 1];
+    return tris;
 }
 
-Tris triangulate_in_order(std::span<const Point> points) {
-    std::vector<Index> order(points.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    return triangulate(points, std::move(order));
+OrderedTriangulation triangulate_in_order(std::span<const Point> points, std::vector<Index>& order) {
+    Grown grown = grow(points, order);
+    OrderedTriangulation result{std::move(grown.vertices), std::move(grown.tris), {}};
+    if (result.tris.empty()) return result;
+    result.at_vertex.resize(result.vertices.size());
+    for (Index t = 0; t < result.tris.size(); ++t)
+        for (const Index v : result.tris[t].v) result.at_vertex[v] = t;
+    name_ghosts(result.tris, result.at_vertex[ghost]);
+    return result;
 }
 
 Triangulation without_ghosts(const Tris& tris) {

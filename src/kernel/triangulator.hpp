@@ -14,9 +14,17 @@ namespace lamina::kernel {
 /// The Delaunay triangulation of distinct points, closed by ghost triangles; empty where all points are on one line.
 /// Throws InputError for duplicates and coordinates outside the exact range.
 Tris triangulate_points(std::span<const Point> points);
-/// The same for points that come in the order in which they are to be inserted, as insertion_order() would have them.
+
+/// A triangulation whose vertices are numbered in the order of their insertion, from 1 on.
+struct OrderedTriangulation {
+    std::vector<Point> vertices;   ///< none at 0
+    Tris tris;                     ///< closed by ghosts; empty where all points are on one line
+    std::vector<Index> at_vertex;  ///< a triangle at each vertex
+};
+/// The same for those points that `order` names, in this order: as insertion_order() would have them. Where the first
+/// three are on one line the third and another one change places. Vertex i + 1 is points[order[i]].
 /// Precondition: coordinates in the exact range, no more points than a triangulation numbers.
-Tris triangulate_in_order(std::span<const Point> points);
+OrderedTriangulation triangulate_in_order(std::span<const Point> points, std::vector<Index>& order);
 
 /// Throws InputError for segments that do not join two of the points, and for any where there are no triangles.
 void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris);
@@ -61,8 +69,8 @@ void carve_holes(std::span<const Point> points, std::span<const Point> seeds, co
 /// The marked triangles in ascending order of the old indices; links across their rim become borders.
 Tris keep_marked(const Tris& tris, const Marks& marks);
 /// Inserts the segments, as insert_and_split_segments() does, and marks the region on their left, which they bound all
-/// round.
-Marks mark_region(std::span<const Point> points, std::span<const Segment> border, Tris& tris);
+/// round; vertices of the triangulation by their numbers.
+Marks mark_region(OrderedTriangulation& triangulation, std::span<const Segment> border);
 Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
 
 /// Everything but the ghosts.
