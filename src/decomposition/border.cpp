@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "core/parallel.hpp"
 #include "core/predicates.hpp"
 #include "decomposition/places.hpp"
 
@@ -163,25 +164,47 @@ std::optional<DividedBorder> divide_border(const SortedPoints& sorted, std::span
 
 namespace {
 
+/// Points in the order by x are looked at in blocks.
+constexpr std::size_t block = 64;
+
+/// The lowest and the highest point of every block.
+struct Outermost {
+    std::vector<Point> lowest, highest;
+};
+
+Outermost outermost_of_blocks(std::span<const Point> points) {
+    Outermost outermost;
+    const std::size_t blocks = (points.size() + block - 1) / block;
+    outermost.lowest.resize(blocks);
+    outermost.highest.resize(blocks);
+    parallel_for(blocks, 2000, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = first; b < last; ++b) {
+            const std::span<const Point> own = points.subspan(b * block, std::min(block, points.size() - b * block));
+            const Point *lowest = own.data(), *highest = own.data();
+            for (const Point& p : own) {
+                if (p.y < lowest->y) lowest = &p;
+                if (p.y > highest->y) highest = &p;
+            }
+            outermost.lowest[b] = *lowest;
+            outermost.highest[b] = *highest;
+        }
+    });
+    return outermost;
+}
+
 /// The points that may be on the lower side (sign 1) or the upper side (-1) of the hull, in ascending order: those on
 /// or beyond the chords between the outermost points of blocks.
 template <int sign>
-std::vector<Index> hull_candidates(std::span<const Point> points) {
-    constexpr std::size_t block = 64;
-    std::vector<Point> outermost;  // of the blocks, y towards the outside counted as low
-    double magnitude = 0;
-    for (std::size_t begin = 0; begin < points.size(); begin += block) {
-        const std::size_t end = std::min(begin + block, points.size());
-        Point lowest{points[begin].x, sign * points[begin].y};
-        for (std::size_t i = begin + 1; i < end; ++i)
-            if (const double y = sign * points[i].y; y < lowest.y) lowest = {points[i].x, y};
-        outermost.push_back(lowest);
-        magnitude = std::max(magnitude, std::abs(lowest.y));
-    }
+std::vector<Index> hull_candidates(std::span<const Point> points, std::span<const Point> outermost) {
+    // Towards the outside counts as low.
+    const auto height = [](Point p) { return sign * p.y; };
     // Rounded: chords between points lie above the hull, whichever they are.
+    double magnitude = 0;
     const double end_x = points.back().x;
     std::vector<Point> chain;
-    for (const Point p : outermost) {
+    for (const Point o : outermost) {
+        const Point p{o.x, height(o)};
+        magnitude = std::max(magnitude, std::abs(p.y));
         while (chain.size() >= 2 && cross(chain.back() - chain[chain.size() - 2], p - chain.back()) <= 0)
             chain.pop_back();
         if (chain.empty() || p.x > chain.back().x) chain.push_back(p);
@@ -201,9 +224,9 @@ std::vector<Index> hull_candidates(std::span<const Point> points) {
         const double at_end = points[end - 1].x < end_x ? chord(points[end - 1].x) : HUGE_VAL;
         const double highest = std::max(at_begin, at_end) + 0x1p-40 * magnitude;
         at_begin = at_end;
-        if (outermost[begin / block].y > highest) continue;
+        if (height(outermost[begin / block]) > highest) continue;
         for (std::size_t i = begin; i < end; ++i)
-            if (sign * points[i].y <= highest) result.push_back(static_cast<Index>(i));
+            if (height(points[i]) <= highest) result.push_back(static_cast<Index>(i));
     }
     return result;
 }
@@ -225,8 +248,9 @@ std::vector<Edge> convex_hull(const SortedPoints& sorted) {
         hull.pop_back();
         return hull.size() - start;
     };
-    const std::size_t lower = add_chain(hull_candidates<1>(points));
-    std::vector<Index> upper_candidates = hull_candidates<-1>(points);
+    const Outermost outermost = outermost_of_blocks(points);
+    const std::size_t lower = add_chain(hull_candidates<1>(points, outermost.lowest));
+    std::vector<Index> upper_candidates = hull_candidates<-1>(points, outermost.highest);
     std::reverse(upper_candidates.begin(), upper_candidates.end());
     const std::size_t upper = add_chain(upper_candidates);
     if (lower + 1 == points.size() && upper + 1 == points.size()) return {};

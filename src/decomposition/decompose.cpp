@@ -59,7 +59,7 @@ Order deal(Order& order, std::span<const PathVertex> path, std::size_t high_size
         to_high += taken - low;
     };
     for (const PathVertex& v : path) {
-        deal_until([&](const Index* at) { return *at == v.vertex; });
+        deal_until([vertex = v.vertex](const Index* at) { return *at == vertex; });
         ++from;
         *to_low = v.vertex;
         *to_high = v.vertex;

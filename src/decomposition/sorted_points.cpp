@@ -25,7 +25,8 @@ constexpr std::size_t block = std::size_t{1} << 17;
 using Item = std::uint64_t;
 constexpr Index number_of(Item item) { return static_cast<Index>(item); }
 constexpr std::uint32_t key_of(Item item) { return static_cast<std::uint32_t>(item >> 32); }
-constexpr std::size_t digit_of(Item item, unsigned digit) {
+template <unsigned digit>
+constexpr std::size_t digit_of(Item item) {
     return item >> (32 + digit * digit_bits) & (digit_values - 1);
 }
 
@@ -33,14 +34,16 @@ constexpr std::size_t digit_of(Item item, unsigned digit) {
 using Places = std::array<std::uint32_t, digit_values>;
 
 /// One pass, stable: items with equal digits keep their order. `counts` are those of the blocks.
-void deal_by_digit(const UninitializedArray<Item>& items, UninitializedArray<Item>& dealt, unsigned digit,
-                   std::vector<Places> counts) {
+template <unsigned digit>
+void deal_by_digit(const UninitializedArray<Item>& items, UninitializedArray<Item>& dealt, std::vector<Places> counts) {
     std::uint32_t sum = 0;
     for (std::size_t v = 0; v < digit_values; ++v)
         for (Places& p : counts) sum += std::exchange(p[v], sum);
     parallel_for(items.size(), block, [&](std::size_t begin, std::size_t end) {
-        Places& at = counts[begin / block];
-        for (std::size_t i = begin; i < end; ++i) dealt[at[digit_of(items[i], digit)]++] = items[i];
+        std::uint32_t* const at = counts[begin / block].data();
+        const Item* const from = items.begin();
+        Item* const to = dealt.data();
+        for (std::size_t i = begin; i < end; ++i) to[at[digit_of<digit>(from[i])]++] = from[i];
     });
 }
 
@@ -49,30 +52,56 @@ struct Sorted {
     bool distinct = true;  ///< no two in it are equal
 };
 
+/// Copies the numbers of items sorted by their keys, and sorts those of one key. False where two of them are equal.
+template <class Less>
+bool sort_runs(const Item* items, std::size_t begin, std::size_t end, Index* order, Less&& less) {
+    bool distinct = true;
+    std::uint32_t previous = key_values;
+    for (std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t key = key_of(items[i]);
+        order[i] = number_of(items[i]);
+        if (std::exchange(previous, key) != key) continue;
+        Index* const first = order + i - 1;
+        while (i + 1 < end && key_of(items[i + 1]) == key) {
+            ++i;
+            order[i] = number_of(items[i]);
+        }
+        Index* const last = order + i;
+        if (last == first + 1 && less(*last, *first)) {
+            std::swap(*first, *last);
+            continue;
+        }
+        if (last > first + 1) std::sort(first, last + 1, less);
+        for (const Index* k = first; k != last; ++k) distinct &= less(k[0], k[1]);
+    }
+    return distinct;
+}
+
 /// Numbers 0 to n - 1 by their coordinate, which lies between low and high; `before` orders numbers whose coordinates
 /// are the same.
 template <class Coordinate, class Before>
-Sorted order_by(std::size_t n, double low, double high, Coordinate&& coordinate, Before&& before) {
+Sorted order_by(std::size_t n, double low, double high, Coordinate coordinate, Before before) {
     const double scale = high > low ? (key_values - 1) / (high - low) : 0.0;
     UninitializedArray<Item> items(n), dealt(n);
-    std::vector<Places> counts = parallel_blocks(n, block, [&](std::size_t begin, std::size_t end) {
+    std::vector<Places> counts = parallel_blocks(n, block, [&, low, coordinate](std::size_t begin, std::size_t end) {
         Places count{};
+        Item* const to = items.data();
         for (std::size_t i = begin; i < end; ++i) {
-            items[i] = std::uint64_t{static_cast<std::uint32_t>((coordinate(i) - low) * scale)} << 32 | i;
-            ++count[digit_of(items[i], 0)];
+            to[i] = std::uint64_t{static_cast<std::uint32_t>((coordinate(i) - low) * scale)} << 32 | i;
+            ++count[digit_of<0>(to[i])];
         }
         return count;
     });
-    deal_by_digit(items, dealt, 0, std::move(counts));
-    counts = parallel_blocks(n, block, [&](std::size_t begin, std::size_t end) {
+    deal_by_digit<0>(items, dealt, std::move(counts));
+    counts = parallel_blocks(n, block, [from = dealt.data()](std::size_t begin, std::size_t end) {
         Places count{};
-        for (std::size_t i = begin; i < end; ++i) ++count[digit_of(dealt[i], 1)];
+        for (std::size_t i = begin; i < end; ++i) ++count[digit_of<1>(from[i])];
         return count;
     });
-    deal_by_digit(dealt, items, 1, std::move(counts));
+    deal_by_digit<1>(dealt, items, std::move(counts));
 
     Sorted sorted{UninitializedArray<Index>(n)};
-    const auto less = [&](Index a, Index b) {
+    const auto less = [coordinate, before](Index a, Index b) {
         const double at_a = coordinate(a), at_b = coordinate(b);
         return at_a != at_b ? at_a < at_b : before(a, b);
     };
@@ -81,20 +110,7 @@ Sorted order_by(std::size_t n, double low, double high, Coordinate&& coordinate,
         // Runs of one key belong to the block they begin in.
         while (begin > 0 && begin < end && same_key(begin)) ++begin;
         while (begin < end && end < n && same_key(end)) ++end;
-        Index* const order = sorted.order.data();
-        bool all = true;
-        for (std::size_t i = begin; i < end;) {
-            const std::size_t first = i;
-            do order[i] = number_of(items[i]);
-            while (++i < end && same_key(i));
-            if (i == first + 1) continue;
-            if (i > first + 2)
-                std::sort(order + first, order + i, less);
-            else if (less(order[first + 1], order[first]))
-                std::swap(order[first], order[first + 1]);
-            for (std::size_t k = first + 1; k < i; ++k) all &= less(order[k - 1], order[k]);
-        }
-        return all;
+        return sort_runs(items.data(), begin, end, sorted.order.data(), less);
     });
     sorted.distinct = std::find(distinct.begin(), distinct.end(), 0) == distinct.end();
     return sorted;
@@ -131,21 +147,21 @@ std::optional<SortedPoints> sort_points(std::span<const Point> points) {
     if (!box) return {};
     SortedPoints sorted;
     Sorted by_x = order_by(
-        n, box->lower.x, box->upper.x, [&](std::size_t i) { return points[i].x; },
-        [&](Index a, Index b) { return points[a].y < points[b].y; });
+        n, box->lower.x, box->upper.x, [points](std::size_t i) { return points[i].x; },
+        [points](Index a, Index b) { return points[a].y < points[b].y; });
     if (!by_x.distinct) return {};
     sorted.original = std::move(by_x.order);
     sorted.points = UninitializedArray<Point>(n);
-    parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) sorted.points[i] = points[sorted.original[i]];
+    parallel_for(n, block, [&, to = sorted.points.data()](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) to[i] = points[sorted.original[i]];
     });
     sorted.by_y = order_by(
-                      n, box->lower.y, box->upper.y, [&](std::size_t i) { return sorted.points[i].y; },
+                      n, box->lower.y, box->upper.y, [from = sorted.points.data()](std::size_t i) { return from[i].y; },
                       [](Index a, Index b) { return a < b; })
                       .order;
     sorted.y_rank = UninitializedArray<Index>(n);
-    parallel_for(n, block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) sorted.y_rank[sorted.by_y[i]] = static_cast<Index>(i);
+    parallel_for(n, block, [&, to = sorted.y_rank.data()](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) to[sorted.by_y[i]] = static_cast<Index>(i);
     });
     return sorted;
 }
