@@ -194,8 +194,9 @@ Tris triangulate_points(std::span<const Point> points) {
     for (const Point p : points) box.include(p);
     std::vector<Index> order = insertion_order(points, box);
     Tris tris = grow(points, order).tris;
+    order.insert(order.begin(), ghost_vertex);
     for (Tri& t : tris)
-        for (Index& v : t.v) v = v == ghost ? ghost_vertex : order[v - 1];
+        for (Index& v : t.v) v = order[v];
     return tris;
 }
 
