@@ -21,11 +21,10 @@ struct Triangulation {
 
 /// Delaunay triangulation of distinct points, in any order; O(n log n) in practice. Cocircular points are fanned by
 /// the one tie rule (predicates.hpp), so the set of triangles is unique and does not depend on the order of the points.
-/// Large sets are cut into strips that are triangulated on several threads; the result is the same on any number.
-/// Fewer than three points, or all on one line: no triangles. Throws InputError for duplicates and for coordinates
-/// outside the exact range.
-/// Source: biased randomised insertion order (Amenta, Choi, Rote, SoCG 2003) along a Hilbert curve; cavity insertion
-/// (Bowyer 1981, Watson 1981).
+/// Large sets are triangulated by parallel_delaunay(); the result is the same on any number of threads, in the same
+/// order. Fewer than three points, or all on one line: no triangles. Throws InputError for duplicates and for
+/// coordinates outside the exact range. Source: biased randomised insertion order (Amenta, Choi, Rote, SoCG 2003) along
+/// a Hilbert curve; cavity insertion (Bowyer 1981, Watson 1981).
 Triangulation delaunay(std::span<const Point> points);
 
 /// Where a decomposition ends. It depends on these and on the points alone, never on the number of threads.
@@ -44,8 +43,8 @@ struct DecompositionStats {
     std::size_t fallbacks = 0;        ///< regions triangulated in one piece because a piece could not be
 };
 
-/// delaunay() on several threads: the points are divided along paths of Delaunay edges, the pieces triangulated by
-/// themselves. The same set of triangles as delaunay() gives; throws the same errors.
+/// The same triangles on several threads: the points are divided along paths of Delaunay edges, the pieces triangulated
+/// by themselves. Throws the same errors.
 /// Source: G. E. Blelloch, G. L. Miller, J. C. Hardwick, D. Talmor, Algorithmica 24 (1999); J. K. Pardue, thesis
 /// (2015), chapter 4.
 Triangulation parallel_delaunay(std::span<const Point> points, const DecompositionOptions& options = {});

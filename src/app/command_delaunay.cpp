@@ -18,8 +18,10 @@
 #include "app/options.hpp"
 #include "app/report.hpp"
 #include "core/atomic_file.hpp"
+#include "core/busy_times.hpp"
 #include "core/equilateral.hpp"
 #include "core/parallel.hpp"
+#include "decomposition/pieces.hpp"
 #include "io/triangle_files.hpp"
 #include "mesh/quality.hpp"
 
@@ -52,6 +54,7 @@ struct Outcome {
     TriangleOutput output;
     double triangulation_seconds = 0, refinement_seconds = 0;
     RefineStats stats;
+    Json decomposition, thread_seconds;  ///< of points without segments
 };
 
 class Stopwatch {
@@ -142,16 +145,40 @@ void mark_rim(TriangleOutput& output) {
             output.segment_markers[i] = 1;
 }
 
-/// Attributes and markers of the input are kept; new vertices have attributes 0 and the marker of their segment.
-Outcome triangulate(const DelaunayArguments& arguments, const Settings& settings, TriangleInput input) {
-    Outcome outcome;
+/// Points without segments are triangulated in pieces, on all threads.
+ConstrainedTriangulation triangulate_points(const TriangleInput& input, Outcome& outcome) {
     Stopwatch watch;
+    BusyTimes times;
+    decomposition::PiecewiseTriangulation pieces = decomposition::triangulate_in_pieces(
+        input.points, decomposition::usual_decomposition(input.points.size()), &times);
+    const double elapsed = watch.lap();
+    outcome.decomposition = decomposition_report(pieces.stats);
+    for (std::size_t i = 0; i < times.threads(); ++i) {
+        const auto [decomposition, triangulation, refinement] = times.of_thread(i);
+        outcome.thread_seconds["decomposition"].push_back({{"busy", decomposition}});
+        outcome.thread_seconds["triangulation"].push_back({{"busy", triangulation}, {"idle", times.idle(i, elapsed)}});
+    }
+    ConstrainedTriangulation result;
+    result.triangles = std::move(pieces.triangles);
+    return result;
+}
+
+ConstrainedTriangulation triangulate_input(const DelaunayArguments& arguments, const TriangleInput& input,
+                                           Outcome& outcome) {
+    if (input.segments.empty() && input.holes.empty()) return triangulate_points(input, outcome);
     ConstrainedOptions options;
     options.holes = input.holes;
     options.crossings = arguments.insert_crossings ? Crossings::insert : Crossings::refuse;
     if (!input.segments.empty() && !arguments.keep_hull) options.keep = Keep::inside_segments;
+    return constrained_delaunay(input.points, input.segments, options);
+}
+
+/// Attributes and markers of the input are kept; new vertices have attributes 0 and the marker of their segment.
+Outcome triangulate(const DelaunayArguments& arguments, const Settings& settings, TriangleInput input) {
+    Outcome outcome;
+    Stopwatch watch;
     const ConstrainedTriangulation triangulation =
-        naming_file(input, [&] { return constrained_delaunay(input.points, input.segments, options); });
+        naming_file(input, [&] { return triangulate_input(arguments, input, outcome); });
     outcome.triangulation_seconds = watch.lap();
 
     TriangleOutput& output = outcome.output;
@@ -229,21 +256,25 @@ void run(const DelaunayArguments& arguments) {
         Mesh mesh;
         mesh.points = output.points;
         mesh.triangles = output.triangles;
-        const Json report = {{"version", LAMINA_VERSION},
-                             {"threads", settings.threads == 0 ? thread_count() : settings.threads},
-                             {"vertices", output.points.size()},
-                             {"triangles", output.triangles.size()},
-                             {"min_angle_deg", angle},
-                             {"angles_below_bound", outcome.stats.below_bound},
-                             {"angles_exempt", outcome.stats.exempt},
-                             {"oversized", outcome.stats.oversized},
-                             {"seconds",
-                              {{"read", read_seconds},
-                               {"triangulation", outcome.triangulation_seconds},
-                               {"refinement", outcome.refinement_seconds},
-                               {"write", write_seconds},
-                               {"total", total.lap()}}},
-                             {"hash", mesh_hash(mesh)}};
+        Json report = {{"version", LAMINA_VERSION},
+                       {"threads", settings.threads == 0 ? thread_count() : settings.threads},
+                       {"vertices", output.points.size()},
+                       {"triangles", output.triangles.size()},
+                       {"min_angle_deg", angle},
+                       {"angles_below_bound", outcome.stats.below_bound},
+                       {"angles_exempt", outcome.stats.exempt},
+                       {"oversized", outcome.stats.oversized},
+                       {"seconds",
+                        {{"read", read_seconds},
+                         {"triangulation", outcome.triangulation_seconds},
+                         {"refinement", outcome.refinement_seconds},
+                         {"write", write_seconds},
+                         {"total", total.lap()}}},
+                       {"hash", mesh_hash(mesh)}};
+        if (!outcome.decomposition.is_null()) {
+            report["decomposition"] = outcome.decomposition;
+            report["thread_seconds"] = outcome.thread_seconds;
+        }
         write_stream_atomically(arguments.report, [&](std::ostream& out) { out << to_text(report); });
     }
     if (arguments.quiet) return;

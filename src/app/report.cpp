@@ -79,15 +79,6 @@ Json seconds_report(const StageSeconds& seconds, double write_seconds) {
             {"total", seconds.total + write_seconds}};
 }
 
-Json decomposition_report(const DecompositionStats& stats) {
-    return {{"pieces", stats.pieces},
-            {"piece_vertices", stats.piece_vertices},
-            {"largest_piece_vertices", stats.largest_piece},
-            {"rejected_cuts", {{"crossing", stats.crossing_cuts}, {"unbalanced", stats.unbalanced_cuts}}},
-            {"uncut_pieces", stats.uncut},
-            {"sequential_fallbacks", stats.fallbacks}};
-}
-
 Json threads_report(const std::vector<ThreadSeconds>& threads) {
     Json report = {
         {"decomposition", Json::array()}, {"layer_triangulation", Json::array()}, {"refinement", Json::array()}};
@@ -111,6 +102,15 @@ Json first_height_report(const MeshResult& result) {
 }
 
 }  // namespace
+
+Json decomposition_report(const DecompositionStats& stats) {
+    return {{"pieces", stats.pieces},
+            {"piece_vertices", stats.piece_vertices},
+            {"largest_piece_vertices", stats.largest_piece},
+            {"rejected_cuts", {{"crossing", stats.crossing_cuts}, {"unbalanced", stats.unbalanced_cuts}}},
+            {"uncut_pieces", stats.uncut},
+            {"sequential_fallbacks", stats.fallbacks}};
+}
 
 Json quality_report(const MeshCheck& check) {
     const QualitySummary& isotropic = check.isotropic;

@@ -16,6 +16,9 @@ using Json = nlohmann::ordered_json;
 /// "quality" of the report without what only the pipeline knows; also that of `lamina check --json`.
 Json quality_report(const MeshCheck& check);
 
+/// "decomposition" of the reports of `lamina mesh` and `lamina delaunay`.
+Json decomposition_report(const DecompositionStats& stats);
+
 /// The report of `lamina mesh`. write_seconds: spent in writing the mesh files; "total" includes them.
 Json mesh_report(const MeshResult& result, double write_seconds);
 

@@ -1,6 +1,7 @@
 // Who worked on what for how long: seconds of each thread in the kinds of work that share the threads.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -58,6 +59,11 @@ public:
 
     std::size_t threads() const { return threads_.size(); }
     const Seconds& of_thread(std::size_t i) const { return threads_[i].seconds; }
+    /// What is left of the thread's time in a stage that took so many seconds.
+    double idle(std::size_t i, double elapsed) const {
+        for (const double busy : of_thread(i)) elapsed -= busy;
+        return std::max(0.0, elapsed);
+    }
 
 private:
     std::vector<Thread> threads_;

@@ -104,14 +104,23 @@ Pieces triangulate(const SortedPoints& sorted, Subdomain subdomain, const Decomp
     return pieces;
 }
 
-/// One behind the other; every piece is freed once it is copied.
-PiecewiseTriangulation join(Pieces pieces) {
+/// The pieces' triangles one behind the other; every piece is freed once it is copied.
+PiecewiseTriangulation triangulate_and_join(const SortedPoints& sorted, Subdomain root,
+                                            const DecompositionOptions& options, BusyTimes* times) {
     PiecewiseTriangulation result;
+    Pieces pieces;
+    // Room for all triangles is made while the first cut keeps one thread busy.
+    parallel_invoke([&] { pieces = triangulate(sorted, std::move(root), options, times); },
+                    [&, vertices = root.size()] {
+                        const BusyTimes::Scope busy(times, Work::layer_triangulation);
+                        result.triangles.resize(2 * vertices);
+                    });
     result.stats = pieces.stats;
     result.first.push_back(0);
     for (const auto& piece : pieces.triangles) result.first.push_back(result.first.back() + piece.size());
     result.triangles.resize(result.first.back());
     parallel_for(pieces.triangles.size(), 1, [&](std::size_t begin, std::size_t) {
+        const BusyTimes::Scope busy(times, Work::layer_triangulation);
         const PieceTriangles piece = std::move(pieces.triangles[begin]);
         std::transform(piece.begin(), piece.end(), result.triangles.begin() + std::ptrdiff_t(result.first[begin]),
                        [](const std::array<Index, 3>& v) {
@@ -131,9 +140,10 @@ PiecewiseTriangulation one_piece(std::vector<Triangle> triangles, std::size_t ve
 
 /// Whole sets in the two orders; nothing where the triangulation of all points by one kernel is called for: because
 /// they are few, or because it names what is wrong with them.
-std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const DecompositionOptions& options) {
+std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const DecompositionOptions& options,
+                                          BusyTimes* times) {
     if (points.size() <= options.leaf_vertices || points.size() < 4 || options.depth == 0) return {};
-    return sort_points(points);
+    return sort_points(points, times);
 }
 
 std::vector<Edge> in_sorted_numbers(const SortedPoints& sorted, std::span<const Segment> border) {
@@ -157,12 +167,25 @@ Subdomain whole(SortedPoints& sorted, std::vector<Edge> border) {
 
 }  // namespace
 
-PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, const DecompositionOptions& options) {
-    std::optional<SortedPoints> sorted = sort_for_cuts(points, options);
-    std::vector<Edge> hull = sorted ? convex_hull(*sorted) : std::vector<Edge>{};
-    if (hull.empty())
-        return one_piece(kernel::without_ghosts(kernel::triangulate_points(points)).triangles, points.size());
-    return join(triangulate(*sorted, whole(*sorted, std::move(hull)), options, nullptr));
+PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, const DecompositionOptions& options,
+                                             BusyTimes* times) {
+    std::optional<SortedPoints> sorted;
+    Subdomain root;
+    {
+        const BusyTimes::Scope busy(times, Work::decomposition);
+        sorted = sort_for_cuts(points, options, times);
+        if (sorted) root = whole(*sorted, convex_hull(*sorted));
+    }
+    if (!root.border.empty()) return triangulate_and_join(*sorted, std::move(root), options, times);
+    const BusyTimes::Scope busy(times, Work::layer_triangulation);
+    return one_piece(kernel::without_ghosts(kernel::triangulate_points(points)).triangles, points.size());
+}
+
+DecompositionOptions usual_decomposition(std::size_t points) {
+    // A set of this size takes one thread some hundredths of a second, in pieces a fifth more (docs/decisions/0013).
+    constexpr std::size_t worth_cutting = 50'000;
+    if (points < worth_cutting) return {.depth = 0};
+    return {};
 }
 
 PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std::span<const Segment> border,
@@ -172,14 +195,12 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std:
     Subdomain root;
     {
         const BusyTimes::Scope busy(times, Work::decomposition);
-        sorted = sort_for_cuts(points, options);
+        sorted = sort_for_cuts(points, options, times);
         if (sorted) root = whole(*sorted, in_sorted_numbers(*sorted, border));
     }
     if (sorted) {
         try {
-            Pieces pieces = triangulate(*sorted, std::move(root), options, times);
-            const BusyTimes::Scope busy(times, Work::layer_triangulation);
-            return join(std::move(pieces));
+            return triangulate_and_join(*sorted, std::move(root), options, times);
         } catch (const InputError&) {
             // Segments that cross are named by their numbers in a piece. The whole set names them right.
             fallbacks = 1;
@@ -195,6 +216,10 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std:
 }  // namespace lamina::decomposition
 
 namespace lamina {
+
+Triangulation delaunay(std::span<const Point> points) {
+    return parallel_delaunay(points, decomposition::usual_decomposition(points.size()));
+}
 
 Triangulation parallel_delaunay(std::span<const Point> points, const DecompositionOptions& options) {
     return {decomposition::triangulate_in_pieces(points, options).triangles};

@@ -17,8 +17,12 @@ struct PiecewiseTriangulation {
     DecompositionStats stats;
 };
 
-/// The Delaunay triangulation of the points: that of delaunay(), piece by piece. Throws as it does.
-PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, const DecompositionOptions& options);
+/// The Delaunay triangulation of the points, piece by piece. Throws as delaunay() does.
+PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, const DecompositionOptions& options,
+                                             BusyTimes* times = nullptr);
+
+/// That of delaunay(): small sets stay in one piece.
+DecompositionOptions usual_decomposition(std::size_t points);
 
 /// The constrained Delaunay triangulation of the region on the left of its border: what constrained_delaunay() keeps
 /// with Keep::left_of_segments, piece by piece. Throws as it does.

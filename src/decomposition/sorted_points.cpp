@@ -19,7 +19,33 @@ namespace {
 constexpr unsigned digit_bits = 12;
 constexpr std::size_t digit_values = std::size_t{1} << digit_bits;
 constexpr std::uint32_t key_values = 1u << 2 * digit_bits;
-constexpr std::size_t block = std::size_t{1} << 17;
+
+/// What is done block by block, on all threads.
+class Blocks {
+public:
+    Blocks(std::size_t n, BusyTimes* times) : n_(n), times_(times) {}
+
+    template <class F>
+    void for_each(F&& f) const {
+        parallel_for(n_, size, [&](std::size_t begin, std::size_t end) {
+            const BusyTimes::Scope busy(times_, Work::decomposition);
+            f(begin, end);
+        });
+    }
+    template <class F>
+    auto results(F&& f) const {
+        return parallel_blocks(n_, size, [&](std::size_t begin, std::size_t end) {
+            const BusyTimes::Scope busy(times_, Work::decomposition);
+            return f(begin, end);
+        });
+    }
+    static std::size_t number(std::size_t begin) { return begin / size; }
+
+private:
+    static constexpr std::size_t size = std::size_t{1} << 17;
+    std::size_t n_;
+    BusyTimes* times_;
+};
 
 /// The key above, the point's number below.
 using Item = std::uint64_t;
@@ -35,12 +61,13 @@ using Places = std::array<std::uint32_t, digit_values>;
 
 /// One pass, stable: items with equal digits keep their order. `counts` are those of the blocks.
 template <unsigned digit>
-void deal_by_digit(const UninitializedArray<Item>& items, UninitializedArray<Item>& dealt, std::vector<Places> counts) {
+void deal_by_digit(const Blocks& blocks, const UninitializedArray<Item>& items, UninitializedArray<Item>& dealt,
+                   std::vector<Places> counts) {
     std::uint32_t sum = 0;
     for (std::size_t v = 0; v < digit_values; ++v)
         for (Places& p : counts) sum += std::exchange(p[v], sum);
-    parallel_for(items.size(), block, [&](std::size_t begin, std::size_t end) {
-        std::uint32_t* const at = counts[begin / block].data();
+    blocks.for_each([&](std::size_t begin, std::size_t end) {
+        std::uint32_t* const at = counts[Blocks::number(begin)].data();
         const Item* const from = items.begin();
         Item* const to = dealt.data();
         for (std::size_t i = begin; i < end; ++i) to[at[digit_of<digit>(from[i])]++] = from[i];
@@ -80,10 +107,10 @@ bool sort_runs(const Item* items, std::size_t begin, std::size_t end, Index* ord
 /// Numbers 0 to n - 1 by their coordinate, which lies between low and high; `before` orders numbers whose coordinates
 /// are the same.
 template <class Coordinate, class Before>
-Sorted order_by(std::size_t n, double low, double high, Coordinate coordinate, Before before) {
+Sorted order_by(const Blocks& blocks, std::size_t n, double low, double high, Coordinate coordinate, Before before) {
     const double scale = high > low ? (key_values - 1) / (high - low) : 0.0;
     UninitializedArray<Item> items(n), dealt(n);
-    std::vector<Places> counts = parallel_blocks(n, block, [&, low, coordinate](std::size_t begin, std::size_t end) {
+    std::vector<Places> counts = blocks.results([&, low, coordinate](std::size_t begin, std::size_t end) {
         Places count{};
         Item* const to = items.data();
         for (std::size_t i = begin; i < end; ++i) {
@@ -92,13 +119,13 @@ Sorted order_by(std::size_t n, double low, double high, Coordinate coordinate, B
         }
         return count;
     });
-    deal_by_digit<0>(items, dealt, std::move(counts));
-    counts = parallel_blocks(n, block, [from = dealt.data()](std::size_t begin, std::size_t end) {
+    deal_by_digit<0>(blocks, items, dealt, std::move(counts));
+    counts = blocks.results([from = dealt.data()](std::size_t begin, std::size_t end) {
         Places count{};
         for (std::size_t i = begin; i < end; ++i) ++count[digit_of<1>(from[i])];
         return count;
     });
-    deal_by_digit<1>(dealt, items, std::move(counts));
+    deal_by_digit<1>(blocks, dealt, items, std::move(counts));
 
     Sorted sorted{UninitializedArray<Index>(n)};
     const auto less = [coordinate, before](Index a, Index b) {
@@ -106,7 +133,7 @@ Sorted order_by(std::size_t n, double low, double high, Coordinate coordinate, B
         return at_a != at_b ? at_a < at_b : before(a, b);
     };
     const auto same_key = [&](std::size_t i) { return key_of(items[i]) == key_of(items[i - 1]); };
-    const std::vector<char> distinct = parallel_blocks(n, block, [&](std::size_t begin, std::size_t end) -> char {
+    const std::vector<char> distinct = blocks.results([&](std::size_t begin, std::size_t end) -> char {
         // Runs of one key belong to the block they begin in.
         while (begin > 0 && begin < end && same_key(begin)) ++begin;
         while (begin < end && end < n && same_key(end)) ++end;
@@ -117,13 +144,13 @@ Sorted order_by(std::size_t n, double low, double high, Coordinate coordinate, B
 }
 
 /// Nothing where a point lies outside the exact range.
-std::optional<Box> checked_box(std::span<const Point> points) {
+std::optional<Box> checked_box(const Blocks& blocks, std::span<const Point> points) {
     struct Checked {
         Box box;
         bool in_range = true;
     };
     Checked whole;
-    for (const Checked& part : parallel_blocks(points.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (const Checked& part : blocks.results([&](std::size_t begin, std::size_t end) {
              Checked checked;
              for (const Point p : points.subspan(begin, end - begin)) {
                  checked.box.include(p);
@@ -141,26 +168,28 @@ std::optional<Box> checked_box(std::span<const Point> points) {
 
 }  // namespace
 
-std::optional<SortedPoints> sort_points(std::span<const Point> points) {
+std::optional<SortedPoints> sort_points(std::span<const Point> points, BusyTimes* times) {
     const std::size_t n = points.size();
-    const std::optional<Box> box = checked_box(points);
+    const Blocks blocks(n, times);
+    const std::optional<Box> box = checked_box(blocks, points);
     if (!box) return {};
     SortedPoints sorted;
     Sorted by_x = order_by(
-        n, box->lower.x, box->upper.x, [points](std::size_t i) { return points[i].x; },
+        blocks, n, box->lower.x, box->upper.x, [points](std::size_t i) { return points[i].x; },
         [points](Index a, Index b) { return points[a].y < points[b].y; });
     if (!by_x.distinct) return {};
     sorted.original = std::move(by_x.order);
     sorted.points = UninitializedArray<Point>(n);
-    parallel_for(n, block, [&, to = sorted.points.data()](std::size_t begin, std::size_t end) {
+    blocks.for_each([&, to = sorted.points.data()](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) to[i] = points[sorted.original[i]];
     });
-    sorted.by_y = order_by(
-                      n, box->lower.y, box->upper.y, [from = sorted.points.data()](std::size_t i) { return from[i].y; },
-                      [](Index a, Index b) { return a < b; })
-                      .order;
+    sorted.by_y =
+        order_by(
+            blocks, n, box->lower.y, box->upper.y, [from = sorted.points.data()](std::size_t i) { return from[i].y; },
+            [](Index a, Index b) { return a < b; })
+            .order;
     sorted.y_rank = UninitializedArray<Index>(n);
-    parallel_for(n, block, [&, to = sorted.y_rank.data()](std::size_t begin, std::size_t end) {
+    blocks.for_each([&, to = sorted.y_rank.data()](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) to[sorted.by_y[i]] = static_cast<Index>(i);
     });
     return sorted;

@@ -6,6 +6,7 @@
 
 #include <lamina/point.hpp>
 
+#include "core/busy_times.hpp"
 #include "core/uninitialized.hpp"
 #include "kernel/triangles.hpp"
 
@@ -25,6 +26,6 @@ struct SortedPoints {
 
 /// Nothing where two points coincide or one lies outside the exact range. O(n log n), linear for points that are spread
 /// evenly; on all threads.
-std::optional<SortedPoints> sort_points(std::span<const Point> points);
+std::optional<SortedPoints> sort_points(std::span<const Point> points, BusyTimes* times = nullptr);
 
 }  // namespace lamina::decomposition

@@ -85,9 +85,7 @@ void take_times(const BusyTimes& times, double elapsed, MeshResult& result) {
     ThreadSeconds sum;
     for (std::size_t i = 0; i < times.threads(); ++i) {
         const auto [decomposition, layer_triangulation, refinement] = times.of_thread(i);
-        const double busy = decomposition + layer_triangulation + refinement;
-        result.thread_seconds.push_back(
-            {decomposition, layer_triangulation, refinement, std::max(0.0, elapsed - busy)});
+        result.thread_seconds.push_back({decomposition, layer_triangulation, refinement, times.idle(i, elapsed)});
         sum.decomposition += decomposition;
         sum.layer_triangulation += layer_triangulation;
         sum.refinement += refinement;

@@ -1,10 +1,12 @@
 // lamina delaunay as a user runs it.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
 #include "io/triangle_files.hpp"
+#include "support/point_sets.hpp"
 
 namespace lamina::test {
 namespace {
@@ -22,6 +24,33 @@ TEST(DelaunayCommand, PlainTriangulationOfPoints) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"p.1.ele", "p.1.node", "p.node"}));
     EXPECT_TRUE(folder.read("p.1.ele").starts_with("2 3 0\n0 ")) << folder.read("p.1.ele");
+}
+
+TEST(DelaunayCommand, ManyPointsAreTriangulatedInPiecesOnAllThreads) {
+    const TemporaryFolder folder;
+    std::string points = "60000 2 0 0\n";
+    Random random(3);
+    for (int i = 0; i < 60'000; ++i) points += fmt::format("{} {} {}\n", i, random.real(), random.real());
+    folder.write("p.node", points);
+    std::string files[2];
+    for (unsigned threads : {1u, 3u}) {
+        const ProgramRun run = run_lamina(
+            folder, {"delaunay", "p.node", "--threads", std::to_string(threads), "--report", "r.json", "--quiet"});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        const auto report = nlohmann::json::parse(folder.read("r.json"));
+        EXPECT_GT(report["decomposition"]["pieces"].get<int>(), 8);
+        EXPECT_EQ(report["decomposition"]["rejected_cuts"]["crossing"].get<int>(), 0);
+        const auto& triangulation = report["thread_seconds"]["triangulation"];
+        ASSERT_EQ(triangulation.size(), threads);
+        double busy = 0;
+        for (unsigned i = 0; i < threads; ++i) {
+            busy += triangulation[i]["busy"].get<double>();
+            EXPECT_GE(triangulation[i]["idle"].get<double>(), 0);
+        }
+        EXPECT_GT(busy, 0);
+        files[threads / 2] = folder.read("p.1.ele");
+    }
+    EXPECT_EQ(files[0], files[1]);
 }
 
 TEST(DelaunayCommand, ConstrainedAndRefinedWithReport) {

@@ -96,6 +96,21 @@ TEST(Decomposition, EqualsSequentialOnManyPoints) {
     EXPECT_LE(t.stats.largest_piece * t.stats.pieces, 2 * t.stats.piece_vertices);
 }
 
+TEST(Decomposition, PointsTooCloseForTheKeysOfTheSorts) {
+    // Nearly all in a spot 1e-12 of the extent wide, on a few lines.
+    auto points = random_grid_points(20'000, 300, 7);
+    for (Point& p : points) p = {0.3 + 1e-12 * p.x, -0.2 + 1e-12 * p.y};
+    std::sort(points.begin(), points.end(), [](Point p, Point q) { return lexicographically_less(p, q); });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    std::size_t i = 0;
+    for (const Point p : random_points(100, 8)) std::swap(points[i += 50], points.emplace_back(Point{2 * p.x, p.y}));
+    const DecompositionOptions deep{.depth = 6, .leaf_vertices = 10};
+    ASSERT_GT(points.size(), 10'000u);
+    EXPECT_EQ(canonical(triangulate_in_pieces(points, deep).triangles), sequential(points));
+    points.push_back(points[points.size() / 2]);
+    EXPECT_THROW(triangulate_in_pieces(points, deep), InputError);
+}
+
 TEST(Decomposition, TurnedPointsToo) {
     auto points = square_lattice(90, 90);
     for (Point& p : points) p = {0.6 * p.x - 0.8 * p.y, 0.8 * p.x + 0.6 * p.y};

@@ -77,28 +77,32 @@ TEST(Delaunay, LargeSetsAreValidAndCoverTheirHull) {
                 1e-6);
 }
 
-/// delaunay() cuts sets of this size into strips; the kernel alone does not.
-TEST(Delaunay, StripsGiveTheSequentialTriangulation) {
-    auto clustered = random_points(250'000, 8);
+/// delaunay() cuts sets of this size into pieces; the kernel alone does not.
+TEST(Delaunay, PiecesGiveTheSequentialTriangulation) {
+    auto clustered = random_points(60'000, 8);
     for (std::size_t i = 0; i < clustered.size(); i += 2) clustered[i].x = 0.5 + 1e-4 * clustered[i].x;
-    auto column = random_points(220'000, 9);
-    for (std::size_t i = 0; i < 150'000; ++i) column[i].x = 0.25;  // most points share one x
-    for (const auto& points : {random_points(250'000, 6), square_lattice(500, 450), hexagonal_lattice(480, 480),
-                               layer_points(5000, 45), clustered, column}) {
+    auto column = random_points(60'000, 9);
+    for (std::size_t i = 0; i < 40'000; ++i) column[i].x = 0.25;  // most points share one x
+    for (const auto& points : {random_points(250'000, 6), square_lattice(250, 240), hexagonal_lattice(250, 240),
+                               layer_points(1400, 45), clustered, column}) {
         const auto expected = kernel::without_ghosts(kernel::triangulate_points(points)).triangles;
-        EXPECT_EQ(canonical(delaunay(points).triangles), canonical(expected));
+        const auto triangles = delaunay(points).triangles;
+        EXPECT_NE(triangles, expected);
+        EXPECT_EQ(canonical(triangles), canonical(expected));
     }
 }
 
-TEST(Delaunay, StripsDoNotDependOnTheNumberOfThreads) {
-    const auto points = random_points(300'000, 10);
-    std::vector<Triangle> one, three;
-    with_threads(1, [&] { one = delaunay(points).triangles; });
-    with_threads(3, [&] { three = delaunay(points).triangles; });
-    EXPECT_EQ(one, three);
+TEST(Delaunay, TrianglesAndTheirOrderDoNotDependOnTheNumberOfThreads) {
+    for (const std::size_t n : {1000u, 300'000u}) {
+        const auto points = random_points(n, 10);
+        std::vector<Triangle> one, three;
+        with_threads(1, [&] { one = delaunay(points).triangles; });
+        with_threads(3, [&] { three = delaunay(points).triangles; });
+        EXPECT_EQ(one, three);
+    }
 }
 
-TEST(Delaunay, StripsNameDuplicatesByTheirNumbersInTheWhole) {
+TEST(Delaunay, NamesDuplicatesAmongManyPointsByTheirNumbers) {
     auto points = random_points(250'000, 11);
     points[200'123] = points[17];
     try {
