@@ -23,6 +23,7 @@
 #include "core/parallel.hpp"
 #include "decomposition/pieces.hpp"
 #include "io/triangle_files.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesh/quality.hpp"
 
 namespace lamina::app {
@@ -127,22 +128,22 @@ ConstrainedRefinement refine_input(const TriangleInput& input, const Constrained
 
 /// Marks of Triangle: a vertex or segment on the rim that has none gets 1.
 void mark_rim(TriangleOutput& output) {
-    std::vector<std::pair<VertexId, VertexId>> edges;
-    for (const Triangle& t : output.triangles)
-        for (int e = 0; e < 3; ++e) edges.push_back({t.v[(e + 1) % 3], t.v[(e + 2) % 3]});
-    std::sort(edges.begin(), edges.end());
-    const auto on_rim = [&](VertexId a, VertexId b) {
-        return std::binary_search(edges.begin(), edges.end(), std::pair{a, b}) !=
-               std::binary_search(edges.begin(), edges.end(), std::pair{b, a});
-    };
-    for (const auto& [a, b] : edges) {
-        if (std::binary_search(edges.begin(), edges.end(), std::pair{b, a})) continue;
-        for (VertexId v : {a, b})
+    Mesh mesh;
+    mesh.points.swap(output.points);
+    mesh.triangles.swap(output.triangles);
+    const detail::CellEdges edges(mesh);
+    const detail::Adjacency adjacency = detail::find_adjacency(mesh);
+    for (const std::uint32_t edge : adjacency.boundary)
+        for (const VertexId v : {edges.origin(edge), edges.target(edge)})
             if (output.markers[v.index()] == 0) output.markers[v.index()] = 1;
-    }
-    for (std::size_t i = 0; i < output.segments.size(); ++i)
-        if (output.segment_markers[i] == 0 && on_rim(output.segments[i].a, output.segments[i].b))
+    const std::vector<std::uint32_t> edge_of_segment = detail::find_edges(mesh, output.segments);
+    for (std::size_t i = 0; i < output.segments.size(); ++i) {
+        const std::uint32_t edge = edge_of_segment[i];
+        if (output.segment_markers[i] == 0 && edge != detail::no_edge && adjacency.twin[edge] == detail::no_edge)
             output.segment_markers[i] = 1;
+    }
+    mesh.points.swap(output.points);
+    mesh.triangles.swap(output.triangles);
 }
 
 /// Points without segments are triangulated in pieces, on all threads.
