@@ -92,7 +92,13 @@ struct Departure {
     Link exit;               ///< otherwise the edge, opposite a, through which it leaves: (triangle, edge)
 };
 
-Departure depart(std::span<const Point> points, Tris& tris, Index at_a, Index a, Index b) {
+Departure depart(std::span<const Point> points, Tris& tris, const std::vector<Index>& at_vertex, Index a, Index b) {
+    // Most segments are edges already, which takes no arithmetic to see.
+    if (const Link edge = find_edge(tris, at_vertex, a, b); !edge.is_border()) {
+        fix_edge(tris, edge.triangle(), edge.edge());
+        return {b, Link::border()};
+    }
+    const Index at_a = at_vertex[a];
     Index t = at_a;
     Link exit = Link::border();
     do {
@@ -100,7 +106,7 @@ Departure depart(std::span<const Point> points, Tris& tris, Index at_a, Index a,
         const unsigned i = tri.v[0] == a ? 0 : tri.v[1] == a ? 1 : 2;
         const Index u = tri.v[next(i)], w = tri.v[previous(i)];
         if (u != ghost_vertex) {
-            const double at_u = u == b ? 0 : detail::inline_orient2d(points[a], points[u], points[b]);
+            const double at_u = detail::inline_orient2d(points[a], points[u], points[b]);
             if (at_u == 0 && dot(points[u] - points[a], points[b] - points[a]) > 0) {
                 fix_edge(tris, t, previous(i));
                 return {u, Link::border()};
@@ -320,7 +326,7 @@ Link fill(std::span<const Point> points, Tris& tris, Workspace& work, std::vecto
 /// Inserts the segment's part from vertex a to the first vertex on it, at the latest b. Returns that vertex.
 Index insert_piece(const Input& input, std::size_t segment, Tris& tris, std::vector<Index>& at_vertex, Index a, Index b,
                    Workspace& work) {
-    const Departure departure = depart(input.points, tris, at_vertex[a], a, b);
+    const Departure departure = depart(input.points, tris, at_vertex, a, b);
     if (departure.along != no_index) return departure.along;
     const Index end = collect_crossed(input, segment, tris, departure.exit, a, b, work);
     pair_dangling_edges(tris, work);
