@@ -28,6 +28,7 @@ struct Element {
     std::vector<std::size_t> lines;  ///< per point: line of the file it was read from, 0 where lamina added it
     std::vector<Repair> repairs;
     std::vector<std::string> surface;  ///< what prepare_surfaces() did, and why; fit for a log
+    bool resampled = false;            ///< by prepare_surfaces(): the spacing of the points is lamina's own choice
 };
 
 /// Planar straight-line graph: closed, simple, pairwise disjoint bodies.

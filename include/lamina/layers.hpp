@@ -55,6 +55,10 @@ struct LayerOptions {
     double border_gradation = 0.1;
     /// Edges of the outer border are split until none is longer than this.
     double longest_border_edge = HUGE_VAL;
+    /// Round resampled elements, where an edge of the outer border would be split with this for `border_gradation`,
+    /// further rays stand on the wall's edge below: rows of cells go on to the wall instead of fanning out below the
+    /// split points. Adds vertices to the walls.
+    std::optional<double> ray_gradation = {};
     /// Edges of the outer border are split until none is longer than size + border_gradation x distance of any of these
     /// (but for up to a tenth, since cuts shift towards the lengths beside them).
     std::vector<SizeSource> border_sources = {};

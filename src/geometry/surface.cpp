@@ -317,6 +317,7 @@ Element resampled(const Element& given, std::size_t index, const Walls& walls, c
     Element element = given;
     element.points = std::move(division.points);
     element.lines = lines_of(given, element.points);
+    element.resampled = true;
     element.surface.push_back(fmt::format("{} points resampled to {}: {}; {} kept, edges within {:.2g} of the spline",
                                           given.points.size(), element.points.size(), reason,
                                           counted(outline.corners.size(), "corner"), division.deviation));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/box_tree.hpp"
 #include "layers/segments.hpp"
@@ -107,9 +108,13 @@ public:
           tree_({}),
           at_start_(edges.size(), longest_) {
         const BoxTree edge_tree = tree_of(edges);
+        std::vector<double> asks;
+        for (const std::vector<double>& of_border : options.asks)
+            asks.insert(asks.end(), of_border.begin(), of_border.end());
+        asks.resize(edges.size(), 1);
         for (std::size_t i = 0; i < edges.size(); ++i) {
             const std::size_t first = sources_.size();
-            add_sources(edges[i].a, edges[i].b, edges[i].length, edges_across(edges, edge_tree, i), sources_);
+            add_sources(edges[i].a, edges[i].b, asks[i] * edges[i].length, edges_across(edges, edge_tree, i), sources_);
             at_start_[i] = std::min(at_start_[i], sources_[first].size);
             at_start_[edges[i].next] = std::min(at_start_[edges[i].next], sources_.back().size);
         }
@@ -392,9 +397,8 @@ void undo_crossing_cuts(std::span<const Edge> edges, std::span<const Edge> walls
 
 }  // namespace
 
-std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::vector<Point>> borders,
-                                                           std::span<const std::vector<Point>> walls,
-                                                           const GradingOptions& options) {
+GradedBorders grade_borders(std::span<const std::vector<Point>> borders, std::span<const std::vector<Point>> walls,
+                            const GradingOptions& options) {
     const std::vector<Edge> edges = edges_of(borders);
     const TargetLength target(edges, options);
     std::vector<Division> divisions(edges.size());
@@ -420,11 +424,18 @@ std::vector<std::vector<std::vector<Point>>> grade_borders(std::span<const std::
     }
     undo_crossing_cuts(edges, edges_of(walls), cuts);
 
-    std::vector<std::vector<std::vector<Point>>> by_border(borders.size());
+    GradedBorders graded{std::vector<std::vector<std::vector<Point>>>(borders.size()),
+                         std::vector<std::vector<double>>(borders.size())};
     std::size_t i = 0;
     for (std::size_t e = 0; e < borders.size(); ++e)
-        for (std::size_t k = 0; k < borders[e].size(); ++k) by_border[e].push_back(std::move(cuts[i++]));
-    return by_border;
+        for (std::size_t k = 0; k < borders[e].size(); ++k, ++i) {
+            const double by_target = std::accumulate(
+                divisions[i].field.begin(), divisions[i].field.end(), 0.0,
+                [](double sum, const Interval& interval) { return sum + interval.length / interval.size; });
+            graded.asks[e].push_back(std::max(1.0, static_cast<double>(cuts[i].size() + 1) / by_target));
+            graded.cuts[e].push_back(std::move(cuts[i]));
+        }
+    return graded;
 }
 
 }  // namespace lamina

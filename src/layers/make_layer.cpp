@@ -89,16 +89,31 @@ public:
     Assembly(const RaySet& set, std::span<const std::uint32_t> counts, const Heights& heights)
         : set_(set), counts_(counts), heights_(heights), wall_of_ray_(set.rays.size()), first_point_(set.rays.size()) {}
 
+    /// The rays, and more where the border between two tips wants to be divided: rows of cells then go on to the wall
+    /// instead of fanning out below the division points. Only round resampled elements.
+    RaySet with_rays_at_divisions(std::span<const Element> elements, const GradingOptions& grading) const {
+        const std::vector<std::vector<BorderCorner>> corners = border_corners();
+        const GradedBorders graded = divide_borders(corners, grading);
+        std::vector<std::vector<double>> shares(set_.rays.size());
+        RaySet set = set_;
+        set.border_asks.assign(set_.rays.size(), 1);
+        for (std::size_t e = 0; e < corners.size(); ++e)
+            for (std::size_t k = 0; k < corners[e].size(); ++k) {
+                const auto [ray, layers] = corners[e][k];
+                const BorderCorner& after = corners[e][(k + 1) % corners[e].size()];
+                if (!elements[e].resampled || layers == 0 || after.layers == 0 || graded.cuts[e][k].empty()) continue;
+                // New edges would ask for their own length, which is less than the target, and so on and on.
+                set.border_asks[ray] = graded.asks[e][k];
+                const Point from = tip(ray);
+                const double length = distance(from, tip(after.ray));
+                for (Point p : graded.cuts[e][k]) shares[ray].push_back(distance(from, p) / length);
+            }
+        return insert_rays(set, shares);
+    }
+
     Layer build(const GradingOptions& grading, std::span<const double> limits) {
         const std::vector<std::vector<BorderCorner>> corners = border_corners();
-        std::vector<std::vector<Point>> borders(corners.size());
-        for (std::size_t e = 0; e < corners.size(); ++e)
-            for (const BorderCorner& corner : corners[e]) borders[e].push_back(tip(corner.ray));
-        std::vector<std::vector<Point>> walls(set_.bodies());
-        for (std::size_t e = 0; e < set_.bodies(); ++e)
-            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i)
-                if (walls[e].empty() || walls[e].back() != set_.rays[i].origin) walls[e].push_back(set_.rays[i].origin);
-        const auto cuts = grade_borders(borders, walls, grading);
+        const auto cuts = divide_borders(corners, grading).cuts;
         place_walls(corners, cuts);
         place_ray_points();
         place_borders(corners, cuts);
@@ -132,6 +147,22 @@ private:
             }
         }
         return borders;
+    }
+
+    GradedBorders divide_borders(const std::vector<std::vector<BorderCorner>>& corners, GradingOptions grading) const {
+        std::vector<std::vector<Point>> borders(corners.size());
+        std::vector<std::vector<double>> asks(corners.size());
+        for (std::size_t e = 0; e < corners.size(); ++e)
+            for (const BorderCorner& corner : corners[e]) {
+                borders[e].push_back(tip(corner.ray));
+                asks[e].push_back(set_.border_asks.empty() ? 1 : set_.border_asks[corner.ray]);
+            }
+        std::vector<std::vector<Point>> walls(set_.bodies());
+        for (std::size_t e = 0; e < set_.bodies(); ++e)
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i)
+                if (walls[e].empty() || walls[e].back() != set_.rays[i].origin) walls[e].push_back(set_.rays[i].origin);
+        grading.asks = asks;
+        return grade_borders(borders, walls, grading);
     }
 
     VertexId add_point(Point p, std::uint32_t layer) {
@@ -238,15 +269,26 @@ Layer make_layer(const Pslg& pslg, const LayerOptions& options) {
     Heights heights = make_heights(set, options);
     check_scale(pslg, options, heights);
     std::vector<double> limits = height_limits(set, heights);
-    for (int round = 0; round < rounds_of_steps; ++round) {
-        RaySet more = add_rays_at_steps(set, heights, limits);
-        if (more.rays.size() == set.rays.size()) break;
+    const auto take = [&](RaySet more) {
+        if (more.rays.size() == set.rays.size()) return false;
         set = std::move(more);
         heights = make_heights(set, options);
         limits = height_limits(set, heights);
+        return true;
+    };
+    for (int round = 0; round < rounds_of_steps; ++round)
+        if (!take(add_rays_at_steps(set, heights, limits))) break;
+    Heights fitted = fit_heights(heights, limits);
+    std::vector<std::uint32_t> counts = layer_counts(set, limits, fitted);
+
+    if (options.ray_gradation) {
+        GradingOptions of_rays = grading;
+        of_rays.gradation = *options.ray_gradation;
+        if (take(Assembly(set, counts, fitted).with_rays_at_divisions(pslg.elements, of_rays))) {
+            fitted = fit_heights(heights, limits);
+            counts = layer_counts(set, limits, fitted);
+        }
     }
-    const Heights fitted = fit_heights(heights, limits);
-    const std::vector<std::uint32_t> counts = layer_counts(set, limits, fitted);
     Layer layer = Assembly(set, counts, fitted).build(grading, limits);
     layer.coverage = layer_coverage(set, heights, counts);
     return layer;

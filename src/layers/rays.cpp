@@ -195,6 +195,24 @@ std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& 
     return rays;
 }
 
+RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares) {
+    const std::vector<std::size_t> next = set.following();
+    RaySet result;
+    for (std::size_t e = 0; e < set.bodies(); ++e) {
+        for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
+            const RayLine &ray = set.rays[i], &after = set.rays[next[i]];
+            result.rays.push_back(ray);
+            if (!shares[i].empty() && ray.origin != after.origin) {
+                const RaysBetween between(ray, after);
+                for (const double share : shares[i]) between.add(share, 1, result.rays);
+            }
+            if (!set.border_asks.empty()) result.border_asks.resize(result.rays.size(), set.border_asks[i]);
+        }
+        result.begin.push_back(result.rays.size());
+    }
+    return result;
+}
+
 RaySet add_rays_at_steps(const RaySet& set, const Heights& heights, std::span<const double> limits) {
     const std::vector<std::size_t> next = set.following();
     const auto ending = [&](std::size_t i) {
@@ -202,24 +220,18 @@ RaySet add_rays_at_steps(const RaySet& set, const Heights& heights, std::span<co
         const auto above = std::upper_bound(stack.begin(), stack.end(), limits[i]);
         return Ending{std::min(limits[i], stack.back()), static_cast<std::uint32_t>(above - stack.begin()) - 1};
     };
-    RaySet result;
-    for (std::size_t e = 0; e < set.bodies(); ++e) {
-        for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
-            const RayLine &ray = set.rays[i], &after = set.rays[next[i]];
-            result.rays.push_back(ray);
-            if (ray.origin == after.origin) continue;
-            const Ending here = ending(i), there = ending(next[i]);
-            const RaysBetween between(ray, after);
-            if (here.layers < there.layers) {
-                for (double share : steps_between(here, there, heights.of(next[i]))) between.add(share, 1, result.rays);
-            } else {
-                std::vector<double> shares = steps_between(there, here, heights.of(i));
-                for (std::size_t k = shares.size(); k-- > 0;) between.add(1 - shares[k], 1, result.rays);
-            }
+    std::vector<std::vector<double>> shares(set.rays.size());
+    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+        const Ending here = ending(i), there = ending(next[i]);
+        if (here.layers < there.layers) {
+            shares[i] = steps_between(here, there, heights.of(next[i]));
+        } else {
+            shares[i] = steps_between(there, here, heights.of(i));
+            std::reverse(shares[i].begin(), shares[i].end());
+            for (double& share : shares[i]) share = 1 - share;
         }
-        result.begin.push_back(result.rays.size());
     }
-    return result;
+    return insert_rays(set, shares);
 }
 
 }  // namespace lamina

@@ -22,6 +22,9 @@ struct RayLine {
 struct RaySet {
     std::vector<RayLine> rays;
     std::vector<std::size_t> begin{0};
+    /// By ray, the border's edge from its tip to the following one: it asks for this many times its length. Empty:
+    /// once.
+    std::vector<double> border_asks;
 
     std::size_t bodies() const { return begin.size() - 1; }
     /// Of each ray, the one that follows counter-clockwise round its body.
@@ -55,5 +58,10 @@ inline constexpr double sharp_corner_deg = 60;
 /// body are origins exactly; the rays of a fan have one origin.
 /// Source: thesis 3 and 3.1.
 std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& options);
+
+/// Further rays on the edges between origins. shares: of each ray, how far along the edge to the origin of the
+/// following one they start, ascending, in (0, 1); directions turn evenly. None where both have one origin, nor where
+/// an edge is too short to be divided. New rays have the `border_asks` of the ray before them.
+RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares);
 
 }  // namespace lamina

@@ -202,9 +202,10 @@ SurfaceOptions surface_options(const CaseOptions& options) {
     surface.max_turning_deg = std::min(surface.max_turning_deg, options.layer.max_ray_angle_deg);
     // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
     // Where the wall's spacing exceeds that, border edges are divided and the rows below fan out to the division
-    // points. Very slow gradations are for the outer region alone.
-    constexpr double slowest = 0.05, margin = 0.9;
-    surface.gradation = std::min(surface.gradation, std::max(margin * border_gradation(options), slowest));
+    // points.
+    constexpr double margin = 0.9;
+    surface.gradation =
+        std::min(surface.gradation, std::max(margin * border_gradation(options), slowest_wall_gradation));
     // Layers that go by the wall's spacing are as high over it as that allows.
     if (options.layer.enabled && options.layer.layers && options.layer.growth_law != GrowthLaw::adaptive) {
         const double height =

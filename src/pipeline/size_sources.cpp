@@ -103,6 +103,7 @@ std::vector<SizeSource> border_sources(const Layer& layer, const CaseOptions& op
 LayerOptions layer_options(const CaseOptions& options, std::span<const SizeSource> sources) {
     LayerOptions layer = options.layer;
     layer.border_gradation = border_gradation(options);
+    layer.ray_gradation = std::max(layer.border_gradation, slowest_wall_gradation);
     layer.longest_border_edge =
         frozen_share * std::min(options.wall_size.value_or(HUGE_VAL), options.far_size.value_or(HUGE_VAL));
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach

@@ -10,6 +10,10 @@ namespace lamina {
 /// Growth of the edges of the layers' outer borders per unit of distance: what the size field's lets them.
 double border_gradation(const CaseOptions& options);
 
+/// Spacings along walls follow those of the layer's border, but grow at least so fast: very slow gradations are for the
+/// outer region alone.
+inline constexpr double slowest_wall_gradation = 0.05;
+
 /// The layer with an outer border fit to be frozen for refinement to the angle and sizes asked for, and the sources
 /// that are not its border: those of the options, the wakes and the background mesh.
 struct SizedLayer {
