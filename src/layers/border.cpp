@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/box_tree.hpp"
 #include "layers/segments.hpp"
@@ -17,6 +16,8 @@ namespace {
 
 /// An edge up to this much longer than its target is left alone.
 constexpr double size_slack = 1.1;
+/// And one that comes of a division already up to this: cuts shift, and the field is never quite what it was.
+constexpr double planned_slack = 1.3;
 /// Length of the intervals of the sums over ds / h, in units of h.
 constexpr double interval = 0.25;
 /// Edges are divided for the ratio's sake into at most this many times the pieces that size asks for.
@@ -30,15 +31,18 @@ struct Edge {
     Point a, b;
     double length;
     std::size_t previous, next;
+    double asks = 0;  ///< for this many times its length, if it comes of a division
 };
 
-std::vector<Edge> edges_of(std::span<const std::vector<Point>> borders) {
+std::vector<Edge> edges_of(std::span<const std::vector<Point>> borders,
+                           std::span<const std::vector<double>> asks = {}) {
     std::vector<Edge> edges;
     for (const std::vector<Point>& border : borders) {
         const std::size_t first = edges.size(), n = border.size();
         for (std::size_t k = 0; k < n; ++k) {
             const Point a = border[k], b = border[(k + 1) % n];
             edges.push_back({a, b, distance(a, b), first + (k + n - 1) % n, first + (k + 1) % n});
+            if (!asks.empty()) edges.back().asks = asks[&border - borders.data()][k];
         }
     }
     return edges;
@@ -108,13 +112,10 @@ public:
           tree_({}),
           at_start_(edges.size(), longest_) {
         const BoxTree edge_tree = tree_of(edges);
-        std::vector<double> asks;
-        for (const std::vector<double>& of_border : options.asks)
-            asks.insert(asks.end(), of_border.begin(), of_border.end());
-        asks.resize(edges.size(), 1);
         for (std::size_t i = 0; i < edges.size(); ++i) {
+            const auto& [a, b, length, previous, next, asks] = edges[i];
             const std::size_t first = sources_.size();
-            add_sources(edges[i].a, edges[i].b, asks[i] * edges[i].length, edges_across(edges, edge_tree, i), sources_);
+            add_sources(a, b, asks > 0 ? asks * length : length, edges_across(edges, edge_tree, i), sources_);
             at_start_[i] = std::min(at_start_[i], sources_[first].size);
             at_start_[edges[i].next] = std::min(at_start_[edges[i].next], sources_.back().size);
         }
@@ -238,6 +239,27 @@ struct Division {
             sum += share;
             distance += length;
         }
+        return result;
+    }
+
+    /// Largest target length on each piece between these distances from the edge's start, over its own length, but no
+    /// less than 1.
+    std::vector<double> asks(const std::vector<double>& ends) const {
+        std::vector<double> result;
+        double from = 0, to = 0, largest = 0;
+        const auto end_piece = [&](double end) {
+            result.push_back(end > from ? std::max(1.0, largest / (end - from)) : 1);
+            from = end;
+            largest = 0;
+        };
+        for (const Interval& i : field) {
+            to += i.length;
+            for (largest = std::max(largest, i.size); result.size() < ends.size() && ends[result.size()] <= to;) {
+                end_piece(ends[result.size()]);
+                largest = i.size;
+            }
+        }
+        end_piece(to);
         return result;
     }
 
@@ -399,14 +421,15 @@ void undo_crossing_cuts(std::span<const Edge> edges, std::span<const Edge> walls
 
 GradedBorders grade_borders(std::span<const std::vector<Point>> borders, std::span<const std::vector<Point>> walls,
                             const GradingOptions& options) {
-    const std::vector<Edge> edges = edges_of(borders);
+    const std::vector<Edge> edges = edges_of(borders, options.asks);
     const TargetLength target(edges, options);
     std::vector<Division> divisions(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         Division& division = divisions[i];
         division.field = target.along(i);
         division.tilt(1, 1);
-        division.least_pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(division.total / size_slack)));
+        const double slack = edges[i].asks > 0 ? planned_slack : size_slack;
+        division.least_pieces = static_cast<std::size_t>(std::max(1.0, std::ceil(division.total / slack)));
         division.pieces = division.least_pieces;
     }
     balance(edges, options.ratio, divisions);
@@ -424,17 +447,16 @@ GradedBorders grade_borders(std::span<const std::vector<Point>> borders, std::sp
     }
     undo_crossing_cuts(edges, edges_of(walls), cuts);
 
-    GradedBorders graded{std::vector<std::vector<std::vector<Point>>>(borders.size()),
-                         std::vector<std::vector<double>>(borders.size())};
+    GradedBorders graded;
     std::size_t i = 0;
-    for (std::size_t e = 0; e < borders.size(); ++e)
-        for (std::size_t k = 0; k < borders[e].size(); ++k, ++i) {
-            const double by_target = std::accumulate(
-                divisions[i].field.begin(), divisions[i].field.end(), 0.0,
-                [](double sum, const Interval& interval) { return sum + interval.length / interval.size; });
-            graded.asks[e].push_back(std::max(1.0, static_cast<double>(cuts[i].size() + 1) / by_target));
-            graded.cuts[e].push_back(std::move(cuts[i]));
+    for (const std::vector<Point>& border : borders) {
+        auto& of_border = graded.cuts.emplace_back();
+        auto& asks = graded.asks.emplace_back();
+        for (std::size_t k = 0; k < border.size(); ++k, ++i) {
+            asks.push_back(divisions[i].asks(cuts[i].empty() ? std::vector<double>{} : divisions[i].cuts()));
+            of_border.push_back(std::move(cuts[i]));
         }
+    }
     return graded;
 }
 

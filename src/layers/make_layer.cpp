@@ -94,21 +94,19 @@ public:
     RaySet with_rays_at_divisions(std::span<const Element> elements, const GradingOptions& grading) const {
         const std::vector<std::vector<BorderCorner>> corners = border_corners();
         const GradedBorders graded = divide_borders(corners, grading);
-        std::vector<std::vector<double>> shares(set_.rays.size());
-        RaySet set = set_;
-        set.border_asks.assign(set_.rays.size(), 1);
+        // New edges would ask for their own length, which is less than the target, and their neighbours for less still.
+        std::vector<std::vector<double>> shares(set_.rays.size()), asks(set_.rays.size());
         for (std::size_t e = 0; e < corners.size(); ++e)
             for (std::size_t k = 0; k < corners[e].size(); ++k) {
                 const auto [ray, layers] = corners[e][k];
                 const BorderCorner& after = corners[e][(k + 1) % corners[e].size()];
-                if (!elements[e].resampled || layers == 0 || after.layers == 0 || graded.cuts[e][k].empty()) continue;
-                // New edges would ask for their own length, which is less than the target, and so on and on.
-                set.border_asks[ray] = graded.asks[e][k];
+                if (!elements[e].resampled || layers == 0 || after.layers == 0) continue;
                 const Point from = tip(ray);
                 const double length = distance(from, tip(after.ray));
                 for (Point p : graded.cuts[e][k]) shares[ray].push_back(distance(from, p) / length);
+                asks[ray] = graded.asks[e][k];
             }
-        return insert_rays(set, shares);
+        return insert_rays(set_, shares, asks);
     }
 
     Layer build(const GradingOptions& grading, std::span<const double> limits) {
@@ -155,7 +153,7 @@ private:
         for (std::size_t e = 0; e < corners.size(); ++e)
             for (const BorderCorner& corner : corners[e]) {
                 borders[e].push_back(tip(corner.ray));
-                asks[e].push_back(set_.border_asks.empty() ? 1 : set_.border_asks[corner.ray]);
+                asks[e].push_back(set_.border_asks.empty() ? 0 : set_.border_asks[corner.ray]);
             }
         std::vector<std::vector<Point>> walls(set_.bodies());
         for (std::size_t e = 0; e < set_.bodies(); ++e)

@@ -195,18 +195,26 @@ std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& 
     return rays;
 }
 
-RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares) {
+RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares,
+                   const std::vector<std::vector<double>>& border_asks) {
     const std::vector<std::size_t> next = set.following();
     RaySet result;
     for (std::size_t e = 0; e < set.bodies(); ++e) {
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
             const RayLine &ray = set.rays[i], &after = set.rays[next[i]];
+            const bool divided = !shares[i].empty() && ray.origin != after.origin;
+            const auto ask = [&](std::size_t k) {
+                if (!border_asks.empty())
+                    result.border_asks.resize(result.rays.size(), divided ? border_asks[i][k] : 0);
+            };
             result.rays.push_back(ray);
-            if (!shares[i].empty() && ray.origin != after.origin) {
-                const RaysBetween between(ray, after);
-                for (const double share : shares[i]) between.add(share, 1, result.rays);
+            ask(0);
+            if (!divided) continue;
+            const RaysBetween between(ray, after);
+            for (std::size_t k = 0; k < shares[i].size(); ++k) {
+                between.add(shares[i][k], 1, result.rays);
+                ask(k + 1);
             }
-            if (!set.border_asks.empty()) result.border_asks.resize(result.rays.size(), set.border_asks[i]);
         }
         result.begin.push_back(result.rays.size());
     }

@@ -22,8 +22,7 @@ struct RayLine {
 struct RaySet {
     std::vector<RayLine> rays;
     std::vector<std::size_t> begin{0};
-    /// By ray, the border's edge from its tip to the following one: it asks for this many times its length. Empty:
-    /// once.
+    /// GradingOptions::asks of the border's edge from each ray's tip to the following one. Empty: none.
     std::vector<double> border_asks;
 
     std::size_t bodies() const { return begin.size() - 1; }
@@ -61,7 +60,8 @@ std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& 
 
 /// Further rays on the edges between origins. shares: of each ray, how far along the edge to the origin of the
 /// following one they start, ascending, in (0, 1); directions turn evenly. None where both have one origin, nor where
-/// an edge is too short to be divided. New rays have the `border_asks` of the ray before them.
-RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares);
+/// an edge is too short to be divided. border_asks: of each ray and the new ones behind it, where there are new ones.
+RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares,
+                   const std::vector<std::vector<double>>& border_asks = {});
 
 }  // namespace lamina

@@ -124,6 +124,43 @@ TEST(Rays, AreAddedWhereLayersChangeInNumberFasterThanTheWallHasVertices) {
     EXPECT_LT(layer.walls[0].size(), 100u);
 }
 
+/// Points that divide the border of an element between the tips of its rays.
+std::size_t division_points(const Layer& layer, std::size_t element) {
+    std::size_t first = 0;
+    for (const auto& rays : layer.rays)
+        for (const Ray& ray : rays) first = std::max(first, ray.first_point + ray.layers);
+    const auto& border = layer.borders[element];
+    return static_cast<std::size_t>(
+        std::count_if(border.begin(), border.end(), [&](VertexId v) { return v.index() >= first; }));
+}
+
+/// A fine body above a coarse wall asks for short edges of the wall's border.
+TEST(Rays, StandWhereTheBorderOfAResampledElementWantsToBeDivided) {
+    const Outline wall = shapes::refined(shapes::polygon({{0, -1}, {4, -1}, {4, 0}, {0, 0}}), 20);
+    const Outline fine = shapes::moved(shapes::circle(0.05, 200), 0, 1, {2, 0.3});
+    LayerOptions options = layers_as_high_as(0.05);
+    for (const bool mirror : {false, true}) {
+        Pslg pslg =
+            mirror ? shapes::pslg({shapes::mirrored(wall), shapes::mirrored(fine)}) : shapes::pslg({wall, fine});
+        options.ray_gradation = {};
+        const Layer divided = make_layer(pslg, options);
+        options.ray_gradation = options.border_gradation;
+        const Layer kept = make_layer(pslg, options);
+        EXPECT_EQ(kept.points, divided.points);  // nobody resampled it
+
+        for (Element& element : pslg.elements) element.resampled = true;
+        const Layer layer = make_layer(pslg, options);
+        EXPECT_EQ(validate(layer, options), std::vector<std::string>{});
+        EXPECT_GT(division_points(divided, 0), 20u);
+        EXPECT_LT(division_points(layer, 0), division_points(divided, 0) / 4);
+        // As many edges as before, not more and more.
+        EXPECT_LT(double(layer.borders[0].size()), 1.15 * double(divided.borders[0].size()));
+        for (const Point p : pslg.elements[0].points)
+            EXPECT_TRUE(std::any_of(layer.walls[0].begin(), layer.walls[0].end(),
+                                    [&](VertexId v) { return layer.points[v.index()] == p; }));
+    }
+}
+
 TEST(Rays, OfAMirroredOutlineAreMirrored) {
     const LayerOptions options = layers_as_high_as(0.1);
     for (const Outline& outline : {shapes::refined(shapes::c_shape(0.3), 12), noisy(shapes::circle(1, 200), 4e-3),
