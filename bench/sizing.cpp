@@ -1,5 +1,5 @@
-// The size field by number of sources: what building it takes by threads, and what an evaluation takes in the order in
-// which refinement asks, each point within an edge length or two of the last, and all over the region.
+// The size field by number of sources: what building it takes by threads, and what an evaluation takes as refinement
+// asks, piece by piece and each point within an edge length or two of the last, and all over the region.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -26,6 +26,17 @@ std::vector<SizeSource> border(std::size_t edges) {
     return sources;
 }
 
+/// The same field by any number of sources: edges of a border of 100, each in parts that ask for the size of the whole.
+std::vector<SizeSource> same_border(std::size_t count) {
+    std::vector<SizeSource> sources;
+    for (const SizeSource& edge : border(100))
+        for (std::size_t i = 0; i < count / 100; ++i) {
+            const auto at = [&](std::size_t k) { return edge.a + double(100 * k) / double(count) * (edge.b - edge.a); };
+            sources.push_back({at(i), at(i + 1), edge.size});
+        }
+    return sources;
+}
+
 /// The vertices of a background mesh, with sizes that grow from the middle.
 std::vector<SizeSource> background(std::size_t count) {
     test::Random random(1);
@@ -38,18 +49,31 @@ std::vector<SizeSource> background(std::size_t count) {
     return sources;
 }
 
-/// Points of a walk over the region, by steps of an edge length: near and far are as frequent as triangles are there.
-std::vector<Point> walk(const SizeField& size, std::size_t count) {
-    test::Random random(2);
+/// A piece's part of the field, and points in the order of a walk by steps of an edge length.
+struct Piece {
+    SizeField size;
     std::vector<Point> points;
-    Point p{0.5, 0.06};
-    while (points.size() < count) {
-        points.push_back(p);
-        const double h = 2 * size(p);
-        const Point q = p + Point{random.real(-h, h), random.real(-h, h)};
-        if (domain.contains(q)) p = q;
+};
+
+/// Pieces here and there, as many near the border as far from it, each some 200 edges wide.
+std::vector<Piece> pieces(const SizeField& size, std::size_t count, std::size_t points_each) {
+    test::Random random(2);
+    std::vector<Piece> result;
+    while (result.size() < count) {
+        const double reach = 40 * std::pow(1e-3, random.real());
+        Point p{0.5 + random.real(-reach, reach), random.real(-reach, reach)};
+        const double half = 100 * size(p);
+        const Box box{p - Point{half, half}, p + Point{half, half}};
+        Piece piece{size.restricted_to(box), {}};
+        while (piece.points.size() < points_each) {
+            piece.points.push_back(p);
+            const double h = 2 * size(p);
+            const Point q = p + Point{random.real(-h, h), random.real(-h, h)};
+            if (box.contains(q) && domain.contains(q)) p = q;
+        }
+        result.push_back(std::move(piece));
     }
-    return points;
+    return result;
 }
 
 std::vector<Point> scattered(std::size_t count) {
@@ -72,17 +96,34 @@ void build(benchmark::State& state) {
     state.counters["cells"] = double(cells);
 }
 
-template <auto sources, bool in_order>
-void evaluate(benchmark::State& state) {
+void count_evaluations(benchmark::State& state, std::size_t evaluations) {
+    state.counters["each"] = benchmark::Counter(
+        double(evaluations), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+template <auto sources>
+void in_pieces(benchmark::State& state) {
     const SizeField size(sources(static_cast<std::size_t>(state.range(0))), {.gradation = 0.1}, domain);
-    const std::vector<Point> points = in_order ? walk(size, 1 << 18) : scattered(1 << 18);
+    const std::vector<Piece> some = pieces(size, 16, 20'000);
+    for (auto _ : state) {
+        double sum = 0;
+        for (const Piece& piece : some)
+            for (Point p : piece.points) sum += piece.size(p);
+        benchmark::DoNotOptimize(sum);
+    }
+    count_evaluations(state, some.size() * some.front().points.size());
+}
+
+template <auto sources>
+void all_over(benchmark::State& state) {
+    const SizeField size(sources(static_cast<std::size_t>(state.range(0))), {.gradation = 0.1}, domain);
+    const std::vector<Point> points = scattered(300'000);
     for (auto _ : state) {
         double sum = 0;
         for (Point p : points) sum += size(p);
         benchmark::DoNotOptimize(sum);
     }
-    state.counters["ns each"] = benchmark::Counter(
-        double(points.size()) * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    count_evaluations(state, points.size());
 }
 
 void with_sources(benchmark::internal::Benchmark* b) {
@@ -96,10 +137,12 @@ void with_sources_and_threads(benchmark::internal::Benchmark* b) {
     b->ArgNames({"sources", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
-BENCHMARK(evaluate<border, true>)->Name("border, in order")->Apply(with_sources);
-BENCHMARK(evaluate<border, false>)->Name("border, scattered")->Apply(with_sources);
-BENCHMARK(evaluate<background, true>)->Name("background, in order")->Apply(with_sources);
-BENCHMARK(evaluate<background, false>)->Name("background, scattered")->Apply(with_sources);
+BENCHMARK(in_pieces<border>)->Name("border, in pieces")->Apply(with_sources);
+BENCHMARK(all_over<border>)->Name("border, all over")->Apply(with_sources);
+BENCHMARK(in_pieces<same_border>)->Name("same border, in pieces")->Apply(with_sources);
+BENCHMARK(all_over<same_border>)->Name("same border, all over")->Apply(with_sources);
+BENCHMARK(in_pieces<background>)->Name("background, in pieces")->Apply(with_sources);
+BENCHMARK(all_over<background>)->Name("background, all over")->Apply(with_sources);
 BENCHMARK(build<border>)->Name("build, border")->Apply(with_sources_and_threads);
 BENCHMARK(build<background>)->Name("build, background")->Apply(with_sources_and_threads);
 

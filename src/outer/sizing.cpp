@@ -22,6 +22,7 @@
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
+#include "outer/source_groups.hpp"
 
 namespace lamina {
 namespace {
@@ -49,76 +50,10 @@ constexpr std::uint32_t index_mask = half_bit - 1;
 // h at lower left, lower right, upper left, upper right, in units of the root's side.
 using Leaf = std::array<float, 4>;
 
-// A source made ready for distances.
-struct Cone {
-    Point a, along;
-    double inverse_squared_length;  // 0 for a point
-    double radius;
-    SizeSource::Shape shape;
-
-    // From the shape without its radius.
-    double squared_distance_to(Point p) const {
-        if (shape == SizeSource::Shape::box) return squared_distance(Box{a, a + along}, p);
-        const Point ap = p - a;
-        const double t = std::clamp(dot(ap, along) * inverse_squared_length, 0.0, 1.0);
-        return squared_length(ap - t * along);
-    }
-    double distance_to(Point p) const { return std::max(std::sqrt(squared_distance_to(p)) - radius, 0.0); }
-    // The shape is convex: it holds a box if it holds its corners.
-    bool covers(const Box& box) const {
-        if (radius == 0 && shape == SizeSource::Shape::segment) return false;
-        const Point corners[] = {box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}};
-        return std::all_of(std::begin(corners), std::end(corners), [&](Point p) { return distance_to(p) == 0; });
-    }
-};
-
-Cone make_cone(const SizeSource& s) {
-    const Point along = s.b - s.a;
-    const double squared = squared_length(along);
-    return {s.a, along, squared > 0 ? 1.0 / squared : 0.0, s.radius, s.shape};
-}
-
 double distance(const Box& a, const Box& b) {
     const double x = std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, 0.0});
     const double y = std::max({a.lower.y - b.upper.y, b.lower.y - a.upper.y, 0.0});
     return std::sqrt(x * x + y * y);
-}
-
-// Binary tree of sources; the left child of an inner node follows it.
-struct Group {
-    Box box;
-    double smallest;  // size in the group
-    std::uint32_t right = 0;
-    std::uint32_t cone = 0;  // of a group of one
-    bool single() const { return right == 0; }
-    double extent() const { return std::max(box.width(), box.height()); }
-};
-
-std::uint32_t group_sources(std::span<SizeSource> sources, std::vector<Group>& groups, std::vector<Cone>& cones) {
-    const auto index = static_cast<std::uint32_t>(groups.size());
-    Group group{.box = {}, .smallest = HUGE_VAL};
-    for (const SizeSource& s : sources) {
-        const Box box = box_of(s);
-        group.box.include(box.lower);
-        group.box.include(box.upper);
-        group.smallest = std::min(group.smallest, s.size);
-    }
-    groups.push_back(group);
-    if (sources.size() == 1) {
-        groups[index].cone = static_cast<std::uint32_t>(cones.size());
-        cones.push_back(make_cone(sources[0]));
-        return index;
-    }
-    const bool by_x = group.box.width() >= group.box.height();
-    const std::size_t half = sources.size() / 2;
-    std::nth_element(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(half), sources.end(),
-                     [by_x](const SizeSource& s, const SizeSource& t) {
-                         return by_x ? s.a.x + s.b.x < t.a.x + t.b.x : s.a.y + s.b.y < t.a.y + t.b.y;
-                     });
-    group_sources(sources.first(half), groups, cones);
-    const std::uint32_t right = group_sources(sources.subspan(half), groups, cones);
-    groups[index].right = right;
-    return index;
 }
 
 // A square of the quadtree under construction.
@@ -146,12 +81,6 @@ struct Candidates {
     bool constant = false;
 };
 
-// All sources, grouped.
-struct Sources {
-    std::vector<Group> groups;
-    std::vector<Cone> cones;
-};
-
 // A part of the tree: entries of nodes lead to nodes and leaves of the same part.
 struct Part {
     std::vector<Slots> nodes;
@@ -172,7 +101,7 @@ struct Part {
 
 class Builder {
 public:
-    Builder(const Sources& sources, const SizingOptions& options, double unit)
+    Builder(const outer::SourceTree& sources, const SizingOptions& options, double unit)
         : gradation_(options.gradation),
           inverse_gradation_(1 / std::max(options.gradation, 1e-300)),
           max_size_(options.max_size),
@@ -224,11 +153,11 @@ private:
         for (std::size_t i = in.begin; i < in.end; ++i) {
             std::uint32_t index = candidates_[i];
             for (;;) {
-                const Group& group = groups_[index];
+                const outer::SourceGroup& group = groups_[index];
                 // Only what is nearer than this can lower the best value so far.
                 const double reach = std::max((best - group.smallest) * inverse_gradation_, 0.0);
                 if (group.single()) {
-                    const Cone& cone = cones_[group.cone];
+                    const outer::Cone& cone = cones_[group.cone];
                     const double squared = cone.squared_distance_to(p), far = reach + cone.radius;
                     if (squared < far * far)
                         best = std::min(best,
@@ -275,7 +204,7 @@ private:
         for (std::size_t i = parent.begin; i < parent.end; ++i) {
             std::uint32_t index = candidates_[i];
             for (;;) {
-                const Group& group = groups_[index];
+                const outer::SourceGroup& group = groups_[index];
                 double apart = distance(group.box, box);
                 if (group.single()) apart = std::max(apart, cones_[group.cone].distance_to(box.center()) - radius);
                 const double low = group.smallest + gradation_ * apart;
@@ -404,8 +333,8 @@ private:
     }
 
     double gradation_, inverse_gradation_, max_size_, unit_;
-    const std::vector<Group>& groups_;
-    const std::vector<Cone>& cones_;
+    const std::vector<outer::SourceGroup>& groups_;
+    const std::vector<outer::Cone>& cones_;
     std::vector<std::uint32_t> candidates_;  // of the cells on the way from the root to the present one
     std::vector<std::uint32_t> pending_;     // scratch
 };
@@ -413,13 +342,7 @@ private:
 // Level by level until there are enough cells for all threads, then the whole of what is below each: side by side.
 Part build_tree(std::span<const SizeSource> given, const SizingOptions& options, Point lower, double side) {
     constexpr std::size_t enough_tasks = 64;
-    Sources sources;
-    if (!given.empty()) {
-        std::vector<SizeSource> sorted(given.begin(), given.end());
-        sources.groups.reserve(2 * sorted.size());
-        sources.cones.reserve(sorted.size());
-        group_sources(sorted, sources.groups, sources.cones);
-    }
+    const outer::SourceTree sources = outer::group_sources(given);
     struct Made {
         Part part;
         std::vector<Builder::Task> below;
@@ -474,16 +397,6 @@ void require_valid(std::span<const SizeSource> sources, const SizingOptions& opt
 }
 
 }  // namespace
-
-double distance_to(const SizeSource& source, Point p) { return make_cone(source).distance_to(p); }
-
-Box box_of(const SizeSource& source) {
-    Box box;
-    box.include(source.a);
-    box.include(source.b);
-    const Point swell{source.radius, source.radius};
-    return {box.lower - swell, box.upper + swell};
-}
 
 struct SizeField::Tree {
     struct Key {

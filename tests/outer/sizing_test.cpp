@@ -11,6 +11,8 @@
 
 #include <lamina/error.hpp>
 
+#include "core/parallel.hpp"
+
 namespace lamina {
 namespace {
 
@@ -216,17 +218,27 @@ TEST(SizeField, RestrictionChangesNoValue) {
     }
 }
 
-TEST(SizeField, OrderOfSourcesHardlyMatters) {
+// Many sources stand at one place or have one middle, and some are there twice.
+TEST(SizeField, DependsNeitherOnTheOrderOfSourcesNorOnThreads) {
     Random random(8);
-    std::vector<SizeSource> sources = closed_curve(500);
-    const SizeField field(sources, {.gradation = 0.1}, domain);
-    const SizeField again(sources, {.gradation = 0.1}, domain);
-    std::reverse(sources.begin(), sources.end());
-    const SizeField reversed(sources, {.gradation = 0.1}, domain);
-    for (const Point& p : probes(sources, 2000, random)) {
-        EXPECT_EQ(field(p), again(p));
-        EXPECT_NEAR(field(p) / reversed(p), 1, 1e-6);
+    std::vector<SizeSource> sources = closed_curve(3000);
+    for (int i = 0; i < 3000; ++i) {
+        const Point p{0.25 * double(random.index(12)), 0.25 * double(random.index(12))};
+        const double size = 0.01 * double(1 + random.index(3)), off = 0.1 * double(random.index(3));
+        sources.push_back({p - Point{off, 0}, p + Point{off, 0}, size, off});
+        sources.push_back({p - Point{0, off}, p + Point{0, off}, size, off});
     }
+    const SizeField field(sources, {.gradation = 0.1}, domain);
+    const std::vector<Point> points = probes(sources, 20'000, random);
+    for (unsigned threads : {1u, 2u, 5u})
+        for (int round = 0; round < 3; ++round) {
+            for (std::size_t i = sources.size(); i > 1; --i) std::swap(sources[i - 1], sources[random.index(i)]);
+            with_threads(threads, [&] {
+                const SizeField again(sources, {.gradation = 0.1}, domain);
+                EXPECT_EQ(again.cells(), field.cells());
+                for (const Point& p : points) ASSERT_EQ(again(p), field(p));
+            });
+        }
 }
 
 TEST(SizeField, Uniform) {
