@@ -61,6 +61,9 @@ public:
         double low, high;
     };
     Range range(const Box& box, double enough = HUGE_VAL) const;
+    /// Of 1 / h^2 over the domain: with equilateral triangles of edges h there, sqrt(3) / 4 of their number. Not for
+    /// uniform fields, which have no domain.
+    double inverse_square_integral() const;
     std::size_t cells() const;
     /// Growth per unit of distance that the field was made with; 0 for a uniform one.
     double gradation() const { return gradation_; }

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -518,6 +519,40 @@ SizeField::Range SizeField::range(const Box& box, double enough) const {
         }
     }
     return range;
+}
+
+double SizeField::inverse_square_integral() const {
+    assert(tree_);
+    const Tree& tree = *tree_;
+    struct Place {
+        std::uint32_t node;
+        Point lower;
+        double side;  ///< of a slot
+    };
+    const auto overlap = [&](Point lower, double side) {
+        const double width = std::min(lower.x + side, tree.domain.upper.x) - lower.x;
+        const double height = std::min(lower.y + side, tree.domain.upper.y) - lower.y;
+        return std::max(width, 0.0) * std::max(height, 0.0);
+    };
+    std::vector<Place> open{{0, tree.domain.lower, 0.25 * tree.side}};
+    double sum = 0;
+    while (!open.empty()) {
+        const Place place = open.back();
+        open.pop_back();
+        for (unsigned slot = 0; slot < 16; ++slot) {
+            const Point lower = place.lower + place.side * Point{double(slot & 3), double(slot >> 2)};
+            const std::uint32_t entry = tree.nodes[place.node][slot];
+            if ((entry & leaf_bit) == 0) {
+                open.push_back({entry, lower, 0.25 * place.side});
+                continue;
+            }
+            // A leaf of half the node's side counts at its corners for each of its four slots.
+            double mean = 0;
+            for (double h : tree.leaves[entry & index_mask]) mean += 0.25 / (tree.side * h * tree.side * h);
+            sum += overlap(lower, place.side) * mean;
+        }
+    }
+    return sum;
 }
 
 std::size_t SizeField::cells() const { return tree_ ? tree_->leaves.size() : 1; }

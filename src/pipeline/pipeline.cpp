@@ -13,6 +13,7 @@
 #include "core/parallel.hpp"
 #include "core/reproducible_math.hpp"
 #include "pipeline/assemble.hpp"
+#include "pipeline/feasible.hpp"
 #include "pipeline/layer_region.hpp"
 #include "pipeline/size_sources.hpp"
 
@@ -138,6 +139,7 @@ MeshResult run(Pslg pslg, const CaseOptions& given, Clock& clock, double geometr
     clock.begin("surface");
     pslg = prepare_surfaces(std::move(pslg), surface_options(options));
     const DecouplingOptions outer_options = decoupling_options(pslg, options);
+    require_feasible_sizes(pslg, options, far_field_box(outer_options));
     seconds.geometry += clock.lap();
 
     clock.begin("layers");
@@ -148,6 +150,7 @@ MeshResult run(Pslg pslg, const CaseOptions& given, Clock& clock, double geometr
 
     clock.begin("sizing");
     const SizeField size = make_size_field(sized_layer, options, far_field_box(outer_options));
+    require_feasible(size, options);
     seconds.sizing = clock.lap();
 
     clock.begin("decoupling");

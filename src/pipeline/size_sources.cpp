@@ -132,11 +132,18 @@ double border_gradation(const CaseOptions& options) {
     return frozen_share * options.gradation / rounding_of_pieces;
 }
 
+std::vector<SizeSource> wake_sources(const Pslg& pslg, const CaseOptions& options) {
+    std::vector<SizeSource> sources;
+    if (!options.wake || !options.wake->size) return sources;
+    for (const Wake& wake : find_wakes(pslg, *options.wake))
+        add_sources(wake, *options.wake->size, options.gradation, sources);
+    return sources;
+}
+
 SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options, const Box& domain) {
     SizedLayer result{{}, options.size_sources};
-    const std::vector<Wake> wakes = options.wake ? find_wakes(pslg, *options.wake) : std::vector<Wake>{};
-    if (options.wake && options.wake->size)
-        for (const Wake& wake : wakes) add_sources(wake, *options.wake->size, options.gradation, result.sources);
+    const std::vector<SizeSource> given_wakes = wake_sources(pslg, options);
+    result.sources.insert(result.sources.end(), given_wakes.begin(), given_wakes.end());
     // Those that the layer's border has to heed: of a background mesh only few.
     std::vector<SizeSource> at_border = result.sources;
     result.layer = make_layer(pslg, layer_options(options, at_border));
@@ -154,7 +161,7 @@ SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options, const 
     std::vector<SizeSource> without = border_sources(result.layer, options);
     without.insert(without.end(), result.sources.begin(), result.sources.end());
     std::vector<SizeSource> along_wakes;
-    for (const Wake& wake : wakes)
+    for (const Wake& wake : find_wakes(pslg, *options.wake))
         add_sources(wake, size_at(wake.from, without, options.gradation), options.gradation, along_wakes);
     result.sources.insert(result.sources.end(), along_wakes.begin(), along_wakes.end());
     at_border.insert(at_border.end(), along_wakes.begin(), along_wakes.end());

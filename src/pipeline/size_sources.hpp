@@ -22,6 +22,9 @@ struct SizedLayer {
 };
 SizedLayer make_sized_layer(const Pslg& pslg, const CaseOptions& options, const Box& domain);
 
+/// The lines along wakes whose size at the trailing edge is given.
+std::vector<SizeSource> wake_sources(const Pslg& pslg, const CaseOptions& options);
+
 /// h(x) from the layers' borders and the sources.
 SizeField make_size_field(const SizedLayer& layer, const CaseOptions& options, const Box& domain);
 

@@ -251,6 +251,24 @@ TEST(SizeField, Uniform) {
     EXPECT_LE(capped.cells(), 16u);
 }
 
+TEST(SizeField, IntegralOfItsInverseSquare) {
+    const SizeField capped({}, {.gradation = 0.1, .max_size = 0.5}, domain);
+    const double area = domain.width() * domain.height();
+    EXPECT_NEAR(capped.inverse_square_integral(), 4 * area, 1e-5 * area);
+    // Against the mean over points everywhere.
+    Random random(12);
+    const std::vector<SizeSource> sources{{{-3, -2}, {9, 5}, 1}, {{0, 8}, {1, -12}, 2}};
+    const SizeField field(sources, {.gradation = 0.3}, domain);
+    double sum = 0;
+    constexpr int count = 200'000;
+    for (int i = 0; i < count; ++i) {
+        const double h = field(random.in(domain));
+        sum += 1 / (h * h);
+    }
+    const double expected = area * sum / count;
+    EXPECT_NEAR(field.inverse_square_integral(), expected, 0.02 * expected);
+}
+
 // Few cells where the field is nearly flat, and no more than a few dozen a source elsewhere.
 TEST(SizeField, CellsAreFew) {
     const std::vector<SizeSource> sources = closed_curve(1000);

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+
+#include <lamina/error.hpp>
 
 #include "pipeline/cases.hpp"
 
@@ -100,6 +103,48 @@ TEST(SizeSources, WithoutLayersTheWallIsDivided) {
     expect_sound(result, options);
     expect_nothing_left_over(result);
     expect_sizes(result, options.size_sources, options.gradation);
+}
+
+/// Refused in words that hold `said`, and before anything long runs: these would never end.
+void expect_refused(const CaseOptions& options, const std::string& said) {
+    try {
+        mesh_of({naca("0012")}, options);
+        ADD_FAILURE() << "accepted: " << said;
+    } catch (const UsageError& error) {
+        EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("triangles"), std::string::npos) << error.what();
+    }
+}
+
+TEST(Sizes, TooSmallForAnyMeshAreRefusedByName) {
+    const auto with = [](auto set) {
+        CaseOptions options = quick_options();
+        set(options);
+        return options;
+    };
+    expect_refused(with([](CaseOptions& o) { o.far_size = 1e-5; }), "far-size 1e-05");
+    expect_refused(with([](CaseOptions& o) { o.wall_size = 1e-10; }), "wall-size 1e-10");
+    expect_refused(with([](CaseOptions& o) {
+                       o.size_sources = {circle({3, 0}, 1, 1e-6)};
+                   }),
+                   "refine with edges of 1e-06");
+    expect_refused(with([](CaseOptions& o) { o.size_sources = {box({-10, -1}, {-9, 1}, 1e-6)}; }), "refine");
+    expect_refused(with([](CaseOptions& o) {
+                       o.size_sources = {{.a = {2, 0}, .b = {30, 0}, .size = 1e-9}};
+                   }),
+                   "refine");
+    expect_refused(with([](CaseOptions& o) {
+                       o.gradation = 1e-6;
+                       o.wake = WakeOptions{.angle_deg = 0, .length = 5, .size = 1e-9};
+                   }),
+                   "wake with edges of 1e-09");
+    expect_refused(with([](CaseOptions& o) {
+                       o.gradation = 1e-9;
+                       o.far_field = 500;
+                   }),
+                   "gradation 1e-09");
+    // What lies outside the far field asks for nothing.
+    EXPECT_NO_THROW(mesh_of({naca("0012")}, with([](CaseOptions& o) { o.size_sources = {circle({30, 0}, 1, 1e-6)}; })));
 }
 
 TEST(Wake, MakesSmallTrianglesAlongItsLine) {
