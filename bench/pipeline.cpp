@@ -41,7 +41,10 @@ BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark:
 /// What lies between the layer and the far field, both divided as ours are.
 Work triangle_outside_the_layer(const CaseOptions& options) {
     Pslg pslg = prepare_surfaces(read_geometry(std::vector<std::string>{"naca:0012"}), surface_options(options));
-    const DecouplingOptions far{.far_field = options.far_field, .chord = 1, .center = {0.5, 0}};
+    DecouplingOptions far;
+    far.far_field = options.far_field;
+    far.chord = 1;
+    far.center = {0.5, 0};
     const SizedLayer layer = make_sized_layer(pslg, options, far_field_box(far));
     const SizeField field = make_size_field(layer, options, far_field_box(far));
     const Decoupling outer = decouple(layer.layer.points, layer.layer.borders, field, far);

@@ -216,9 +216,9 @@ std::vector<std::uint32_t> first_of_pairs(const Adjacency& adjacency, std::size_
     return firsts;
 }
 
-CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, std::size_t begin, std::size_t end,
-                         const MeshCheckOptions& options) {
-    CellsSummary summary(options.min_angle_deg);
+/// The cells [begin, end) and the edges between them and later ones.
+void check_block(const Mesh& mesh, const Adjacency& adjacency, std::size_t begin, std::size_t end,
+                 const MeshCheckOptions& options, CellsSummary& summary) {
     const CellEdges edges(mesh);
     std::vector<double> areas(end - begin);
     for (std::size_t cell = begin; cell < end; ++cell)
@@ -228,7 +228,21 @@ CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, std::size
     };
     for (const std::uint32_t e : first_of_pairs(adjacency, edges.first(begin), edges.first(end)))
         check_edge(mesh, edges, e, adjacency.twin[e], area, summary);
-    return summary;
+}
+
+CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, const MeshCheckOptions& options) {
+    // Summaries are added up one after the other, so there are fewer of them than blocks.
+    constexpr std::size_t blocks = 4;
+    const auto several_blocks = [&](std::size_t begin, std::size_t end) {
+        CellsSummary summary(options.min_angle_deg);
+        for (; begin < end; begin += grain)
+            check_block(mesh, adjacency, begin, std::min(end, begin + grain), options, summary);
+        return summary;
+    };
+    CellsSummary all(options.min_angle_deg);
+    for (CellsSummary& part : parallel_blocks(CellEdges(mesh).cells(), blocks * grain, several_blocks))
+        all.append(std::move(part));
+    return all;
 }
 
 HandOverSummary summarize(std::vector<double> area_ratios) {
@@ -439,11 +453,7 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     const std::size_t cells = CellEdges(mesh).cells();
 
     const Adjacency adjacency = detail::find_adjacency(mesh);
-    CellsSummary all(options.min_angle_deg);
-    const auto cell_block = [&](std::size_t begin, std::size_t end) {
-        return check_cells(mesh, adjacency, begin, end, options);
-    };
-    for (CellsSummary& part : parallel_blocks(cells, grain, cell_block)) all.append(std::move(part));
+    CellsSummary all = check_cells(mesh, adjacency, options);
     defects.append(std::move(all.defects));
     check.area = all.area;
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/box_tree.hpp"
@@ -208,19 +209,20 @@ private:
     }
 };
 
-}  // namespace
+/// Pieces that are being cut, and those that are done.
+class Cutting {
+public:
+    Cutting(const SizeField& size, SeparatorRule rule, double pieces_target)
+        : size_(size), rule_(rule), pieces_target_(pieces_target) {}
 
-std::vector<SizedPiece> cut_to_size(Skeleton& skeleton, std::vector<Piece> pieces, const SizeField& size,
-                                    SeparatorRule rule, double pieces_target) {
-    std::vector<SizedPiece> whole;
-    // Level by level: the search for cuts, which takes the time, runs on all pieces of a level at once; then they are
-    // cut in order.
-    while (!pieces.empty()) {
-        std::vector<Verdict> verdicts(pieces.size());
-        parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                verdicts[i] = Search(skeleton.points, pieces[i], size, rule).run(pieces_target);
+    std::vector<Verdict> judge(std::span<const Point> points, std::span<const Piece> pieces) const {
+        return parallel_blocks(pieces.size(), 1, [&](std::size_t i, std::size_t) {
+            return Search(points, pieces[i], size_, rule_).run(pieces_target_);
         });
+    }
+
+    /// Cuts the pieces as judged. Those that come of it.
+    std::vector<Piece> cut(Skeleton& skeleton, std::vector<Piece> pieces, std::span<const Verdict> verdicts) {
         std::vector<Piece> next;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             const auto& cut = verdicts[i].cut;
@@ -238,9 +240,43 @@ std::vector<SizedPiece> cut_to_size(Skeleton& skeleton, std::vector<Piece> piece
                 next.push_back(std::move(second));
             }
         }
-        pieces = std::move(next);
+        return next;
     }
-    return whole;
+
+    /// Level by level: the search for cuts, which takes the time, runs on all pieces of a level at once; then they are
+    /// cut in order.
+    void cut_all(Skeleton& skeleton, std::vector<Piece> pieces) {
+        while (!pieces.empty()) {
+            const std::vector<Verdict> verdicts = judge(skeleton.points, pieces);
+            pieces = cut(skeleton, std::move(pieces), verdicts);
+        }
+    }
+
+    std::vector<SizedPiece> whole;
+
+private:
+    const SizeField& size_;
+    SeparatorRule rule_;
+    double pieces_target_;
+};
+
+}  // namespace
+
+std::vector<SizedPiece> cut_to_size(Skeleton& skeleton, std::vector<Piece> pieces, const SizeField& size,
+                                    SeparatorRule rule, double pieces_target) {
+    // The piece round the bodies, which is cut many times over, would occupy one thread at first: the others judge the
+    // rest meanwhile, none of which has to wait for a vertex that is still to come.
+    const auto rest =
+        std::stable_partition(pieces.begin(), pieces.end(), [](const Piece& p) { return p.loops.size() > 1; });
+    std::vector<Piece> others(std::make_move_iterator(rest), std::make_move_iterator(pieces.end()));
+    pieces.erase(rest, pieces.end());
+    const std::vector<Point> points = skeleton.points;
+    Cutting cutting(size, rule, pieces_target);
+    std::vector<Verdict> verdicts;
+    parallel_invoke([&] { cutting.cut_all(skeleton, std::move(pieces)); },
+                    [&] { verdicts = cutting.judge(points, others); });
+    cutting.cut_all(skeleton, cutting.cut(skeleton, std::move(others), verdicts));
+    return std::move(cutting.whole);
 }
 
 }  // namespace lamina::outer

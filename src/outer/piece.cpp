@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstdint>
 
+#include "core/parallel.hpp"
 #include "core/predicates.hpp"
 
 namespace lamina::outer {
@@ -54,13 +55,14 @@ Star leaving_edges(std::span<const Point> points, std::span<const Segment> edges
     star.edge.resize(edges.size());
     std::vector<std::size_t> fill(star.start.begin(), star.start.end() - 1);
     for (std::uint32_t e = 0; e < edges.size(); ++e) star.edge[fill[edges[e].a.index()]++] = e;
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        std::sort(star.edge.begin() + static_cast<std::ptrdiff_t>(star.start[v]),
-                  star.edge.begin() + static_cast<std::ptrdiff_t>(star.start[v + 1]),
-                  [&](std::uint32_t l, std::uint32_t r) {
-                      return angle_less(points[v], points[edges[l].b.index()], points[edges[r].b.index()]);
-                  });
-    }
+    parallel_for(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v)
+            std::sort(star.edge.begin() + static_cast<std::ptrdiff_t>(star.start[v]),
+                      star.edge.begin() + static_cast<std::ptrdiff_t>(star.start[v + 1]),
+                      [&](std::uint32_t l, std::uint32_t r) {
+                          return angle_less(points[v], points[edges[l].b.index()], points[edges[r].b.index()]);
+                      });
+    });
     return star;
 }
 
