@@ -378,12 +378,19 @@ void emit_strip(const Level& level, const TriangleBits& bits, Row j, const std::
     const auto rim = [&](VertexId a, VertexId b) { patches.rim.push_back({b, a}); };
     for (std::size_t w = 0; w < words; ++w) {
         if ((up[w] | down[w]) == 0) continue;
-        for_bits(up[w], w, [&](std::size_t i) {
+        // As a strip: every triangle beside the one before. The apex of a down triangle of an even row lies in an odd
+        // one, and the other way round.
+        const auto add_up = [&](std::size_t i) {
             patches.triangles.push_back({{vertex(here, i), vertex(here, i + 1), vertex(above, i + odd)}});
-        });
-        // The apex of a down triangle of an even row lies in an odd one, and the other way round.
-        for_bits(down[w], w, [&](std::size_t i) {
+        };
+        const auto add_down = [&](std::size_t i) {
             patches.triangles.push_back({{vertex(above, i + 1), vertex(above, i), vertex(here, i + 1 - odd)}});
+        };
+        for_bits(up[w] | down[w], w, [&](std::size_t i) {
+            const Word bit = Word{1} << (i % 64);
+            if (odd != 0 && (down[w] & bit) != 0) add_down(i);
+            if ((up[w] & bit) != 0) add_up(i);
+            if (odd == 0 && (down[w] & bit) != 0) add_down(i);
         });
         for_bits(up[w] & ~down_here[w], w, [&](std::size_t i) { rim(vertex(here, i), vertex(here, i + 1)); });
         for_bits(down[w] & ~up_above[w], w, [&](std::size_t i) { rim(vertex(above, i + 1), vertex(above, i)); });
