@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angles.hpp"
 #include "core/reproducible_math.hpp"
 #include "geometry/corners.hpp"
 
@@ -27,6 +28,28 @@ Noise find_noise(std::span<const Point> outline, std::span<const std::size_t> co
         noise.amplitude = std::max(noise.amplitude, 0.5 * angle / (1 / l + 1 / m));
     }
     return noise;
+}
+
+//            i
+//           / .            turning to the right at i, to the left on both sides of it; without i hardly at all
+//     -----o   o-----
+//      before  after
+std::vector<std::size_t> find_misplaced(std::span<const Point> outline) {
+    constexpr double least_turning = radians(15), share_without = 1.0 / 3;
+    const std::size_t n = outline.size();
+    std::vector<std::size_t> misplaced;
+    if (n < 8) return misplaced;
+    const std::vector<double> turning = turnings(outline);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+        const double angle = std::abs(turning[i]);
+        if (angle < least_turning || turning[i] * turning[before] >= 0 || turning[i] * turning[after] >= 0) continue;
+        const Point a = outline[(before + n - 1) % n], b = outline[before], c = outline[after],
+                    d = outline[(after + 1) % n];
+        const double without = std::max(std::abs(angle_between(b - a, c - b)), std::abs(angle_between(c - b, d - c)));
+        if (without < share_without * angle) misplaced.push_back(i);
+    }
+    return misplaced;
 }
 
 }  // namespace lamina

@@ -19,4 +19,9 @@ struct Noise {
 /// eye of a flow solver misses (0.2 degrees), the points scatter about the curve. `corners` are left out, ascending.
 Noise find_noise(std::span<const Point> outline, std::span<const std::size_t> corners);
 
+/// Points that stand off the curve through their neighbours, as slips of the pen do: the outline turns there by more
+/// than 15 degrees to one side and, at both neighbours, to the other; without the point it would turn at the neighbours
+/// by less than a third of that. Ascending.
+std::vector<std::size_t> find_misplaced(std::span<const Point> outline);
+
 }  // namespace lamina

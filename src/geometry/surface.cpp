@@ -149,6 +149,20 @@ void tell_noise(Element& e) {
         counted(noise.vertices, "point"), degrees(noise.turning), noise.amplitude, enough * noise.amplitude));
 }
 
+/// A few points that stand off; many are the shape of the thing.
+void tell_misplaced(Element& e) {
+    constexpr std::size_t most = 3;
+    const std::vector<std::size_t> misplaced = find_misplaced(e.points);
+    if (misplaced.size() > most || is_jagged(e, find_corners(e.points))) return;
+    for (const std::size_t i : misplaced) {
+        const Point p = e.points[i];
+        const std::string line = i < e.lines.size() && e.lines[i] > 0 ? fmt::format("line {}: ", e.lines[i]) : "";
+        e.surface.push_back(fmt::format(
+            "{}({}, {}) stands off the curve of its neighbours: a slip? It is kept; take it out if it is wrong", line,
+            p.x, p.y));
+    }
+}
+
 // ---- the decision --------------------------------------------------------------------------------------------------
 
 /// How finely an outline is sampled.
@@ -362,7 +376,10 @@ Pslg prepare_surfaces(Pslg pslg, const SurfaceOptions& options) {
         take_back_crossing(smoothed, given);
         given = std::move(smoothed);
     } else {
-        for (Element& e : given.elements) tell_noise(e);
+        for (Element& e : given.elements) {
+            tell_noise(e);
+            tell_misplaced(e);
+        }
     }
 
     const Walls walls(given);

@@ -342,6 +342,30 @@ TEST(Smoothing, IsOfferedWhereItHelps) {
     EXPECT_FALSE(offers(shapes::joukowski(0.1, 0.05, 200)));
 }
 
+TEST(MisplacedPoints, AreToldAndKept) {
+    const Outline good = naca_airfoil("2412", 60).points;
+    EXPECT_TRUE(find_misplaced(good).empty());
+    for (const std::size_t i : {8u, 20u, 42u, 50u}) {
+        for (const double off : {-0.012, 0.012}) {
+            Outline outline = good;
+            outline[i].y += off;
+            for (const Outline& any : {outline, shapes::mirrored(outline)}) {
+                const std::vector<std::size_t> misplaced = find_misplaced(any);
+                ASSERT_EQ(misplaced.size(), 1u) << i << ' ' << off;
+                EXPECT_EQ(any[misplaced[0]].x, outline[i].x);
+                const Element e = prepared(any, {});
+                EXPECT_TRUE(std::any_of(e.surface.begin(), e.surface.end(), [](const std::string& note) {
+                    return note.find("stands off the curve") != std::string::npos;
+                }));
+            }
+        }
+    }
+    // Corners, flaps, steps and coves are meant.
+    for (const Outline& shape : {shapes::l_shape(), shapes::c_shape(0.05), shapes::comb(4, 0.1), shapes::diamond(),
+                                 shapes::plate(0.05, 12), shapes::refined(shapes::v_notch(0.4), 15)})
+        EXPECT_TRUE(find_misplaced(shape).empty());
+}
+
 TEST(Smoothing, OfAClosedCurveKnowsNoSeam) {
     std::mt19937 random(3);
     Outline rough = shapes::circle(1, 120);
