@@ -54,6 +54,16 @@ struct PointValues {
     Mesh mesh;
     std::vector<double> values;
 };
+/// By a reader of a format: read() makes the mesh, then sizes() finds the values.
+template <class Reader>
+PointValues read_point_values(const std::string& bytes, const std::filesystem::path& file) {
+    Reader reader(bytes, file);
+    PointValues result;
+    result.mesh = reader.read();
+    result.values = reader.sizes();
+    return result;
+}
+
 /// With the array of its point data that holds sizes (size_array).
 PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path& file);
 

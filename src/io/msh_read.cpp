@@ -67,7 +67,7 @@ private:
 
 class MshReader {
 public:
-    MshReader(const std::string& bytes, const std::string& file) : in_(bytes, file) {}
+    MshReader(const std::string& bytes, const std::filesystem::path& file) : in_(bytes, file.string()), file_(file) {}
 
     Mesh read() {
         read_header();
@@ -94,10 +94,10 @@ public:
         return std::move(mesh_);
     }
     /// After read().
-    std::vector<double> sizes(const std::filesystem::path& file) {
+    std::vector<double> sizes() {
         std::vector<std::string> names;
         for (const auto& [name, values] : node_data_) names.emplace_back(name);
-        return std::move(node_data_.find(size_array(names, file))->second);
+        return std::move(node_data_.find(size_array(names, file_))->second);
     }
 
 private:
@@ -328,6 +328,7 @@ private:
     }
 
     ByteReader in_;
+    std::filesystem::path file_;
     bool version_4_ = true, has_nodes_ = false, has_elements_ = false;
     double plane_ = 0;
     NodeNumbers nodes_;
@@ -341,16 +342,10 @@ private:
 
 }  // namespace
 
-Mesh read_msh(const std::string& bytes, const std::filesystem::path& file) {
-    return MshReader(bytes, file.string()).read();
-}
+Mesh read_msh(const std::string& bytes, const std::filesystem::path& file) { return MshReader(bytes, file).read(); }
 
 PointValues read_msh_sizes(const std::string& bytes, const std::filesystem::path& file) {
-    MshReader reader(bytes, file.string());
-    PointValues result;
-    result.mesh = reader.read();
-    result.values = reader.sizes(file);
-    return result;
+    return read_point_values<MshReader>(bytes, file);
 }
 
 }  // namespace lamina::detail

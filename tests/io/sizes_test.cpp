@@ -1,13 +1,18 @@
 // Sizes at the vertices of background meshes.
 #include <gtest/gtest.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <lamina/error.hpp>
 #include <lamina/io.hpp>
 
+#include "support/point_sets.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -71,6 +76,154 @@ TEST(Sizes, AreReadFromPointDataOfVtu) {
         EXPECT_EQ(read.points, mesh.points);
         EXPECT_EQ(read.sizes, sizes);
         EXPECT_EQ(read.triangles.size(), mesh.triangles.size() + 2 * mesh.quads.size());
+    }
+}
+
+// ---- VTU as VTK, ParaView and meshio write it ----
+
+std::string base64(const std::string& bytes) {
+    const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const auto byte = [&](std::size_t k) {
+            return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
+        };
+        const unsigned quantum = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for (unsigned k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : alphabet[quantum >> (18 - 6 * k) & 63];
+    }
+    return text;
+}
+
+struct VtuEncoding {
+    std::string format = "ascii";  ///< binary, raw, base64
+    bool compressed = false, long_header = false, big_endian = false;
+};
+
+/// Two triangles on a square, sizes 0.1 to 0.4 in single precision, a vertex and a polyline as cells of their own, and
+/// a scalar of cells.
+class EncodedVtu {
+public:
+    explicit EncodedVtu(VtuEncoding encoding) : encoding_(std::move(encoding)) {}
+
+    std::string file() {
+        const bool appended = encoding_.format == "raw" || encoding_.format == "base64";
+        std::string xml = std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"") +
+                          " byte_order=\"" + (encoding_.big_endian ? "BigEndian" : "LittleEndian") + "\"" +
+                          (encoding_.long_header ? " header_type=\"UInt64\"" : "") +
+                          (encoding_.compressed ? " compressor=\"vtkZLibDataCompressor\"" : "") +
+                          ">\n<!-- made > by <a> solver -->\n<UnstructuredGrid>\n"
+                          "<Piece NumberOfPoints=\"4\" NumberOfCells=\"4\">\n<PointData Scalars=\"size\">\n";
+        xml += array<float>("Float32", "size", {0.1f, 0.2f, 0.3f, 0.4f});
+        xml +=
+            array<float>("Float32", "velocity", {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3}, 3) + "</PointData>\n<CellData>\n";
+        xml += array<std::int32_t>("Int32", "group", {1, 1, 2, 3}) + "</CellData>\n<Points>\n";
+        xml += array<double>("Float64", "Points", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, 3) + "</Points>\n<Cells>\n";
+        xml += array<std::int32_t>("Int32", "connectivity", {0, 1, 2, 0, 0, 2, 3, 1, 2, 3});
+        xml += array<std::int32_t>("Int32", "offsets", {3, 4, 7, 10});
+        xml += array<std::uint8_t>("UInt8", "types", {5, 1, 5, 4}) + "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
+        if (appended)
+            xml += "<AppendedData encoding=\"" + encoding_.format + "\">\n_" + appended_ + "\n</AppendedData>\n";
+        return xml + "</VTKFile>\n";
+    }
+
+private:
+    template <class T>
+    std::string bytes_of(T value) const {
+        std::string bytes(sizeof value, '\0');
+        std::memcpy(bytes.data(), &value, sizeof value);
+        if (encoding_.big_endian) std::reverse(bytes.begin(), bytes.end());
+        return bytes;
+    }
+    std::string header(std::size_t value) const {
+        return encoding_.long_header ? bytes_of(std::uint64_t{value}) : bytes_of(static_cast<std::uint32_t>(value));
+    }
+    std::string stored(const std::string& plain) const {
+        const bool in_base64 = encoding_.format != "raw";
+        if (!encoding_.compressed) {
+            const std::string all = header(plain.size()) + plain;
+            return in_base64 ? base64(all) : all;
+        }
+        // Blocks of 13 bytes: the last is shorter, but where it is not.
+        constexpr std::size_t block = 13;
+        const std::size_t blocks = (plain.size() + block - 1) / block;
+        std::string sizes = header(blocks) + header(block) + header(plain.size() % block), packed;
+        for (std::size_t i = 0; i < blocks; ++i) {
+            const std::string part = plain.substr(i * block, block);
+            uLongf length = compressBound(part.size());
+            std::string deflated(length, '\0');
+            compress(reinterpret_cast<Bytef*>(deflated.data()), &length, reinterpret_cast<const Bytef*>(part.data()),
+                     part.size());
+            packed += deflated.substr(0, length);
+            sizes += header(length);
+        }
+        return in_base64 ? base64(sizes) + base64(packed) : sizes + packed;
+    }
+    template <class T>
+    std::string array(const std::string& type, const std::string& name, const std::vector<T>& values,
+                      int components = 1) {
+        std::string xml = "<DataArray type=\"" + type + "\" Name=\"" + name + "\"";
+        if (components > 1) xml += " NumberOfComponents=\"" + std::to_string(components) + "\"";
+        if (encoding_.format == "ascii") {
+            xml += " format=\"ascii\">\n";
+            for (const T& value : values) xml += "  " + std::to_string(value) + "\n";
+            return xml + "</DataArray>\n";
+        }
+        std::string plain;
+        for (const T& value : values) plain += bytes_of(value);
+        if (encoding_.format == "binary") return xml + " format=\"binary\">\n   " + stored(plain) + "\n</DataArray>\n";
+        xml += " format=\"appended\" offset=\"" + std::to_string(appended_.size()) + "\"/>\n";
+        appended_ += stored(plain);
+        return xml;
+    }
+
+    VtuEncoding encoding_;
+    std::string appended_;
+};
+
+std::vector<VtuEncoding> vtu_encodings() {
+    std::vector<VtuEncoding> all{{.format = "ascii"}};
+    for (const char* format : {"binary", "raw", "base64"})
+        for (const bool compressed : {false, true})
+            for (const bool long_header : {false, true})
+                for (const bool big_endian : {false, true})
+                    all.push_back({format, compressed, long_header, big_endian});
+    return all;
+}
+
+TEST(Sizes, AreReadFromVtuInEveryEncoding) {
+    const TemporaryFolder folder;
+    for (const VtuEncoding& encoding : vtu_encodings()) {
+        SCOPED_TRACE(encoding.format + (encoding.compressed ? " compressed" : "") +
+                     (encoding.long_header ? " long" : "") + (encoding.big_endian ? " big" : ""));
+        const SizedMesh read = read_sizes(folder.write("a.vtu", EncodedVtu(encoding).file()));
+        EXPECT_EQ(read.points, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+        EXPECT_EQ(read.triangles.size(), 2u);
+        ASSERT_EQ(read.sizes.size(), 4u);
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(read.sizes[i], 0.1 * double(i + 1), 1e-7);
+    }
+}
+
+// Cut short, with bytes changed or cut out: refused in one line or read, never a crash.
+TEST(Sizes, OfDamagedVtuInEveryEncodingAreReadOrRefused) {
+    const TemporaryFolder folder;
+    test::Random random(5);
+    for (const VtuEncoding& encoding : vtu_encodings()) {
+        const std::string whole = EncodedVtu(encoding).file();
+        for (int i = 0; i < 60; ++i) {
+            std::string damaged = whole;
+            if (i % 3 == 0) {
+                damaged.resize(random.below(whole.size()));
+            } else if (i % 3 == 1) {
+                for (int k = 0; k < 3; ++k) damaged[random.below(whole.size())] = static_cast<char>(random.bits());
+            } else {
+                damaged.erase(random.below(whole.size()), 1 + random.below(9));
+            }
+            try {
+                read_sizes(folder.write("a.vtu", damaged));
+            } catch (const InputError& error) {
+                EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            }
+        }
     }
 }
 
