@@ -17,11 +17,17 @@ Box box_at(const Box& near_body, const Box& outermost, double t) {
             near_body.upper + t * (outermost.upper - near_body.upper)};
 }
 
-/// What a quarter of the ring between two parameters holds, on the average over the four sides.
+/// Extents of a quarter of a ring, in edge lengths.
+struct Extents {
+    double radial = 0;      ///< outwards
+    double tangential = 0;  ///< along the side
+};
+
+/// What a quarter of the ring between two parameters holds, on the average over the four sides; and its extents if h
+/// were everywhere as it is where the ring is coarsest.
 struct QuarterRing {
     double triangles = 0;
-    double radial = 0;      ///< extent outwards, in edge lengths
-    double tangential = 0;  ///< extent along the side, in edge lengths
+    Extents mean, least;
 };
 
 /// Integrates from `inner` to `outer` in steps that grow with the box, sampling each side at its quarters.
@@ -29,6 +35,8 @@ QuarterRing measure(const Box& near_body, const Box& outermost, const SizeField&
     QuarterRing quarter;
     const double extent = std::max(near_body.width(), near_body.height());
     const double growth = std::max(outermost.width(), outermost.height()) - extent;
+    constexpr int samples = 4;
+    std::array<Extents, 4 * samples> extents;  // by side and place on it
     double t = inner;
     while (t < outer) {
         const double step = std::min(0.1 * (extent / growth + t), outer - t);
@@ -41,7 +49,6 @@ QuarterRing measure(const Box& near_body, const Box& outermost, const SizeField&
             const Point a = middle[side], b = middle[end];
             const double area = 0.5 * (cross(from[side] - to[end], from[end] - to[side]));
             const double width = distance(midpoint(from[side], from[end]), midpoint(to[side], to[end]));
-            constexpr int samples = 4;
             for (int i = 0; i < samples; ++i) {
                 const double along = (i + 0.5) / samples;
                 const double h = size(a + along * (b - a));
@@ -49,11 +56,18 @@ QuarterRing measure(const Box& near_body, const Box& outermost, const SizeField&
                 const double farther = size(to[side] + along * (to[end] - to[side]));
                 const double gradient = std::abs(farther - nearer) / width;
                 quarter.triangles += kernel::estimated_triangles(std::abs(area), 1 / (h * h), gradient) / (4 * samples);
-                quarter.radial += width / h / (4 * samples);
-                quarter.tangential += distance(a, b) * (next - t) / ((outer - inner) * h) / (4 * samples);
+                Extents& extent_there = extents[static_cast<std::size_t>(side * samples + i)];
+                extent_there.radial += width / h;
+                extent_there.tangential += distance(a, b) * (next - t) / ((outer - inner) * h);
             }
         }
         t = next;
+    }
+    quarter.least = extents.front();
+    for (const Extents& e : extents) {
+        quarter.mean.radial += e.radial / extents.size();
+        quarter.mean.tangential += e.tangential / extents.size();
+        quarter.least = {std::min(quarter.least.radial, e.radial), std::min(quarter.least.tangential, e.tangential)};
     }
     return quarter;
 }
@@ -63,8 +77,8 @@ void plan(const Box& near_body, const Box& outermost, const SizeField& size, dou
     const QuarterRing quarter = measure(near_body, outermost, size, inner, outer);
     const auto n = static_cast<double>(per_side);
     constexpr double fewest_segments = 8;  // no side of a piece gets shorter than this when it is halved
-    const bool wide = quarter.tangential / n > quarter.radial;
-    const double longer = wide ? quarter.tangential / n : quarter.radial;
+    const bool wide = quarter.mean.tangential / n > quarter.mean.radial;
+    const double longer = wide ? quarter.least.tangential / n : quarter.least.radial;
     if (quarter.triangles <= pieces_target * n || longer < 2 * fewest_segments) {
         rings.push_back({inner, outer, per_side});
     } else if (wide) {

@@ -286,6 +286,15 @@ TEST(Decouple, SourcesOfSizesAreCutToSizeWhereverTheyLie) {
     for (double target : {10'000.0, 2'000.0}) expect_cut_to_size(bodies, bodies.size(0.1, 20), 20, target);
 }
 
+// What is a ring of many edges where h is small may be one or two edges wide on the other side.
+TEST(Decouple, RingsKeepTheirWidthWhereTheyAreCoarsest) {
+    Bodies bodies;
+    bodies.add(ellipse(400, 0.12, {0.5, 0}, 4));
+    bodies.sources.push_back({.a = {1.2, -0.3}, .b = {2.2, 0.3}, .size = 0.002, .shape = SizeSource::Shape::box});
+    const SizeField size = bodies.size(0.1, 50);
+    expect_global_delaunay(bodies, decouple(bodies.points, bodies.borders, size, around_unit_chord(50, 4000)), 50);
+}
+
 TEST(Decouple, NarrowGapsAreLeftAlone) {
     Bodies bodies;
     bodies.add(ellipse(600, 0.2, {0.5, 0}, 4));
