@@ -4,12 +4,12 @@
 // Delaunay algorithm, Algorithmica 24 (1999); C. Kadow, PhD thesis, Carnegie Mellon (2004); J. K. Pardue, thesis
 // (2015), 4.3; monotone chain: A. M. Andrew, Inf. Proc. Letters 9 (1979).
 //
-//        height                                   Only points near the cut can be on the hull. Some points near it and
-//          |  o      o                            some of all along it make a rough chain. The hull lies below the
-//          chain, |    o       o  o   o                  so a point counts only if it is no farther from the cut than
-//          the chain |  *   o  *         *                  is high above the parabola over the cut. Where that reaches
-//          few points |   \__*__/ \__*___/     along         they are found in the order across, else in the order
-//          along the cut.
+//    height                            Only points near the cut can be on the hull. Some points near it and some of
+//      |  o      o                     all along it make a rough chain. The hull lies below the chain, so a point
+//      |    o       o  o   o           counts only if it is no farther from the cut than the chord over it is high
+//      |  *   o  *         *           above the parabola over the cut. Under chords that reach few points these are
+//      |   \__*__/ \__*___/            looked at in the order across the cut, under others in the order along it.
+//      +---------------------- along
 //
 // Ties: the height of every point is lowered infinitesimally, the smallest point's most.
 #include "decomposition/dividing_path.hpp"
@@ -95,8 +95,8 @@ Foot foot(const View<axis>& view, Point p, double origin) {
     return {p.y, across * across, across * across + along * along};
 }
 
-/// The points nearest to the cut, some of all along it, and the first and the last; in the order along the cut. Those
-/// of all along it count where there are none near the cut, as beyond the outer border of a layer.
+/// The points nearest to the cut, some of all along it, and the first and the last; in the order along the cut: at
+/// least two. Those of all along it count where there are none near the cut, as beyond the outer border of a layer.
 template <Axis axis>
 std::vector<Foot> sample_feet(const View<axis>& view, double origin) {
     const auto before = [](const Foot& l, const Foot& r) { return l.along < r.along; };
@@ -126,16 +126,29 @@ void keep_lower_hull(std::vector<Foot>& feet) {
     feet.resize(kept);
 }
 
-/// Farther than this from the cut no point between the two feet is on the hull: the chord minus the parabola over the
-/// cut is largest between the feet where both are as far away as the farther one.
-double reach(const Foot& a, const Foot& b) {
-    const double half = 0.5 * (b.along - a.along);
+/// Between two successive feet of the chain.
+struct Chord {
+    Foot a, b;
+    double reach;  ///< points under the chord that are farther than this from the cut are not on the hull
+};
+
+/// Above the parabola over the cut a chord is highest where both feet are as far away as the farther one.
+std::vector<Chord> chords_of(const std::vector<Foot>& chain) {
     constexpr double more_than_rounding = 1 + 0x1p-40;
-    return more_than_rounding * std::sqrt(std::max(a.squared_distance, b.squared_distance) + half * half);
+    std::vector<Chord> chords;
+    chords.reserve(chain.size() - 1);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        const Foot &a = chain[i], &b = chain[i + 1];
+        const double half = 0.5 * (b.along - a.along);
+        const double highest = std::max(a.squared_distance, b.squared_distance) + half * half;
+        chords.push_back({a, b, more_than_rounding * std::sqrt(highest)});
+    }
+    return chords;
 }
 
-/// May a point over the chord from a to b be below it? Nothing is lost to rounding: all terms are positive.
-bool near_enough(const Foot& a, const Foot& b, Point p, double cut) {
+/// May a point under the chord be on the hull? Nothing is lost to rounding: all terms are positive.
+bool near_enough(const Chord& chord, Point p, double cut) {
+    const auto& [a, b, reach] = chord;
     const double from_a = p.y - a.along, to_b = b.along - p.y, whole = b.along - a.along;
     if (!(from_a >= 0 && to_b >= 0 && whole > 0)) return true;
     constexpr double more_than_rounding = 1 + 0x1p-40;
@@ -144,59 +157,59 @@ bool near_enough(const Foot& a, const Foot& b, Point p, double cut) {
            more_than_rounding * (to_b * a.squared_distance + from_a * b.squared_distance + from_a * to_b * whole);
 }
 
-/// The points that may be below the chain, along the cut. A point belongs to the chord that starts at or before it.
+/// The points that may be on the hull under chords that reach less far than `few`.
 template <Axis axis>
-std::vector<Index> points_below(const View<axis>& view, const std::vector<Foot>& chain) {
-    if (chain.size() < 2) return {view.across().begin(), view.across().end()};
-    const std::size_t chords = chain.size() - 1;
-    const auto may_be_below = [&](std::size_t chord, Index i) {
-        return near_enough(chain[chord], chain[chord + 1], view(i), view.cut());
-    };
-    // A point looked at in the order across costs as much as some ten in the order along.
-    const double few = view.distance_of(view.size() / 32);
-    std::vector<double> reaches(chords);
-    for (std::size_t c = 0; c < chords; ++c) reaches[c] = reach(chain[c], chain[c + 1]);
-
-    std::vector<Index> near;
+std::vector<Index> find_across(const View<axis>& view, const std::vector<Chord>& chords, double few) {
     double longest = -1;
-    for (const double r : reaches)
-        if (r < few) longest = std::max(longest, r);
-    if (longest >= 0) {
-        for (const Index i : view.within(longest)) {
-            const auto after = std::upper_bound(chain.begin() + 1, chain.end() - 1, view(i).y,
-                                                [](double y, const Foot& foot) { return y < foot.along; });
-            const auto chord = static_cast<std::size_t>(after - chain.begin()) - 1;
-            if (reaches[chord] < few && may_be_below(chord, i)) near.push_back(i);
-        }
-        std::sort(near.begin(), near.end(), [&](Index p, Index q) { return view.comes_before(p, q); });
+    for (const Chord& chord : chords)
+        if (chord.reach < few) longest = std::max(longest, chord.reach);
+    if (longest < 0) return {};
+    std::vector<Index> found;
+    for (const Index i : view.within(longest)) {
+        const Point p = view(i);
+        const auto next = std::upper_bound(chords.begin() + 1, chords.end(), p.y,
+                                           [](double y, const Chord& chord) { return y < chord.a.along; });
+        const Chord& chord = *(next - 1);
+        if (chord.reach < few && near_enough(chord, p, view.cut())) found.push_back(i);
     }
-
-    std::vector<Index> far;
-    for (std::size_t c = 0, end = 0; c < chords; ++c) {
-        if (reaches[c] < few) continue;
-        const std::size_t begin = c > 0 && reaches[c - 1] < few ? view.count_below(chain[c].along) : end;
-        end = c + 1 < chords ? view.count_below(chain[c + 1].along) : view.size();
-        const std::span<const Index> within = view.within(reaches[c]);
-        const Index first = view.rank(within.front()), range = view.rank(within.back()) - first;
-        for (std::size_t i = begin; i < end; ++i) {
-            const Index point = view.along(i);
-            if (view.rank(point) - first <= range && may_be_below(c, point)) far.push_back(point);
-        }
-    }
-
-    std::vector<Index> all(near.size() + far.size());
-    std::merge(near.begin(), near.end(), far.begin(), far.end(), all.begin(),
-               [&](Index p, Index q) { return view.comes_before(p, q); });
-    return all;
+    std::sort(found.begin(), found.end(), [&](Index p, Index q) { return view.comes_before(p, q); });
+    return found;
 }
 
-/// The points that may be on the path, along the cut.
+/// Those under the others.
+template <Axis axis>
+std::vector<Index> find_along(const View<axis>& view, const std::vector<Chord>& chords, double few) {
+    std::vector<Index> found;
+    for (const Chord& chord : chords) {
+        if (chord.reach < few) continue;
+        const bool first = &chord == &chords.front(), last = &chord == &chords.back();
+        const std::size_t begin = first ? 0 : view.count_below(chord.a.along);
+        const std::size_t end = last ? view.size() : view.count_below(chord.b.along);
+        const std::span<const Index> within = view.within(chord.reach);
+        const Index lowest = view.rank(within.front()), range = view.rank(within.back()) - lowest;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Index point = view.along(i);
+            if (view.rank(point) - lowest <= range && near_enough(chord, view(point), view.cut()))
+                found.push_back(point);
+        }
+    }
+    return found;
+}
+
+/// The points that may be on the path, along the cut. A point lies under the last chord that does not start behind it.
 template <Axis axis>
 std::vector<Index> candidates(const View<axis>& view) {
     const double origin = view(view.across()[view.place()]).y;
     std::vector<Foot> chain = sample_feet(view, origin);
     keep_lower_hull(chain);
-    return points_below(view, chain);
+    const std::vector<Chord> chords = chords_of(chain);
+    // A point looked at in the order across costs as much as some ten in the order along.
+    const double few = view.distance_of(view.size() / 32);
+    const std::vector<Index> near = find_across(view, chords, few), far = find_along(view, chords, few);
+    std::vector<Index> all(near.size() + far.size());
+    std::merge(near.begin(), near.end(), far.begin(), far.end(), all.begin(),
+               [&](Index p, Index q) { return view.comes_before(p, q); });
+    return all;
 }
 
 /// Is p's image below that of q, which has the same coordinate along the cut?
