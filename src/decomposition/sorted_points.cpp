@@ -94,6 +94,7 @@ bool sort_runs(const Item* items, std::size_t begin, std::size_t end, Index* ord
             order[i] = number_of(items[i]);
         }
         Index* const last = order + i;
+        // Most runs are pairs.
         if (last == first + 1 && less(*last, *first)) {
             std::swap(*first, *last);
             continue;
