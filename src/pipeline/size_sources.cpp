@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/box_tree.hpp"
+#include "core/parallel.hpp"
 #include "core/reproducible_math.hpp"
 #include "pipeline/background.hpp"
 
@@ -68,20 +70,28 @@ void add_sources(const Wake& wake, double size, double gradation, std::vector<Si
 /// excess of a few per cent would be a multiple of the size at a fine edge far away.
 constexpr double largest_raise = 2.5;
 
-/// The size that each edge of a closed border asks for: that of which it is a fit share, or more beside a longer edge,
-/// so that no edge is too long for the field that its neighbours make: the largest of (size - gradation x distance
-/// along the border), within the bound.
-std::vector<double> border_sizes(std::span<const double> lengths, double gradation) {
-    std::vector<double> sizes;
-    for (double l : lengths) sizes.push_back(l / frozen_share);
-    const std::size_t n = lengths.size();
-    const auto spread = [&](std::size_t from, std::size_t to) {
-        const double passed_on = sizes[from] - gradation * 0.5 * (lengths[from] + lengths[to]);
-        sizes[to] = std::max(sizes[to], std::min(passed_on, largest_raise * lengths[to] / frozen_share));
-    };
-    // Twice round in both directions: what the first round brings to the loop's start goes on in the second.
-    for (std::size_t i = 0; i < 2 * n; ++i) spread(i % n, (i + 1) % n);
-    for (std::size_t i = 2 * n; i > 0; --i) spread(i % n, (i - 1) % n);
+/// The size that each edge asks for: that of which it is a fit share, or more beside a longer edge, on the same border
+/// or across a slot, so that none is too long for the field that the others make: the largest of (size - gradation x
+/// distance between the middles), within the bound.
+std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradation) {
+    std::vector<Box> boxes;
+    std::vector<double> negative_sizes;
+    for (const SizeSource& edge : edges) {
+        boxes.push_back(box_of(edge));
+        negative_sizes.push_back(-edge.size);
+    }
+    const BoxTree tree(std::move(boxes));
+    const auto values = tree.least_values(std::move(negative_sizes));
+    std::vector<double> sizes(edges.size());
+    parallel_for(edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Point p = midpoint(edges[i].a, edges[i].b);
+            const double passed_on = -tree.least(p, gradation, -edges[i].size, values, [&](std::size_t other) {
+                return distance(p, midpoint(edges[other].a, edges[other].b));
+            });
+            sizes[i] = std::min(passed_on, largest_raise * edges[i].size);
+        }
+    });
     return sizes;
 }
 
@@ -89,14 +99,15 @@ std::vector<double> border_sizes(std::span<const double> lengths, double gradati
 /// than its own would be a jump from frozen edges to triangles many times as large.
 std::vector<SizeSource> border_sources(const Layer& layer, const CaseOptions& options) {
     std::vector<SizeSource> sources;
-    for (const auto& border : layer.borders) {
-        const auto point = [&](std::size_t i) { return layer.points[border[i < border.size() ? i : 0].index()]; };
-        std::vector<double> lengths;
-        for (std::size_t i = 0; i < border.size(); ++i) lengths.push_back(distance(point(i), point(i + 1)));
-        const std::vector<double> sizes = border_sizes(lengths, options.gradation);
-        for (std::size_t i = 0; i < border.size(); ++i)
-            sources.push_back({point(i), point(i + 1), std::min(sizes[i], options.wall_size.value_or(HUGE_VAL))});
-    }
+    for (const auto& border : layer.borders)
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            const Point a = layer.points[border[i].index()];
+            const Point b = layer.points[border[i + 1 < border.size() ? i + 1 : 0].index()];
+            sources.push_back({.a = a, .b = b, .size = distance(a, b) / frozen_share});
+        }
+    const std::vector<double> sizes = edge_sizes(sources, options.gradation);
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        sources[i].size = std::min(sizes[i], options.wall_size.value_or(HUGE_VAL));
     return sources;
 }
 

@@ -21,9 +21,6 @@ CaseOptions options_with(std::uint32_t layers) {
     return options;
 }
 
-/// Fronts that face each other across a narrow gap may leave a few triangles too large; they are counted.
-constexpr std::size_t most_oversized = 5;
-
 /// A flap below and behind a main section of unit chord; the gap is about `gap` wide.
 Outline flap(double gap) { return shapes::moved(naca("0012", 80), -0.4, 0.3, {1.0 - 0.02, -0.01 - gap}); }
 /// A slat before its nose.
@@ -48,10 +45,10 @@ TEST(SeveralBodies, CloseTogether) {
         const CaseOptions options = options_with(30);
         const MeshResult two = mesh_of({naca("0012"), flap(gap)}, options);
         expect_sound(two, options);
-        EXPECT_LE(two.refinement.oversized, most_oversized);
+        expect_nothing_left_over(two);
         const MeshResult three = mesh_of({naca("0012"), flap(gap), slat(gap)}, options);
         expect_sound(three, options);
-        EXPECT_LE(three.refinement.oversized, most_oversized);
+        expect_nothing_left_over(three);
     }
 }
 
@@ -135,7 +132,7 @@ TEST(MeasuredSections, SeveralElementsAreMeshedOrRefusedInWords) {
             options.layer.first_height = 2.5e-5 * box.width();
             const MeshResult result = generate_mesh(pslg, options);
             expect_sound(result, options);
-            EXPECT_LE(result.refinement.oversized, most_oversized);
+            expect_nothing_left_over(result);
             ++meshed;
         } catch (const Error& error) {
             std::printf("%s: %s\n", names.front().c_str(), error.what());
