@@ -56,16 +56,16 @@ constexpr std::size_t digit_of(Item item) {
     return item >> (32 + digit * digit_bits) & (digit_values - 1);
 }
 
-/// How often each value of a digit stands in a block; then where the next item of that value goes.
-using Places = std::array<std::uint32_t, digit_values>;
+/// How often each value of a digit stands in a block; later where the next item of that value goes.
+using Counts = std::array<std::uint32_t, digit_values>;
 
 /// One pass, stable: items with equal digits keep their order. `counts` are those of the blocks.
 template <unsigned digit>
 void deal_by_digit(const Blocks& blocks, const UninitializedArray<Item>& items, UninitializedArray<Item>& dealt,
-                   std::vector<Places> counts) {
+                   std::vector<Counts> counts) {
     std::uint32_t sum = 0;
     for (std::size_t v = 0; v < digit_values; ++v)
-        for (Places& p : counts) sum += std::exchange(p[v], sum);
+        for (Counts& p : counts) sum += std::exchange(p[v], sum);
     blocks.for_each([&](std::size_t begin, std::size_t end) {
         std::uint32_t* const at = counts[Blocks::number(begin)].data();
         const Item* const from = items.begin();
@@ -111,8 +111,8 @@ template <class Coordinate, class Before>
 Sorted order_by(const Blocks& blocks, std::size_t n, double low, double high, Coordinate coordinate, Before before) {
     const double scale = high > low ? (key_values - 1) / (high - low) : 0.0;
     UninitializedArray<Item> items(n), dealt(n);
-    std::vector<Places> counts = blocks.results([&, low, coordinate](std::size_t begin, std::size_t end) {
-        Places count{};
+    std::vector<Counts> counts = blocks.results([&, low, coordinate](std::size_t begin, std::size_t end) {
+        Counts count{};
         Item* const to = items.data();
         for (std::size_t i = begin; i < end; ++i) {
             to[i] = std::uint64_t{static_cast<std::uint32_t>((coordinate(i) - low) * scale)} << 32 | i;
@@ -122,7 +122,7 @@ Sorted order_by(const Blocks& blocks, std::size_t n, double low, double high, Co
     });
     deal_by_digit<0>(blocks, items, dealt, std::move(counts));
     counts = blocks.results([from = dealt.data()](std::size_t begin, std::size_t end) {
-        Places count{};
+        Counts count{};
         for (std::size_t i = begin; i < end; ++i) ++count[digit_of<1>(from[i])];
         return count;
     });
