@@ -33,6 +33,11 @@ CaseOptions case_options(const MeshCase& mesh_case) {
     if (chord && !y_plus) throw UsageError("chord is of use with y-plus only");
 
     CaseOptions options = mesh_case.options;
+    if (!options.far_field_outline.empty()) {
+        if (options.far_field_shape != FarFieldShape::box)
+            throw UsageError("far field given twice: by far-field-shape and by far-field-outline");
+        options.far_field_shape = FarFieldShape::convex;
+    }
     if (first_height) options.layer.first_height = *first_height;
     if (y_plus) options.y_plus = {*y_plus, *reynolds, chord};
     return options;

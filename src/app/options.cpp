@@ -306,6 +306,13 @@ std::vector<Option> make_table() {
     add(choice("far-field-shape", "round the middle of the configuration",
                Choices<FarFieldShape>{{"box", FarFieldShape::box}, {"circle", FarFieldShape::circle}},
                of_case(&CaseOptions::far_field_shape)));
+    const auto outline = of_case(&CaseOptions::far_field_outline);
+    add({"far-field-outline", Kind::word, "X0,Y0,X1,Y1,...",
+         "instead: corners of a convex far field, counter-clockwise, in units of the input",
+         [=](MeshCase& c, const Value& value) { outline(c) = parse_outline(as_word(value)); },
+         [=](const MeshCase& c) {
+             return outline(c).empty() ? std::nullopt : std::optional<Value>(outline_text(outline(c)));
+         }});
     add(real("gradation", "G", "growth of the edge length per unit of distance", above_up_to(0, 1),
              of_case(&CaseOptions::gradation)));
     add(real("wall-size", "H", "longest edge length at the layer's outer border, in units of the input", positive,

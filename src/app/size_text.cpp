@@ -76,4 +76,18 @@ std::string size_source_text(const SizeSource& source) {
     return fmt::format("{}:{},{},{},{},{}", shape == SizeSource::Shape::box ? "box" : "line", a.x, a.y, b.x, b.y, size);
 }
 
+std::vector<Point> parse_outline(const std::string& text) {
+    const std::vector<double> n = parse_numbers(text, ',');
+    require(n.size() >= 6 && n.size() % 2 == 0, text, "an outline is X0,Y0,X1,Y1,..., three corners or more");
+    std::vector<Point> corners;
+    for (std::size_t i = 0; i < n.size(); i += 2) corners.push_back({n[i], n[i + 1]});
+    return corners;
+}
+
+std::string outline_text(const std::vector<Point>& corners) {
+    std::string text;
+    for (Point p : corners) text += fmt::format("{}{},{}", text.empty() ? "" : ",", p.x, p.y);
+    return text;
+}
+
 }  // namespace lamina::app

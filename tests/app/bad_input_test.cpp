@@ -74,6 +74,10 @@ TEST(BadInput, NumbersOutOfRange) {
 
 TEST(BadInput, WakesAndSizeSources) {
     const TemporaryFolder folder;
+    for (const char* outline : {"", "1,2,3,4", "-9,-9,9,-9,0", "-9,-9,9,-9,0,x", "-9,-9,0,9,9,-9", "2,-1,3,-1,3,1"})
+        expect_refused(folder, mesh_naca_with({"--far-field-outline", outline}), usage, "outline");
+    expect_refused(folder, mesh_naca_with({"--far-field-outline", "-9,-9,9,-9,0,9", "--far-field-shape", "circle"}),
+                   usage, "given twice");
     for (const char* wake : {"", "x", "10:", "10:0", "10:-1", "10:2:0", "10:2:1:1", "1e9", "nan", "10:inf"})
         expect_refused(folder, mesh_naca_with({"--wake", wake}), usage, "--wake");
     for (const char* shape :

@@ -37,10 +37,12 @@ TEST(CaseFile, ADumpReproducesTheRunFromAnyFolder) {
 TEST(CaseFile, HoldsWakesAndSizeSources) {
     const TemporaryFolder folder;
     const ProgramRun dump =
-        run_lamina(folder, {"mesh", "naca:0012", "--wake", "-5:3", "--refine", "box:1,1,0,-1,0.05", "--refine",
-                            "circle:1,2,0.5,0.01", "--refine", "line:0,-0.5,1e3,1,2", "--dump-config"});
+        run_lamina(folder, {"mesh", "naca:0012", "--far-field-outline", "-9,-9,9,-9.5,0,9", "--wake", "-5:3",
+                            "--refine", "box:1,1,0,-1,0.05", "--refine", "circle:1,2,0.5,0.01", "--refine",
+                            "line:0,-0.5,1e3,1,2", "--dump-config"});
     ASSERT_EQ(dump.exit_code, 0) << dump.err;
     EXPECT_NE(dump.out.find("wake = '-5:3'\n"), std::string::npos) << dump.out;
+    EXPECT_NE(dump.out.find("far_field_outline = '-9,-9,9,-9.5,0,9'\n"), std::string::npos) << dump.out;
     EXPECT_NE(dump.out.find("refine = [ 'box:0,-1,1,1,0.05', 'circle:1,2,0.5,0.01', 'line:0,-0.5,1000,1,2' ]\n"),
               std::string::npos)
         << dump.out;
