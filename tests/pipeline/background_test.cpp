@@ -13,12 +13,6 @@
 namespace lamina::test {
 namespace {
 
-CaseOptions quick_options() {
-    CaseOptions options = judged_options();
-    options.far_field = 5;
-    return options;
-}
-
 SizedMesh rectangle(const Box& box, const std::array<double, 4>& sizes) {
     const auto v = [](std::size_t i) { return VertexId(i); };
     return {{box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}},
@@ -78,7 +72,7 @@ double mean_edge(const Mesh& mesh, const Triangle& t) {
 }
 
 TEST(Background, AUniformSizeFillsItsAreaAndNoMore) {
-    CaseOptions options = quick_options();
+    CaseOptions options = quick_options(5);
     const double h = 0.02;
     options.background = shared(rectangle({{1.5, -0.5}, {2.5, 0.5}}, {h, h, h, h}));
     const MeshResult result = mesh_of({naca("0012")}, options);
@@ -95,7 +89,7 @@ TEST(Background, AUniformSizeFillsItsAreaAndNoMore) {
 }
 
 TEST(Background, ClosesTheLoop) {
-    CaseOptions options = quick_options();
+    CaseOptions options = quick_options(5);
     const MeshResult first = mesh_of({naca("2412")}, options);
     // Linear: triangles of any size interpolate it exactly.
     const auto wanted = [](Point p) { return 0.15 + 0.02 * p.x; };
@@ -123,7 +117,7 @@ TEST(Background, ClosesTheLoop) {
 }
 
 TEST(Background, DividesTheLayersBorder) {
-    CaseOptions options = quick_options();
+    CaseOptions options = quick_options(5);
     const double h = 0.003;
     const Box box{{0.3, -0.1}, {0.6, 0.3}};
     options.background = shared(rectangle(box, {h, h, h, h}));
@@ -141,7 +135,7 @@ TEST(Background, DividesTheLayersBorder) {
 }
 
 TEST(Background, DoesNotDependOnThreads) {
-    CaseOptions options = quick_options();
+    CaseOptions options = quick_options(5);
     options.background = shared(rectangle({{-1, -1}, {3, 1}}, {0.1, 0.02, 0.05, 0.2}));
     options.threads = 1;
     const MeshResult one = mesh_of({naca("0012")}, options);

@@ -27,6 +27,13 @@ inline CaseOptions judged_options() {
     return options;
 }
 
+/// The same with a far field so near that a case takes little time.
+inline CaseOptions quick_options(double far_field = 10) {
+    CaseOptions options = judged_options();
+    options.far_field = far_field;
+    return options;
+}
+
 inline shapes::Outline naca(const std::string& digits, std::size_t points = 120,
                             TrailingEdge tail = TrailingEdge::sharp) {
     return naca_airfoil(digits, points, tail).points;

@@ -11,12 +11,6 @@
 namespace lamina::test {
 namespace {
 
-CaseOptions quick_options() {
-    CaseOptions options = judged_options();
-    options.far_field = 10;
-    return options;
-}
-
 /// What the sources ask for at p.
 double wanted(const std::vector<SizeSource>& sources, double gradation, Point p) {
     double size = HUGE_VAL;

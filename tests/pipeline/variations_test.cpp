@@ -11,12 +11,6 @@ namespace {
 using shapes::Outline;
 
 /// A smaller judged case: the far field 10 chords away.
-CaseOptions quick_options() {
-    CaseOptions options = judged_options();
-    options.far_field = 10;
-    return options;
-}
-
 std::size_t triangles_of(const Outline& body, const CaseOptions& options) {
     const MeshResult result = mesh_of({body}, options);
     expect_sound(result, options);

@@ -155,6 +155,64 @@ def check_vtk(folder, reference):
     expect(cells >= reference["triangles"] + reference["quads"], f"VTK reads m3.cgns: {cells} cells")
 
 
+def with_sizes(folder):
+    """The mesh with a size at each vertex, in every way that meshio, VTK and Gmsh write it."""
+    import meshio
+    import numpy
+    import vtk
+    from vtk.util.numpy_support import numpy_to_vtk
+
+    mesh = meshio.read(folder / "m.vtu")
+    sizes = 0.02 + 0.1 * numpy.hypot(mesh.points[:, 0] - 0.5, mesh.points[:, 1] - 0.2)
+    sized = meshio.Mesh(mesh.points, [c for c in mesh.cells if c.type != "line"], point_data={"size": sizes})
+    for name, how in {"meshio.vtu": {}, "meshio_plain.vtu": {"compression": None},
+                      "meshio41.msh": {"file_format": "gmsh"}, "meshio22.msh": {"file_format": "gmsh22"}}.items():
+        sized.write(folder / name, **how)
+        yield name
+
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(folder / "m.vtu"))
+    reader.Update()
+    grid = reader.GetOutput()
+    for i in reversed(range(grid.GetCellData().GetNumberOfArrays())):
+        grid.GetCellData().RemoveArray(i)
+    array = numpy_to_vtk(sizes, deep=True)
+    array.SetName("size")
+    grid.GetPointData().AddArray(array)
+    for mode in ["Ascii", "Binary", "Appended"]:
+        for compressor in ["None", "ZLib"]:
+            for header in ["32", "64"]:
+                for encoding in ["Off", "On"] if mode == "Appended" else ["On"]:
+                    writer = vtk.vtkXMLUnstructuredGridWriter()
+                    getattr(writer, f"SetDataModeTo{mode}")()
+                    getattr(writer, f"SetCompressorTypeTo{compressor}")()
+                    getattr(writer, f"SetHeaderTypeToUInt{header}")()
+                    getattr(writer, f"EncodeAppendedData{encoding}")()
+                    name = f"vtk_{mode}_{compressor}_{header}_{encoding}.vtu"
+                    writer.SetFileName(str(folder / name))
+                    writer.SetInputData(grid)
+                    writer.Write()
+                    yield name
+
+    script = folder / "view.geo"
+    for version in ["2.2", "4.1"]:
+        name = f"gmsh_view{version}.msh"
+        script.write_text(f'Merge "meshio41.msh"; Mesh.MshFileVersion = {version}; Save View[0] "{name}"; Exit;\n')
+        run("gmsh", script, "-0", cwd=folder)
+        yield name
+
+
+def check_sizes(folder, arguments):
+    """Every program's file of sizes makes the same mesh."""
+    hashes = {}
+    for name in with_sizes(folder):
+        code, said = run(LAMINA, "mesh", *arguments, *SMALL, "--background", folder / name, "-o", folder / "sized.su2")
+        expect(code == 0, f"sizes are read from {name}", said)
+        if code == 0:
+            hashes.setdefault(facts(folder / "sized.su2")["hash"], []).append(name)
+    expect(len(hashes) == 1, "the same mesh is made from all of them", hashes)
+
+
 def check_cgns(folder, reference):
     for name in ["m.cgns", "adf.cgns", "m3.cgns"]:
         code, said = run("cgnscheck", "-w3", folder / name)
@@ -213,6 +271,8 @@ def main():
         check_vtk(folder, reference)
         check_cgns(folder, reference)
         check_openfoam(folder, reference)
+        if name == "single":
+            check_sizes(folder, inputs)
     print(f"\n{failures} failures")
     return 1 if failures else 0
 
