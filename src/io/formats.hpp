@@ -56,8 +56,7 @@ struct PointValues {
 };
 /// By a reader of a format: read() makes the mesh, then sizes() finds the values.
 template <class Reader>
-PointValues read_point_values(const std::string& bytes, const std::filesystem::path& file) {
-    Reader reader(bytes, file);
+PointValues read_point_values(Reader reader) {
     PointValues result;
     result.mesh = reader.read();
     result.values = reader.sizes();

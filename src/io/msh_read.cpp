@@ -345,7 +345,7 @@ private:
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file) { return MshReader(bytes, file).read(); }
 
 PointValues read_msh_sizes(const std::string& bytes, const std::filesystem::path& file) {
-    return read_point_values<MshReader>(bytes, file);
+    return read_point_values(MshReader(bytes, file));
 }
 
 }  // namespace lamina::detail

@@ -29,12 +29,15 @@ enum CellType : std::uint8_t {
 
 class VtuReader {
 public:
-    VtuReader(const std::string& bytes, const std::filesystem::path& file)
-        : xml_(bytes, file.string()), file_(file), bytes_(bytes.size()) {}
+    /// Of a mesh that others may have written only points and cells count: arrays of theirs may have the names of ours.
+    enum class Writer { lamina, anyone };
+
+    VtuReader(const std::string& bytes, const std::filesystem::path& file, Writer writer)
+        : xml_(bytes, file.string()), file_(file), bytes_(bytes.size()), writer_(writer) {}
 
     Mesh read() {
         read_points();
-        read_markers_and_constraints();
+        if (writer_ == Writer::lamina) read_markers_and_constraints();
         read_cells();
         return std::move(mesh_);
     }
@@ -89,8 +92,9 @@ private:
         const auto types = xml_.values<std::uint8_t>("Cells/types", xml_.cells());
         const auto offsets = xml_.values<std::int64_t>("Cells/offsets", xml_.cells());
         const auto connectivity = xml_.values<std::int64_t>("Cells/connectivity");
-        const auto marker = xml_.has("CellData/marker") ? xml_.values<std::uint32_t>("CellData/marker", xml_.cells())
-                                                        : std::vector<std::uint32_t>(xml_.cells(), 0);
+        const bool has_markers = writer_ == Writer::lamina && xml_.has("CellData/marker");
+        const auto marker = has_markers ? xml_.values<std::uint32_t>("CellData/marker", xml_.cells())
+                                        : std::vector<std::uint32_t>(xml_.cells(), 0);
 
         std::vector<std::size_t> triangles, quads;  // where they stand in the file
         std::int64_t first = 0;
@@ -123,7 +127,7 @@ private:
         }
         triangles.insert(triangles.end(), quads.begin(), quads.end());
         const auto read_cell_array = [&](const char* name, auto& target, std::size_t limit) {
-            if (!xml_.has(name)) return;
+            if (writer_ != Writer::lamina || !xml_.has(name)) return;
             const auto all = xml_.values<std::uint32_t>(name, xml_.cells());
             for (const std::size_t i : triangles) {
                 if (all[i] > limit) xml_.fail(fmt::format("array '{}' holds a value that is out of range", name));
@@ -138,15 +142,18 @@ private:
     VtkXmlFile xml_;
     std::filesystem::path file_;
     std::size_t bytes_;  ///< of the whole file
+    Writer writer_;
     Mesh mesh_;
 };
 
 }  // namespace
 
-Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file) { return VtuReader(bytes, file).read(); }
+Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file) {
+    return VtuReader(bytes, file, VtuReader::Writer::lamina).read();
+}
 
 PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path& file) {
-    return read_point_values<VtuReader>(bytes, file);
+    return read_point_values(VtuReader(bytes, file, VtuReader::Writer::anyone));
 }
 
 }  // namespace lamina::detail

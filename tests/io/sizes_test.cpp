@@ -100,7 +100,7 @@ struct VtuEncoding {
 };
 
 /// Two triangles on a square, sizes 0.1 to 0.4 in single precision, a vertex and a polyline as cells of their own, and
-/// a scalar of cells.
+/// scalars of cells, one with a name that lamina uses for something else.
 class EncodedVtu {
 public:
     explicit EncodedVtu(VtuEncoding encoding) : encoding_(std::move(encoding)) {}
@@ -116,6 +116,7 @@ public:
         xml += array<float>("Float32", "size", {0.1f, 0.2f, 0.3f, 0.4f});
         xml +=
             array<float>("Float32", "velocity", {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3}, 3) + "</PointData>\n<CellData>\n";
+        xml += array<double>("Float64", "region", {0.5, -1, 7, 3});
         xml += array<std::int32_t>("Int32", "group", {1, 1, 2, 3}) + "</CellData>\n<Points>\n";
         xml += array<double>("Float64", "Points", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, 3) + "</Points>\n<Cells>\n";
         xml += array<std::int32_t>("Int32", "connectivity", {0, 1, 2, 0, 0, 2, 3, 1, 2, 3});
