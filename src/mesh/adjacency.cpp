@@ -114,10 +114,12 @@ void match(const EdgeList& list, UninitializedArray<std::uint32_t>& twin, Matche
     const std::size_t mask = std::bit_ceil(list.most() + list.most() / 3 + 8) - 1;
     std::vector<std::uint32_t> table(mask + 1, empty);  // the first edge of each undirected edge
     const auto slot_of = [&](const Edge& e) -> std::uint32_t& {
-        // Successive vertices have successive rows of 8 slots: neighbours, numbered alike, share cache lines.
-        const std::uint32_t row = e.low.value ^ (e.low.value >> 12) * 0x9e3779b1u;
-        std::size_t slot = (std::size_t{row} * 8 + (e.high.value * 0x85ebca6bu >> 29)) & mask;
-        while (table[slot] != empty && !same_ends(list[table[slot] & ~crowded], e)) slot = (slot + 1) & mask;
+        // Successive vertices have successive rows of 8 slots: neighbours, numbered alike, share cache lines. Edges of
+        // one vertex part at once where they meet: a hub may have all of them.
+        const std::uint32_t row = e.low.value ^ (e.low.value >> 12) * 0x9e3779b1u, hash = e.high.value * 0x85ebca6bu;
+        const std::size_t step = hash >> 8 | 1;
+        std::size_t slot = (std::size_t{row} * 8 + (hash >> 29)) & mask;
+        while (table[slot] != empty && !same_ends(list[table[slot] & ~crowded], e)) slot = (slot + step) & mask;
         return table[slot];
     };
     std::size_t distinct = 0, pairs = 0;
@@ -160,8 +162,7 @@ struct DirectedEdge {
     std::uint32_t number = no_edge;
 };
 
-/// Edges whose ends are both shared between blocks, dealt by their ends; those of bucket k are [start[k], start[k +
-/// 1]).
+/// Edges whose ends are both shared between blocks, dealt by their ends: bucket k is [start[k], start[k + 1]).
 struct Dealt {
     std::vector<DirectedEdge> edges;
     std::vector<std::uint32_t> start;

@@ -85,6 +85,12 @@ std::vector<Mesh> large_meshes() {
 TEST(Adjacency, IsThatOfAMap) {
     expect_as_by_map(test::annulus({.around = 5, .rings = 1, .layer_rings = 0}));
     for (const Mesh& mesh : large_meshes()) expect_as_by_map(mesh);
+    Mesh wheel;  // all edges but the rim's have one end in common
+    constexpr std::size_t spokes = 30000;
+    wheel.points.resize(spokes + 1);
+    for (std::size_t i = 0; i < spokes; ++i)
+        wheel.triangles.push_back({{VertexId{0}, VertexId{1 + i}, VertexId{1 + (i + 1) % spokes}}});
+    expect_as_by_map(wheel);
 }
 
 TEST(Adjacency, FindsEveryDefect) {
