@@ -198,7 +198,7 @@ def with_sizes(folder):
     for version in ["2.2", "4.1"]:
         name = f"gmsh_view{version}.msh"
         script.write_text(f'Merge "meshio41.msh"; Mesh.MshFileVersion = {version}; Save View[0] "{name}"; Exit;\n')
-        run("gmsh", script, "-0", cwd=folder)
+        run("gmsh", script.name, "-0", cwd=folder)
         yield name
 
 
