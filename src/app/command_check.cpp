@@ -97,6 +97,7 @@ std::string check_summary(const std::string& file, const Mesh& mesh, const MeshC
         text +=
             fmt::format("  marker    {} ({}), {} edges\n", marker.name, kind_name(marker.kind), marker.edges.size());
     }
+    if (mesh.region.empty()) text += "  regions   none in the file: every cell counts as isotropic, layers included\n";
     return text + quality_summary(check);
 }
 

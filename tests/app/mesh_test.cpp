@@ -147,6 +147,12 @@ TEST_F(MeshCommand, CheckFindsBothFilesValidAndTheSameMesh) {
         EXPECT_EQ(c["markers"].size(), 2u);
     }
     EXPECT_EQ(Json::parse(vtu.out)["quality"]["delaunay"]["violations"], 0);
+    // Said where the file holds no regions, and only there.
+    const auto says_so = [&](const char* file) {
+        return run_lamina(folder(), {"check", file}).out.find("every cell counts as isotropic") != std::string::npos;
+    };
+    EXPECT_TRUE(says_so("n.su2"));
+    EXPECT_FALSE(says_so("n.vtu"));
 }
 
 /// Every vertex of the SU2 file, to look up exactly.
