@@ -2,6 +2,8 @@
 // Lengths are in the units of the input everywhere; angles are in radians unless a name says _deg.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace lamina {
@@ -47,6 +49,13 @@ struct Box {
     constexpr bool overlaps(const Box& o) const {
         return lower.x <= o.upper.x && o.lower.x <= upper.x && lower.y <= o.upper.y && o.lower.y <= upper.y;
     }
+    /// Empty where they do not overlap.
+    constexpr Box intersection(const Box& o) const {
+        return {{std::max(lower.x, o.lower.x), std::max(lower.y, o.lower.y)},
+                {std::min(upper.x, o.upper.x), std::min(upper.y, o.upper.y)}};
+    }
+    /// Counter-clockwise, from the lower left one.
+    constexpr std::array<Point, 4> corners() const { return {lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}; }
     constexpr double width() const { return upper.x - lower.x; }
     constexpr double height() const { return upper.y - lower.y; }
     constexpr Point center() const { return midpoint(lower, upper); }

@@ -45,7 +45,7 @@ struct SizingOptions {
 /// `relative_error` of the exact minimum over the sources. A cheap value: copies share the tree.
 class SizeField {
 public:
-    /// The same size everywhere. Throws UsageError unless it is positive.
+    /// The same size everywhere. Throws UsageError unless it is positive and finite.
     explicit SizeField(double uniform_size);
     /// h(x) = min(max_size, min over sources (size + gradation x distance)) inside `domain`; points outside are clamped
     /// to it. Throws UsageError for sizes <= 0, a negative gradation, an empty domain, or no source and no max_size.

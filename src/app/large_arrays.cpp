@@ -2,6 +2,7 @@
 // system offers them, since it otherwise takes longer to hand out the pages one by one than to fill them. Standard
 // containers allocate with operator new, which a program may replace (C++20, [new.delete.single]); the library does
 // not, and leaves the choice to whoever links it.
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <new>

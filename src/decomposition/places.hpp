@@ -20,7 +20,7 @@ inline constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
 class Places {
 public:
     explicit Places(std::span<const Index> vertices)
-        : bits_(static_cast<unsigned>(std::bit_width(2 * vertices.size()))),
+        : bits_(static_cast<unsigned>(std::bit_width(2 * vertices.size() + 2))),
           entries_(std::size_t{1} << bits_, Entry{no_index, 0}),
           may_be_here_(entries_.size() / 4, 0) {
         for (std::size_t i = 0; i < vertices.size(); ++i) {

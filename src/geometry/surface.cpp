@@ -137,12 +137,11 @@ void smooth(Element& e, double tolerance) {
     e.surface.push_back(fmt::format("smoothed: points moved by up to {:.2g}", moved));
 }
 
-void tell_noise(Element& e) {
+void tell_noise(Element& e, const std::vector<std::size_t>& corners) {
     constexpr std::size_t fewest = 3;
     constexpr double enough = 1.5;
-    const std::vector<std::size_t> corners = find_corners(e.points);
     const Noise noise = find_noise(e.points, corners);
-    if (noise.vertices < fewest || is_jagged(e, corners)) return;
+    if (noise.vertices < fewest) return;
     e.surface.push_back(fmt::format(
         "{} zigzag by up to {:.2g} degrees, about {:.1g} in the units of the input: smoothing would help "
         "(--smooth {:.1g})",
@@ -153,7 +152,7 @@ void tell_noise(Element& e) {
 void tell_misplaced(Element& e) {
     constexpr std::size_t most = 3;
     const std::vector<std::size_t> misplaced = find_misplaced(e.points);
-    if (misplaced.size() > most || is_jagged(e, find_corners(e.points))) return;
+    if (misplaced.size() > most) return;
     for (const std::size_t i : misplaced) {
         const Point p = e.points[i];
         const std::string line = i < e.lines.size() && e.lines[i] > 0 ? fmt::format("line {}: ", e.lines[i]) : "";
@@ -377,7 +376,9 @@ Pslg prepare_surfaces(Pslg pslg, const SurfaceOptions& options) {
         given = std::move(smoothed);
     } else {
         for (Element& e : given.elements) {
-            tell_noise(e);
+            const std::vector<std::size_t> corners = find_corners(e.points);
+            if (is_jagged(e, corners)) continue;
+            tell_noise(e, corners);
             tell_misplaced(e);
         }
     }

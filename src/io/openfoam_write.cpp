@@ -56,21 +56,22 @@ EdgeList internal_faces(const CellEdges& edges, const Adjacency& adjacency) {
     return all;
 }
 
-/// The edges of the cells that the marker's edges are.
-EdgeList marker_faces(const Mesh& mesh, const Marker& marker, const CellEdges& edges, const Adjacency& adjacency,
-                      const fs::path& file) {
-    EdgeList faces = detail::find_edges(mesh, marker.edges);
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        const Segment& edge = marker.edges[i];
-        const std::uint32_t e = faces[i];
-        if (e == no_edge || adjacency.twin[e] != no_edge || edges.origin(e) != edge.a) {
+/// The edges of the cells that the markers' edges are, marker by marker.
+EdgeList marker_faces(const Mesh& mesh, const CellEdges& edges, const Adjacency& adjacency, const fs::path& file) {
+    std::vector<Segment> marked;
+    for (const Marker& marker : mesh.markers) marked.insert(marked.end(), marker.edges.begin(), marker.edges.end());
+    EdgeList faces = find_edges(mesh, marked);
+    std::size_t i = 0;
+    for (const Marker& marker : mesh.markers)
+        for (const Segment& edge : marker.edges) {
+            const std::uint32_t e = faces[i++];
+            if (e != no_edge && adjacency.twin[e] == no_edge && edges.origin(e) == edge.a) continue;
             const Point at = mesh.points[edge.a.index()];
             throw MeshError(
                 fmt::format("{}: OpenFOAM cannot hold an edge of marker '{}' at ({}, {}) that is not on "
                             "the boundary, with its cell on the left",
                             file.string(), marker.name, at.x, at.y));
         }
-    }
     return faces;
 }
 
@@ -95,10 +96,8 @@ public:
             throw MeshError(fmt::format("{}: OpenFOAM cannot hold a mesh that is not conforming", file.string()));
         sides_ = internal_faces(edges_, adjacency_);
         internal_ = sides_.size();
-        for (const Marker& marker : mesh.markers) {
-            const EdgeList faces = marker_faces(mesh, marker, edges_, adjacency_, file);
-            sides_.insert(sides_.end(), faces.begin(), faces.end());
-        }
+        const EdgeList marked = marker_faces(mesh, edges_, adjacency_, file);
+        sides_.insert(sides_.end(), marked.begin(), marked.end());
         if (sides_.size() - internal_ != adjacency_.boundary.size())
             throw MeshError(
                 fmt::format("{}: OpenFOAM wants every edge of the boundary in exactly one marker", file.string()));

@@ -15,8 +15,8 @@
 #include <array>
 #include <charconv>
 #include <cstring>
-#include <limits>
 #include <type_traits>
+#include <utility>
 
 #include <lamina/error.hpp>
 
@@ -264,22 +264,25 @@ std::string VtkXmlFile::inflated(Stream& stream, const std::string& name) const 
     const std::size_t blocks = stream.number();
     if (blocks == 0) return {};
     const std::size_t block = stream.number(), last = stream.number();
-    // Nothing is compressed to less than a thousandth.
-    if (blocks > bytes_.size() / header_bytes_ || block > 2000 * bytes_.size() / blocks || last > block)
-        fail(fmt::format("array '{}' has a broken header", name));
+    const auto demand = [&](bool sound) {
+        if (!sound) fail(fmt::format("array '{}' has a broken header", name));
+    };
+    demand(blocks <= bytes_.size() / header_bytes_ && last <= block);
     std::vector<std::size_t> sizes(blocks);
     for (std::size_t& compressed : sizes) compressed = stream.number();
     std::string whole;
     for (std::size_t i = 0; i < blocks; ++i) {
         const std::size_t expected = i + 1 == blocks && last > 0 ? last : block;
         const std::string_view compressed = stream.bytes(sizes[i]);
-        std::string plain(expected, '\0');
+        // Nothing is compressed to less than a thousandth: no damaged number asks for more memory than that.
+        demand(expected / 2000 <= compressed.size());
+        const std::size_t so_far = whole.size();
+        whole.resize(so_far + expected);
         uLongf length = expected;
-        if (uncompress(reinterpret_cast<Bytef*>(plain.data()), &length,
+        if (uncompress(reinterpret_cast<Bytef*>(whole.data() + so_far), &length,
                        reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()) != Z_OK ||
             length != expected)
             fail(fmt::format("array '{}' cannot be decompressed", name));
-        whole += plain;
     }
     return whole;
 }

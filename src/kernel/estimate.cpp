@@ -3,8 +3,7 @@
 //
 //   refinement    0.69 of the bound, whatever the gradation, and a little less along frozen edges
 //   a lattice     its level's share, 0.71 to 0.94, less a seam along frozen edges; there is one where h is even over
-//   the
-//                 width of a block, and where enough lies inside the seams
+//                 the width of a block, and where enough lies inside the seams
 #include "kernel/estimate.hpp"
 
 #include <algorithm>
@@ -183,14 +182,14 @@ Loads estimate_loads(std::span<const Point> points, const Tris& tris, const Size
         sums.border_edges += static_cast<double>(divided.border_edges);
     }
 
+    if (parts.empty()) return result;
     for (const Part& part : parts) {
         sums.low = std::min(sums.low, part.low);
         sums.high = std::max(sums.high, part.high);
     }
     std::vector<SizeCount> counts;
     for (const Part& part : parts) counts.push_back({part.low, part.high, part.bound});
-    const std::vector<double> edges =
-        parts.empty() ? std::vector<double>{} : level_edges(sums.low, 1.01 * sums.high, std::move(counts));
+    const std::vector<double> edges = level_edges(sums.low, 1.01 * sums.high, std::move(counts));
     for (const Part& part : parts) {
         sums.bound += part.bound;
         if (!is_even(part)) continue;
@@ -199,7 +198,7 @@ Loads estimate_loads(std::span<const Point> points, const Tris& tris, const Size
         sums.crossings += part.bound * part.gradient;
     }
 
-    const double lattice = lattice_expected(sums);
+    const double lattice = sums.bound > 0 ? lattice_expected(sums) : 0;
     result.lattice = lattice > 0;
     double inside = 0;
     result.loads.reserve(parts.size());
@@ -214,7 +213,8 @@ Loads estimate_loads(std::span<const Point> points, const Tris& tris, const Size
     // What lies along the border is spread over the piece.
     const double seam = lattice > 0 ? lattice * (sums.even / sums.bound) : 0;
     result.total = inside + sums.border_edges * (seam * latticed_along_border + (1 - seam) * refined_along_border);
-    for (Load& load : result.loads) load.triangles *= result.total / inside;
+    if (inside > 0)  // it underflows where h is beyond 1e154
+        for (Load& load : result.loads) load.triangles *= result.total / inside;
     return result;
 }
 

@@ -242,19 +242,21 @@ struct Division {
         return result;
     }
 
-    /// Largest target length on each piece between these distances from the edge's start, over its own length, but no
+    /// Largest target length on each piece between these points on the edge from `start`, over its own length, but no
     /// less than 1.
-    std::vector<double> asks(const std::vector<double>& ends) const {
+    std::vector<double> asks(Point start, std::span<const Point> cut_points) const {
+        std::vector<double> ends;
+        for (Point p : cut_points) ends.push_back(distance(start, p));
         std::vector<double> result;
         double from = 0, to = 0, largest = 0;
         const auto end_piece = [&](double end) {
             result.push_back(end > from ? std::max(1.0, largest / (end - from)) : 1);
             from = end;
-            largest = 0;
         };
         for (const Interval& i : field) {
             to += i.length;
-            for (largest = std::max(largest, i.size); result.size() < ends.size() && ends[result.size()] <= to;) {
+            largest = std::max(largest, i.size);
+            while (result.size() < ends.size() && ends[result.size()] <= to) {
                 end_piece(ends[result.size()]);
                 largest = i.size;
             }
@@ -453,7 +455,7 @@ GradedBorders grade_borders(std::span<const std::vector<Point>> borders, std::sp
         auto& of_border = graded.cuts.emplace_back();
         auto& asks = graded.asks.emplace_back();
         for (std::size_t k = 0; k < border.size(); ++k, ++i) {
-            asks.push_back(divisions[i].asks(cuts[i].empty() ? std::vector<double>{} : divisions[i].cuts()));
+            asks.push_back(divisions[i].asks(edges[i].a, cuts[i]));
             of_border.push_back(std::move(cuts[i]));
         }
     }

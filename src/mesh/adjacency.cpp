@@ -252,6 +252,7 @@ Adjacency find_adjacency(const Mesh& mesh) {
 }
 
 std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments) {
+    if (segments.empty()) return {};
     const auto undirected = [&](std::size_t i) { return std::minmax(segments[i].a, segments[i].b); };
     std::vector<std::uint32_t> order(segments.size()), found(segments.size(), no_edge);
     std::iota(order.begin(), order.end(), 0u);

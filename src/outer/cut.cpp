@@ -270,7 +270,7 @@ std::vector<SizedPiece> cut_to_size(Skeleton& skeleton, std::vector<Piece> piece
         std::stable_partition(pieces.begin(), pieces.end(), [](const Piece& p) { return p.loops.size() > 1; });
     std::vector<Piece> others(std::make_move_iterator(rest), std::make_move_iterator(pieces.end()));
     pieces.erase(rest, pieces.end());
-    const std::vector<Point> points = skeleton.points;
+    const std::vector<Point> points = skeleton.points;  // cutting appends to the skeleton's
     Cutting cutting(size, rule, pieces_target);
     std::vector<Verdict> verdicts;
     parallel_invoke([&] { cutting.cut_all(skeleton, std::move(pieces)); },

@@ -66,7 +66,7 @@ double room_around(const Box& bodies, const DecouplingOptions& options) {
     const Box around = far_field_box(options);
     double room = std::min({bodies.lower.x - around.lower.x, bodies.lower.y - around.lower.y,
                             around.upper.x - bodies.upper.x, around.upper.y - bodies.upper.y});
-    for (Point corner : corners_of(bodies)) {
+    for (Point corner : bodies.corners()) {
         if (options.far_field_shape == FarFieldShape::circle)
             room = std::min(room, options.far_field * options.chord - distance(corner, options.center));
         for (std::size_t i = 0; i < options.outline.size(); ++i) {

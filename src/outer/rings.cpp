@@ -41,9 +41,9 @@ QuarterRing measure(const Box& near_body, const Box& outermost, const SizeField&
     while (t < outer) {
         const double step = std::min(0.1 * (extent / growth + t), outer - t);
         const double next = t + step < outer * (1 - 1e-12) ? t + step : outer;
-        const auto from = corners_of(box_at(near_body, outermost, t));
-        const auto to = corners_of(box_at(near_body, outermost, next));
-        const auto middle = corners_of(box_at(near_body, outermost, 0.5 * (t + next)));
+        const auto from = box_at(near_body, outermost, t).corners();
+        const auto to = box_at(near_body, outermost, next).corners();
+        const auto middle = box_at(near_body, outermost, 0.5 * (t + next)).corners();
         for (int side = 0; side < 4; ++side) {
             const int end = (side + 1) % 4;
             const Point a = middle[side], b = middle[end];
@@ -112,7 +112,7 @@ std::vector<RingLine> add_junctions(Skeleton& skeleton, std::span<const Ring> ri
         const std::size_t above = level < rings.size() ? rings[level].per_side : 1;
         const std::size_t n = per_side[level] = std::max(below, above);
         const auto corner =
-            corners_of(level < rings.size() ? box_at(near_body, outermost, rings[level].inner) : outermost);
+            (level < rings.size() ? box_at(near_body, outermost, rings[level].inner) : outermost).corners();
         for (std::size_t side = 0; side < 4; ++side)
             for (std::size_t j = 0; j < n; ++j)
                 junctions[level].push_back(
@@ -131,10 +131,6 @@ std::vector<RingLine> add_junctions(Skeleton& skeleton, std::span<const Ring> ri
 }
 
 }  // namespace
-
-std::array<Point, 4> corners_of(const Box& box) {
-    return {box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}};
-}
 
 void Skeleton::add_chain(std::span<const VertexId> chain, bool both_directions) {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {

@@ -436,7 +436,8 @@ struct SizeField::Tree {
 };
 
 SizeField::SizeField(double uniform_size) : uniform_(uniform_size) {
-    if (!(uniform_size > 0)) throw UsageError("size field: the size must be positive");
+    if (!(uniform_size > 0 && uniform_size < HUGE_VAL))
+        throw UsageError("size field: the size must be positive and finite");
 }
 
 SizeField::SizeField(std::span<const SizeSource> sources, const SizingOptions& options, const Box& domain) {
@@ -530,9 +531,8 @@ double SizeField::inverse_square_integral() const {
         double side;  ///< of a slot
     };
     const auto overlap = [&](Point lower, double side) {
-        const double width = std::min(lower.x + side, tree.domain.upper.x) - lower.x;
-        const double height = std::min(lower.y + side, tree.domain.upper.y) - lower.y;
-        return std::max(width, 0.0) * std::max(height, 0.0);
+        const Box inside = Box{lower, lower + Point{side, side}}.intersection(tree.domain);
+        return std::max(inside.width(), 0.0) * std::max(inside.height(), 0.0);
     };
     std::vector<Place> open{{0, tree.domain.lower, 0.25 * tree.side}};
     double sum = 0;

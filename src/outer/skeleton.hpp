@@ -1,7 +1,6 @@
 // The first lines between pieces: near-body box and rings of trapezoids.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -21,9 +20,6 @@ struct Skeleton {
     /// Edges along a chain of vertices, in its direction and, for separators, in the other one as well.
     void add_chain(std::span<const VertexId> chain, bool both_directions);
 };
-
-/// Counter-clockwise corners of a box, from the lower left one.
-std::array<Point, 4> corners_of(const Box& box);
 
 /// One ring of trapezoids between the boxes at parameters `inner` and `outer`, 0 being the near-body box and 1 the
 /// outermost one, with `per_side` of them on each of its four sides.

@@ -62,8 +62,8 @@ void make_groups(std::span<SizeSource> sources, std::uint32_t index, std::uint32
 
 bool Cone::covers(const Box& box) const {
     if (radius == 0 && shape == SizeSource::Shape::segment) return false;
-    const Point corners[] = {box.lower, {box.upper.x, box.lower.y}, box.upper, {box.lower.x, box.upper.y}};
-    return std::all_of(std::begin(corners), std::end(corners), [&](Point p) { return distance_to(p) == 0; });
+    const std::array<Point, 4> corners = box.corners();
+    return std::all_of(corners.begin(), corners.end(), [&](Point p) { return distance_to(p) == 0; });
 }
 
 Cone make_cone(const SizeSource& s) {

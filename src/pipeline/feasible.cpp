@@ -51,11 +51,9 @@ double length_inside(const Box& box, Point a, Point b) {
     return std::max(to - from, 0.0) * distance(a, b);
 }
 
-double asked_by(const SizeSource& source, double gradation, const Box& domain) {
-    const double reach = 0.1 * std::min(domain.width(), domain.height());
-    const Box box = box_of(source);
-    const double width = std::max(std::min(box.upper.x, domain.upper.x) - std::max(box.lower.x, domain.lower.x), 0.0);
-    const double height = std::max(std::min(box.upper.y, domain.upper.y) - std::max(box.lower.y, domain.lower.y), 0.0);
+double asked_by(const SizeSource& source, double gradation, double reach, const Box& domain) {
+    const Box inside = box_of(source).intersection(domain);
+    const double width = std::max(inside.width(), 0.0), height = std::max(inside.height(), 0.0);
     double area = 0, border = 0;
     if (source.shape == SizeSource::Shape::box) {
         area = width * height;
@@ -72,21 +70,19 @@ double asked_by(const SizeSource& source, double gradation, const Box& domain) {
 }  // namespace
 
 void require_feasible_sizes(const Pslg& pslg, const CaseOptions& options, const Box& domain) {
-    const double g = options.gradation;
+    const double g = options.gradation, reach = 0.1 * std::min(domain.width(), domain.height());
     if (const auto& size = options.far_size)
         require_countable(domain.width() * domain.height() / (*size * *size), fmt::format("far-size {}", *size));
     for (const SizeSource& source : options.size_sources)
-        require_countable(asked_by(source, g, domain), fmt::format("refine with edges of {}", source.size));
+        require_countable(asked_by(source, g, reach, domain), fmt::format("refine with edges of {}", source.size));
     if (const auto& size = options.wall_size) {
         double walls = 0;
-        for (const Element& element : pslg.elements)
-            for (std::size_t i = 0; i < element.points.size(); ++i)
-                walls += distance(element.points[i], element.points[(i + 1) % element.points.size()]);
-        require_countable(beside(walls, *size, g, 0.1 * domain.width()), fmt::format("wall-size {}", *size));
+        for (const Element& element : pslg.elements) walls += summarize(element).perimeter;
+        require_countable(beside(walls, *size, g, reach), fmt::format("wall-size {}", *size));
     }
     if (options.wake && options.wake->size) {
         double wakes = 0;
-        for (const SizeSource& source : wake_sources(pslg, options)) wakes += asked_by(source, g, domain);
+        for (const SizeSource& source : wake_sources(pslg, options)) wakes += asked_by(source, g, reach, domain);
         require_countable(wakes, fmt::format("wake with edges of {}", *options.wake->size));
     }
 }

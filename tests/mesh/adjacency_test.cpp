@@ -1,8 +1,11 @@
 // Against a map of all edges, on meshes of several blocks, whole and damaged.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "core/parallel.hpp"
 #include "mesh/adjacency.hpp"

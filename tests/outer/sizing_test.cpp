@@ -282,6 +282,7 @@ TEST(SizeField, RefusesWhatMakesNoField) {
     const std::vector<SizeSource> zero{{{0, 0}, {1, 0}, 0.0}};
     EXPECT_THROW(SizeField(0.0), UsageError);
     EXPECT_THROW(SizeField(-1.0), UsageError);
+    EXPECT_THROW(SizeField{HUGE_VAL}, UsageError);
     EXPECT_THROW(SizeField(std::nan("")), UsageError);
     EXPECT_THROW(SizeField(zero, {}, domain), UsageError);
     const SizeSource inside_out{.a = {1, 1}, .b = {0, 0}, .size = 0.1, .shape = SizeSource::Shape::box};

@@ -10,7 +10,6 @@ namespace {
 
 using shapes::Outline;
 
-/// A smaller judged case: the far field 10 chords away.
 std::size_t triangles_of(const Outline& body, const CaseOptions& options) {
     const MeshResult result = mesh_of({body}, options);
     expect_sound(result, options);
