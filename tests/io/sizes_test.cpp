@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -208,6 +209,7 @@ TEST(Sizes, AreReadFromVtuInEveryEncoding) {
 TEST(Sizes, OfDamagedVtuInEveryEncodingAreReadOrRefused) {
     const TemporaryFolder folder;
     test::Random random(5);
+    std::size_t read = 0, refused = 0;
     for (const VtuEncoding& encoding : vtu_encodings()) {
         const std::string whole = EncodedVtu(encoding).file();
         for (int i = 0; i < 60; ++i) {
@@ -221,10 +223,28 @@ TEST(Sizes, OfDamagedVtuInEveryEncodingAreReadOrRefused) {
             }
             try {
                 read_sizes(folder.write("a.vtu", damaged));
+                ++read;
             } catch (const InputError& error) {
                 EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+                ++refused;
             }
         }
+    }
+    EXPECT_GT(read, 20u);
+    EXPECT_GT(refused, 200u);
+}
+
+// No number in a file asks for more memory than its bytes could hold.
+TEST(Sizes, OfVtuWithAbsurdHeadersAreRefused) {
+    const TemporaryFolder folder;
+    const std::string whole = EncodedVtu({.format = "raw", .compressed = true}).file();
+    const std::size_t header = whole.find('_', whole.find("<AppendedData")) + 1;  // of the sizes: blocks, block, last
+    for (const auto& [blocks, block, last] : std::vector<std::array<std::uint32_t, 3>>{
+             {1, 5'000'000, 0}, {1, 0xffffffff, 0xffffffff}, {0xffffffff, 13, 3}, {2, 13, 14}}) {
+        std::string damaged = whole;
+        for (std::size_t k = 0; const std::uint32_t number : {blocks, block, last})
+            std::memcpy(damaged.data() + header + 4 * k++, &number, 4);
+        expect_bad(folder.write("a.vtu", damaged), "broken header");
     }
 }
 
