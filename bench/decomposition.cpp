@@ -15,12 +15,12 @@
 
 #include "core/busy_times.hpp"
 #include "core/parallel.hpp"
-#include "decomposition/border.hpp"
-#include "decomposition/pieces.hpp"
-#include "kernel/triangulator.hpp"
+#include "delaunay/pieces/border.hpp"
+#include "delaunay/pieces/pieces.hpp"
+#include "delaunay/triangulator.hpp"
+#include "layers/fill.hpp"
 #include "paired.hpp"
-#include "pipeline/layer_region.hpp"
-#include "support/kernel_families.hpp"
+#include "support/triangulation_families.hpp"
 
 namespace lamina::bench {
 namespace {
@@ -32,9 +32,9 @@ struct Region {
 };
 
 Region in_convex_hull(std::vector<Point> points) {
-    const auto sorted = decomposition::sort_points(points).value();
+    const auto sorted = delaunay::pieces::sort_points(points).value();
     Region region{std::move(points), {}};
-    for (const decomposition::Edge& e : decomposition::convex_hull(sorted))
+    for (const delaunay::pieces::Edge& e : delaunay::pieces::convex_hull(sorted))
         region.border.push_back({VertexId{sorted.original[e.a]}, VertexId{sorted.original[e.b]}});
     return region;
 }
@@ -47,9 +47,9 @@ Region naca_layer(std::size_t n) {
     options.first_height = 1e-5;
     options.growth = 1.1;
     options.layers = 30;
-    Pslg pslg;
-    pslg.elements.push_back(naca_airfoil("0012", n / 32));
-    Layer layer = make_layer(pslg, options);
+    Geometry geometry;
+    geometry.elements.push_back(naca_airfoil("0012", n / 32));
+    Layer layer = make_layer(geometry, options);
     LayerEdges edges = layer_edges(layer);
     return {std::move(layer.points), std::move(edges.region)};
 }
@@ -58,10 +58,10 @@ Region naca_layer(std::size_t n) {
 DecompositionOptions to_depth(unsigned depth) { return {.depth = depth, .leaf_vertices = 10}; }
 
 std::size_t sequential(const std::vector<Point>& points) {
-    return kernel::without_ghosts(kernel::triangulate_points(points)).triangles.size();
+    return delaunay::without_ghosts(delaunay::triangulate_points(points)).triangles.size();
 }
 std::size_t sequential(const Region& region) {
-    return constrained_delaunay(region.points, region.border, {.keep = Keep::left_of_segments}).triangles.size();
+    return triangulate(region.points, region.border, {.keep = Keep::left_of_segments}).triangles.size();
 }
 
 Work on_one_thread(Work work) {
@@ -86,7 +86,7 @@ void depths_of_points(benchmark::State& state, Region (*make)(std::size_t)) {
     const std::vector<Point> points = make(static_cast<std::size_t>(state.range(0))).points;
     measure_depths(
         state, [&] { return sequential(points); },
-        [&](const DecompositionOptions& options) { return decomposition::triangulate_in_pieces(points, options); });
+        [&](const DecompositionOptions& options) { return delaunay::pieces::triangulate_in_pieces(points, options); });
 }
 
 void depths_of_region(benchmark::State& state, Region (*make)(std::size_t)) {
@@ -94,7 +94,7 @@ void depths_of_region(benchmark::State& state, Region (*make)(std::size_t)) {
     measure_depths(
         state, [&] { return sequential(region); },
         [&](const DecompositionOptions& options) {
-            return decomposition::triangulate_in_pieces(region.points, region.border, options);
+            return delaunay::pieces::triangulate_in_pieces(region.points, region.border, options);
         });
 }
 
@@ -132,12 +132,12 @@ void growth(benchmark::State& state, Region (*make)(std::size_t)) {
             std::vector<double> decomposition, leaves;
             for (int round = 0; round < (n > 1'000'000 ? 1 : 5); ++round)
                 with_threads(1, [&] {
-                    BusyTimes times;
+                    core::BusyTimes times;
                     std::size_t made = 0;
                     const double cpu_s = cpu_seconds(
                         [&] {
-                            return decomposition::triangulate_in_pieces(region.points, region.border, to_depth(6),
-                                                                        &times)
+                            return delaunay::pieces::triangulate_in_pieces(region.points, region.border, to_depth(6),
+                                                                           &times)
                                 .triangles.size();
                         },
                         made);
@@ -172,7 +172,7 @@ void threads(benchmark::State& state) {
         const auto begin = std::chrono::steady_clock::now();
         with_threads(count, [&] {
             benchmark::DoNotOptimize(
-                decomposition::triangulate_in_pieces(region.points, region.border, to_depth(6)).triangles.data());
+                delaunay::pieces::triangulate_in_pieces(region.points, region.border, to_depth(6)).triangles.data());
         });
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };

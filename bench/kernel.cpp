@@ -12,7 +12,7 @@
 #include <lamina/predicates.hpp>
 
 #include "paired.hpp"
-#include "support/kernel_families.hpp"
+#include "support/triangulation_families.hpp"
 
 namespace lamina::bench {
 namespace {
@@ -109,7 +109,7 @@ void triangulate(benchmark::State& state, std::vector<Point> (*make)(std::size_t
     references.push_back({"cgal", cgal_delaunay(points)});
 #endif
     measure(
-        state, "triangles", [&] { return delaunay(points).triangles.size(); }, references);
+        state, "triangles", [&] { return triangulate(points).triangles.size(); }, references);
     state.counters["points/s"] = static_cast<double>(points.size()) / state.counters["median_s"].value;
 }
 
@@ -140,7 +140,7 @@ void constrain(benchmark::State& state, std::size_t one_edge_in) {
     references.push_back({"cgal", cgal_constrained(c.points, c.segments)});
 #endif
     measure(
-        state, "triangles", [&] { return constrained_delaunay(c.points, c.segments).triangles.size(); }, references);
+        state, "triangles", [&] { return triangulate(c.points, c.segments).triangles.size(); }, references);
     state.counters["segments"] = static_cast<double>(c.segments.size());
 }
 BENCHMARK_CAPTURE(constrain, some, 30)->Apply(usual);
@@ -163,7 +163,7 @@ void refine_square(benchmark::State& state, double area_ratio, double min_angle_
         state, "triangles",
         [&] {
             Refinement r = refine(c.border.points, c.border.segments, c.field, options);
-            added = std::move(r.added);
+            added = std::move(r.steiner_points);
             triangles = std::move(r.triangles);
             state.counters["below_bound"] = static_cast<double>(r.stats.below_bound);
             state.counters["oversized"] = static_cast<double>(r.stats.oversized);

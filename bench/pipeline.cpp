@@ -19,8 +19,8 @@ CaseOptions naca0012_options(double gradation) {
     options.layer.growth = 1.15;
     options.layer.layers = 30;
     options.layer.max_ray_angle_deg = 4;
-    options.far_field = 50;
-    options.gradation = gradation;
+    options.far_field.size = 50;
+    options.sizing.field.gradation = gradation;
     options.threads = 1;
     return options;
 }
@@ -40,12 +40,13 @@ BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark:
 #ifdef LAMINA_BENCH_TRIANGLE
 /// What lies between the layer and the far field, both divided as ours are.
 Work triangle_outside_the_layer(const CaseOptions& options) {
-    Pslg pslg = prepare_surfaces(read_geometry(std::vector<std::string>{"naca:0012"}), surface_options(options));
+    Geometry geometry =
+        prepare_surfaces(read_geometry(std::vector<std::string>{"naca:0012"}), surface_options(options));
     DecouplingOptions far;
-    far.far_field = options.far_field;
+    far.far_field = options.far_field.size;
     far.chord = 1;
     far.center = {0.5, 0};
-    const SizedLayer layer = make_sized_layer(pslg, options, far_field_box(far));
+    const SizedLayer layer = make_sized_layer(geometry, options, far_field_box(far));
     const SizeField field = make_size_field(layer, options, far_field_box(far));
     const Decoupling outer = decouple(layer.layer.points, layer.layer.borders, field, far);
 
@@ -64,7 +65,7 @@ Work triangle_outside_the_layer(const CaseOptions& options) {
             }
             *v = mine;
         }
-    return triangle_refine(points, segments, {0.5, 0}, field, options.min_angle_deg);
+    return triangle_refine(points, segments, {0.5, 0}, field, options.refine.min_angle_deg);
 }
 #endif
 

@@ -110,7 +110,7 @@ Work triangle_refine(std::span<const Point> points, std::span<const Segment> seg
                      double min_angle_deg) {
     return [input = Input(points, segments), size, gradation, min_angle_deg]() mutable {
         sizing = {size, gradation, nullptr, 1};
-        return refine_in_passes(view(input), gradation == 0 ? equilateral_area * size * size : 0, min_angle_deg);
+        return refine_in_passes(view(input), gradation == 0 ? core::equilateral_area * size * size : 0, min_angle_deg);
     };
 }
 

@@ -21,37 +21,27 @@
 #include <lamina/pipeline.hpp>
 
 #include "core/parallel.hpp"
+#include "core/random.hpp"
 #include "core/reproducible_math.hpp"
-#include "layers/segments.hpp"
+#include "core/segments.hpp"
+#include "support/layers.hpp"
 
 namespace lamina {
 namespace {
 
-/// The same numbers on every machine. Source: G. L. Steele, D. Lea, C. H. Flood, Fast Splittable Pseudorandom Number
-/// Generators, OOPSLA (2014): splitmix64.
-class Random {
+class Random : public core::Random {
 public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t next() {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    double uniform(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
+    using core::Random::Random;
+    double uniform(double low, double high) { return real(low, high); }
     /// Every order of magnitude alike.
     double graded(double low, double high) { return low * std::pow(high / low, uniform(0, 1)); }
-    std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
     bool chance(double share) { return uniform(0, 1) < share; }
-
-private:
-    std::uint64_t state_;
 };
 
 using Outline = std::vector<Point>;
 
 struct Configuration {
-    Pslg pslg;
+    Geometry geometry;
     CaseOptions options;
     std::string what;  ///< for the log
 };
@@ -65,7 +55,8 @@ Outline section(Random& random) {
 
 /// Nose-down by `degrees` about the origin, scaled, then moved.
 Outline placed(Outline outline, double scale, double angle_deg, Point shift) {
-    const double c = cos_reproducible(radians(angle_deg)), s = sin_reproducible(radians(angle_deg));
+    const double c = core::cos_reproducible(core::radians(angle_deg)),
+                 s = core::sin_reproducible(core::radians(angle_deg));
     for (Point& p : outline) p = shift + scale * Point{c * p.x + s * p.y, c * p.y - s * p.x};
     return outline;
 }
@@ -92,7 +83,8 @@ bool holds(const Outline& outline, Point p) {
 /// By brute force, without the library's own check.
 bool overlap(const Outline& a, const Outline& b) {
     bool meet = holds(a, b[0]) || holds(b, a[0]);
-    for_each_pair_of_edges(a, b, [&](Point p, Point q, Point r, Point s) { meet = meet || segments_meet(p, q, r, s); });
+    for_each_pair_of_edges(a, b,
+                           [&](Point p, Point q, Point r, Point s) { meet = meet || core::segments_meet(p, q, r, s); });
     return meet;
 }
 
@@ -100,7 +92,7 @@ double gap(const Outline& a, const Outline& b) {
     if (overlap(a, b)) return 0;
     double least = HUGE_VAL;
     for_each_pair_of_edges(a, b, [&](Point p, Point q, Point r, Point s) {
-        least = std::min({least, distance_to_segment(p, r, s), distance_to_segment(r, p, q)});
+        least = std::min({least, core::distance_to_segment(p, r, s), core::distance_to_segment(r, p, q)});
     });
     return least;
 }
@@ -141,8 +133,9 @@ std::vector<Outline> high_lift(Random& random, std::string& what) {
         what += fmt::format(" slat {:.3f} at {:.1f} deg, slot {:.5f};", chord, angle, width);
     }
     if (bodies.size() > 1 && random.chance(0.05)) {
-        const double angle = random.uniform(0, 2 * pi);
-        bodies.back() = moved(bodies.back(), 0.05 * Point{cos_reproducible(angle), sin_reproducible(angle)});
+        const double angle = random.uniform(0, 2 * core::pi);
+        bodies.back() =
+            moved(bodies.back(), 0.05 * Point{core::cos_reproducible(angle), core::sin_reproducible(angle)});
         what += " last one pushed;";
     }
     return bodies;
@@ -157,9 +150,10 @@ std::vector<Outline> thrown(Random& random, std::string& what) {
         Outline outline = placed(section(random), size, random.uniform(-180, 180),
                                  {random.uniform(-1, 1), random.uniform(-0.6, 0.6)});
         if (far_apart && !bodies.empty()) {
-            const double angle = random.uniform(0, 2 * pi);
-            outline = brought_near(moved(outline, {-outline[0].x, -outline[0].y}), bodies,
-                                   {cos_reproducible(angle), sin_reproducible(angle)}, random.graded(1e-4, 0.3));
+            const double angle = random.uniform(0, 2 * core::pi);
+            outline =
+                brought_near(moved(outline, {-outline[0].x, -outline[0].y}), bodies,
+                             {core::cos_reproducible(angle), core::sin_reproducible(angle)}, random.graded(1e-4, 0.3));
         }
         bodies.push_back(std::move(outline));
     }
@@ -178,7 +172,7 @@ CaseOptions random_options(Random& random) {
     layer.enabled = !random.chance(0.03);
     // Thicker than a chord is rarely meant.
     if (layer.enabled && !random.chance(0.05))
-        while (*layer.layers > 1 && layer_height(layer, *layer.layers) > 0.3) --*layer.layers;
+        while (*layer.layers > 1 && layer_height(test::growth_of(layer), *layer.layers) > 0.3) --*layer.layers;
     if (random.chance(0.15)) {
         layer.layers.reset();
         layer.growth = random.uniform(1.1, 1.6);
@@ -186,14 +180,14 @@ CaseOptions random_options(Random& random) {
         layer.growth_law = random.chance(0.5) ? GrowthLaw::aflr : GrowthLaw::adaptive;
     }
     layer.topology = std::array{LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads}[random.below(3)];
-    options.far_field = random.uniform(2, 6);
-    options.gradation = random.uniform(0.2, 0.5);
+    options.far_field.size = random.uniform(2, 6);
+    options.sizing.field.gradation = random.uniform(0.2, 0.5);
     options.threads = 1;
     return options;
 }
 
 Configuration configuration(std::uint64_t seed, std::uint64_t number) {
-    Random random(Random(seed ^ (number * 0xd1342543de82ef95u)).next());
+    Random random(Random(seed ^ (number * 0xd1342543de82ef95u)).bits());
     Configuration c;
     const std::vector<Outline> bodies = random.chance(0.7) ? high_lift(random, c.what) : thrown(random, c.what);
     // Somewhere, in some unit, at some angle of attack.
@@ -201,25 +195,25 @@ Configuration configuration(std::uint64_t seed, std::uint64_t number) {
     const Point shift = random.chance(0.3) ? Point{random.uniform(-5, 5), random.uniform(-5, 5)} : Point{0, 0};
     for (const Outline& body : bodies) {
         Element element;
-        element.name = fmt::format("body{}", c.pslg.elements.size());
+        element.name = fmt::format("body{}", c.geometry.elements.size());
         element.file = "stress";
         element.points = placed(body, scale, attack, shift);
         element.lines.assign(element.points.size(), 0);
-        c.pslg.elements.push_back(std::move(element));
+        c.geometry.elements.push_back(std::move(element));
     }
     c.options = random_options(random);
-    c.options.layer.first_height *= scale;
+    c.options.layer.first_height = test::first_height(c.options.layer) * scale;
     const LayerOptions& layer = c.options.layer;
     c.what += fmt::format(" first height {:.3g}, growth {:.3f}, {} layers, rays {:.2f} deg, {}, scale {:.3g}",
-                          layer.first_height, layer.growth, layer.enabled ? layer.layers.value_or(0) : 0,
+                          test::first_height(layer), layer.growth, layer.enabled ? layer.layers.value_or(0) : 0,
                           layer.max_ray_angle_deg, layer.corners == Corners::fan ? "fan" : "refine", scale);
     return c;
 }
 
-bool bodies_overlap(const Pslg& pslg) {
-    for (std::size_t i = 0; i < pslg.elements.size(); ++i)
+bool bodies_overlap(const Geometry& geometry) {
+    for (std::size_t i = 0; i < geometry.elements.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (overlap(pslg.elements[i].points, pslg.elements[j].points)) return true;
+            if (overlap(geometry.elements[i].points, geometry.elements[j].points)) return true;
     return false;
 }
 
@@ -233,15 +227,15 @@ struct Outcome {
 
 Outcome judge(const Configuration& c) {
     Outcome outcome;
-    const bool must_be_refused = bodies_overlap(c.pslg);
+    const bool must_be_refused = bodies_overlap(c.geometry);
     try {
-        check_simple(c.pslg);
+        check_simple(c.geometry);
         if (must_be_refused) return {"accepted", "overlapping bodies were accepted"};
-        const Layer layer = make_layer(c.pslg, c.options.layer);
-        const std::vector<std::string> findings = validate(layer, c.options.layer);
+        const Layer layer = test::make_layer(c.geometry, c.options.layer);
+        const std::vector<std::string> findings = check_layer(layer, c.options.layer);
         if (!findings.empty()) return {"unsound layer", findings.front()};
-        const MeshResult result = generate_mesh(c.pslg, c.options);
-        const MeshCheck check = check_mesh(result.mesh, {.min_angle_deg = c.options.min_angle_deg});
+        const MeshResult result = generate_mesh(c.geometry, c.options);
+        const MeshCheck check = check_mesh(result.mesh, {.min_angle_deg = c.options.refine.min_angle_deg});
         if (!check.valid()) return {"invalid mesh", check.defects.front().what};
         outcome.name = "meshed";
         outcome.angle = check.isotropic.min_angle_deg;
@@ -251,7 +245,7 @@ Outcome judge(const Configuration& c) {
     } catch (const InputError& e) {
         return {"bodies refused", must_be_refused ? "" : std::string("refused sound bodies: ") + e.what()};
     } catch (const UsageError& e) {
-        return {"options refused", std::strstr(e.what(), "far field") || std::strstr(e.what(), "resolution") ||
+        return {"options refused", std::strstr(e.what(), "far_field") || std::strstr(e.what(), "resolution") ||
                                            std::strstr(e.what(), "times the extent")
                                        ? ""
                                        : std::string("refused sound options: ") + e.what()};
@@ -263,7 +257,7 @@ Outcome judge(const Configuration& c) {
 
 int run(std::uint64_t count, std::uint64_t first, std::uint64_t seed) {
     std::vector<Outcome> outcomes(count);
-    parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
+    core::parallel_for(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Configuration c = configuration(seed, first + i);
             outcomes[i] = judge(c);

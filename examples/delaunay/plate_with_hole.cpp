@@ -1,4 +1,4 @@
-// A square plate with a square hole and a slit, meshed with the Delaunay kernel alone.
+// A square plate with a square hole and a slit, meshed with the triangulation alone.
 #include <cstddef>
 #include <exception>
 #include <iostream>
@@ -16,12 +16,13 @@ int main() try {
         for (std::size_t i = 0; i < 4; ++i) segments.push_back({VertexId{loop + i}, VertexId{loop + (i + 1) % 4}});
 
     const ConstrainedTriangulation coarse =
-        constrained_delaunay(points, segments, {.keep = Keep::inside_segments, .holes = {{1.5, 1.5}}});
+        triangulate(points, segments, {.keep = Keep::inside_segments, .holes = {{1.5, 1.5}}});
     const ConstrainedRefinement fine = refine(points, coarse, SizeField(0.2), {.refine = {.min_angle_deg = 28}});
 
     std::vector<Point> all = points;
-    all.insert(all.end(), fine.added.begin(), fine.added.end());
-    for (const std::string& defect : validate(all, fine.triangles, fine.segments)) std::cout << defect << '\n';
+    all.insert(all.end(), fine.steiner_points.begin(), fine.steiner_points.end());
+    for (const std::string& defect : check_triangulation(all, fine.triangles, fine.segments))
+        std::cout << defect << '\n';
     std::cout << coarse.triangles.size() << " triangles, refined to " << fine.triangles.size() << "; "
               << fine.stats.below_bound << " under 28 degrees\n";
     return 0;

@@ -9,7 +9,7 @@ int main(int argc, char** argv) try {
     lamina::CaseOptions options;
     options.layer.first_height = 1e-4;
     options.layer.layers = 20;
-    options.far_field = 20;
+    options.far_field.size = 20;
 
     const lamina::MeshResult result = lamina::generate_mesh({"naca:0012"}, options);
     const char* file = argc > 1 ? argv[1] : "naca0012.vtu";

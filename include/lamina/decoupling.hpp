@@ -1,74 +1,102 @@
-// Stage 5, decoupling: the region between layers and far field cut into pieces with frozen, graded borders.
-// Source: J. K. Pardue, thesis (2015), chapter 5; L. Linardakis, N. Chrisochoides, SIAM J. Sci. Comput. 27 (2006).
+// Stages "decouple" and "refine": the region between layers and far field, cut into pieces with frozen, graded borders
+// that are refined independently. Source: J. K. Pardue, thesis (2015), chapter 5; L. Linardakis, N. Chrisochoides, SIAM
+// J. Sci. Comput. 27 (2006).
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/export.hpp>
 #include <lamina/ids.hpp>
+#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 
 namespace lamina {
 
-/// Frozen edges (separators, outer borders of layers) are at most this share of h long: refinement makes edges of
-/// 0.82 h on average, and up to 1.24 sqrt(A) = 0.82 h no refinement vertex encroaches (docs/decisions/0003).
-inline constexpr double frozen_share = 0.8;
-
-/// How separators between pieces are discretised.
-enum class SeparatorRule {
-    equidistributed,  ///< equal shares of the integral of ds / h: no visible seam
-    k_rule,           ///< thesis ch. 5, equation 1: k = 1/2 sqrt(A / sqrt 2)
-};
-
 enum class FarFieldShape {
     box,
     circle,
-    convex,  ///< DecouplingOptions::outline
+    outline,  ///< any convex polygon
+};
+
+struct FarFieldOptions {
+    FarFieldShape shape = FarFieldShape::box;
+    double size = 100;             ///< half-width of the box or radius of the circle, in chords
+    std::vector<Point> outline{};  ///< corners of the polygon, counter-clockwise, in units of the input
+};
+
+LAMINA_EXPORT const OptionTable<FarFieldOptions>& far_field_option_table();
+
+/// Throws OptionError where an option is out of range, and where the outline is no convex polygon.
+LAMINA_EXPORT void validate(const FarFieldOptions& options);
+
+/// Reads "X0,Y0,X1,Y1,...", three corners or more. Throws UsageError with the bare reason.
+LAMINA_EXPORT std::vector<Point> parse_outline(const std::string& text);
+/// Returns the text that parse_outline() reads back.
+LAMINA_EXPORT std::string outline_text(std::span<const Point> corners);
+
+/// The far field round a configuration, in units of the input.
+struct FarField {
+    FarFieldShape shape = FarFieldShape::box;
+    Point center;                  ///< middle of the configuration
+    double radius = 0;             ///< half-width of the box or radius of the circle
+    std::vector<Point> outline{};  ///< corners of the polygon
+
+    Box box() const;
+};
+
+/// Places the far field round the box of all bodies. Throws OptionError where an outline does not enclose its middle.
+LAMINA_EXPORT FarField place_far_field(const Box& bodies, const FarFieldOptions& options = {});
+
+/// How separators between pieces are divided.
+enum class SeparatorRule {
+    equidistributed,  ///< equal shares of the integral of ds / h: no visible seam
+    k_rule,           ///< thesis, chapter 5, equation 1: k = 1/2 sqrt(A / sqrt 2)
 };
 
 struct DecouplingOptions {
-    FarFieldShape far_field_shape = FarFieldShape::box;
-    double far_field = 100;      ///< half-width of the far-field box or radius of the circle, in chords
-    std::vector<Point> outline;  ///< corners of a convex far field, counter-clockwise; else empty
-    double chord = 1;            ///< extent in x of the whole configuration
-    Point center;                ///< middle of the configuration
-    SeparatorRule rule = SeparatorRule::equidistributed;
-    double pieces_target = 50'000;  ///< triangles a piece, about
-    double min_angle_deg = 20.7;
+    SeparatorRule separators = SeparatorRule::equidistributed;
+    double pieces_target = 50'000;  ///< triangles per piece, about
 };
 
-/// The box round the far field.
-Box far_field_box(const DecouplingOptions& options);
+LAMINA_EXPORT const OptionTable<DecouplingOptions>& decoupling_option_table();
+
+/// Throws OptionError where an option is out of range.
+LAMINA_EXPORT void validate(const DecouplingOptions& options);
 
 /// A self-contained piece of work: refine(subdomain) needs nothing else, on a thread, on a rank or from a file.
 struct Subdomain {
     std::vector<Point> points;      ///< border vertices
     std::vector<VertexId> global;   ///< their ids in Decoupling::points
-    std::vector<Segment> segments;  ///< into points; region on the left
+    std::vector<Segment> segments;  ///< into points; the region lies on their left
     SizeField size{1.0};
-    double min_angle_deg = 20.7;
+    RefineOptions refine;
     double estimated_triangles = 0;
-    bool lattice = true;  ///< RefineOptions::lattice: off where h grows so fast that looking for patches does not pay
 };
 
 struct Decoupling {
-    /// The layer's points as they were, then separator and far-field vertices.
+    /// The points handed in, then the vertices of separators and far field.
     std::vector<Point> points;
-    std::vector<Segment> far_field;  ///< region on the left
+    std::vector<Segment> far_field;  ///< the region lies on their left
     std::vector<Subdomain> subdomains;
     std::size_t separator_vertices = 0;
 };
 
-/// points: those of the layer. borders: closed loops of their ids, counter-clockwise, round each body and its layer.
-/// Depends on the input alone, never on the number of threads. Throws UsageError for a far field that does not
-/// enclose the borders with some room, or is not convex.
-Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
-                    const SizeField& size, const DecouplingOptions& options);
+/// Cuts the region between the borders of the layers and the far field into subdomains of about equal work. `borders`
+/// are closed loops of indices into `points`, counter-clockwise round each body and its layer. The subdomains depend on
+/// the arguments alone, never on the number of threads. Throws OptionError where the far field does not enclose the
+/// borders with some room.
+LAMINA_EXPORT Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
+                                  const SizeField& size, const FarField& far_field,
+                                  const DecouplingOptions& options = {}, const RefineOptions& refine = {});
 
-/// The pure function behind the parallel outer region.
-Refinement refine(const Subdomain& subdomain);
+/// Refines one subdomain.
+LAMINA_EXPORT Refinement refine(const Subdomain& subdomain);
+
+/// Refines all subdomains in parallel, the largest first. The results stand in the order of the subdomains.
+LAMINA_EXPORT std::vector<Refinement> refine(std::span<const Subdomain> subdomains);
 
 }  // namespace lamina

@@ -1,53 +1,74 @@
-// The Delaunay kernel as a library: plain and constrained triangulation, refinement, validation.
-// Usable on its own; nothing here knows airfoils.
+// Delaunay triangulation, constrained triangulation and refinement. This header needs nothing else of the program and
+// knows no airfoils (docs/library.md).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <lamina/angle_bounds.hpp>
+#include <lamina/export.hpp>
 #include <lamina/ids.hpp>
+#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 
 namespace lamina {
 
-/// Triangles index the points that were handed in (and, after refine(), the points added behind them).
-struct Triangulation {
-    std::vector<Triangle> triangles;  ///< counter-clockwise
-};
+// ---- plain triangulation ----
 
-/// Delaunay triangulation of distinct points, in any order; O(n log n) in practice. Cocircular points are fanned by
-/// the one tie rule (predicates.hpp), so the set of triangles is unique and does not depend on the order of the points.
-/// Large sets are triangulated by parallel_delaunay(); the result is the same on any number of threads, in the same
-/// order. Fewer than three points, or all on one line: no triangles. Throws InputError for duplicates and for
-/// coordinates outside the exact range. Source: biased randomised insertion order (Amenta, Choi, Rote, SoCG 2003) along
-/// a Hilbert curve; cavity insertion (Bowyer 1981, Watson 1981).
-Triangulation delaunay(std::span<const Point> points);
-
-/// Where a decomposition ends. It depends on these and on the points alone, never on the number of threads.
+/// Where a decomposition into pieces ends. The pieces depend on these numbers and on the points alone, never on the
+/// number of threads.
 struct DecompositionOptions {
-    unsigned depth = 6;                 ///< most cuts on the way to a piece
+    unsigned depth = 6;                 ///< largest number of cuts on the way to a piece
     std::size_t leaf_vertices = 5'000;  ///< pieces of so few vertices are not cut further
 };
 
+LAMINA_EXPORT const OptionTable<DecompositionOptions>& decomposition_option_table();
+
+/// Throws OptionError where an option is out of range.
+LAMINA_EXPORT void validate(const DecompositionOptions& options);
+
 struct DecompositionStats {
     std::size_t pieces = 0;
-    std::size_t piece_vertices = 0;   ///< summed over pieces: vertices on paths count several times
-    std::size_t largest_piece = 0;    ///< vertices
-    std::size_t crossing_cuts = 0;    ///< cuts rejected because their path crossed a segment
+    std::size_t piece_vertices = 0;  ///< summed over pieces: a vertex on a dividing path counts in every piece it is in
+    std::size_t largest_piece = 0;   ///< in vertices
+    std::size_t crossing_cuts = 0;   ///< cuts rejected because their path crossed a segment
     std::size_t unbalanced_cuts = 0;  ///< cuts rejected because one part was larger than 0.75 of the whole
-    std::size_t uncut = 0;            ///< pieces that should have been cut further, but no cut would do
+    std::size_t uncut = 0;            ///< pieces that should have been cut further, but that no cut suited
     std::size_t fallbacks = 0;        ///< regions triangulated in one piece because a piece could not be
 };
 
-/// The same triangles on several threads: the points are divided along paths of Delaunay edges, the pieces triangulated
-/// by themselves. Throws the same errors.
-/// Source: G. E. Blelloch, G. L. Miller, J. C. Hardwick, D. Talmor, Algorithmica 24 (1999); J. K. Pardue, thesis
-/// (2015), chapter 4.
-Triangulation parallel_delaunay(std::span<const Point> points, const DecompositionOptions& options = {});
+/// What one thread did while points were triangulated in pieces, in seconds.
+struct TriangulationThread {
+    double cutting = 0, triangulating = 0, idle = 0;
+};
+
+/// A triangulation of the points handed in; triangles hold their indices.
+struct Triangulation {
+    std::vector<Triangle> triangles;  ///< counter-clockwise
+    DecompositionStats decomposition{};
+    std::vector<TriangulationThread> threads{};  ///< one entry per thread
+};
+
+/// Returns the Delaunay triangulation of distinct points in any order, in O(n log n) in practice. Cocircular points are
+/// fanned by the one tie rule (predicates.hpp), so the set of triangles is unique and does not depend on the order of
+/// the points. Sets of 50,000 points and more are divided along paths of Delaunay edges, and the pieces triangulated on
+/// several threads; the triangles and their order are the same on any number of threads. Fewer than three points, and
+/// points on one line, have no triangles. Throws InputError for duplicates (place().points) and for coordinates outside
+/// the exact range.
+/// Source: biased randomised insertion order (N. Amenta, S. Choi, G. Rote, SoCG 2003) along a Hilbert curve; cavity
+/// insertion (A. Bowyer, D. F. Watson, The Computer Journal 24 (1981)); pieces: G. E. Blelloch, G. L. Miller, J. C.
+/// Hardwick, D. Talmor, Algorithmica 24 (1999); J. K. Pardue, thesis (2015), chapter 4.
+LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points);
+
+/// Returns the same triangulation, cut into pieces as the options say whatever the number of points.
+LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points, const DecompositionOptions& options);
+
+// ---- constrained triangulation ----
 
 /// What is kept of a constrained triangulation, before holes are cut.
 enum class Keep {
@@ -59,72 +80,82 @@ enum class Keep {
 
 /// What happens where segments cross in their interiors.
 enum class Crossings {
-    refuse,  ///< InputError that names both
-    insert,  ///< a point is added at each crossing, rounded to doubles; pieces bend by a rounding error and stay planar
+    refuse,  ///< InputError that names both segments
+    insert,  ///< a Steiner point at each crossing, rounded to doubles; segments bend by a rounding error and stay
+             ///< planar
 };
 
 struct ConstrainedOptions {
     Keep keep = Keep::convex_hull;
     Crossings crossings = Crossings::refuse;
     /// A point in each hole: what can be reached from it without crossing a segment is removed. Points outside the hull
-    /// have no effect; one on a vertex or segment is an InputError.
+    /// have no effect; a point on a vertex or segment is an InputError.
     std::vector<Point> holes{};
 };
 
-/// Triangles and segments index the points handed in, then `added`.
+/// A constrained triangulation. Triangles and segments index the points handed in, followed by `steiner_points`.
 struct ConstrainedTriangulation {
-    std::vector<Point> added;         ///< crossing points
-    std::vector<Triangle> triangles;  ///< counter-clockwise
-    /// The edges of the triangles that are parts of segments, each once, directed as its segment is; in the order of
+    std::vector<Point> steiner_points;  ///< crossings of segments
+    std::vector<Triangle> triangles;    ///< counter-clockwise
+    /// The edges of the triangles that are parts of segments, each once and directed as its segment is; in the order of
     /// the segments, each chain from a to b.
     std::vector<Segment> segments;
-    std::vector<std::uint32_t> parents;  ///< for each of them the segment it is a part of, the first if several are
+    std::vector<std::uint32_t> parents;  ///< for each of them the segment it is a part of; the first if several are
 };
 
-/// Constrained Delaunay triangulation: every segment is an edge or, where it runs through points, a chain of edges;
-/// other edges are locally Delaunay by the tie rule. Segments may overlap or repeat. The set of triangles is unique: it
-/// depends on neither the order of the points (except for how crossing points are numbered) nor that of the segments.
-/// Throws InputError for duplicate points, crossing segments (naming their indices) unless they are to be resolved,
-/// and segments where all points lie on one line.
-/// Source: M. V. Anglada, Computers & Graphics 21 (1997).
-ConstrainedTriangulation constrained_delaunay(std::span<const Point> points, std::span<const Segment> segments,
-                                              const ConstrainedOptions& options = {});
+/// Returns the constrained Delaunay triangulation: every segment is an edge or, where it runs through points, a chain
+/// of edges; the other edges are locally Delaunay by the tie rule. Segments may overlap and repeat. The set of
+/// triangles is unique: it depends on the order of neither points nor segments (except for the numbers of crossing
+/// points). Throws InputError for duplicate points, for segments that cross unless a point is to be inserted there
+/// (place().segments), and for segments where all points lie on one line. Source: M. V. Anglada, Computers & Graphics
+/// 21 (1997).
+LAMINA_EXPORT ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
+                                                   const ConstrainedOptions& options = {});
+
+// ---- refinement ----
 
 struct RefineOptions {
-    double min_angle_deg = 20.7;  ///< proved to terminate up to 20.7, measured up to 33
-    /// The most points that may be added before giving up with MeshError.
-    std::size_t max_points = 200'000'000;
-    /// Fill large, evenly sized parts with patches of equilateral lattice and refine only the seams between them. Same
-    /// guarantees; several times faster, and fewer triangles. Where it does not pay nothing changes.
+    /// Smallest angle of a triangle; 0: no bound. Refinement ends provably up to the default, and in all trials up to
+    /// largest_min_angle_deg.
+    double min_angle_deg = proved_min_angle_deg;
+    std::size_t max_points = 200'000'000;  ///< Steiner points beyond which refinement gives up with MeshError
+    /// Fills large, evenly sized parts with patches of an equilateral lattice and refines only the seams between them:
+    /// the same guarantees, several times faster, fewer triangles. Changes nothing where it does not pay.
     bool lattice = true;
-    /// How many triangles to reserve memory for; a guess never changes the result.
-    std::size_t expected_triangles = 0;
+    std::size_t expected_triangles = 0;  ///< memory is reserved for so many; a guess never changes the result
 };
+
+LAMINA_EXPORT const OptionTable<RefineOptions>& refine_option_table();
+
+/// Throws OptionError where an option is out of range.
+LAMINA_EXPORT void validate(const RefineOptions& options);
 
 struct RefineStats {
     std::size_t refused = 0;      ///< points not placed because they would encroach upon the frozen border
-    std::size_t below_bound = 0;  ///< triangles that stayed under the angle bound
+    std::size_t below_bound = 0;  ///< triangles that stayed below the angle bound
     std::size_t exempt = 0;       ///< of those, at a corner below 60 degrees between two border edges
-    std::size_t oversized = 0;    ///< triangles that stayed over the size bound
+    std::size_t oversized = 0;    ///< triangles that stayed above the size bound
+
+    RefineStats& operator+=(const RefineStats& other);
 };
 
-/// A triangulated piece: border points as given, then the points added.
+/// A refined region. A vertex below the number of border points is a border point; the others are steiner_points.
 struct Refinement {
-    std::vector<Point> added;
-    std::vector<Triangle> triangles;  ///< index i < border points: border; else added[i - border points]
+    std::vector<Point> steiner_points;
+    std::vector<Triangle> triangles;
     RefineStats stats;
 };
 
-/// Delaunay refinement of the region bounded by `segments` (region on their left) to a size field and a minimum angle.
-/// The border is frozen: no segment is split, and a point that would encroach upon one is refused. A triangle is too
-/// large where its area exceeds sqrt(3)/4 h^2, h being the mean of the size field at its vertices.
-/// Deterministic: the result depends on the arguments alone.
+/// Refines the region on the left of `segments` to a size field and a minimum angle. The border is frozen: no segment
+/// is split, and a point that would encroach upon one is refused. A triangle is too large where its area exceeds
+/// sqrt(3)/4 h^2, h being the mean of the size field at its vertices. The result depends on the arguments alone. Throws
+/// OptionError for options out of range, InputError as triangulate() does, MeshError where max_points do not suffice.
 /// Source: J. Ruppert, J. Algorithms 18 (1995); J. R. Shewchuk, Comput. Geom. 22 (2002); off-centres: A. Ungor, LATIN
 /// 2004.
-Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
-                  const RefineOptions& options = {});
+LAMINA_EXPORT Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
+                                const RefineOptions& options = {});
 
-/// Size field of the region that holds the seed, in the place of the general one.
+/// A size field that replaces the general one in the region that holds the seed.
 struct RegionSize {
     Point seed;
     SizeField size;
@@ -132,17 +163,18 @@ struct RegionSize {
 
 struct ConstrainedRefineOptions {
     RefineOptions refine{};
-    /// Split segments and the rim where the angle or size bound asks for it; otherwise they stay as they are, and
-    /// triangles beside coarse ones may stay under the bounds.
+    /// Splits segments and the boundary where the angle or size bound asks for it. Otherwise they stay as they are, and
+    /// triangles beside coarse ones may stay below the bounds.
     bool split_segments = true;
     std::vector<RegionSize> regions{};  ///< where several seeds lie in one region, the first counts
 };
 
+/// A refined constrained triangulation. Triangles index the points handed in, followed by `steiner_points`.
 struct ConstrainedRefinement {
-    /// Those of the triangulation, then points on segments and the rim (`added_on_edges` of them), then the rest.
-    std::vector<Point> added;
-    std::size_t added_on_edges = 0;
-    std::vector<Triangle> triangles;     ///< index i < points: point i; else added[i - points]
+    /// The Steiner points of the triangulation, then those on segments and the boundary, then the rest.
+    std::vector<Point> steiner_points;
+    std::size_t on_segments = 0;  ///< how many of them lie on segments and the boundary
+    std::vector<Triangle> triangles;
     std::vector<std::uint32_t> regions;  ///< for each triangle the index of its RegionSize, or no_region
     std::vector<Segment> segments;       ///< as in ConstrainedTriangulation, split
     std::vector<std::uint32_t> parents;
@@ -151,25 +183,32 @@ struct ConstrainedRefinement {
     static constexpr std::uint32_t no_region = 0xffffffffu;
 };
 
-/// Refines a constrained triangulation of the points, inner segments and holes included: each part that segments
-/// separate is refined by itself (in parallel; the result never depends on it) against borders that were split before:
-/// until none exceeds the size field, none has a vertex it sees in its diametral circle, and no triangle is kept under
-/// the bounds by one. Segments that meet at less than 90 degrees are split on common circles of powers of two round
-/// their vertex. Triangles in a corner where segments meet at less than 60 degrees, and those whose shortest edge joins
-/// two such segments, are exempt from the angle bound (stats.exempt).
-/// Source: J. Ruppert, J. Algorithms 18 (1995), section 3 and "corner lopping"; G. Miller, S. Pav, N. Walkington, Int.
-/// J. Comput. Geom. Appl. 15 (2005) for what is exempt.
-ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                             const SizeField& size, const ConstrainedRefineOptions& options = {});
+/// Refines a constrained triangulation of the points, with its inner segments and holes. Each part that segments
+/// separate is refined by itself, in parallel, against borders that were split before: until none exceeds the size
+/// field, none has a vertex it sees in its diametral circle, and no triangle is kept below the bounds by one. Segments
+/// that meet at less than 90 degrees are split on common circles of powers of two round their vertex. Triangles in a
+/// corner where segments meet at less than 60 degrees, and those whose shortest edge joins two such segments, are
+/// exempt from the angle bound (stats.exempt). Throws as refine() does. Source: J. Ruppert, J. Algorithms 18 (1995),
+/// section 3 and "corner lopping"; G. Miller, S. Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15 (2005) for what is
+/// exempt.
+LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                                           const SizeField& size, const ConstrainedRefineOptions& options = {});
 
-struct ValidateOptions {
-    bool require_delaunay = true;  ///< locally Delaunay by the tie rule, but for edges in `constraints`
+// ---- checks ----
+
+struct TriangulationCheckOptions {
+    bool require_delaunay = true;  ///< every edge that is no constraint must be locally Delaunay by the tie rule
 };
 
-/// What is wrong with a triangulation of these points: indices out of range, clockwise or flat triangles, edges used
-/// twice in one direction, triangles that overlap round a vertex, missing constraints, non-Delaunay edges.
-/// Empty = valid. Exact.
-std::vector<std::string> validate(std::span<const Point> points, std::span<const Triangle> triangles,
-                                  std::span<const Segment> constraints = {}, const ValidateOptions& options = {});
+/// Returns what is wrong with a triangulation of these points, one line each: indices out of range, clockwise or flat
+/// triangles, edges used twice in one direction, triangles that overlap round a vertex, constraints that are no edges,
+/// edges that are not Delaunay. Empty: valid. Exact.
+LAMINA_EXPORT std::vector<std::string> check_triangulation(std::span<const Point> points,
+                                                           std::span<const Triangle> triangles,
+                                                           std::span<const Segment> constraints = {},
+                                                           const TriangulationCheckOptions& options = {});
+
+/// Returns the smallest angle of all triangles in degrees, to 1e-12 degrees; 0 without triangles.
+LAMINA_EXPORT double smallest_angle_deg(std::span<const Point> points, std::span<const Triangle> triangles);
 
 }  // namespace lamina

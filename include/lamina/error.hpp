@@ -1,26 +1,30 @@
-// The errors that bad input, an impossible request or a failing disk raise. Bugs in the library assert instead.
+// The errors of lamina. Bad input, options out of range, failing disks and meshes that cannot be made throw; bugs in
+// the library assert instead. what() is one line that can be shown to a person; the members hold the same facts as
+// data.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include <lamina/export.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
 
-/// What the program returns to the shell (see the user guide, "Exit codes").
+/// The kind of an error, and what the program returns to the shell for it (docs/guide.md, "Exit codes").
 enum class ExitCode : int {
     done = 0,
-    usage = 2,        ///< wrong options or arguments
-    bad_input = 3,    ///< the input cannot be meshed: file, line, what, where
-    mesh_failed = 4,  ///< the mesh could not be made to the promised standard
+    usage = 2,        ///< options or arguments are wrong
+    bad_input = 3,    ///< the input cannot be meshed
+    mesh_failed = 4,  ///< no mesh of the promised standard could be made
     io_failed = 5,    ///< reading or writing failed
 };
 
-/// Base of all errors thrown by lamina; what() is one line, ready to be shown.
-class Error : public std::runtime_error {
+/// The base of all errors that lamina throws.
+class LAMINA_EXPORT Error : public std::runtime_error {
 public:
     Error(ExitCode code, const std::string& line) : std::runtime_error(line), code_(code) {}
     ExitCode exit_code() const noexcept { return code_; }
@@ -29,39 +33,70 @@ private:
     ExitCode code_;
 };
 
-/// Options that contradict each other or lie outside their range.
-class UsageError : public Error {
+/// Arguments that contradict each other or that lamina does not know.
+class LAMINA_EXPORT UsageError : public Error {
 public:
     explicit UsageError(const std::string& line) : Error(ExitCode::usage, line) {}
 };
 
-/// Where in the input something is wrong; parts that do not apply stay empty.
-struct InputPlace {
-    std::string file;
-    std::size_t line = 0;  ///< 1-based; 0 = not tied to one line
-    std::optional<Point> at;
+/// An option whose value is out of range or does not go with the others.
+class LAMINA_EXPORT OptionError : public UsageError {
+public:
+    /// what() reads "option: reason".
+    OptionError(const std::string& option, const std::string& reason);
+    /// Returns the name of the option as case files write it: "first_height".
+    const std::string& option() const noexcept { return option_; }
+    const std::string& reason() const noexcept { return reason_; }
+
+private:
+    std::string option_, reason_;
 };
 
-/// The input cannot be used. what() reads "file:line: reason (at x, y)".
-class InputError : public Error {
+/// Where in the input something is wrong. Parts that do not apply stay empty.
+struct InputPlace {
+    std::string file{};
+    std::size_t line = 0;  ///< counts from 1; 0: not tied to one line
+    std::optional<Point> at{};
+    std::string element{};                ///< name of the body
+    std::vector<std::size_t> points{};    ///< indices into the points handed in
+    std::vector<std::size_t> segments{};  ///< indices into the segments handed in
+};
+
+/// Input that cannot be used.
+class LAMINA_EXPORT InputError : public Error {
 public:
+    /// what() reads "file:line: reason (at x, y)".
     InputError(InputPlace place, const std::string& reason);
     const InputPlace& place() const noexcept { return place_; }
+    const std::string& reason() const noexcept { return reason_; }
 
 private:
     InputPlace place_;
+    std::string reason_;
 };
 
-/// A mesh of the promised standard could not be made, or one that was read is not valid.
-class MeshError : public Error {
+/// A mesh of the promised standard that could not be made, or a mesh that was read and is not valid.
+class LAMINA_EXPORT MeshError : public Error {
 public:
-    explicit MeshError(const std::string& line) : Error(ExitCode::mesh_failed, line) {}
+    explicit MeshError(const std::string& line, std::optional<Point> at = std::nullopt)
+        : Error(ExitCode::mesh_failed, line), at_(at) {}
+    /// Returns the place of the first defect where it is known.
+    const std::optional<Point>& at() const noexcept { return at_; }
+
+private:
+    std::optional<Point> at_;
 };
 
-/// A file could not be read or written.
-class IoError : public Error {
+/// A file that could not be read or written.
+class LAMINA_EXPORT IoError : public Error {
 public:
+    /// what() reads "file: reason".
     IoError(const std::string& file, const std::string& reason);
+    const std::string& file() const noexcept { return file_; }
+    const std::string& reason() const noexcept { return reason_; }
+
+private:
+    std::string file_, reason_;
 };
 
 }  // namespace lamina

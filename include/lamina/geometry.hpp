@@ -1,91 +1,98 @@
-// Stage 1, geometry: airfoil files and NACA names -> Pslg (docs/guide.md, "Input").
+// Stage "read": airfoil files and NACA names -> Geometry (docs/guide.md, "Input").
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/export.hpp>
+#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
 
-/// Something the reader mended, in words fit for a log: "line 12: duplicate of line 11 removed (0.5, 0.1)".
-struct Repair {
-    std::string text;
+/// A convex vertex of an outline that turns by more than this many degrees is a sharp corner: a trailing edge, or a
+/// corner of a blunt base.
+inline constexpr double sharp_corner_deg = 60;
+
+/// The base of a blunt trailing edge: the indices of its two corners in the outline, in the order of the outline.
+struct Base {
+    std::size_t first, last;
 };
 
-/// One closed body. points run counter-clockwise, the body on the left of every edge; the first point is not repeated.
+/// Places of an outline that later stages need to know.
+struct OutlineFeatures {
+    std::vector<std::size_t> corners;  ///< indices of the vertices that are no samples of a smooth curve, ascending
+    std::optional<Base> base{};
+    /// The sharp corner, or the middle of the base, that lies farthest downstream (at the largest x) in the rear half
+    /// of the body; the rearmost vertex where there is neither.
+    Point trailing_edge{};
+};
+
+/// One closed body.
 struct Element {
-    std::string name;    ///< marker name in the mesh: no spaces, at most 32 characters, unique in its Pslg
+    std::string name;    ///< name of its marker in the mesh: no spaces, at most 32 characters, unique
     std::string file;    ///< as the user gave it; "naca:0012" for generated sections
-    std::string title;   ///< the file's own title line, if any
-    std::string format;  ///< "selig", "lednicer", "table", "xy", "csv", "naca"
+    std::string title;   ///< the title line of the file, if it has one
+    std::string format;  ///< "selig", "lednicer", "table", "xy", "csv" or "naca"
     std::size_t points_read = 0;
+    /// The outline, counter-clockwise: the body lies on the left of every edge. The first point is not repeated.
     std::vector<Point> points;
-    std::vector<std::size_t> lines;  ///< per point: line of the file it was read from, 0 where lamina added it
-    std::vector<Repair> repairs;
-    std::vector<std::string> surface;  ///< what prepare_surfaces() did, and why; fit for a log
-    bool resampled = false;            ///< by prepare_surfaces(): the spacing of the points is lamina's own choice
+    std::vector<std::size_t> lines;    ///< per point: its line in the file; 0 where lamina added the point
+    std::vector<std::string> repairs;  ///< what the reader mended: "line 12: duplicate of line 11 removed (0.5, 0.1)"
+    std::vector<std::string> surface_notes;  ///< what prepare_surfaces() did to the points, and why
+    bool resampled = false;                  ///< whether prepare_surfaces() chose the spacing of the points
+    OutlineFeatures features;                ///< set by prepare_surfaces()
 };
 
-/// Planar straight-line graph: closed, simple, pairwise disjoint bodies.
-struct Pslg {
+/// Bodies that are closed, simple and pairwise disjoint.
+struct Geometry {
     std::vector<Element> elements;
 };
 
+/// Returns the box round all elements.
+LAMINA_EXPORT Box bounding_box(const Geometry& geometry);
+
 struct GeometryOptions {
-    std::vector<std::string> names;  ///< marker names, one an element; empty = file stems, "airfoil" if there is one
-    std::size_t naca_points = 200;   ///< surface points of `naca:` inputs that do not say so themselves
+    std::vector<std::string>
+        names{};                    ///< marker names, one per element; empty: file stems, or "airfoil" for one element
+    std::size_t naca_points = 200;  ///< surface points of `naca:` inputs that do not give their number
 };
 
-/// Reads every input (a path, or `naca:DIGITS[:POINTS][:blunt|:sharp]`), repairs, orients and checks them.
-/// Coordinates are never scaled or moved. Throws InputError for what cannot be repaired (no or too few points, NaN,
-/// a crossing outline, elements that cross or contain each other, coordinates outside the exact range of
-/// predicates.hpp), IoError for files that cannot be read.
-Pslg read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
+LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 
-/// Reads one file; several elements where it holds several. Steps as in read_geometry, without the checks between
-/// files.
-std::vector<Element> read_airfoil(const std::filesystem::path& file);
+/// Throws OptionError where an option is out of range.
+LAMINA_EXPORT void validate(const GeometryOptions& options);
+
+/// Reads every input, which is a path or `naca:DIGITS[:POINTS][:blunt|:sharp]`; repairs, orients, names and checks what
+/// it holds. Coordinates are neither scaled nor moved. Throws InputError for what cannot be repaired (no or too few
+/// points, NaN, an outline that crosses itself, elements that cross or contain each other, coordinates outside the
+/// exact range of predicates.hpp), IoError for files that cannot be read, UsageError for names that are no markers.
+LAMINA_EXPORT Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
+
+/// Reads one file, which may hold several elements. Takes the same steps and throws the same errors as read_geometry().
+LAMINA_EXPORT std::vector<Element> read_airfoil(const std::filesystem::path& file);
 
 enum class TrailingEdge { sharp, blunt };
 
-/// NACA 4-digit ("0012") or 5-digit ("23012", reflexed "23112") section of unit chord with cosine spacing.
-/// Points start at the trailing edge, upper surface first; both surfaces get the same number, so `points` (surface
-/// points without the repeated trailing edge and without those inside a base) is rounded up to an even number for
-/// `sharp`, to an odd one for `blunt`. The sections of symmetric digits are mirror images exactly. `sharp` closes the
-/// tail by the modified last thickness coefficient (-0.1036), `blunt` keeps the published one (-0.1015) and its base
-/// edge. Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935). Throws
-/// UsageError for digits that name no section and for fewer than 6 or more than 10 million points.
-Element naca_airfoil(const std::string& digits, std::size_t points, TrailingEdge trailing_edge = TrailingEdge::sharp);
+/// Returns the NACA 4-digit ("0012") or 5-digit ("23012", reflexed "23112") section of unit chord with cosine spacing.
+/// The points start at the trailing edge and run over the upper surface first. Both surfaces get the same number, so
+/// `points` (surface points without the repeated trailing edge and without those inside a base) is rounded up to an
+/// even number for `sharp` and to an odd one for `blunt`. Sections of symmetric digits are mirror images exactly.
+/// `sharp` closes the trailing edge by the modified last thickness coefficient (-0.1036); `blunt` keeps the published
+/// one
+/// (-0.1015) and its base. Throws UsageError for digits that name no section and for fewer than 6 or more than 10
+/// million points.
+/// Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935).
+LAMINA_EXPORT Element naca_airfoil(const std::string& digits, std::size_t points,
+                                   TrailingEdge trailing_edge = TrailingEdge::sharp);
 
-/// Throws InputError where the Pslg is not made of simple, disjoint, counter-clockwise loops that lie side by side; the
-/// message names the lines of both edges. Exact (predicates.hpp), O(n log n) in practice.
-void check_simple(const Pslg& pslg);
-
-/// Facts about one element that a person wants to see (`lamina info`).
-struct ElementSummary {
-    Box box;
-    double chord = 0;  ///< extent in x
-    double area = 0;
-    double perimeter = 0;
-    double min_spacing = 0;
-    double max_spacing = 0;
-    double max_spacing_ratio = 0;  ///< of neighbouring edges
-    double max_turning_deg = 0;    ///< largest exterior angle, and where
-    Point max_turning_at;
-    std::size_t sharp_corners = 0;  ///< convex vertices that turn by more than 60 degrees
-    /// The convex corner of more than 60 degrees, or the middle of the straight base, that lies farthest downstream (at
-    /// the largest x) in the rear half; without either the rearmost vertex.
-    Point trailing_edge;
-    bool blunt_trailing_edge = false;
-};
-ElementSummary summarize(const Element& element);
-
-/// The report of `lamina info`: what was read, mended and found, element by element; several lines.
-std::string describe(const Pslg& pslg);
+/// Throws InputError unless the outlines are simple, counter-clockwise, disjoint and lie side by side. The message
+/// names the lines of both edges in conflict. Exact (predicates.hpp); O(n log n) in practice.
+LAMINA_EXPORT void check_simple(const Geometry& geometry);
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
-// Strong ids: an index that says what it is an index of.
-// 32 bits address 4.29e9 vertices, 8.6e9 triangles, far beyond memory; counts and offsets are std::size_t.
+// Strong ids: an index that says what it is an index of. 32 bits address 4.29e9 vertices and 8.6e9 triangles, far
+// beyond memory; counts and offsets are std::size_t.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +22,18 @@ struct Id {
 using VertexId = Id<struct VertexTag>;      ///< a point of the array at hand
 using TriangleId = Id<struct TriangleTag>;  ///< a triangle of the array at hand
 
-/// Counter-clockwise unless stated otherwise.
+/// The vertices run counter-clockwise unless a comment says otherwise.
 struct Triangle {
     VertexId v[3];
     friend constexpr bool operator==(const Triangle&, const Triangle&) = default;
 };
 
-/// Directed from a to b.
+/// A quadrilateral; the vertices run counter-clockwise.
+struct Quad {
+    VertexId v[4];
+};
+
+/// A segment that is directed from a to b.
 struct Segment {
     VertexId a, b;
     friend constexpr auto operator<=>(const Segment&, const Segment&) = default;

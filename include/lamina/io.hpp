@@ -1,9 +1,7 @@
-// Meshes to and from files, and pictures of them. The format follows from the extension unless it is named.
+// Meshes to and from files. The format follows from the extension unless it is named.
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,17 +50,5 @@ SizedMesh read_sizes(const std::filesystem::path& file);
 /// Throws UsageError now rather than after minutes of meshing if write_mesh knows no format of this name, IoError if
 /// the folder does not exist or is not writable.
 void check_writable(const std::filesystem::path& file, const WriteOptions& options = {});
-
-enum class PlotColor { none, quality, size, piece, layer };
-
-struct PlotOptions {
-    PlotColor color = PlotColor::none;
-    /// x0, x1, y0, y1; empty = the whole mesh.
-    std::optional<std::array<double, 4>> window{};
-    int width_px = 1600;  ///< of the longer side of the picture
-};
-
-/// Draws the mesh as .png, .svg or .pdf (Cairo). Same promises and errors as write_mesh.
-void plot_mesh(const Mesh& mesh, const std::filesystem::path& file, const PlotOptions& options = {});
 
 }  // namespace lamina

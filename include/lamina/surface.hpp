@@ -1,47 +1,85 @@
-// Between stages 1 and 2, surface: the given points -> the vertices of the walls (docs/guide.md, "Surface").
+// Stage "prepare": the points that were read -> the vertices of the walls (docs/guide.md, "Surface").
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include <lamina/geometry.hpp>
 
 namespace lamina {
 
-/// `automatic` resamples coarse samples of a smooth curve and keeps everything else.
-enum class Surface { automatic, keep, resample };
-
-/// Lengths are shares of the element's length (the longer side of its box) where nothing else is said.
-struct SurfaceOptions {
-    Surface surface = Surface::automatic;
-    /// About as many points an element, whatever the limits below; they keep their proportions. Implies `resample`
-    /// where `automatic` is asked.
-    std::optional<std::size_t> points;
-    /// Before anything else every element is smoothed, each point moved by at most this, in units of the input.
-    std::optional<double> smooth;
-    double max_turning_deg = 10;  ///< at a vertex between two corners
-    double max_ratio = 1.2;       ///< of neighbouring spacings, as long as none falls below `least_spacing`
-    double gradation = 0.18;      ///< growth of the spacing per unit of arc length, within max_ratio
-    double longest_spacing = 0.02;
-    /// At convex corners of more than 60 degrees: trailing edges, bases.
-    double sharp_corner_spacing = 0.001;
-    double corner_spacing = 0.004;  ///< at all other corners
-    /// The length of the layer's border edges over the fan of rays at sharp corners, in units of the input: the spacing
-    /// there, but from a quarter of `sharp_corner_spacing` to `corner_spacing`.
-    std::optional<double> fan_spacing;
-    double gap_spacing = 1;       ///< of the distance to the next element, or across a cove
-    double least_spacing = 2e-5;  ///< nothing above asks for less
-    double tolerance = 5e-5;      ///< of the edges from the curve
+/// What becomes of the given points.
+enum class Surface {
+    automatic,  ///< coarse samples of a smooth curve are resampled; all other elements are kept
+    keep,       ///< kept exactly
+    resample,   ///< replaced by new points on a spline through them
 };
 
-/// The surface stage. Each element is kept or resampled as the options say, and Element::surface tells which and why.
-/// Resampling puts a cubic spline, parametrised by chord length, through the points between corners and divides it by
-/// equidistribution of the integral of ds/spacing into a whole number of edges; corners stay vertices, exactly.
-/// Precondition: check_simple(). The result passes it, too: an element whose resampled outline would not is kept as
-/// given. Mirrored or reversed input gives mirrored points, to rounding. Throws UsageError for options out of range.
+/// Lengths are shares of the element's length, the longer side of its box, unless a comment says otherwise.
+struct SurfaceOptions {
+    Surface surface = Surface::automatic;
+    /// Wall vertices per element, about; all spacings below keep their proportions. Makes `automatic` resample.
+    std::optional<std::size_t> points{};
+    /// The points are smoothed first, each moved by at most this many units of the input.
+    std::optional<double> smooth{};
+    double max_turning_deg = 10;  ///< largest turning at a vertex between two corners
+    double max_ratio = 1.2;       ///< largest ratio of neighbouring spacings, where none is below min_spacing
+    double gradation = 0.18;      ///< growth of the spacing per unit of arc length, within max_ratio
+    double max_spacing = 0.02;
+    double sharp_corner_spacing = 0.001;  ///< at sharp corners (sharp_corner_deg)
+    double corner_spacing = 0.004;        ///< at all other corners
+    double gap_spacing = 1;               ///< as a share of the distance to the next element, or across a cove
+    double min_spacing = 2e-5;            ///< no option asks for less
+    double tolerance = 5e-5;              ///< largest distance of an edge from the curve
+};
+
+LAMINA_EXPORT const OptionTable<SurfaceOptions>& surface_option_table();
+
+/// Throws OptionError where an option is out of range.
+LAMINA_EXPORT void validate(const SurfaceOptions& options);
+
+/// What the layer over a wall asks of the wall's spacing, beyond the options of the surface: the stricter one holds.
+struct SpacingLimits {
+    double max_turning_deg = HUGE_VAL;
+    double gradation = HUGE_VAL;
+    /// Length, in units of the input, of the layer's border edges over the fan of rays at sharp corners. The spacing at
+    /// sharp corners equals it, between a quarter of sharp_corner_spacing and corner_spacing.
+    std::optional<double> fan_spacing{};
+};
+
+/// Keeps or resamples each element, as the options say, and finds its features. Element::surface_notes tells which and
+/// why. Resampling puts a cubic spline, parametrised by chord length, through the points between corners and divides it
+/// into a whole number of edges that take equal shares of the integral of ds / spacing; corners stay vertices exactly.
+/// An element whose resampled outline would cross itself or another one is kept as given. Mirrored or reversed input
+/// gives mirrored points, up to rounding.
+/// Precondition: check_simple(); the result passes it, too. Throws OptionError for options out of range.
 /// Source: J. F. Thompson, B. K. Soni, N. P. Weatherill, Handbook of Grid Generation (1999), chapters 3 and 30; C. de
 /// Boor, A Practical Guide to Splines (1978), chapter 4.
-Pslg prepare_surfaces(Pslg pslg, const SurfaceOptions& options = {});
+LAMINA_EXPORT Geometry prepare_surfaces(Geometry geometry, const SurfaceOptions& options = {},
+                                        const SpacingLimits& limits = {});
+
+/// Facts about one element for a person to read (`lamina info`).
+struct ElementSummary {
+    Box box;
+    double chord = 0;  ///< extent in x
+    double area = 0;
+    double perimeter = 0;
+    double min_spacing = 0;
+    double max_spacing = 0;
+    double max_spacing_ratio = 0;  ///< of neighbouring edges
+    double max_turning_deg = 0;    ///< largest exterior angle
+    Point max_turning_at;
+    std::size_t sharp_corners = 0;  ///< convex vertices that turn by more than sharp_corner_deg
+    Point trailing_edge;            ///< as in OutlineFeatures
+    bool blunt_trailing_edge = false;
+};
+
+/// Measures an element.
+LAMINA_EXPORT ElementSummary summarize(const Element& element);
+
+/// Returns what was read, mended and found, element by element, as several lines of text (`lamina info`).
+LAMINA_EXPORT std::string describe(const Geometry& geometry);
 
 }  // namespace lamina

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <tuple>
 
 #include <lamina/error.hpp>
 
@@ -22,25 +21,6 @@ MeshCase case_of_inputs(const std::vector<std::string>& inputs) {
     MeshCase mesh_case;
     mesh_case.inputs = inputs;
     return mesh_case;
-}
-
-CaseOptions case_options(const MeshCase& mesh_case) {
-    const auto& [first_height, y_plus, reynolds, chord] =
-        std::tie(mesh_case.first_height, mesh_case.y_plus, mesh_case.reynolds, mesh_case.chord);
-    if (first_height && y_plus) throw UsageError("first height given twice: by first-height and by y-plus");
-    if (y_plus && !reynolds) throw UsageError("y-plus needs reynolds, the Reynolds number based on the chord");
-    if (reynolds && !y_plus) throw UsageError("reynolds is of use with y-plus only");
-    if (chord && !y_plus) throw UsageError("chord is of use with y-plus only");
-
-    CaseOptions options = mesh_case.options;
-    if (!options.far_field_outline.empty()) {
-        if (options.far_field_shape != FarFieldShape::box)
-            throw UsageError("far field given twice: by far-field-shape and by far-field-outline");
-        options.far_field_shape = FarFieldShape::convex;
-    }
-    if (first_height) options.layer.first_height = *first_height;
-    if (y_plus) options.y_plus = {*y_plus, *reynolds, chord};
-    return options;
 }
 
 }  // namespace lamina::app

@@ -8,9 +8,10 @@
 #include <toml++/toml.h>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/version.hpp>
 
 #include "app/options.hpp"
-#include "core/atomic_file.hpp"
 
 namespace lamina::app {
 
@@ -18,11 +19,13 @@ namespace {
 
 bool is_naca_name(const std::string& input) { return input.starts_with("naca:"); }
 
-bool holds_paths(const Option& option) { return option.kind == Kind::path || option.kind == Kind::paths; }
+bool holds_paths(const Option<MeshCase>& option) {
+    return option.kind == OptionKind::path || option.kind == OptionKind::paths;
+}
 
 /// Applies `change` to every path of the value; NACA names are none.
 template <class Change>
-Value with_paths(Value value, Change change) {
+OptionValue with_paths(OptionValue value, Change change) {
     const auto apply = [&](std::string& text) {
         if (!text.empty() && !is_naca_name(text)) text = change(std::filesystem::path(text)).string();
     };
@@ -31,7 +34,7 @@ Value with_paths(Value value, Change change) {
     return value;
 }
 
-Value value_of(const toml::node& node, const std::string& origin) {
+OptionValue value_of(const toml::node& node, const std::string& origin) {
     if (const auto* flag = node.as_boolean()) return flag->get();
     if (const auto* count = node.as_integer()) return count->get();
     if (const auto* real = node.as_floating_point()) return real->get();
@@ -48,7 +51,7 @@ Value value_of(const toml::node& node, const std::string& origin) {
 }
 
 toml::table parse(const std::filesystem::path& file) {
-    const std::string text = read_whole_file(file);
+    const std::string text = read_file(file);
     try {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
@@ -57,7 +60,7 @@ toml::table parse(const std::filesystem::path& file) {
     }
 }
 
-std::string toml_text(const Value& value) {
+std::string toml_text(const OptionValue& value) {
     if (const auto* real = std::get_if<double>(&value)) return fmt::to_string(*real);  // the shortest that reads back
     std::ostringstream out;
     if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) {
@@ -80,11 +83,11 @@ MeshCase read_case_file(const std::filesystem::path& file) {
     for (const auto& [key, node] : table) {
         const std::string origin = fmt::format("{}:{}: {}", file.string(), key.source().begin.line, key.str());
         const auto& options = mesh_options();
-        const auto option =
-            std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.key() == key.str(); });
+        const auto option = std::find_if(options.begin(), options.end(),
+                                         [&](const Option<MeshCase>& o) { return o.key() == key.str(); });
         if (option == options.end()) throw UsageError(origin + ": no such option");
 
-        Value value = value_of(node, origin);
+        OptionValue value = value_of(node, origin);
         if (holds_paths(*option)) {
             value = with_paths(std::move(value), [&](const auto& path) { return file.parent_path() / path; });
         }
@@ -97,9 +100,9 @@ MeshCase read_case_file(const std::filesystem::path& file) {
 std::string dump_case(const MeshCase& mesh_case) {
     std::string text = fmt::format("# lamina {}\n", LAMINA_VERSION);
     std::string_view group;
-    for (const Option& option : mesh_options()) {
+    for (const Option<MeshCase>& option : mesh_options()) {
         if (option.group != group) text += fmt::format("\n# {}\n", group = option.group);
-        std::optional<Value> value = option.get(mesh_case);
+        std::optional<OptionValue> value = option.get(mesh_case);
         if (!value) {
             text += fmt::format("# {} is not set\n", option.key());
             continue;

@@ -10,10 +10,11 @@
 #include <lamina/error.hpp>
 #include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/version.hpp>
 
 #include "app/commands.hpp"
-#include "app/options.hpp"
 #include "app/report.hpp"
+#include "app/table_option.hpp"
 
 namespace lamina::app {
 
@@ -114,12 +115,7 @@ void require_angles(const QualitySummary& isotropic, double min_angle_deg, Short
 
 void check(const CheckArguments& arguments) {
     MeshCheckOptions options;
-    if (!arguments.min_angle.empty()) {
-        options.min_angle_deg = parse_real(arguments.min_angle, "option --min-angle");
-        if (!(options.min_angle_deg > 0 && options.min_angle_deg <= 60)) {
-            throw UsageError("option --min-angle: must be > 0 and <= 60 degrees");
-        }
-    }
+    set_by_name(mesh_check_option_table(), "min-angle", arguments.min_angle, options);
 
     Mesh mesh = read_mesh(arguments.mesh);
     Shortcomings shortcomings;

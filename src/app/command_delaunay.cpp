@@ -12,19 +12,16 @@
 
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/threads.hpp>
+#include <lamina/triangle_files.hpp>
+#include <lamina/version.hpp>
 
 #include "app/commands.hpp"
 #include "app/options.hpp"
 #include "app/report.hpp"
-#include "core/atomic_file.hpp"
-#include "core/busy_times.hpp"
-#include "core/equilateral.hpp"
-#include "core/parallel.hpp"
-#include "decomposition/pieces.hpp"
-#include "io/triangle_files.hpp"
-#include "mesh/adjacency.hpp"
-#include "mesh/quality.hpp"
+#include "app/table_option.hpp"
 
 namespace lamina::app {
 
@@ -45,9 +42,9 @@ struct DelaunayArguments {
 
 struct Settings {
     fs::path stem;
-    double min_angle_deg = 0;  ///< 0 = no bound
+    RefineOptions refine{.min_angle_deg = 0};
     double max_area = HUGE_VAL;
-    unsigned threads = 0;
+    CaseOptions run;  ///< the number of threads
 };
 
 /// What is written, with what the report says about it.
@@ -77,31 +74,26 @@ Settings settings_of(const DelaunayArguments& arguments) {
         settings.stem.replace_extension();
         settings.stem += ".1";
     }
-    if (!arguments.min_angle.empty()) {
-        settings.min_angle_deg = parse_real(arguments.min_angle, "option --min-angle");
-        if (!(settings.min_angle_deg > 0 && settings.min_angle_deg <= 33))
-            throw UsageError("option --min-angle: must be > 0 and <= 33 degrees");
-    }
+    set_by_name(refine_option_table(), "min-angle", arguments.min_angle, settings.refine);
+    set_by_name(case_option_table(), "threads", arguments.threads, settings.run);
     if (!arguments.max_area.empty()) {
         settings.max_area = parse_real(arguments.max_area, "option --max-area");
-        if (!(settings.max_area > 0)) throw UsageError("option --max-area: must be > 0");
+        if (!positive_numbers.contains(settings.max_area))
+            throw UsageError("option --max-area: must be " + positive_numbers.text());
     }
-    const double threads = arguments.threads.empty() ? 0 : parse_real(arguments.threads, "option --threads");
-    if (!(threads >= 0 && threads <= 1024 && threads == static_cast<unsigned>(threads)))
-        throw UsageError("option --threads: must be a whole number from 0 to 1024");
-    settings.threads = static_cast<unsigned>(threads);
     return settings;
 }
 
-/// Errors of the kernel know points and segments by index: says in which file they are.
+/// Errors of the triangulation know points and segments by index: says in which file they are.
 template <class F>
 auto naming_file(const TriangleInput& input, F&& f) {
     try {
         return f();
     } catch (const InputError& error) {
         if (!error.place().file.empty()) throw;
-        const fs::path& file = input.segment_file.empty() ? input.point_file : input.segment_file;
-        throw InputError({file.string(), 0, {}}, std::string(error.what()) + " (counted from 0)");
+        InputPlace place = error.place();
+        place.file = (input.segment_file.empty() ? input.point_file : input.segment_file).string();
+        throw InputError(place, error.reason() + " (counted from 0)");
     }
 }
 
@@ -110,13 +102,13 @@ SizeField size_field(double max_area, const std::vector<Point>& points) {
     Box extent;
     for (Point p : points) extent.include(p);
     const double whole = extent.width() * extent.width() + extent.height() * extent.height();
-    return SizeField(std::sqrt(std::min(max_area, 16 * whole) / equilateral_area));
+    return SizeField(size_for_area(std::min(max_area, 16 * whole)));
 }
 
 ConstrainedRefinement refine_input(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
                                    const Settings& settings, bool keep_border) {
     ConstrainedRefineOptions options;
-    options.refine.min_angle_deg = settings.min_angle_deg;
+    options.refine = settings.refine;
     options.split_segments = !keep_border;
     for (const TriangleRegion& region : input.regions)
         options.regions.push_back(
@@ -126,41 +118,16 @@ ConstrainedRefinement refine_input(const TriangleInput& input, const Constrained
     return refine(input.points, triangulation, size_field(settings.max_area, input.points), options);
 }
 
-/// Marks of Triangle: a vertex or segment on the rim that has none gets 1.
-void mark_rim(TriangleOutput& output) {
-    Mesh mesh;
-    mesh.points.swap(output.points);
-    mesh.triangles.swap(output.triangles);
-    const detail::CellEdges edges(mesh);
-    const detail::Adjacency adjacency = detail::find_adjacency(mesh);
-    for (const std::uint32_t edge : adjacency.boundary)
-        for (const VertexId v : {edges.origin(edge), edges.target(edge)})
-            if (output.markers[v.index()] == 0) output.markers[v.index()] = 1;
-    const std::vector<std::uint32_t> edge_of_segment = detail::find_edges(mesh, output.segments);
-    for (std::size_t i = 0; i < output.segments.size(); ++i) {
-        const std::uint32_t edge = edge_of_segment[i];
-        if (output.segment_markers[i] == 0 && edge != detail::no_edge && adjacency.twin[edge] == detail::no_edge)
-            output.segment_markers[i] = 1;
-    }
-    mesh.points.swap(output.points);
-    mesh.triangles.swap(output.triangles);
-}
-
 /// Points without segments are triangulated in pieces, on all threads.
 ConstrainedTriangulation triangulate_points(const TriangleInput& input, Outcome& outcome) {
-    Stopwatch watch;
-    BusyTimes times;
-    decomposition::PiecewiseTriangulation pieces = decomposition::triangulate_in_pieces(
-        input.points, decomposition::usual_decomposition(input.points.size()), &times);
-    const double elapsed = watch.lap();
-    outcome.decomposition = decomposition_report(pieces.stats);
-    for (std::size_t i = 0; i < times.threads(); ++i) {
-        const auto [decomposition, triangulation, refinement] = times.of_thread(i);
-        outcome.thread_seconds["decomposition"].push_back({{"busy", decomposition}});
-        outcome.thread_seconds["triangulation"].push_back({{"busy", triangulation}, {"idle", times.idle(i, elapsed)}});
+    Triangulation made = lamina::triangulate(input.points);
+    outcome.decomposition = decomposition_report(made.decomposition);
+    for (const TriangulationThread& thread : made.threads) {
+        outcome.thread_seconds["decomposition"].push_back({{"busy", thread.cutting}});
+        outcome.thread_seconds["triangulation"].push_back({{"busy", thread.triangulating}, {"idle", thread.idle}});
     }
     ConstrainedTriangulation result;
-    result.triangles = std::move(pieces.triangles);
+    result.triangles = std::move(made.triangles);
     return result;
 }
 
@@ -171,7 +138,7 @@ ConstrainedTriangulation triangulate_input(const DelaunayArguments& arguments, c
     options.holes = input.holes;
     options.crossings = arguments.insert_crossings ? Crossings::insert : Crossings::refuse;
     if (!input.segments.empty() && !arguments.keep_hull) options.keep = Keep::inside_segments;
-    return constrained_delaunay(input.points, input.segments, options);
+    return lamina::triangulate(input.points, input.segments, options);
 }
 
 /// Attributes and markers of the input are kept; new vertices have attributes 0 and the marker of their segment.
@@ -183,18 +150,18 @@ Outcome triangulate(const DelaunayArguments& arguments, const Settings& settings
     outcome.triangulation_seconds = watch.lap();
 
     TriangleOutput& output = outcome.output;
-    std::vector<Point> added = triangulation.added;
+    std::vector<Point> steiner_points = triangulation.steiner_points;
     std::vector<std::uint32_t> parents = triangulation.parents;
     output.triangles = triangulation.triangles;
     output.segments = triangulation.segments;
     const bool bounded_regions = std::any_of(input.regions.begin(), input.regions.end(),
                                              [](const TriangleRegion& region) { return region.max_area > 0; });
-    const bool refined = settings.min_angle_deg > 0 || std::isfinite(settings.max_area) || bounded_regions;
+    const bool refined = settings.refine.min_angle_deg > 0 || std::isfinite(settings.max_area) || bounded_regions;
     std::vector<std::uint32_t> regions;
     if (refined || !input.regions.empty()) {
         ConstrainedRefinement refinement =
             naming_file(input, [&] { return refine_input(input, triangulation, settings, arguments.keep_border); });
-        added = std::move(refinement.added);
+        steiner_points = std::move(refinement.steiner_points);
         parents = std::move(refinement.parents);
         output.triangles = std::move(refinement.triangles);
         output.segments = std::move(refinement.segments);
@@ -205,7 +172,7 @@ Outcome triangulate(const DelaunayArguments& arguments, const Settings& settings
 
     output.first_index = input.first_index;
     output.points = std::move(input.points);
-    output.points.insert(output.points.end(), added.begin(), added.end());
+    output.points.insert(output.points.end(), steiner_points.begin(), steiner_points.end());
     output.attribute_count = input.attribute_count;
     output.attributes = std::move(input.attributes);
     output.attributes.resize(output.points.size() * output.attribute_count, 0.0);
@@ -217,23 +184,13 @@ Outcome triangulate(const DelaunayArguments& arguments, const Settings& settings
         for (VertexId v : {output.segments[i].a, output.segments[i].b})
             if (output.markers[v.index()] == 0) output.markers[v.index()] = marker;
     }
-    mark_rim(output);
+    mark_boundary(output);
     for (std::uint32_t region : regions)
         output.regional.push_back(region == ConstrainedRefinement::no_region ? 0 : input.regions[region].attribute);
     if (input.regions.empty()) output.regional.clear();
     output.holes = std::move(input.holes);
     output.regions = std::move(input.regions);
     return outcome;
-}
-
-double smallest_angle(const TriangleOutput& output) {
-    double smallest = output.triangles.empty() ? 0 : 180;
-    for (const Triangle& t : output.triangles)
-        smallest =
-            std::min(smallest, detail::measure_triangle(output.points[t.v[0].index()], output.points[t.v[1].index()],
-                                                        output.points[t.v[2].index()])
-                                   .min_angle_deg);
-    return smallest;
 }
 
 void run(const DelaunayArguments& arguments) {
@@ -246,19 +203,19 @@ void run(const DelaunayArguments& arguments) {
     const bool with_poly = !input.segment_file.empty();
     const double read_seconds = watch.lap();
     Outcome outcome;
-    with_threads(settings.threads, [&] { outcome = triangulate(arguments, settings, std::move(input)); });
+    with_threads(settings.run.threads, [&] { outcome = triangulate(arguments, settings, std::move(input)); });
     const TriangleOutput& output = outcome.output;
     watch.lap();
     write_triangle_files(output, settings.stem, with_poly);
     const double write_seconds = watch.lap();
-    const double angle = smallest_angle(output);
+    const double angle = smallest_angle_deg(output.points, output.triangles);
 
     if (!arguments.report.empty()) {
         Mesh mesh;
         mesh.points = output.points;
         mesh.triangles = output.triangles;
         Json report = {{"version", LAMINA_VERSION},
-                       {"threads", settings.threads == 0 ? thread_count() : settings.threads},
+                       {"threads", settings.run.threads == 0 ? thread_count() : settings.run.threads},
                        {"vertices", output.points.size()},
                        {"triangles", output.triangles.size()},
                        {"min_angle_deg", angle},
@@ -276,7 +233,7 @@ void run(const DelaunayArguments& arguments) {
             report["decomposition"] = outcome.decomposition;
             report["thread_seconds"] = outcome.thread_seconds;
         }
-        write_stream_atomically(arguments.report, [&](std::ostream& out) { out << to_text(report); });
+        write_file(arguments.report, to_text(report));
     }
     if (arguments.quiet) return;
     fmt::print("{}.node, .ele{}: {} vertices, {} triangles, smallest angle {:.2f} degrees\n", settings.stem.string(),
@@ -295,13 +252,12 @@ void add_delaunay_command(CLI::App& app) {
     command->add_option("FILE", a->file, "FILE.poly (segments, holes, regions) or FILE.node (points)")->required();
     command->add_option("-o,--output", a->stem, "writes STEM.node, STEM.ele, and STEM.poly for a .poly [FILE.1]")
         ->type_name("STEM");
-    command->add_option("--min-angle", a->min_angle, "smallest angle, in degrees; > 0, <= 33")->type_name("DEG");
+    add_table_option(*command, refine_option_table(), "min-angle", a->min_angle);
     command->add_option("--max-area", a->max_area, "largest area of a triangle; > 0")->type_name("A");
     command->add_flag("--keep-border", a->keep_border, "split no segment and no edge of the rim");
     command->add_flag("--keep-hull", a->keep_hull, "fill the convex hull, concavities included");
     command->add_flag("--insert-crossings", a->insert_crossings, "add a vertex where segments cross; else an error");
-    command->add_option("--threads", a->threads, "threads, 0 = all cores; never changes the result [0]")
-        ->type_name("N");
+    add_table_option(*command, case_option_table(), "threads", a->threads);
     command->add_option("--report", a->report, "JSON report of the run")->type_name("FILE");
     command->add_flag("--quiet", a->quiet, "no summary");
     command->callback([a] { run(*a); });

@@ -10,6 +10,7 @@
 
 #include "app/case.hpp"
 #include "app/commands.hpp"
+#include "app/options.hpp"
 
 namespace lamina::app {
 
@@ -19,9 +20,12 @@ void add_info_command(CLI::App& app) {
     command->add_option("INPUT", *inputs, "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)");
     command->callback([inputs] {
         const MeshCase mesh_case = case_of_inputs(*inputs);
-        Pslg pslg = read_geometry(mesh_case.inputs, mesh_case.options.geometry);
-        const CaseOptions options = options_in_force(pslg, case_options(mesh_case));
-        fmt::print("{}", describe(prepare_surfaces(std::move(pslg), surface_options(options))));
+        require_consistent(mesh_case);
+        const CaseOptions& options = mesh_case.options;
+        Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
+        const LayerGrowth growth = layer_growth(options.layer, bounding_box(geometry).width());
+        const SpacingLimits limits = spacing_limits(options, growth);
+        fmt::print("{}", describe(prepare_surfaces(std::move(geometry), options.surface, limits)));
     });
 }
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <fmt/core.h>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
 
@@ -21,28 +21,29 @@
 #include "app/format_help.hpp"
 #include "app/options.hpp"
 #include "app/report.hpp"
-#include "core/atomic_file.hpp"
 
 namespace lamina::app {
 
 namespace {
 
 /// The options of the table, each with what the command line says about it.
-using GivenOptions = std::vector<std::pair<const Option*, CLI::Option*>>;
+using GivenOptions = std::vector<std::pair<const Option<MeshCase>*, CLI::Option*>>;
 
-CLI::Option* add_option(CLI::App& command, const Option& option) {
-    const std::optional<Value> standard = option.get(MeshCase{});
-    const std::string text = standard && option.kind != Kind::flag ? to_text(*standard) : "";
-    const std::string help = text.empty() ? option.help : option.help + " [" + text + "]";
-    if (option.kind == Kind::flag) return command.add_flag(option.command_line(), help)->group(option.group);
+CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
+    const std::optional<OptionValue> standard = option.get(MeshCase{});
+    const std::string text = standard && option.kind != OptionKind::flag ? to_text(*standard) : "";
+    const std::string range = option.range.empty() ? "" : "; " + option.range;
+    const std::string help = option.help + range + (text.empty() ? "" : " [" + text + "]");
+    if (option.kind == OptionKind::flag) return command.add_flag(command_line_name(option), help)->group(option.group);
 
     // The texts are read from the option once the case file is known.
     CLI::Option* given = command.add_option(
-        option.command_line(), [](const CLI::results_t&) { return true; }, help);
+        command_line_name(option), [](const CLI::results_t&) { return true; }, help);
     given->group(option.group)->type_name(option.metavar);
-    if (option.kind == Kind::words) return given->delimiter(',')->expected(1, -1)->allow_extra_args(false);
-    if (option.kind == Kind::repeated) return given->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    if (option.kind != Kind::paths) return given->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    if (option.kind == OptionKind::words) return given->delimiter(',')->expected(1, -1)->allow_extra_args(false);
+    if (option.kind == OptionKind::repeated)
+        return given->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    if (option.kind != OptionKind::paths) return given->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     return given->expected(1, -1)->allow_extra_args(given->get_positional());
 }
 
@@ -81,12 +82,12 @@ void require_outputs(const MeshCase& mesh_case) {
 }
 
 void mesh(const MeshCase& mesh_case) {
-    CaseOptions options = case_options(mesh_case);
+    require_consistent(mesh_case);
     require_outputs(mesh_case);
+    CaseOptions options = mesh_case.options;
     if (!mesh_case.background.empty())
-        options.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));
-    MeshResult result = generate_mesh(mesh_case.inputs, options, progress_printer(mesh_case));
-    if (mesh_case.base_marker) add_base_markers(result.mesh);
+        options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));
+    const MeshResult result = generate_mesh(mesh_case.inputs, options, progress_printer(mesh_case));
 
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
@@ -95,8 +96,7 @@ void mesh(const MeshCase& mesh_case) {
     const double write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
 
     if (!mesh_case.report.empty()) {
-        const std::string report = to_text(mesh_report(result, write_seconds));
-        write_stream_atomically(mesh_case.report, [&](std::ostream& out) { out << report; });
+        write_file(mesh_case.report, to_text(mesh_report(result, write_seconds)));
     }
     if (!mesh_case.quiet) fmt::print("{}", mesh_summary(result, mesh_case.outputs, write_seconds));
 }
@@ -106,7 +106,7 @@ void mesh(const MeshCase& mesh_case) {
 void add_mesh_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("mesh", "airfoils in, mesh files out");
     auto options = std::make_shared<GivenOptions>();
-    for (const Option& option : mesh_options()) options->emplace_back(&option, add_option(*command, option));
+    for (const Option<MeshCase>& option : mesh_options()) options->emplace_back(&option, add_option(*command, option));
     command->footer(format_help());
     auto dump = std::make_shared<bool>(false);
     command->add_flag("--dump-config", *dump, "print the configuration in force as a case file, and do nothing else")
@@ -114,7 +114,7 @@ void add_mesh_command(CLI::App& app) {
     command->callback([options, dump] {
         const MeshCase mesh_case = case_in_force(*options);
         if (*dump) {
-            case_options(mesh_case);  // refuses what contradicts itself
+            require_consistent(mesh_case);
             fmt::print("{}", dump_case(mesh_case));
         } else {
             mesh(mesh_case);

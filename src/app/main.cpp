@@ -10,8 +10,10 @@
 #include <fmt/core.h>
 
 #include <lamina/error.hpp>
+#include <lamina/version.hpp>
 
 #include "app/commands.hpp"
+#include "app/options.hpp"
 
 namespace lamina::app {
 
@@ -21,6 +23,13 @@ int fail(ExitCode code, std::string line) {
     std::replace(line.begin(), line.end(), '\n', ' ');
     std::fputs(("lamina: error: " + line + "\n").c_str(), stderr);
     return static_cast<int>(code);
+}
+
+/// The library names options as case files do.
+std::string name_on_command_line(const std::string& key) {
+    for (const auto& option : mesh_options())
+        if (option.key() == key) return "option " + command_line_name(option);
+    return key;
 }
 
 /// CLI11 would complain of a missing command.
@@ -82,6 +91,8 @@ int main(int argc, char** argv) {
         add_delaunay_command(app);
         run(app, argc, argv);
         return static_cast<int>(ExitCode::done);
+    } catch (const OptionError& error) {
+        return fail(error.exit_code(), name_on_command_line(error.option()) + ": " + error.reason());
     } catch (const Error& error) {
         return fail(error.exit_code(), error.what());
     } catch (const std::bad_alloc&) {

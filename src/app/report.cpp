@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <lamina/version.hpp>
+
 namespace lamina::app {
 
 namespace {
@@ -44,23 +46,21 @@ Json layer_cells_report(const MeshResult& result) {
     report["elements"] = Json::array();
     for (std::size_t e = 0; e < result.layer_coverage.size(); ++e) {
         report["elements"].push_back(coverage_report(result.layer_coverage[e]));
-        report["elements"].back()["name"] = result.pslg.elements[e].name;
+        report["elements"].back()["name"] = result.geometry.elements[e].name;
     }
     return report;
 }
 
-Json input_report(const Pslg& pslg) {
+Json input_report(const Geometry& geometry) {
     Json input = Json::array();
-    for (const Element& element : pslg.elements) {
-        Json repairs = Json::array();
-        for (const Repair& repair : element.repairs) repairs.push_back(repair.text);
+    for (const Element& element : geometry.elements) {
         input.push_back({{"name", element.name},
                          {"file", element.file},
                          {"format", element.format},
                          {"points", element.points.size()},
                          {"points_read", element.points_read},
-                         {"repairs", repairs},
-                         {"surface", element.surface}});
+                         {"repairs", element.repairs},
+                         {"surface", element.surface_notes}});
     }
     return input;
 }
@@ -132,10 +132,10 @@ Json quality_report(const MeshCheck& check) {
               {"mean_max_angle_deg", layer.mean_max_angle_deg},
               {"edges_without_first_layer", check.edges_without_first_layer}}},
             {"hand_over",
-             {{"edges", check.hand_over.edges},
-              {"p01_area_ratio", check.hand_over.p01_area_ratio},
-              {"median_area_ratio", check.hand_over.median_area_ratio},
-              {"p99_area_ratio", check.hand_over.p99_area_ratio}}},
+             {{"edges", check.transition.edges},
+              {"p01_area_ratio", check.transition.p01_area_ratio},
+              {"median_area_ratio", check.transition.median_area_ratio},
+              {"p99_area_ratio", check.transition.p99_area_ratio}}},
             {"delaunay", {{"interior_edges", check.interior_edges}, {"violations", check.delaunay_violations}}}};
 }
 
@@ -146,7 +146,7 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
     quality["isotropic"]["refused_points"] = result.refinement.refused;
     return {{"version", LAMINA_VERSION},
             {"threads", result.threads},
-            {"input", input_report(result.pslg)},
+            {"input", input_report(result.geometry)},
             {"vertices", result.mesh.points.size()},
             {"triangles", result.mesh.triangles.size()},
             {"quads", result.mesh.quads.size()},
@@ -187,7 +187,7 @@ std::string quality_summary(const MeshCheck& check) {
             text += fmt::format("  layer     {} wall edges without a cell of first height (see --layer-topology)\n",
                                 check.edges_without_first_layer);
     }
-    if (const HandOverSummary& to = check.hand_over; to.edges > 0) {
+    if (const TransitionSummary& to = check.transition; to.edges > 0) {
         text +=
             fmt::format("  hand-over {} edges, layer to isotropic areas {:.2f} (1 %), {:.2f} (median), {:.2f} (99 %)\n",
                         to.edges, to.p01_area_ratio, to.median_area_ratio, to.p99_area_ratio);
@@ -198,11 +198,11 @@ std::string quality_summary(const MeshCheck& check) {
 
 std::string mesh_summary(const MeshResult& result, const std::vector<std::string>& outputs, double write_seconds) {
     std::string text;
-    for (const Element& element : result.pslg.elements) {
+    for (const Element& element : result.geometry.elements) {
         text += fmt::format("{}: {} points of {} ({})\n", element.name, element.points.size(), element.file,
                             element.format);
-        for (const Repair& repair : element.repairs) text += "  repaired  " + repair.text + "\n";
-        for (const std::string& note : element.surface) text += "  surface   " + note + "\n";
+        for (const std::string& repair : element.repairs) text += "  repaired  " + repair + "\n";
+        for (const std::string& note : element.surface_notes) text += "  surface   " + note + "\n";
     }
     const std::size_t quads = result.mesh.quads.size();
     text += fmt::format("mesh: {} vertices, {} triangles, {}{} pieces\n", result.mesh.points.size(),

@@ -5,7 +5,7 @@
 
 #include "core/reproducible_math.hpp"
 
-namespace lamina {
+namespace lamina::core {
 
 /// In (-pi, pi], positive counter-clockwise; neither direction need be of unit length.
 inline double angle_between(Point from, Point to) { return atan2_reproducible(cross(from, to), dot(from, to)); }
@@ -16,4 +16,4 @@ inline Point rotated(Point a, double angle) {
     return {a.x * c - a.y * s, a.x * s + a.y * c};
 }
 
-}  // namespace lamina
+}  // namespace lamina::core

@@ -10,8 +10,9 @@
 #include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
-namespace lamina {
+namespace lamina::core {
 
 namespace fs = std::filesystem;
 
@@ -56,17 +57,6 @@ fs::path behind_links(fs::path file) {
 }
 
 }  // namespace
-
-void check_folder_writable(const fs::path& file) {
-    const fs::path folder = parent_of(file);
-    std::error_code ignored;
-    if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot write: is a directory");
-    if (!fs::exists(folder, ignored)) throw IoError(file.string(), "cannot write: its folder does not exist");
-    if (!fs::is_directory(folder, ignored)) throw IoError(file.string(), "cannot write: its folder is a file");
-    const bool writable =
-        is_device(file) ? ::access(file.c_str(), W_OK) == 0 : ::access(folder.c_str(), W_OK | X_OK) == 0;
-    if (!writable) throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
-}
 
 void write_files_atomically(std::span<const fs::path> targets,
                             const std::function<void(std::span<const fs::path>)>& write) {
@@ -137,7 +127,24 @@ void write_stream_atomically(const fs::path& target, const std::function<void(st
     write_atomically(target, [&](const fs::path& temporary) { write_stream(temporary, target, write); });
 }
 
-std::string read_whole_file(const fs::path& file) {
+}  // namespace lamina::core
+
+namespace lamina {
+
+using namespace core;
+
+void check_folder_writable(const fs::path& file) {
+    const fs::path folder = parent_of(file);
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot write: is a directory");
+    if (!fs::exists(folder, ignored)) throw IoError(file.string(), "cannot write: its folder does not exist");
+    if (!fs::is_directory(folder, ignored)) throw IoError(file.string(), "cannot write: its folder is a file");
+    const bool writable =
+        is_device(file) ? ::access(file.c_str(), W_OK) == 0 : ::access(folder.c_str(), W_OK | X_OK) == 0;
+    if (!writable) throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
+}
+
+std::string read_file(const fs::path& file) {
     std::error_code ignored;
     if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot read: is a directory");
     errno = 0;
@@ -153,6 +160,10 @@ std::string read_whole_file(const fs::path& file) {
     }
     if (!in.eof()) throw IoError(file.string(), std::string("cannot read: ") + std::strerror(errno ? errno : EIO));
     return bytes;
+}
+
+void write_file(const fs::path& file, const std::string& text) {
+    write_stream_atomically(file, [&](std::ostream& out) { out << text; });
 }
 
 }  // namespace lamina

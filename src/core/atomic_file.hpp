@@ -8,10 +8,7 @@
 #include <span>
 #include <string>
 
-namespace lamina {
-
-/// Throws IoError unless a file can be created in its folder and the name is not that of a folder.
-void check_folder_writable(const std::filesystem::path& file);
+namespace lamina::core {
 
 /// Lets `write` fill a temporary file beside `target`, then renames it to `target`. On any failure the temporary is
 /// removed and IoError thrown; an existing target stays as it was. Binary mode, no newline translation.
@@ -39,7 +36,4 @@ void write_stream(const std::filesystem::path& file, const std::filesystem::path
 /// The usual case: one file, through a stream. A device or a pipe is written to as it stands.
 void write_stream_atomically(const std::filesystem::path& target, const std::function<void(std::ostream&)>& write);
 
-/// The whole file as bytes. Throws IoError.
-std::string read_whole_file(const std::filesystem::path& file);
-
-}  // namespace lamina
+}  // namespace lamina::core

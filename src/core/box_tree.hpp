@@ -12,7 +12,7 @@
 
 #include <lamina/point.hpp>
 
-namespace lamina {
+namespace lamina::core {
 
 inline double squared_distance(const Box& box, Point p) {
     const double dx = std::max({box.lower.x - p.x, 0.0, p.x - box.upper.x});
@@ -95,4 +95,4 @@ private:
     }
 };
 
-}  // namespace lamina
+}  // namespace lamina::core

@@ -1,50 +1,51 @@
-// Who worked on what for how long: seconds of each thread in the kinds of work that share the threads.
+// Measures how long each thread works at each kind of work, where several kinds of work share the threads.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <cstddef>
 #include <vector>
 
 #include "core/parallel.hpp"
 
-namespace lamina {
+namespace lamina::core {
 
-enum class Work { decomposition, layer_triangulation, refinement };
-inline constexpr std::size_t work_kinds = 3;
-
+/// Kinds of work are small numbers that the caller names, below max_kinds.
 class BusyTimes {
 public:
-    using Seconds = std::array<double, work_kinds>;
+    static constexpr std::size_t max_kinds = 4;
 
 private:
+    static constexpr std::size_t no_work = max_kinds;
+
     struct alignas(64) Thread {
-        Seconds seconds{};
-        int current = -1;  ///< kind of work, -1: none
+        std::array<double, max_kinds> seconds{};
+        std::size_t current = no_work;
         std::chrono::steady_clock::time_point since;
 
-        void turn_to(int work) {
+        void turn_to(std::size_t kind) {
             const auto now = std::chrono::steady_clock::now();
-            if (current >= 0)
-                seconds[static_cast<std::size_t>(current)] += std::chrono::duration<double>(now - since).count();
-            current = work;
+            if (current != no_work) seconds[current] += std::chrono::duration<double>(now - since).count();
+            current = kind;
             since = now;
         }
     };
 
 public:
-    /// For the threads of the enclosing with_threads().
+    /// Measures the threads that with_threads() allows where the object is made.
     BusyTimes() : threads_(thread_count()) {}
 
-    /// The calling thread does this kind of work while the object lives. A thread that waits may be handed other work
-    /// meanwhile: then only that counts. Without times nothing is measured.
+    /// Counts the calling thread as busy with one kind of work while the object lives. A thread that waits inside this
+    /// work may be handed other work; then only the other work counts. A null pointer measures nothing.
     class Scope {
     public:
-        Scope(BusyTimes* times, Work work) : thread_(times ? &times->threads_[thread_index()] : nullptr) {
+        Scope(BusyTimes* times, std::size_t kind) : thread_(times ? &times->threads_[thread_index()] : nullptr) {
+            assert(kind < max_kinds);
             if (!thread_) return;
             outer_ = thread_->current;
-            thread_->turn_to(static_cast<int>(work));
+            thread_->turn_to(kind);
         }
         ~Scope() {
             if (thread_) thread_->turn_to(outer_);
@@ -54,14 +55,15 @@ public:
 
     private:
         Thread* thread_;
-        int outer_ = -1;
+        std::size_t outer_ = no_work;
     };
 
     std::size_t threads() const { return threads_.size(); }
-    const Seconds& of_thread(std::size_t i) const { return threads_[i].seconds; }
-    /// What is left of the thread's time in a stage that took so many seconds.
-    double idle(std::size_t i, double elapsed) const {
-        for (const double busy : of_thread(i)) elapsed -= busy;
+    /// Returns the seconds that a thread was busy with a kind of work.
+    double seconds(std::size_t thread, std::size_t kind) const { return threads_[thread].seconds[kind]; }
+    /// Returns the seconds of `elapsed` in which a thread was busy with no kind of work.
+    double idle(std::size_t thread, double elapsed) const {
+        for (const double busy : threads_[thread].seconds) elapsed -= busy;
         return std::max(0.0, elapsed);
     }
 
@@ -69,4 +71,4 @@ private:
     std::vector<Thread> threads_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::core

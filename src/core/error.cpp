@@ -1,21 +1,22 @@
 #include <lamina/error.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <utility>
 
-namespace lamina {
+#include "core/text.hpp"
+
+namespace lamina::core {
 
 namespace {
 
+/// Joins place and reason to one line, whatever a damaged file made the reason quote.
 std::string describe(const InputPlace& place, const std::string& reason) {
     std::string text;
     if (!place.file.empty()) text += place.file + ":";
-    if (place.line > 0) text += fmt::format("{}:", place.line);
+    if (place.line > 0) text += concat(place.line, ":");
     if (!text.empty()) text += " ";
     text += reason;
-    if (place.at) text += fmt::format(" (at {}, {})", place.at->x, place.at->y);
-    // One line, whatever a damaged file made the reason quote.
+    if (place.at) text += concat(" (at ", place.at->x, ", ", place.at->y, ")");
     std::replace_if(
         text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, '?');
     return text;
@@ -23,10 +24,17 @@ std::string describe(const InputPlace& place, const std::string& reason) {
 
 }  // namespace
 
+}  // namespace lamina::core
+
+namespace lamina {
+
+OptionError::OptionError(const std::string& option, const std::string& reason)
+    : UsageError(option + ": " + reason), option_(option), reason_(reason) {}
+
 InputError::InputError(InputPlace place, const std::string& reason)
-    : Error(ExitCode::bad_input, describe(place, reason)), place_(std::move(place)) {}
+    : Error(ExitCode::bad_input, core::describe(place, reason)), place_(std::move(place)), reason_(reason) {}
 
 IoError::IoError(const std::string& file, const std::string& reason)
-    : Error(ExitCode::io_failed, file + ": " + reason) {}
+    : Error(ExitCode::io_failed, file + ": " + reason), file_(file), reason_(reason) {}
 
 }  // namespace lamina

@@ -7,7 +7,7 @@
 #include <unistd.h>
 #endif
 
-namespace lamina {
+namespace lamina::core {
 
 #ifdef __linux__
 void give_back_pages(void* data, std::size_t bytes) {
@@ -21,4 +21,4 @@ void give_back_pages(void* data, std::size_t bytes) {
 void give_back_pages(void*, std::size_t) {}
 #endif
 
-}  // namespace lamina
+}  // namespace lamina::core

@@ -22,10 +22,9 @@
 #include <cmath>
 #include <cstdint>
 
-namespace lamina {
-namespace {
+namespace lamina::core {
 
-using detail::epsilon;
+namespace {
 
 // Error bounds of the later stages (4.3 and 4.4), to be multiplied by the permanent: B after the exact determinant of
 // the rounded differences, C after the first-order correction by their tails.
@@ -284,7 +283,7 @@ double incircle_adaptive(Point pa, Point pb, Point pc, Point pd) {
     if (a.exact() && b.exact() && c.exact()) return of_heads.sign();
 
     double det = of_heads.estimate();
-    const double permanent = detail::rounded_incircle(pa, pb, pc, pd).permanent;
+    const double permanent = rounded_incircle(pa, pb, pc, pd).permanent;
     if (std::abs(det) > incircle_bound_b * permanent) return det;
     const double error = incircle_bound_c * permanent + result_bound * std::abs(det);
     det += first_order(a, b, c) + first_order(b, c, a) + first_order(c, a, b);
@@ -297,13 +296,13 @@ double incircle_adaptive(Point pa, Point pb, Point pc, Point pd) {
 double change_by_lowering(int index, const std::array<Point, 4>& p) {
     switch (index) {
         case 0:
-            return -detail::inline_orient2d(p[1], p[2], p[3]);
+            return -inline_orient2d(p[1], p[2], p[3]);
         case 1:
-            return -detail::inline_orient2d(p[2], p[0], p[3]);
+            return -inline_orient2d(p[2], p[0], p[3]);
         case 2:
-            return -detail::inline_orient2d(p[0], p[1], p[3]);
+            return -inline_orient2d(p[0], p[1], p[3]);
         default:
-            return detail::inline_orient2d(p[0], p[1], p[2]);
+            return inline_orient2d(p[0], p[1], p[2]);
     }
 }
 
@@ -318,7 +317,7 @@ double break_tie(const std::array<Point, 4>& p) {
 
 }  // namespace
 
-double detail::orient2d_after_filter(Point pa, Point pb, Point pc) {
+double orient2d_after_filter(Point pa, Point pb, Point pc) {
     const Difference a = difference(pa, pc), b = difference(pb, pc);
     std::array<std::int64_t, 4> i;
     if (to_integers<4>({a.x, a.y, b.x, b.y}, i)) {
@@ -337,12 +336,12 @@ double detail::orient2d_after_filter(Point pa, Point pb, Point pc) {
     return cross_expansion(a.x, b.y, a.y, b.x).sign();
 }
 
-double detail::incircle_after_filter(Point a, Point b, Point c, Point d) {
+double incircle_after_filter(Point a, Point b, Point c, Point d) {
     const double det = incircle_adaptive(a, b, c, d);
     return det != 0 ? det : break_tie({a, b, c, d});
 }
 
-double detail::flattened_turn_after_filter(Point pa, Point pb, Point pc, double cut) {
+double flattened_turn_after_filter(Point pa, Point pb, Point pc, double cut) {
     const Two a = two_diff(pa.x, cut), b = two_diff(pb.x, cut), c = two_diff(pc.x, cut);
     const Two bt = two_diff(pb.y, pa.y), ct = two_diff(pc.y, pa.y);
     std::array<std::int64_t, 5> i;
@@ -359,13 +358,19 @@ double detail::flattened_turn_after_filter(Point pa, Point pb, Point pc, double 
     return (c_height * expansion(bt) + -(b_height * expansion(ct))).sign();
 }
 
-double orient2d(Point a, Point b, Point c) { return detail::inline_orient2d(a, b, c); }
+}  // namespace lamina::core
+
+namespace lamina {
+
+using namespace core;
+
+double orient2d(Point a, Point b, Point c) { return inline_orient2d(a, b, c); }
 
 double incircle(Point a, Point b, Point c, Point d) {
-    const detail::RoundedIncircle rounded = detail::rounded_incircle(a, b, c, d);
+    const RoundedIncircle rounded = rounded_incircle(a, b, c, d);
     return rounded.certain() ? rounded.det : incircle_adaptive(a, b, c, d);
 }
 
-double incircle_perturbed(Point a, Point b, Point c, Point d) { return detail::inline_incircle_perturbed(a, b, c, d); }
+double incircle_perturbed(Point a, Point b, Point c, Point d) { return inline_incircle_perturbed(a, b, c, d); }
 
 }  // namespace lamina

@@ -7,7 +7,7 @@
 
 #include <lamina/point.hpp>
 
-namespace lamina::detail {
+namespace lamina::core {
 
 /// Half an ulp of 1.
 inline constexpr double epsilon = 0x1p-53;
@@ -78,4 +78,4 @@ inline double flattened_turn(Point a, Point b, Point c, double cut) {
     return flattened_turn_after_filter(a, b, c, cut);
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::core

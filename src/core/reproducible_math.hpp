@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace lamina {
+namespace lamina::core {
 
 inline constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr double radians(double degrees) { return degrees * (pi / 180.0); }
@@ -145,4 +145,4 @@ inline double atan2_reproducible(double y, double x) {
     return std::signbit(y) ? -angle : angle;
 }
 
-}  // namespace lamina
+}  // namespace lamina::core

@@ -7,7 +7,7 @@
 #include <span>
 #include <type_traits>
 
-namespace lamina {
+namespace lamina::core {
 
 template <class T>
 class UninitializedArray {
@@ -37,4 +37,4 @@ private:
     std::size_t size_ = 0;
 };
 
-}  // namespace lamina
+}  // namespace lamina::core

@@ -11,7 +11,7 @@
 #include <lamina/predicates.hpp>
 #include <utility>
 
-namespace lamina {
+namespace lamina::geometry {
 
 namespace {
 
@@ -98,9 +98,9 @@ void check_pair(const Edge& e, const Edge& f) {
 // ---- all pairs -----------------------------------------------------------------------------------------------------
 
 /// Implicit binary tree: node 1 covers all leaves, node k has the children 2k and 2k + 1.
-class BoxTree {
+class EdgeTree {
 public:
-    explicit BoxTree(const std::vector<Edge>& edges) : edges_(edges) {
+    explicit EdgeTree(const std::vector<Edge>& edges) : edges_(edges) {
         while (leaves_ < edges.size()) leaves_ *= 2;
         boxes_.resize(2 * leaves_);  // empty boxes overlap nothing
         for (std::size_t i = 0; i < edges.size(); ++i) boxes_[leaves_ + i] = box_of(edges[i]);
@@ -200,9 +200,15 @@ void check_side_by_side(const std::vector<Element>& elements) {
 
 }  // namespace
 
-void check_simple(const Pslg& pslg) {
+}  // namespace lamina::geometry
+
+namespace lamina {
+
+using namespace geometry;
+
+void check_simple(const Geometry& geometry) {
     std::vector<Edge> edges;
-    for (const Element& e : pslg.elements) {
+    for (const Element& e : geometry.elements) {
         check_points(e);
         for (std::size_t i = 0; i < e.points.size(); ++i) {
             edges.push_back({&e, i});
@@ -210,9 +216,9 @@ void check_simple(const Pslg& pslg) {
         }
     }
     if (edges.empty()) return;
-    BoxTree(edges).check_all_pairs();
-    for (const Element& e : pslg.elements) check_orientation(e);
-    check_side_by_side(pslg.elements);
+    EdgeTree(edges).check_all_pairs();
+    for (const Element& e : geometry.elements) check_orientation(e);
+    check_side_by_side(geometry.elements);
 }
 
 }  // namespace lamina

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <lamina/error.hpp>
 
-namespace lamina {
+namespace lamina::geometry {
 
 namespace {
 
@@ -249,4 +249,4 @@ std::vector<Row> read_rows(std::string_view text, const std::string& file) {
     return rows;
 }
 
-}  // namespace lamina
+}  // namespace lamina::geometry

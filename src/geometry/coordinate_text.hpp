@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace lamina {
+namespace lamina::geometry {
 
 enum class RowKind {
     blank,
@@ -40,4 +40,4 @@ std::vector<Row> read_rows(std::string_view text, const std::string& file);
 /// Printable UTF-8: bytes that are not valid UTF-8 are taken as Latin-1, control characters become spaces; trimmed.
 std::string printable(std::string_view bytes);
 
-}  // namespace lamina
+}  // namespace lamina::geometry

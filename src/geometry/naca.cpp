@@ -11,7 +11,7 @@
 #include "core/reproducible_math.hpp"
 #include "geometry/outline_repair.hpp"
 
-namespace lamina {
+namespace lamina::geometry {
 
 namespace {
 
@@ -95,6 +95,12 @@ Section parse_digits(const std::string& digits) {
 
 }  // namespace
 
+}  // namespace lamina::geometry
+
+namespace lamina {
+
+using namespace geometry;
+
 Element naca_airfoil(const std::string& digits, std::size_t points, TrailingEdge trailing_edge) {
     const Section section = parse_digits(digits);
     if (points < min_points || points > max_points)
@@ -107,7 +113,7 @@ Element naca_airfoil(const std::string& digits, std::size_t points, TrailingEdge
     std::vector<Point> upper(n + 1), lower(n + 1);  // from the leading edge
     for (std::size_t k = 1; k <= n; ++k) {
         // (1 - cos 2a) / 2 = sin^2 a, without cancellation at the leading edge.
-        const double s = sin_reproducible(pi * static_cast<double>(k) / static_cast<double>(2 * n));
+        const double s = core::sin_reproducible(core::pi * static_cast<double>(k) / static_cast<double>(2 * n));
         const double x = k == n ? 1.0 : s * s;
         const double half =
             5 * section.thickness * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * tail))));

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <lamina/predicates.hpp>
 
-#include "layers/segments.hpp"
+#include "core/segments.hpp"
 
-namespace lamina {
+namespace lamina::geometry {
 
 namespace {
 
@@ -24,7 +24,7 @@ double extent(const Outline& points) {
 /// Distance below which neighbours are the same point, printed with different rounding.
 double merge_tolerance(const Outline& points) { return 1e-12 * extent(points); }
 
-void remove_duplicates(Outline& points, std::vector<Repair>& repairs) {
+void remove_duplicates(Outline& points, std::vector<std::string>& repairs) {
     const double tolerance = merge_tolerance(points);
     Outline kept;
     for (const SourcePoint& p : points) {
@@ -32,12 +32,12 @@ void remove_duplicates(Outline& points, std::vector<Repair>& repairs) {
             kept.push_back(p);
         } else {
             repairs.push_back(
-                {fmt::format("line {}: duplicate of line {} removed {}", p.line, kept.back().line, coordinates(p.at))});
+                fmt::format("line {}: duplicate of line {} removed {}", p.line, kept.back().line, coordinates(p.at)));
         }
     }
     while (kept.size() > 1 && distance(kept.front().at, kept.back().at) <= tolerance) {
-        repairs.push_back({fmt::format("line {}: closing point merged with line {} {}", kept.back().line,
-                                       kept.front().line, coordinates(kept.back().at))});
+        repairs.push_back(fmt::format("line {}: closing point merged with line {} {}", kept.back().line,
+                                      kept.front().line, coordinates(kept.back().at)));
         kept.pop_back();
     }
     points = std::move(kept);
@@ -60,18 +60,18 @@ void check_extent(const Outline& points, const std::string& file) {
 ///       ---___                       ---___
 ///     ___---==x=-- first            ___---===- first
 ///              \\ last
-void merge_crossed_neighbours(Outline& points, std::vector<Repair>& repairs) {
+void merge_crossed_neighbours(Outline& points, std::vector<std::string>& repairs) {
     constexpr double invisible = 1e-4;  // of the extent
     const double near = invisible * extent(points);
     for (std::size_t i = 0; i < points.size() && points.size() >= 5; ++i) {
         const std::size_t n = points.size(), next = (i + 1) % n;
         if (distance(points[i].at, points[next].at) > near ||
-            !segments_meet(points[(i + n - 1) % n].at, points[i].at, points[next].at, points[(i + 2) % n].at))
+            !core::segments_meet(points[(i + n - 1) % n].at, points[i].at, points[next].at, points[(i + 2) % n].at))
             continue;
         const std::size_t gone = next == 0 ? i : next, kept = next == 0 ? next : i;
-        repairs.push_back(
-            {fmt::format("lines {} and {}: the edges on both sides of them cross; {} merged with {}", points[gone].line,
-                         points[kept].line, coordinates(points[gone].at), coordinates(points[kept].at))});
+        repairs.push_back(fmt::format("lines {} and {}: the edges on both sides of them cross; {} merged with {}",
+                                      points[gone].line, points[kept].line, coordinates(points[gone].at),
+                                      coordinates(points[kept].at)));
         points.erase(points.begin() + static_cast<std::ptrdiff_t>(gone));
     }
 }
@@ -81,21 +81,21 @@ void merge_crossed_neighbours(Outline& points, std::vector<Repair>& repairs) {
 ///     ---___                         ---___
 ///            x------ first   ->             x first
 ///     ___---                         ___---
-void cut_flat_tail(Outline& points, std::vector<Repair>& repairs) {
+void cut_flat_tail(Outline& points, std::vector<std::string>& repairs) {
     constexpr double longest = 0.01;  // of the extent
     const double tolerance = merge_tolerance(points), most = longest * extent(points);
     while (points.size() >= 5 && distance(points[1].at, points.back().at) <= tolerance &&
            distance(points[0].at, points[1].at) <= most) {
-        repairs.push_back(
-            {fmt::format("lines {}, {} and {}: a tail of no thickness cut off, from {} to {}", points[0].line,
-                         points[1].line, points.back().line, coordinates(points[1].at), coordinates(points[0].at))});
+        repairs.push_back(fmt::format("lines {}, {} and {}: a tail of no thickness cut off, from {} to {}",
+                                      points[0].line, points[1].line, points.back().line, coordinates(points[1].at),
+                                      coordinates(points[0].at)));
         points.erase(points.begin());
         points.pop_back();
     }
 }
 
 /// The edge from the last point back to the first gets vertices at about the spacing of the shorter neighbour.
-void close_outline(Outline& points, const std::string& file, std::vector<Repair>& repairs) {
+void close_outline(Outline& points, const std::string& file, std::vector<std::string>& repairs) {
     const SourcePoint last = points.back(), first = points.front();
     const double base = distance(last.at, first.at);
     double perimeter = 0;
@@ -117,9 +117,9 @@ void close_outline(Outline& points, const std::string& file, std::vector<Repair>
                                          : first.at + part(edges - i) * (last.at - first.at);
         points.push_back({at, 0});
     }
-    repairs.push_back(
-        {fmt::format("lines {} and {}: open end closed from {} to {} by {} edge{}, {:.4g} long", last.line, first.line,
-                     coordinates(last.at), coordinates(first.at), edges, edges == 1 ? "" : "s", base)});
+    repairs.push_back(fmt::format("lines {} and {}: open end closed from {} to {} by {} edge{}, {:.4g} long", last.line,
+                                  first.line, coordinates(last.at), coordinates(first.at), edges, edges == 1 ? "" : "s",
+                                  base));
 }
 
 /// Exact for simple outlines: the turn at the lexicographically smallest point is the turn of the loop.
@@ -151,8 +151,8 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     if (!closed && points.back().at == last.at) close_outline(points, file, element.repairs);
     if (is_clockwise(points)) {
         std::reverse(points.begin() + 1, points.end());
-        element.repairs.push_back({fmt::format("line {}: clockwise order reversed, starting from {}", points[0].line,
-                                               coordinates(points[0].at))});
+        element.repairs.push_back(fmt::format("line {}: clockwise order reversed, starting from {}", points[0].line,
+                                              coordinates(points[0].at)));
     }
     for (const SourcePoint& p : points) {
         element.points.push_back(p.at);
@@ -161,4 +161,4 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     return element;
 }
 
-}  // namespace lamina
+}  // namespace lamina::geometry

@@ -5,7 +5,7 @@
 
 #include "geometry/outlines.hpp"
 
-namespace lamina {
+namespace lamina::geometry {
 
 /// Removes repeated neighbours (nearer than 1e-12 of the extent, as after rounding), merges neighbours within 1e-4 of
 /// the extent whose other edges cross, cuts off a trailing edge without thickness of at most 1 % of the extent, closes
@@ -15,4 +15,4 @@ namespace lamina {
 /// element's name stays empty.
 Element repair_outline(const RawOutline& outline, const std::string& file);
 
-}  // namespace lamina
+}  // namespace lamina::geometry

@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-namespace lamina {
+namespace lamina::geometry {
 
 namespace {
 
@@ -37,7 +37,7 @@ struct Document {
     std::string first_comment;
     std::string heading;            ///< all text before the first coordinates, in lower case
     std::size_t symmetry_line = 0;  ///< says that the one surface there is stands for both; 0 = none does
-    std::vector<Repair> notes;
+    std::vector<std::string> notes;
 };
 
 // ---- rows to blocks ------------------------------------------------------------------------------------------------
@@ -97,7 +97,7 @@ Document split_blocks(const std::vector<Row>& rows, const std::string& file) {
             any_numbers = true;
             document.csv |= row.separated;
             if (row.decimal_comma && document.notes.empty())
-                document.notes.push_back({fmt::format("line {}: decimal commas read as points", row.line)});
+                document.notes.push_back(fmt::format("line {}: decimal commas read as points", row.line));
             if (!in_run) document.sections.back().push_back({{}, std::exchange(label, {})});
             document.sections.back().back().points.push_back({{at, row.line}, row.count, row.values[2]});
             in_run = true;
@@ -211,7 +211,7 @@ std::optional<SurfaceTable> read_table(const Points& points, const std::string& 
 }
 
 /// x and y in all columns, or a constant z beside them.
-void check_columns(const Points& points, const std::string& file, std::vector<Repair>& notes) {
+void check_columns(const Points& points, const std::string& file, std::vector<std::string>& notes) {
     for (const BlockPoint& p : points) {
         if (p.columns != points[0].columns)
             throw InputError({file, p.line, p.at}, fmt::format("{} numbers where line {} has {}", p.columns,
@@ -222,7 +222,7 @@ void check_columns(const Points& points, const std::string& file, std::vector<Re
                              "ordinates: x falls, or the surfaces cross)");
     }
     if (points[0].columns == 3)
-        notes.push_back({fmt::format("line {}: third column ignored, {} throughout", points[0].line, points[0].third)});
+        notes.push_back(fmt::format("line {}: third column ignored, {} throughout", points[0].line, points[0].third));
 }
 
 struct SurfaceCounts {
@@ -283,7 +283,7 @@ void merge_pieces(Section& section) {
 }
 
 /// A reference point before the outline, or a point left over behind it.
-void drop_lone_points(Section& section, const std::string& file, std::vector<Repair>& notes) {
+void drop_lone_points(Section& section, const std::string& file, std::vector<std::string>& notes) {
     if (section.size() < 2) return;
     std::size_t dropped = 0;
     std::erase_if(section, [&](const Block& block) {
@@ -291,7 +291,7 @@ void drop_lone_points(Section& section, const std::string& file, std::vector<Rep
         const BlockPoint& p = block.points[0];
         if (++dropped > 2) throw InputError({file, p.line, p.at}, "a lone point that belongs to no outline");
         notes.push_back(
-            {fmt::format("line {}: lone point left out, not part of an outline {}", p.line, coordinates(p.at))});
+            fmt::format("line {}: lone point left out, not part of an outline {}", p.line, coordinates(p.at)));
         return true;
     });
 }
@@ -299,7 +299,7 @@ void drop_lone_points(Section& section, const std::string& file, std::vector<Rep
 /// Appends the outlines of one section to `outlines`.
 void assemble_section(Section section, const Document& document, const std::string& file,
                       std::vector<RawOutline>& outlines) {
-    std::vector<Repair> notes;
+    std::vector<std::string> notes;
     const auto add = [&](const Points& points, const std::string& title, const std::string& format) {
         RawOutline& outline = outlines.emplace_back();
         outline.points.assign(points.begin(), points.end());
@@ -311,9 +311,8 @@ void assemble_section(Section section, const Document& document, const std::stri
     // A table of both surfaces.
     if (section.size() == 1) {
         if (const auto table = read_table(section[0].points, document.heading)) {
-            notes.push_back(
-                {fmt::format("line {}: table of x, upper and lower ordinates{}, joined at the first row",
-                             section[0].points[0].line, table->downward ? " (these counted downward)" : "")});
+            notes.push_back(fmt::format("line {}: table of x, upper and lower ordinates{}, joined at the first row",
+                                        section[0].points[0].line, table->downward ? " (these counted downward)" : ""));
             add(join_surfaces(table->upper, table->lower), section[0].title, "table");
             return;
         }
@@ -351,9 +350,9 @@ void assemble_section(Section section, const Document& document, const std::stri
             Points lower = points;
             for (BlockPoint& p : lower) p.at.y = -p.at.y;
             notes.push_back(
-                {fmt::format("line {}: symmetric section, the surface given stands for both, mirrored at "
-                             "y = 0",
-                             document.symmetry_line)});
+                fmt::format("line {}: symmetric section, the surface given stands for both, mirrored at "
+                            "y = 0",
+                            document.symmetry_line));
             add(join_surfaces(points, lower), section[i].title, "lednicer");
         } else if (const auto middle = find_second_surface(points)) {
             const auto second = points.begin() + static_cast<std::ptrdiff_t>(*middle);
@@ -391,4 +390,4 @@ std::vector<RawOutline> assemble_outlines(const std::vector<Row>& rows, const st
     return outlines;
 }
 
-}  // namespace lamina
+}  // namespace lamina::geometry

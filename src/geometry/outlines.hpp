@@ -9,7 +9,7 @@
 
 #include "geometry/coordinate_text.hpp"
 
-namespace lamina {
+namespace lamina::geometry {
 
 /// A point and the line of the file that holds it.
 struct SourcePoint {
@@ -23,7 +23,7 @@ struct RawOutline {
     std::vector<SourcePoint> points;
     std::string title;
     std::string format;
-    std::vector<Repair> notes;
+    std::vector<std::string> notes;
 };
 
 /// "(0.5, 0.1)", digits enough to find the point in the file; -0 as 0.
@@ -32,4 +32,4 @@ std::string coordinates(Point p);
 /// Throws InputError (naming `file`) where the rows cannot be understood as outlines.
 std::vector<RawOutline> assemble_outlines(const std::vector<Row>& rows, const std::string& file);
 
-}  // namespace lamina
+}  // namespace lamina::geometry

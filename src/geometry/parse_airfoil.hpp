@@ -7,9 +7,12 @@
 
 #include <lamina/geometry.hpp>
 
-namespace lamina {
+namespace lamina::geometry {
 
-/// What read_airfoil() makes of a file of this content; `file` is for messages.
+/// Returns the repaired elements of a file of this content, without names. `file` is the name for messages.
 std::vector<Element> parse_airfoil(std::string_view text, const std::string& file);
 
-}  // namespace lamina
+/// Names the elements and checks that their outlines are simple and lie side by side. Throws as read_geometry() does.
+Geometry finish(std::vector<Element> elements, const GeometryOptions& options);
+
+}  // namespace lamina::geometry

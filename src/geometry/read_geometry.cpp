@@ -3,16 +3,16 @@
 
 #include <algorithm>
 #include <charconv>
+#include <lamina/files.hpp>
 #include <lamina/geometry.hpp>
 #include <set>
 
-#include "core/atomic_file.hpp"
 #include "geometry/coordinate_text.hpp"
 #include "geometry/outline_repair.hpp"
 #include "geometry/outlines.hpp"
 #include "geometry/parse_airfoil.hpp"
 
-namespace lamina {
+namespace lamina::geometry {
 
 namespace {
 
@@ -111,31 +111,41 @@ void name_elements(std::vector<Element>& elements, const GeometryOptions& option
 }  // namespace
 
 std::vector<Element> parse_airfoil(std::string_view text, const std::string& file) {
-    Pslg pslg;
+    std::vector<Element> elements;
     for (const RawOutline& outline : assemble_outlines(read_rows(text, file), file))
-        pslg.elements.push_back(repair_outline(outline, file));
-    name_elements(pslg.elements, {});
-    check_simple(pslg);
-    return std::move(pslg.elements);
+        elements.push_back(repair_outline(outline, file));
+    return elements;
 }
+
+Geometry finish(std::vector<Element> elements, const GeometryOptions& options) {
+    Geometry geometry{std::move(elements)};
+    name_elements(geometry.elements, options);
+    check_simple(geometry);
+    return geometry;
+}
+
+}  // namespace lamina::geometry
+
+namespace lamina {
+
+using namespace geometry;
 
 std::vector<Element> read_airfoil(const std::filesystem::path& file) {
-    return parse_airfoil(read_whole_file(file), file.string());
+    return finish(parse_airfoil(read_file(file), file.string()), {}).elements;
 }
 
-Pslg read_geometry(std::span<const std::string> inputs, const GeometryOptions& options) {
+Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options) {
+    validate(options);
     if (inputs.empty()) throw UsageError("no input given");
-    Pslg pslg;
+    std::vector<Element> elements;
     for (const std::string& input : inputs) {
         if (input.starts_with(naca_prefix)) {
-            pslg.elements.push_back(read_naca(input, options.naca_points));
+            elements.push_back(read_naca(input, options.naca_points));
         } else {
-            for (Element& element : read_airfoil(input)) pslg.elements.push_back(std::move(element));
+            for (Element& element : parse_airfoil(read_file(input), input)) elements.push_back(std::move(element));
         }
     }
-    name_elements(pslg.elements, options);
-    check_simple(pslg);
-    return pslg;
+    return finish(std::move(elements), options);
 }
 
 }  // namespace lamina

@@ -11,7 +11,7 @@
 
 #include "core/parallel.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
 
@@ -42,11 +42,11 @@ void write_records(std::ostream& out, std::size_t n, std::size_t size, F&& fill)
     std::string bytes(batch * size, '\0');
     for (std::size_t start = 0; start < n; start += batch) {
         const std::size_t count = std::min(batch, n - start);
-        parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+        core::parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) fill(bytes.data() + i * size, start + i);
         });
         out.write(bytes.data(), static_cast<std::streamsize>(count * size));
     }
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -15,7 +15,7 @@
 
 #include "io/binary_output.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 /// Words and numbers of a file that is ASCII or, from some place on, binary.
 class ByteReader {
@@ -111,4 +111,4 @@ private:
     ByteOrder order_ = ByteOrder::little;
 };
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

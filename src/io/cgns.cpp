@@ -26,7 +26,7 @@
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace fs = std::filesystem;
 
@@ -101,7 +101,7 @@ private:
         constexpr float length_dimension[5] = {0, 1, 0, 0, 0};
         std::vector<double> values(mesh_.points.size());
         const auto write_axis = [&](const char* name, auto&& coordinate) {
-            parallel_for(values.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
+            core::parallel_for(values.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) values[i] = coordinate(mesh_.points[i]);
             });
             int number = 0;
@@ -120,7 +120,7 @@ private:
     void write_section(const std::string& name, ElementType_t type, std::size_t corners, std::size_t count,
                        F&& vertex) {
         std::vector<cgsize_t> nodes(corners * count);
-        parallel_for(count, parallel_grain, [&](std::size_t begin, std::size_t end) {
+        core::parallel_for(count, parallel_grain, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 for (std::size_t k = 0; k < corners; ++k)
                     nodes[corners * i + k] = static_cast<cgsize_t>(vertex(i, k).index() + 1);
@@ -425,8 +425,8 @@ private:
 
 void write_cgns(const Mesh& mesh, const fs::path& file, CgnsVariant variant) {
     require_fit(mesh, file);
-    require_room(file, bytes_needed(mesh, variant));
-    write_atomically(file, [&](const fs::path& temporary) {
+    core::require_room(file, bytes_needed(mesh, variant));
+    core::write_atomically(file, [&](const fs::path& temporary) {
         const std::lock_guard lock(library_in_use());
         CgnsWriter(mesh, variant, file).write(temporary);
     });
@@ -439,4 +439,4 @@ Mesh read_cgns(const fs::path& file) {
     return CgnsReader(file).read();
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/text.hpp"
 #include "io/formats.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace fs = std::filesystem;
 
@@ -18,12 +19,12 @@ namespace {
 /// A writer of one file from one that sends to a stream.
 template <auto write_to_stream>
 void write_file(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
-    write_stream_atomically(file, [&](std::ostream& out) { write_to_stream(mesh, file, out); });
+    core::write_stream_atomically(file, [&](std::ostream& out) { write_to_stream(mesh, file, out); });
 }
 
-template <auto read_bytes>
-Mesh read_file(const fs::path& file) {
-    return read_bytes(read_whole_file(file), file);
+template <auto parse>
+Mesh read_bytes_of(const fs::path& file) {
+    return parse(lamina::read_file(file), file);
 }
 
 template <bool version_4, bool binary>
@@ -38,7 +39,7 @@ void write_cgns_variant(const Mesh& mesh, const fs::path& file, const WriteOptio
 
 template <bool compressed>
 void write_vtu_variant(const Mesh& mesh, const fs::path& file, const WriteOptions& options) {
-    write_stream_atomically(file, [&](std::ostream& out) {
+    core::write_stream_atomically(file, [&](std::ostream& out) {
         write_vtu(mesh, {compressed, options.wall_distance}, out);
     });
 }
@@ -49,19 +50,15 @@ void write_files(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
     write(mesh, file);
 }
 
-std::string lower_case(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 std::vector<Format> make_table() {
     std::vector<Format> table;
     const auto add = [&](const char* name, std::vector<std::string> extensions, const char* holds, auto write,
                          Mesh (*read)(const fs::path&), auto check) {
         table.push_back({name, std::move(extensions), holds, write, read, true, check});
     };
-    constexpr auto msh = read_file<read_msh>;
-    add("su2", {".su2"}, "SU2 native mesh, ASCII", write_file<write_su2>, read_file<read_su2>, check_folder_writable);
+    constexpr auto msh = read_bytes_of<read_msh>;
+    add("su2", {".su2"}, "SU2 native mesh, ASCII", write_file<write_su2>, read_bytes_of<read_su2>,
+        check_folder_writable);
     add("cgns", {".cgns"}, "CGNS, HDF5", write_cgns_variant<false, false>, read_cgns, check_folder_writable);
     add("cgns-3d", {".cgns"}, "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>, read_cgns,
         check_folder_writable);
@@ -77,15 +74,15 @@ std::vector<Format> make_table() {
     add("msh22-extruded", {".msh"}, "Gmsh MSH 2.2, ASCII, one cell thick, for gmshToFoam",
         write_file<write_msh_extruded>, nullptr, check_folder_writable);
     add("vtu", {".vtu"}, "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>,
-        read_file<read_vtu>, check_folder_writable);
-    add("vtu-zlib", {".vtu"}, "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>, read_file<read_vtu>,
-        check_folder_writable);
+        read_bytes_of<read_vtu>, check_folder_writable);
+    add("vtu-zlib", {".vtu"}, "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>,
+        read_bytes_of<read_vtu>, check_folder_writable);
     add("openfoam", {"polyMesh"}, "OpenFOAM polyMesh folder, ASCII, one cell thick", write_files<write_openfoam>,
         read_openfoam, check_openfoam_writable);
-    add("ugrid", {".ugrid"}, "UGRID, plane, ASCII, with .mapbc", write_files<write_ugrid>, read_file<read_ugrid>,
+    add("ugrid", {".ugrid"}, "UGRID, plane, ASCII, with .mapbc", write_files<write_ugrid>, read_bytes_of<read_ugrid>,
         check_ugrid_writable);
     add("fun3d", {".b8.ugrid", ".lb8.ugrid"}, "UGRID for FUN3D, one cell thick, with .mapbc", write_files<write_fun3d>,
-        read_file<read_ugrid>, check_ugrid_writable);
+        read_bytes_of<read_ugrid>, check_ugrid_writable);
     add("triangle", {".node", ".ele"}, "Triangle's .node, .ele, .edge and .poly", write_files<write_triangle_mesh>,
         read_triangle_mesh, check_triangle_writable);
     table.back().quads = false;
@@ -101,7 +98,7 @@ const std::vector<Format>& formats() {
 
 const Format& format_of(const fs::path& file, const std::string& name) {
     const fs::path last = file.has_filename() ? file : file.parent_path();  // of "case/polyMesh/", too
-    const std::string ending = lower_case(name.empty() ? last.filename().string() : "." + name);
+    const std::string ending = core::lower_case(name.empty() ? last.filename().string() : "." + name);
     const Format* found = nullptr;
     std::size_t longest = 0;
     std::string names;
@@ -112,7 +109,7 @@ const Format& format_of(const fs::path& file, const std::string& name) {
         for (const std::string& extension : format.extensions) {
             if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
                 extensions.push_back(extension);
-            if (ending.ends_with(lower_case(extension)) && extension.size() > longest) {
+            if (ending.ends_with(core::lower_case(extension)) && extension.size() > longest) {
                 found = &format;
                 longest = extension.size();
             }
@@ -121,9 +118,7 @@ const Format& format_of(const fs::path& file, const std::string& name) {
     if (found != nullptr) return *found;
     if (!name.empty()) throw UsageError(fmt::format("no mesh format is named '{}' (known: {})", name, names));
     throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", file.string(),
-                                 extension_of(file), fmt::join(extensions, ", ")));
+                                 core::extension_of(file), fmt::join(extensions, ", ")));
 }
 
-std::string extension_of(const fs::path& file) { return lower_case(file.extension().string()); }
-
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -11,7 +11,7 @@
 #include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
 
-namespace lamina::detail {
+namespace lamina::io {
 
 /// A row of the table of formats: --format, the help text, the guide and the choice by extension all read it.
 struct Format {
@@ -111,7 +111,4 @@ void check_triangle_writable(const std::filesystem::path& file);
 void write_triangle_mesh(const Mesh& mesh, const std::filesystem::path& file);
 Mesh read_triangle_mesh(const std::filesystem::path& file);
 
-/// Lower case, with the dot.
-std::string extension_of(const std::filesystem::path& file);
-
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -9,7 +9,7 @@
 
 #include <lamina/error.hpp>
 
-namespace lamina::detail {
+namespace lamina::io {
 
 std::vector<CellBlock> cell_blocks(const Mesh& mesh) {
     constexpr std::array<const char*, 2> names{"layer", "isotropic"};
@@ -86,4 +86,4 @@ void orient_markers(Mesh& mesh) {
             if (!has(edge.a, edge.b) && has(edge.b, edge.a)) std::swap(edge.a, edge.b);
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

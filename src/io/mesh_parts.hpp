@@ -9,7 +9,7 @@
 
 #include <lamina/mesh.hpp>
 
-namespace lamina::detail {
+namespace lamina::io {
 
 /// Cells of one shape and region, which formats without cell data keep together.
 struct CellBlock {
@@ -41,4 +41,4 @@ void require_marker_names(const Mesh& mesh, const std::filesystem::path& file, c
 /// in the other. Precondition: indices in range.
 void orient_markers(Mesh& mesh);
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

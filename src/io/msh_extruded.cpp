@@ -12,7 +12,7 @@
 #include "io/mesh_parts.hpp"
 #include "io/text_output.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace {
 
@@ -77,4 +77,4 @@ void write_msh_extruded(const Mesh& mesh, const std::filesystem::path& file, std
     out << "$EndElements\n";
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

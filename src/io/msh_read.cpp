@@ -19,7 +19,7 @@
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace {
 
@@ -348,4 +348,4 @@ PointValues read_msh_sizes(const std::string& bytes, const std::filesystem::path
     return read_point_values(MshReader(bytes, file));
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -17,7 +17,7 @@
 #include "io/mesh_parts.hpp"
 #include "io/text_output.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace {
 
@@ -243,4 +243,4 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant v
     MshWriter(mesh, variant, out).write();
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

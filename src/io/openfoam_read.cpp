@@ -16,12 +16,12 @@
 #include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
-#include "core/atomic_file.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace fs = std::filesystem;
 
@@ -30,7 +30,7 @@ namespace {
 /// The words of a file in OpenFOAM's syntax: brackets and semicolons stand alone, comments count as blanks.
 class FoamWords {
 public:
-    explicit FoamWords(const fs::path& file) : file_(file.string()), bytes_(read_whole_file(file)) {}
+    explicit FoamWords(const fs::path& file) : file_(file.string()), bytes_(read_file(file)) {}
 
     /// The next word; empty at the end.
     std::string_view next() {
@@ -271,4 +271,4 @@ private:
 
 Mesh read_openfoam(const fs::path& file) { return PolyMeshReader(poly_mesh_folder(file)).read(); }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
 #include "core/atomic_file.hpp"
 #include "core/parallel.hpp"
@@ -25,7 +26,7 @@
 #include "io/text_output.hpp"
 #include "mesh/adjacency.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace fs = std::filesystem;
 
@@ -35,14 +36,14 @@ namespace {
 using EdgeList = std::vector<std::uint32_t>;
 
 /// By owner, then neighbour: each face once, on the edge of its lower cell.
-EdgeList internal_faces(const CellEdges& edges, const Adjacency& adjacency) {
+EdgeList internal_faces(const mesh::CellEdges& edges, const mesh::Adjacency& adjacency) {
     constexpr std::size_t grain = 1 << 14;
     const auto faces_of = [&](std::size_t begin, std::size_t end) {
         EdgeList faces;
         for (std::size_t cell = begin; cell < end; ++cell) {
             const auto first = static_cast<std::ptrdiff_t>(faces.size());
             for (std::size_t e = edges.first(cell); e < edges.first(cell) + edges.corners(cell); ++e)
-                if (adjacency.twin[e] != no_edge && edges.cell_of(adjacency.twin[e]) > cell)
+                if (adjacency.twin[e] != mesh::no_edge && edges.cell_of(adjacency.twin[e]) > cell)
                     faces.push_back(static_cast<std::uint32_t>(e));
             std::sort(faces.begin() + first, faces.end(), [&](std::uint32_t a, std::uint32_t b) {
                 return edges.cell_of(adjacency.twin[a]) < edges.cell_of(adjacency.twin[b]);
@@ -51,21 +52,22 @@ EdgeList internal_faces(const CellEdges& edges, const Adjacency& adjacency) {
         return faces;
     };
     EdgeList all;
-    for (const EdgeList& faces : parallel_blocks(edges.cells(), grain, faces_of))
+    for (const EdgeList& faces : core::parallel_blocks(edges.cells(), grain, faces_of))
         all.insert(all.end(), faces.begin(), faces.end());
     return all;
 }
 
 /// The edges of the cells that the markers' edges are, marker by marker.
-EdgeList marker_faces(const Mesh& mesh, const CellEdges& edges, const Adjacency& adjacency, const fs::path& file) {
+EdgeList marker_faces(const Mesh& mesh, const mesh::CellEdges& edges, const mesh::Adjacency& adjacency,
+                      const fs::path& file) {
     std::vector<Segment> marked;
     for (const Marker& marker : mesh.markers) marked.insert(marked.end(), marker.edges.begin(), marker.edges.end());
-    EdgeList faces = find_edges(mesh, marked);
+    EdgeList faces = mesh::find_edges(mesh, marked);
     std::size_t i = 0;
     for (const Marker& marker : mesh.markers)
         for (const Segment& edge : marker.edges) {
             const std::uint32_t e = faces[i++];
-            if (e != no_edge && adjacency.twin[e] == no_edge && edges.origin(e) == edge.a) continue;
+            if (e != mesh::no_edge && adjacency.twin[e] == mesh::no_edge && edges.origin(e) == edge.a) continue;
             const Point at = mesh.points[edge.a.index()];
             throw MeshError(
                 fmt::format("{}: OpenFOAM cannot hold an edge of marker '{}' at ({}, {}) that is not on "
@@ -91,7 +93,7 @@ const char* patch_type(MarkerKind kind) {
 class PolyMeshWriter {
 public:
     PolyMeshWriter(const Mesh& mesh, const fs::path& file)
-        : mesh_(mesh), file_(file), edges_(mesh), adjacency_(find_adjacency(mesh)) {
+        : mesh_(mesh), file_(file), edges_(mesh), adjacency_(mesh::find_adjacency(mesh)) {
         if (!adjacency_.overused.empty())
             throw MeshError(fmt::format("{}: OpenFOAM cannot hold a mesh that is not conforming", file.string()));
         sides_ = internal_faces(edges_, adjacency_);
@@ -119,7 +121,7 @@ public:
 private:
     void write_part(const fs::path& folder, const char* name, const char* type, const std::string& note,
                     const std::function<void(std::ostream&)>& write) const {
-        write_stream(folder / name, file_, [&](std::ostream& out) {
+        core::write_stream(folder / name, file_, [&](std::ostream& out) {
             out << fmt::format(
                 "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {};\n{}"
                 "    location    \"constant/polyMesh\";\n    object      {};\n}}\n\n",
@@ -191,8 +193,8 @@ private:
 
     const Mesh& mesh_;
     const fs::path& file_;
-    CellEdges edges_;
-    Adjacency adjacency_;
+    mesh::CellEdges edges_;
+    mesh::Adjacency adjacency_;
     EdgeList sides_;  ///< internal ones, then those of the markers
     std::size_t internal_ = 0;
 };
@@ -224,7 +226,7 @@ void write_openfoam(const Mesh& mesh, const fs::path& file) {
         if (marker.name == front_and_back)
             throw UsageError(fmt::format("{}: OpenFOAM needs the name '{}' for the sides", file.string(), marker.name));
     const PolyMeshWriter writer(mesh, file);
-    write_folder_atomically(poly_mesh_folder(file), [&](const fs::path& folder) { writer.write(folder); });
+    core::write_folder_atomically(poly_mesh_folder(file), [&](const fs::path& folder) { writer.write(folder); });
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

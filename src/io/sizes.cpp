@@ -7,14 +7,13 @@
 #include <utility>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 #include <lamina/io.hpp>
 
-#include "core/atomic_file.hpp"
+#include "core/text.hpp"
 #include "io/formats.hpp"
 
-namespace lamina {
-
-namespace detail {
+namespace lamina::io {
 
 std::string size_array(const std::vector<std::string>& scalar_arrays, const std::filesystem::path& file) {
     const std::string wanted = "size";
@@ -60,15 +59,19 @@ SizedMesh sized_mesh(const PointValues& read, const std::filesystem::path& file)
 }
 
 }  // namespace
-}  // namespace detail
+}  // namespace lamina::io
+
+namespace lamina {
+
+using namespace io;
 
 SizedMesh read_sizes(const std::filesystem::path& file) {
-    const std::string extension = detail::extension_of(file);
+    const std::string extension = core::extension_of(file);
     if (extension != ".vtu" && extension != ".msh")
         throw UsageError(fmt::format("{}: sizes are read from .vtu and .msh files", file.string()));
-    const std::string bytes = read_whole_file(file);
-    const auto read = extension == ".vtu" ? detail::read_vtu_sizes : detail::read_msh_sizes;
-    return detail::sized_mesh(read(bytes, file), file);
+    const std::string bytes = read_file(file);
+    const auto read = extension == ".vtu" ? read_vtu_sizes : read_msh_sizes;
+    return sized_mesh(read(bytes, file), file);
 }
 
 }  // namespace lamina

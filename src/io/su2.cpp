@@ -15,7 +15,7 @@
 #include "io/text_lines.hpp"
 #include "io/text_output.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace {
 
@@ -175,4 +175,4 @@ Mesh read_su2(const std::string& bytes, const std::filesystem::path& file) {
     return Su2Reader(bytes, file.string()).read();
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

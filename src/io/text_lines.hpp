@@ -13,7 +13,7 @@
 
 #include <lamina/error.hpp>
 
-namespace lamina {
+namespace lamina::io {
 
 /// Lines of a file without comments and blank lines, and the numbers in them. Independent of the locale.
 class TextLines {
@@ -78,4 +78,4 @@ private:
     char comment_;
 };
 
-}  // namespace lamina
+}  // namespace lamina::io

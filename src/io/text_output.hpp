@@ -11,7 +11,7 @@
 
 #include "core/parallel.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 /// One line in the making: numbers and words, one blank between them, behind each other in a buffer that is long
 /// enough.
@@ -87,9 +87,9 @@ void write_lines(std::ostream& out, std::size_t n, F&& put_line, std::size_t lon
             text.resize(static_cast<std::size_t>(p - text.data()));
             return text;
         };
-        for (const std::string& text : parallel_blocks(std::min(batch, n - start), grain, format_block))
+        for (const std::string& text : core::parallel_blocks(std::min(batch, n - start), grain, format_block))
             out.write(text.data(), static_cast<std::streamsize>(text.size()));
     }
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -1,5 +1,5 @@
 // Reader and writer of Triangle's files; see triangle_files.hpp.
-#include "io/triangle_files.hpp"
+#include <lamina/triangle_files.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,15 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 #include <lamina/predicates.hpp>
 
 #include "core/atomic_file.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_output.hpp"
+#include "mesh/adjacency.hpp"
 
-namespace lamina {
+namespace lamina::io {
 
 namespace fs = std::filesystem;
 
@@ -160,8 +162,8 @@ void read_holes_and_regions(NumberLines& in, TriangleInput& input) {
 
 // --- Writing
 
-using detail::LineText;
-using detail::write_lines;
+using io::LineText;
+using io::write_lines;
 
 LineText& put(LineText& line, Point p) { return line.general(p.x).general(p.y); }
 
@@ -172,7 +174,7 @@ void write_node(const TriangleOutput& o, std::ostream& out) {
         for (std::size_t a = 0; a < o.attribute_count; ++a) line.general(o.attributes[i * o.attribute_count + a]);
         if (!o.markers.empty()) line << o.markers[i];
     };
-    write_lines(out, o.points.size(), put_vertex, detail::longest_line + 30 * o.attribute_count);
+    write_lines(out, o.points.size(), put_vertex, io::longest_line + 30 * o.attribute_count);
 }
 
 void write_ele(const TriangleOutput& o, std::ostream& out) {
@@ -217,12 +219,18 @@ fs::path with_suffix(const fs::path& stem, const char* suffix) {
 
 }  // namespace
 
+}  // namespace lamina::io
+
+namespace lamina {
+
+using namespace io;
+
 TriangleInput read_triangle_files(const fs::path& file) {
     const std::string extension = file.extension().string();
     if (extension != ".node" && extension != ".poly")
         throw UsageError(fmt::format("{}: neither a .node nor a .poly file", file.string()));
     TriangleInput input;
-    const std::string bytes = read_whole_file(file);
+    const std::string bytes = read_file(file);
     NumberLines in(bytes, file.string());
     input.point_file = file;
     const bool has_vertices = read_vertices(in, input);
@@ -230,7 +238,7 @@ TriangleInput read_triangle_files(const fs::path& file) {
         input.segment_file = file;
         if (!has_vertices) {
             input.point_file = fs::path(file).replace_extension(".node");
-            const std::string nodes = read_whole_file(input.point_file);
+            const std::string nodes = read_file(input.point_file);
             NumberLines vertices(nodes, input.point_file.string());
             read_vertices(vertices, input);
         }
@@ -244,7 +252,7 @@ TriangleInput read_triangle_files(const fs::path& file) {
 }
 
 std::vector<Triangle> read_triangle_elements(const fs::path& file, std::size_t first_index, std::size_t points) {
-    const std::string bytes = read_whole_file(file);
+    const std::string bytes = read_file(file);
     NumberLines in(bytes, file.string());
     in.next("the number of triangles");
     const std::size_t n = in.count("number of triangles");
@@ -269,6 +277,25 @@ std::vector<Triangle> read_triangle_elements(const fs::path& file, std::size_t f
     return triangles;
 }
 
+void mark_boundary(TriangleOutput& output) {
+    Mesh mesh;
+    mesh.points.swap(output.points);
+    mesh.triangles.swap(output.triangles);
+    const mesh::CellEdges edges(mesh);
+    const mesh::Adjacency adjacency = mesh::find_adjacency(mesh);
+    for (const std::uint32_t edge : adjacency.boundary)
+        for (const VertexId v : {edges.origin(edge), edges.target(edge)})
+            if (output.markers[v.index()] == 0) output.markers[v.index()] = 1;
+    const std::vector<std::uint32_t> edge_of_segment = mesh::find_edges(mesh, output.segments);
+    for (std::size_t i = 0; i < output.segments.size(); ++i) {
+        const std::uint32_t edge = edge_of_segment[i];
+        if (output.segment_markers[i] == 0 && edge != mesh::no_edge && adjacency.twin[edge] == mesh::no_edge)
+            output.segment_markers[i] = 1;
+    }
+    mesh.points.swap(output.points);
+    mesh.triangles.swap(output.triangles);
+}
+
 void write_triangle_files(const TriangleOutput& output, const fs::path& stem, bool with_poly) {
     std::vector<fs::path> targets{with_suffix(stem, ".node"), with_suffix(stem, ".ele")};
     std::vector<void (*)(const TriangleOutput&, std::ostream&)> writers{write_node, write_ele};
@@ -281,9 +308,9 @@ void write_triangle_files(const TriangleOutput& output, const fs::path& stem, bo
         writers.push_back(
             [](const TriangleOutput& o, std::ostream& out) { write_pairs(o, o.edges, o.edge_markers, out); });
     }
-    write_files_atomically(targets, [&](std::span<const fs::path> temporaries) {
+    core::write_files_atomically(targets, [&](std::span<const fs::path> temporaries) {
         for (std::size_t i = 0; i < targets.size(); ++i)
-            write_stream(temporaries[i], targets[i], [&](std::ostream& out) { writers[i](output, out); });
+            core::write_stream(temporaries[i], targets[i], [&](std::ostream& out) { writers[i](output, out); });
     });
 }
 

@@ -11,14 +11,14 @@
 #include <utility>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
-#include "core/atomic_file.hpp"
+#include <lamina/triangle_files.hpp>
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
-#include "io/triangle_files.hpp"
 #include "mesh/adjacency.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace fs = std::filesystem;
 
@@ -32,14 +32,14 @@ fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix;
 
 /// Each edge once, from its smaller vertex, with the number of its marker.
 void add_edges(const Mesh& mesh, TriangleOutput& output) {
-    const Adjacency adjacency = find_adjacency(mesh);
-    const CellEdges edges(mesh);
+    const mesh::Adjacency adjacency = mesh::find_adjacency(mesh);
+    const mesh::CellEdges edges(mesh);
     std::map<std::pair<VertexId, VertexId>, long> markers;
     for (std::size_t m = 0; m < mesh.markers.size(); ++m)
         for (const Segment& edge : mesh.markers[m].edges)
             markers[std::minmax(edge.a, edge.b)] = static_cast<long>(m + 1);
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        const bool inner = adjacency.twin[e] != no_edge;
+        const bool inner = adjacency.twin[e] != mesh::no_edge;
         if (inner && adjacency.twin[e] < e) continue;
         const auto [a, b] = std::minmax({edges.origin(e), edges.target(e)});
         const auto marker = inner ? markers.end() : markers.find({a, b});
@@ -56,7 +56,7 @@ struct NamedMarker {
 /// From the comments at the head of a .poly file.
 std::map<long, NamedMarker> read_names(const fs::path& file) {
     std::map<long, NamedMarker> names;
-    const std::string bytes = read_whole_file(file);
+    const std::string bytes = read_file(file);
     std::string_view rest = bytes;
     while (rest.starts_with("# marker ")) {
         std::string_view line = rest.substr(9, std::min(rest.find('\n'), rest.size()) - 9);
@@ -133,4 +133,4 @@ Mesh read_triangle_mesh(const fs::path& file) {
     return mesh;
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

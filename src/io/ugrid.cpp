@@ -18,15 +18,17 @@
 #include <string>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/text.hpp"
 #include "io/binary_output.hpp"
 #include "io/byte_reader.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 #include "io/text_output.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace fs = std::filesystem;
 
@@ -37,7 +39,7 @@ constexpr int viscous_wall = 4000, far_field = 5000, symmetry_x = 6661, symmetry
 enum class Encoding { text, big_endian, little_endian };
 
 Encoding encoding_of(const fs::path& file) {
-    const std::string inner = extension_of(file.stem());
+    const std::string inner = core::extension_of(file.stem());
     return inner == ".b8" ? Encoding::big_endian : inner == ".lb8" ? Encoding::little_endian : Encoding::text;
 }
 
@@ -189,11 +191,11 @@ void write_with_mapbc(const Mesh& mesh, const fs::path& file, bool thick) {
     if (mesh.points.size() > std::numeric_limits<std::int32_t>::max() / 2)
         throw UsageError(fmt::format("{}: UGRID numbers no more than 2^31 nodes", file.string()));
     const std::array<fs::path, 2> targets{file, mapbc_of(file)};
-    write_files_atomically(targets, [&](std::span<const fs::path> temporaries) {
-        write_stream(temporaries[0], targets[0], [&](std::ostream& out) {
+    core::write_files_atomically(targets, [&](std::span<const fs::path> temporaries) {
+        core::write_stream(temporaries[0], targets[0], [&](std::ostream& out) {
             thick ? write_one_cell_thick(mesh, encoding_of(file), out) : write_plane(mesh, out);
         });
-        write_stream(temporaries[1], targets[1], [&](std::ostream& out) { write_mapbc(mesh, thick, out); });
+        core::write_stream(temporaries[1], targets[1], [&](std::ostream& out) { write_mapbc(mesh, thick, out); });
     });
 }
 
@@ -209,7 +211,7 @@ std::map<int, Condition> read_mapbc(const fs::path& file) {
     std::map<int, Condition> conditions;
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return conditions;
-    const std::string bytes = read_whole_file(file);
+    const std::string bytes = read_file(file);
     ByteReader in(bytes, file.string());
     const auto n = in.figures<std::size_t>("number of boundaries");
     for (std::size_t i = 0; i < n; ++i) {
@@ -369,4 +371,4 @@ void write_fun3d(const Mesh& mesh, const fs::path& file) { write_with_mapbc(mesh
 
 Mesh read_ugrid(const std::string& bytes, const fs::path& file) { return UgridReader(bytes, file).read(); }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -20,7 +20,7 @@
 
 #include <lamina/error.hpp>
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace {
 
@@ -357,4 +357,4 @@ template std::vector<std::uint32_t> VtkXmlFile::values(const std::string&, std::
 template std::vector<std::int64_t> VtkXmlFile::values(const std::string&) const;
 template std::vector<std::int64_t> VtkXmlFile::values(const std::string&, std::size_t) const;
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -11,7 +11,7 @@
 
 #include "io/binary_output.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 /// An unstructured grid of one piece. Arrays are ASCII, or binary: inline or appended, raw or base64, plain or
 /// compressed by zlib, of either byte order, with headers of 32 or 64 bits. Throws InputError with the file's name.
@@ -67,4 +67,4 @@ private:
     std::size_t points_ = 0, cells_ = 0;
 };
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

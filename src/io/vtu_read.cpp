@@ -14,7 +14,7 @@
 #include "io/formats.hpp"
 #include "io/vtk_xml.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace {
 
@@ -156,4 +156,4 @@ PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path
     return read_point_values(VtuReader(bytes, file, VtuReader::Writer::anyone));
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

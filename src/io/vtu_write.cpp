@@ -29,7 +29,7 @@
 #include "mesh/quality.hpp"
 #include "mesh/wall_distance.hpp"
 
-namespace lamina::detail {
+namespace lamina::io {
 
 namespace {
 
@@ -84,17 +84,18 @@ private:
         constexpr std::size_t block_bytes = 1 << 18;
         constexpr int level = 4;
         const std::size_t block = block_bytes / size, blocks = (count + block - 1) / block;
-        const std::vector<std::string> parts = parallel_blocks(count, block, [&](std::size_t begin, std::size_t end) {
-            std::string plain((end - begin) * size, '\0');
-            for (std::size_t i = begin; i < end; ++i) fill(plain.data() + (i - begin) * size, i);
-            uLongf length = compressBound(plain.size());
-            std::string part(length, '\0');
-            if (compress2(reinterpret_cast<Bytef*>(part.data()), &length, reinterpret_cast<const Bytef*>(plain.data()),
-                          plain.size(), level) != Z_OK)
-                throw std::bad_alloc();
-            part.resize(length);
-            return part;
-        });
+        const std::vector<std::string> parts =
+            core::parallel_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+                std::string plain((end - begin) * size, '\0');
+                for (std::size_t i = begin; i < end; ++i) fill(plain.data() + (i - begin) * size, i);
+                uLongf length = compressBound(plain.size());
+                std::string part(length, '\0');
+                if (compress2(reinterpret_cast<Bytef*>(part.data()), &length,
+                              reinterpret_cast<const Bytef*>(plain.data()), plain.size(), level) != Z_OK)
+                    throw std::bad_alloc();
+                part.resize(length);
+                return part;
+            });
         std::string bytes(8 * (3 + blocks), '\0');
         char* p = bytes.data();
         for (const std::size_t value : {blocks, block_bytes, count % block * size}) p = store(p, std::uint64_t{value});
@@ -136,11 +137,11 @@ struct Cells {
         const auto at = [&](VertexId v) { return mesh.points[v.index()]; };
         if (i < triangles) {
             const VertexId* v = mesh.triangles[i].v;
-            return static_cast<float>(shape_of_triangle(at(v[0]), at(v[1]), at(v[2])));
+            return static_cast<float>(mesh::shape_of_triangle(at(v[0]), at(v[1]), at(v[2])));
         }
         if (i >= inner()) return 0;
         const VertexId* v = mesh.quads[i - triangles].v;
-        return static_cast<float>(shape_of_quad(at(v[0]), at(v[1]), at(v[2]), at(v[3])));
+        return static_cast<float>(mesh::shape_of_quad(at(v[0]), at(v[1]), at(v[2]), at(v[3])));
     }
 
     struct Line {
@@ -218,7 +219,7 @@ void put_cells(const Cells& cells, VtuWriter& vtu) {
 }  // namespace
 
 void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out) {
-    const std::vector<double> distances = variant.wall_distance ? wall_distances(mesh) : std::vector<double>{};
+    const std::vector<double> distances = variant.wall_distance ? mesh::wall_distances(mesh) : std::vector<double>{};
     const Cells cells(mesh);
     VtuWriter vtu(variant.compressed);
     vtu.xml = fmt::format(
@@ -237,4 +238,4 @@ void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out) {
     vtu.write(out);
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::io

@@ -12,12 +12,12 @@
 #include "core/atomic_file.hpp"
 #include "mesh/adjacency.hpp"
 
-namespace lamina {
+namespace lamina::io {
 
 namespace {
 
-using detail::CellEdges;
-using detail::no_edge;
+using mesh::CellEdges;
+using mesh::no_edge;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -41,10 +41,10 @@ struct Walls {
 };
 
 /// Height of the lowest vertex of the cell with the directed edge e above the wall's edge that it is.
-double cell_height(const Mesh& mesh, const CellEdges& cells, Segment edge, std::uint32_t e) {
+double cell_height(const Mesh& mesh, const mesh::CellEdges& cells, Segment edge, std::uint32_t e) {
     const Point a = mesh.points[edge.a.index()], b = mesh.points[edge.b.index()];
     double height = HUGE_VAL;
-    if (e == no_edge) return height;
+    if (e == mesh::no_edge) return height;
     const std::size_t cell = cells.cell_of(e);
     for (std::size_t k = 0; k < cells.corners(cell); ++k) {
         const VertexId v = cells.corner(cell, k);
@@ -56,10 +56,16 @@ double cell_height(const Mesh& mesh, const CellEdges& cells, Segment edge, std::
 
 }  // namespace
 
+}  // namespace lamina::io
+
+namespace lamina {
+
+using namespace io;
+
 void write_wall_data(const Mesh& mesh, const std::filesystem::path& file) {
     const Walls walls(mesh);
-    const CellEdges cells(mesh);
-    const std::vector<std::uint32_t> cell_edges = detail::find_edges(mesh, walls.edges);
+    const mesh::CellEdges cells(mesh);
+    const std::vector<std::uint32_t> cell_edges = mesh::find_edges(mesh, walls.edges);
     std::string text = "marker,vertex,x,y,arc_length,normal_x,normal_y,first_height\n";
     std::vector<bool> done(mesh.points.size(), false);
 
@@ -98,7 +104,7 @@ void write_wall_data(const Mesh& mesh, const std::filesystem::path& file) {
         if (walls.after[v] != none && walls.before[v] == none) walk(v);
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
         if (walls.after[v] != none && !done[v]) walk(v);
-    write_stream_atomically(file, [&](std::ostream& out) { out << text; });
+    core::write_stream_atomically(file, [&](std::ostream& out) { out << text; });
 }
 
 }  // namespace lamina

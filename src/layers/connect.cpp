@@ -22,7 +22,7 @@
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
 
-namespace lamina {
+namespace lamina::layers {
 namespace {
 
 /// Cosines closer than this count as equal: coordinates of cells as thin as 1e-9 of their place are no surer than that.
@@ -34,7 +34,7 @@ VertexId tip(const Ray& ray) { return on_ray(ray, ray.layers); }
 
 /// Cosine of the largest angle; -2, below all cosines, unless counter-clockwise (exact).
 double widest_cosine(Point a, Point b, Point c) {
-    if (!(detail::inline_orient2d(a, b, c) > 0)) return -2;
+    if (!(core::inline_orient2d(a, b, c) > 0)) return -2;
     const Point ab = b - a, bc = c - b, ca = a - c;
     const double l = length(ab), m = length(bc), n = length(ca);
     return std::max(-1.0, -std::max({dot(ab, bc) / (l * m), dot(bc, ca) / (m * n), dot(ca, ab) / (n * l)}));
@@ -148,7 +148,7 @@ private:
     Point at(VertexId v) const { return layer_.points[v.index()]; }
 
     bool is_convex(VertexId a, VertexId b, VertexId c, VertexId d) const {
-        using detail::inline_orient2d;
+        using core::inline_orient2d;
         return inline_orient2d(at(a), at(b), at(c)) > 0 && inline_orient2d(at(b), at(c), at(d)) > 0 &&
                inline_orient2d(at(c), at(d), at(a)) > 0 && inline_orient2d(at(d), at(a), at(b)) > 0;
     }
@@ -269,7 +269,7 @@ private:
             corners.push_back(at(corners_[i]));
             sides.push_back({VertexId(i), VertexId((i + 1) % corners_.size())});
         }
-        for (const Triangle& t : constrained_delaunay(corners, sides, {.keep = Keep::left_of_segments}).triangles)
+        for (const Triangle& t : triangulate(corners, sides, {.keep = Keep::left_of_segments}).triangles)
             add_triangle(corners_[t.v[0].index()], corners_[t.v[1].index()], corners_[t.v[2].index()]);
     }
 };
@@ -280,7 +280,7 @@ std::vector<Item> joined(const std::vector<LayerCells>& parts, std::vector<Item>
     std::vector<std::size_t> first{0};
     for (const LayerCells& part : parts) first.push_back(first.back() + (part.*items).size());
     std::vector<Item> all(first.back());
-    parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    core::parallel_for(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             std::copy((parts[i].*items).begin(), (parts[i].*items).end(),
                       all.begin() + static_cast<std::ptrdiff_t>(first[i]));
@@ -300,11 +300,15 @@ LayerCells connect_layer(const Layer& layer, GridCells kind) {
             for (std::size_t i = begin; i < end; ++i) connector.add(columns[i]);
             return connector.take();
         };
-        for (LayerCells& part : parallel_blocks(columns.size(), columns_a_block, connect))
+        for (LayerCells& part : core::parallel_blocks(columns.size(), columns_a_block, connect))
             parts.push_back(std::move(part));
     }
-    return {joined(parts, &LayerCells::triangles), joined(parts, &LayerCells::quads),
-            joined(parts, &LayerCells::triangle_layer), joined(parts, &LayerCells::quad_layer)};
+    LayerCells cells;
+    cells.triangles = joined(parts, &LayerCells::triangles);
+    cells.quads = joined(parts, &LayerCells::quads);
+    cells.triangle_layer = joined(parts, &LayerCells::triangle_layer);
+    cells.quad_layer = joined(parts, &LayerCells::quad_layer);
+    return cells;
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -6,16 +6,8 @@
 
 #include <lamina/ids.hpp>
 #include <lamina/layers.hpp>
-#include <lamina/mesh.hpp>
 
-namespace lamina {
-
-/// What fills the region between walls and outer borders. All counter-clockwise.
-struct LayerCells {
-    std::vector<Triangle> triangles;
-    std::vector<Quad> quads;
-    std::vector<std::uint16_t> triangle_layer, quad_layer;  ///< per cell, from the wall, 1-based
-};
+namespace lamina::layers {
 
 /// What becomes of a cell of the grid with four corners.
 enum class GridCells {
@@ -32,10 +24,10 @@ enum class GridCells {
 /// direction, where rays have one origin) gets the diagonal or the larger fan. Every cell is positive, exactly, and its
 /// corners lie on two neighbouring layers.
 ///
-/// Precondition: validate() finds nothing wrong with the layer. Parallel; the result does not depend on the number of
-/// threads. Cells are listed ray by ray, from the wall outwards.
-/// Criterion: I. Babuska, A. K. Aziz, On the angle condition in the finite element method, SIAM J. Numer. Anal. 13
-/// (1976): interpolation suffers from large angles, not from small ones.
+/// Precondition: check_layer() finds nothing wrong with the layer. Parallel; the result does not depend on the number
+/// of threads. Cells are listed ray by ray, from the wall outwards. Criterion: I. Babuska, A. K. Aziz, On the angle
+/// condition in the finite element method, SIAM J. Numer. Anal. 13 (1976): interpolation suffers from large angles, not
+/// from small ones.
 LayerCells connect_layer(const Layer& layer, GridCells cells);
 
-}  // namespace lamina
+}  // namespace lamina::layers

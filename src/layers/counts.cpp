@@ -7,10 +7,11 @@
 #include <algorithm>
 
 #include "core/box_tree.hpp"
-#include "layers/front.hpp"
-#include "layers/segments.hpp"
+#include "core/segments.hpp"
+#include "layers/counts.hpp"
+#include "layers/rays.hpp"
 
-namespace lamina {
+namespace lamina::layers {
 namespace {
 
 /// Fronts must stay simple when raised by this factor, which leaves room for isotropic triangles between them.
@@ -26,7 +27,7 @@ struct Node {
 
 class Front {
 public:
-    Front(const RaySet& set, const Heights& heights, std::vector<std::uint32_t> counts)
+    Front(const RaySet& set, const LayerHeights& heights, std::vector<std::uint32_t> counts)
         : set_(set), heights_(heights), counts_(std::move(counts)), next_(set.following()), previous_(next_.size()) {
         for (std::size_t i = 0; i < next_.size(); ++i) previous_[next_[i]] = i;
     }
@@ -43,12 +44,12 @@ public:
 
 private:
     const RaySet& set_;
-    const Heights& heights_;
+    const LayerHeights& heights_;
     std::vector<std::uint32_t> counts_;
     std::vector<std::size_t> next_, previous_;
 
     Point point(std::size_t ray, std::uint32_t layer, double factor = 1) const {
-        const RayLine& line = set_.rays[ray];
+        const RayLine& line = set_.lines[ray];
         return layer == 0 ? line.origin : line.origin + factor * heights_.of(ray)[layer] * line.direction;
     }
     Point tip(std::size_t ray, double factor = 1) const { return point(ray, counts_[ray], factor); }
@@ -78,7 +79,7 @@ private:
     bool open_notches() {
         const std::vector<std::uint32_t> before = counts_;
         bool changed = false;
-        for (std::size_t i = 0; i < set_.rays.size(); ++i) {
+        for (std::size_t i = 0; i < set_.lines.size(); ++i) {
             const std::size_t left = previous_[i], right = next_[i];
             if (before[left] <= before[i] && before[right] <= before[i]) continue;
             const Point at = point(i, before[i]), a = point(left, before[left]), b = point(right, before[right]);
@@ -96,7 +97,7 @@ private:
     /// all layers if it holds for the wall and for the highest layer the two have in common.
     bool cell_is_sound(std::size_t i, std::size_t j) const {
         const std::uint32_t common = std::min(counts_[i], counts_[j]);
-        const Point a = set_.rays[i].origin, b = set_.rays[j].origin;
+        const Point a = set_.lines[i].origin, b = set_.lines[j].origin;
         if (common == 0) {
             if (counts_[i] == counts_[j] || a == b) return true;
             return orient2d(a, counts_[i] > 0 ? tip(i) : tip(j), b) > 0;
@@ -108,7 +109,7 @@ private:
 
     bool lower_bad_cells() {
         bool changed = false;
-        for (std::size_t i = 0; i < set_.rays.size(); ++i) {
+        for (std::size_t i = 0; i < set_.lines.size(); ++i) {
             const std::size_t j = next_[i];
             while (!cell_is_sound(i, j)) {
                 // The higher one, or both: each step brings the pair closer to no layers, which is always sound.
@@ -142,14 +143,14 @@ private:
     /// True if the border, where it touches the wall at a ray without layers, stays outside of the wall there.
     bool leaves_wall_outward(const Node& before, const Node& node, const Node& after) const {
         std::size_t p = previous_[node.first_ray], q = next_[node.last_ray];
-        while (set_.rays[p].origin == node.at) p = previous_[p];  // other rays of a fan
-        while (set_.rays[q].origin == node.at) q = next_[q];
-        const Point wall_before = set_.rays[p].origin, wall_after = set_.rays[q].origin;
+        while (set_.lines[p].origin == node.at) p = previous_[p];  // other rays of a fan
+        while (set_.lines[q].origin == node.at) q = next_[q];
+        const Point wall_before = set_.lines[p].origin, wall_after = set_.lines[q].origin;
         const bool arrives_on_wall = before.at == wall_before, leaves_on_wall = after.at == wall_after;
-        if (!arrives_on_wall && !inside_wedge(node.at, wall_before, wall_after, before.at)) return false;
-        if (!leaves_on_wall && !inside_wedge(node.at, wall_before, wall_after, after.at)) return false;
+        if (!arrives_on_wall && !core::inside_wedge(node.at, wall_before, wall_after, before.at)) return false;
+        if (!leaves_on_wall && !core::inside_wedge(node.at, wall_before, wall_after, after.at)) return false;
         if (arrives_on_wall || leaves_on_wall) return true;
-        return inside_wedge(node.at, wall_before, after.at, before.at);
+        return core::inside_wedge(node.at, wall_before, after.at, before.at);
     }
 
     bool lower_where_borders_meet(double factor) {
@@ -158,7 +159,7 @@ private:
             std::size_t next;  ///< index of the edge that follows
         };
         std::vector<std::vector<Node>> borders;
-        for (std::size_t e = 0; e < set_.bodies(); ++e) borders.push_back(border_of(e, factor));
+        for (std::size_t e = 0; e < set_.elements(); ++e) borders.push_back(border_of(e, factor));
 
         std::vector<Edge> edges;
         std::vector<const Node*> meeting;
@@ -168,31 +169,31 @@ private:
                 const Node &before = border[(k + n - 1) % n], &node = border[k], &after = border[(k + 1) % n];
                 edges.push_back({&node, &after, first + (k + 1) % n});
                 const bool on_wall = counts_[node.first_ray] == 0;
-                if (segments_fold(node.at, before.at, after.at) ||
+                if (core::segments_fold(node.at, before.at, after.at) ||
                     (on_wall && !leaves_wall_outward(before, node, after)))
                     meeting.insert(meeting.end(), {&before, &node, &after});
             }
         }
 
-        std::vector<Box> boxes(edges.size()), wall_boxes(set_.rays.size());
-        for (std::size_t i = 0; i < edges.size(); ++i) boxes[i] = box_of(edges[i].a->at, edges[i].b->at);
-        for (std::size_t i = 0; i < set_.rays.size(); ++i)
-            wall_boxes[i] = box_of(set_.rays[i].origin, set_.rays[next_[i]].origin);
-        const BoxTree tree(boxes), walls(std::move(wall_boxes));
+        std::vector<Box> boxes(edges.size()), wall_boxes(set_.lines.size());
+        for (std::size_t i = 0; i < edges.size(); ++i) boxes[i] = core::bounding_box(edges[i].a->at, edges[i].b->at);
+        for (std::size_t i = 0; i < set_.lines.size(); ++i)
+            wall_boxes[i] = core::bounding_box(set_.lines[i].origin, set_.lines[next_[i]].origin);
+        const core::BoxTree tree(boxes), walls(std::move(wall_boxes));
         for (std::size_t i = 0; i < edges.size(); ++i) {
             const auto [a, b, next] = edges[i];
             if (is_wall_edge(a->last_ray, b->first_ray)) continue;
             tree.overlaps(boxes[i], [&, a = a, b = b, next = next](std::size_t j) {
                 const Edge& other = edges[j];
                 if (j == i || j == next || other.next == i) return;
-                if (segments_meet(a->at, b->at, other.a->at, other.b->at))
+                if (core::segments_meet(a->at, b->at, other.a->at, other.b->at))
                     meeting.insert(meeting.end(), {a, b, other.a, other.b});
             });
             walls.overlaps(boxes[i], [&, a = a, b = b](std::size_t j) {
-                const Point p = set_.rays[j].origin, q = set_.rays[next_[j]].origin;
+                const Point p = set_.lines[j].origin, q = set_.lines[next_[j]].origin;
                 // What shares a wall vertex was judged by its wedge above.
                 if (p == q || p == a->at || p == b->at || q == a->at || q == b->at) return;
-                if (segments_meet(a->at, b->at, p, q)) meeting.insert(meeting.end(), {a, b});
+                if (core::segments_meet(a->at, b->at, p, q)) meeting.insert(meeting.end(), {a, b});
             });
         }
         std::sort(meeting.begin(), meeting.end());
@@ -204,23 +205,23 @@ private:
 
     /// A body that lies between two rays of another one crosses no border: its vertices are sought in the cells.
     bool lower_round_other_bodies() {
-        if (set_.bodies() < 2) return false;
+        if (set_.elements() < 2) return false;
         bool changed = false;
-        std::vector<Box> boxes(set_.rays.size());
-        for (std::size_t i = 0; i < set_.rays.size(); ++i) {
-            boxes[i] = box_of(set_.rays[i].origin, tip(i));
-            boxes[i].include(set_.rays[next_[i]].origin);
+        std::vector<Box> boxes(set_.lines.size());
+        for (std::size_t i = 0; i < set_.lines.size(); ++i) {
+            boxes[i] = core::bounding_box(set_.lines[i].origin, tip(i));
+            boxes[i].include(set_.lines[next_[i]].origin);
             boxes[i].include(tip(next_[i]));
         }
-        const BoxTree tree(std::move(boxes));
-        for (std::size_t e = 0; e < set_.bodies(); ++e) {
-            const Point p = set_.rays[set_.begin[e]].origin;
+        const core::BoxTree tree(std::move(boxes));
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            const Point p = set_.lines[set_.begin[e]].origin;
             Box query;
             query.include(p);
             tree.overlaps(query, [&](std::size_t i) {
                 if (i >= set_.begin[e] && i < set_.begin[e + 1]) return;
                 const std::size_t j = next_[i];
-                const Point a = set_.rays[i].origin, b = set_.rays[j].origin;
+                const Point a = set_.lines[i].origin, b = set_.lines[j].origin;
                 // Both rays leave the wall and the border edge on their own sides: the cell is convex.
                 if (orient2d(a, tip(i), p) < 0 || orient2d(tip(i), tip(j), p) < 0 || orient2d(tip(j), b, p) < 0 ||
                     orient2d(b, a, p) < 0)
@@ -235,8 +236,9 @@ private:
 
 }  // namespace
 
-std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits, const Heights& heights) {
-    std::vector<std::uint32_t> counts(set.rays.size());
+std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits,
+                                        const LayerHeights& heights) {
+    std::vector<std::uint32_t> counts(set.lines.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const std::span<const double> stack = heights.of(i);
         const auto fits = std::upper_bound(stack.begin(), stack.end(), limits[i]);
@@ -245,4 +247,4 @@ std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const doubl
     return Front(set, heights, std::move(counts)).settle();
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -7,13 +7,10 @@
 
 #include <lamina/layers.hpp>
 
-#include "layers/heights.hpp"
-#include "layers/rays.hpp"
-
-namespace lamina {
+namespace lamina::layers {
 
 /// Per element, given the number of layers on each ray.
-std::vector<ElementCoverage> layer_coverage(const RaySet& set, const Heights& heights,
+std::vector<ElementCoverage> layer_coverage(const RaySet& set, const LayerHeights& heights,
                                             std::span<const std::uint32_t> counts);
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -14,7 +14,7 @@
 #include "core/parallel.hpp"
 #include "layers/heights.hpp"
 
-namespace lamina {
+namespace lamina::layers {
 namespace {
 
 /// Height of layer n of a stack, stretched.
@@ -62,23 +62,23 @@ void stretch_heights(double stretch, std::span<double> heights) {
     }
 }
 
-Heights fit_heights(const Heights& heights, std::span<const double> limits) {
-    std::vector<Stack> stacks(limits.size());
-    parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
+LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> limits) {
+    std::vector<HeightColumn> columns(limits.size());
+    core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            stacks[i] = heights.stack(i);
-            if (limits[i] < heights.full(i)) stacks[i].stretch = fit(heights.of(i), limits[i]);
+            columns[i] = heights.column(i);
+            if (limits[i] < heights.full(i)) columns[i].stretch = fit(heights.of(i), limits[i]);
         }
     });
     std::vector<double> table = heights.table();
     for (std::size_t i = 0; i < limits.size(); ++i) {
-        if (stacks[i].stretch == 1) continue;
-        stacks[i].first = table.size();
+        if (columns[i].stretch == 1) continue;
+        columns[i].first = table.size();
         const std::span<const double> fixed = heights.of(i);
         table.insert(table.end(), fixed.begin(), fixed.end());
-        stretch_heights(stacks[i].stretch, std::span(table).subspan(stacks[i].first));
+        stretch_heights(columns[i].stretch, std::span(table).subspan(columns[i].first));
     }
-    return Heights(std::move(table), std::move(stacks));
+    return LayerHeights(std::move(table), std::move(columns));
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -1,4 +1,4 @@
-// How far the layers go on each ray; internal to the layer stage.
+// The front: the polygon through the tips of an element's rays, which becomes the outer border of its layer.
 #pragma once
 
 #include <cstddef>
@@ -6,25 +6,29 @@
 #include <span>
 #include <vector>
 
-#include "layers/heights.hpp"
-#include "layers/rays.hpp"
+#include <lamina/layers.hpp>
 
-namespace lamina {
+namespace lamina::layers {
 
-/// Height up to which each ray is free, infinite where nothing is in the way up to the height of all its layers. Rays
-/// end at a fraction of the way to what they would meet, early enough that opposing fronts leave room between them, and
-/// limits vary smoothly along the walls.
-/// Source: thesis 3.2, generalised to all rays against all rays and walls (design 2).
-std::vector<double> height_limits(const RaySet& set, const Heights& heights);
+/// A corner of the front.
+struct FrontCorner {
+    std::size_t ray;       ///< whose tip it is; the last of a fan without layers
+    std::uint32_t layers;  ///< number of layers on that ray; 0: the corner is the ray's origin
+};
 
-/// The same rays and, on edges between rays that may carry layers up to their limits which differ in number by more
-/// than one, a ray for each step: counts of neighbours differ by one at most, and coarse walls would have few layers
-/// far from where there is no room.
-RaySet add_rays_at_steps(const RaySet& set, const Heights& heights, std::span<const double> limits);
+/// Rays with their layers: what a front depends on.
+struct LayeredRays {
+    const RaySet& set;
+    const LayerHeights& heights;  ///< fitted
+    std::span<const std::uint32_t> counts;
 
-/// Number of layers on each ray: as many as fit below its limit, lowered until neighbours differ by at most one, every
-/// cell between neighbouring rays is positively oriented, and the outer borders are simple, disjoint from each other
-/// and from the walls (but for rays without layers).
-std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits, const Heights& heights);
+    Point tip(std::size_t ray) const {
+        const RayLine& line = set.lines[ray];
+        return counts[ray] == 0 ? line.origin : line.origin + heights.of(ray)[counts[ray]] * line.direction;
+    }
+};
 
-}  // namespace lamina
+/// Returns the corners of each element's front. The rays of a fan that have no layers share one corner.
+std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays);
+
+}  // namespace lamina::layers

@@ -15,7 +15,9 @@
 #include <cmath>
 #include <optional>
 
-namespace lamina {
+#include "layers/rays.hpp"
+
+namespace lamina::layers {
 namespace {
 
 /// A layer hands over to isotropic triangles where it is this many times as high as wide (docs/decisions/0010).
@@ -30,8 +32,8 @@ constexpr double neighbour_ratio = 1.25;
 
 class Spacing {
 public:
-    explicit Spacing(const RaySet& set) : set_(set), next_(set.rays.size()), previous_(set.rays.size()) {
-        for (std::size_t e = 0; e < set.bodies(); ++e) {
+    explicit Spacing(const RaySet& set) : set_(set), next_(set.lines.size()), previous_(set.lines.size()) {
+        for (std::size_t e = 0; e < set.elements(); ++e) {
             for (std::size_t i = set.begin[e], last = set.begin[e + 1] - 1; i < set.begin[e + 1]; last = i++) {
                 next_[last] = i;
                 previous_[i] = last;
@@ -42,7 +44,7 @@ public:
     std::size_t next(std::size_t ray) const { return next_[ray]; }
     std::size_t previous(std::size_t ray) const { return previous_[ray]; }
     /// True if the two are rays of one fan.
-    bool same_origin(std::size_t a, std::size_t b) const { return set_.rays[a].origin == set_.rays[b].origin; }
+    bool same_origin(std::size_t a, std::size_t b) const { return set_.lines[a].origin == set_.lines[b].origin; }
     bool inside_fan(std::size_t ray) const { return same_origin(previous_[ray], ray) && same_origin(ray, next_[ray]); }
 
     /// Distance from the neighbours' points at this height: the geometric mean of both sides, but for the side of a
@@ -56,7 +58,7 @@ public:
 
     /// Distance of the points of two rays at this height.
     double tips(std::size_t a, std::size_t b, double height) const {
-        const RayLine &left = set_.rays[a], &right = set_.rays[b];
+        const RayLine &left = set_.lines[a], &right = set_.lines[b];
         return length(right.origin - left.origin + height * (right.direction - left.direction));
     }
 
@@ -66,7 +68,7 @@ private:
 
     /// Zero beyond the point where the two rays cross.
     double between(std::size_t a, std::size_t b, double height) const {
-        const RayLine &left = set_.rays[a], &right = set_.rays[b];
+        const RayLine &left = set_.lines[a], &right = set_.lines[b];
         const Point at_wall = right.origin - left.origin;
         const Point there = at_wall + height * (right.direction - left.direction);
         if (dot(there, at_wall) <= 0) return 0;
@@ -76,7 +78,7 @@ private:
 
 /// Gives the rays inside each fan values between those of its first and last ray.
 void fill_fans(const RaySet& set, const Spacing& spacing, std::vector<double>& values) {
-    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+    for (std::size_t i = 0; i < set.lines.size(); ++i) {
         if (spacing.same_origin(spacing.previous(i), i) || !spacing.same_origin(i, spacing.next(i))) continue;
         std::vector<std::size_t> fan{i};
         while (spacing.same_origin(i, spacing.next(fan.back()))) fan.push_back(spacing.next(fan.back()));
@@ -138,7 +140,7 @@ double bisect(double low, double high, Below below) {
 
 std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<const double> heights) {
     const Spacing spacing(set);
-    std::vector<double> reached(set.rays.size());
+    std::vector<double> reached(set.lines.size());
     for (std::size_t i = 0; i < reached.size(); ++i)
         if (!spacing.inside_fan(i)) reached[i] = isotropic_height(spacing, i, heights);
     fill_fans(set, spacing, reached);
@@ -146,7 +148,7 @@ std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<co
     lower_to_neighbours(set, reached, [&](std::size_t from, std::size_t to) {
         return reached[from] + steepest_border * spacing.tips(from, to, reached[from]);
     });
-    std::vector<std::uint32_t> layers(set.rays.size());
+    std::vector<std::uint32_t> layers(set.lines.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const auto above = std::upper_bound(heights.begin(), heights.end(), reached[i]);
         layers[i] = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(above - heights.begin()) - 1);
@@ -156,9 +158,9 @@ std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<co
 }
 
 std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, std::uint32_t layers) {
-    if (layers < 2) return std::vector<double>(set.rays.size(), smallest_adaptive_ratio);
+    if (layers < 2) return std::vector<double>(set.lines.size(), smallest_adaptive_ratio);
     const Spacing spacing(set);
-    std::vector<double> ratios(set.rays.size());
+    std::vector<double> ratios(set.lines.size());
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         if (spacing.inside_fan(i)) continue;
         ratios[i] = bisect(smallest_adaptive_ratio, largest_adaptive_ratio, [&](double ratio) {
@@ -175,4 +177,4 @@ std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, s
     return ratios;
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "layers/rays.hpp"
+#include <lamina/layers.hpp>
 
-namespace lamina {
+namespace lamina::layers {
 
 /// Bounds of the adaptive law's ratio.
 inline constexpr double smallest_adaptive_ratio = 1.05, largest_adaptive_ratio = 1.5;
@@ -21,4 +21,4 @@ std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<co
 /// Source: R. V. Garimella, M. S. Shephard, Int. J. Numer. Meth. Engng 49 (2000), "adaptive" growth.
 std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, std::uint32_t layers);
 
-}  // namespace lamina
+}  // namespace lamina::layers

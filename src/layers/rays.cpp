@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "core/angles.hpp"
-#include "layers/front.hpp"
 #include "layers/heights.hpp"
 
-namespace lamina {
+namespace lamina::layers {
 namespace {
 
 /// Slack on the number of steps, so that an angle of exactly the limit is not divided.
@@ -36,7 +35,7 @@ struct Corner {
 
 /// The sum of the two normals vanishes as the edges fold onto each other; the difference of the tangents does not.
 Point bisector(Point tangent_before, Point tangent_after, double turning) {
-    if (std::abs(turning) < 0.5 * pi) return unit(-perpendicular(tangent_before) - perpendicular(tangent_after));
+    if (std::abs(turning) < 0.5 * core::pi) return unit(-perpendicular(tangent_before) - perpendicular(tangent_after));
     return turning > 0 ? unit(tangent_before - tangent_after) : unit(tangent_after - tangent_before);
 }
 
@@ -46,8 +45,8 @@ std::vector<Corner> make_corners(std::span<const Point> body, const LayerOptions
     Point before = unit(body[0] - body[n - 1]);
     for (std::size_t i = 0; i < n; ++i) {
         const Point after = unit(body[(i + 1) % n] - body[i]);
-        const double turning = angle_between(before, after);
-        const bool fan = options.corners == Corners::fan && turning > radians(sharp_corner_deg);
+        const double turning = core::angle_between(before, after);
+        const bool fan = options.corners == Corners::fan && turning > core::radians(sharp_corner_deg);
         corners[i] = {turning, -perpendicular(before), -perpendicular(after), bisector(before, after, turning), fan};
         before = after;
     }
@@ -55,11 +54,11 @@ std::vector<Corner> make_corners(std::span<const Point> body, const LayerOptions
 }
 
 /// Of one body, the height within which its rays should not meet.
-double height_to_keep_clear(std::span<const Point> body, const LayerOptions& options) {
+double height_to_keep_clear(std::span<const Point> body, const LayerGrowth& growth) {
     double perimeter = 0;
     for (std::size_t i = 0; i < body.size(); ++i) perimeter += distance(body[i], body[(i + 1) % body.size()]);
     const double spacing = perimeter / static_cast<double>(body.size());
-    return std::min(expected_height(options, spacing), thickest_share * perimeter);
+    return std::min(expected_height(growth, spacing), thickest_share * perimeter);
 }
 
 /// Rays that leave a concave corner or a noisy stretch by the bisectors meet at once. Here they may turn towards each
@@ -69,7 +68,7 @@ double height_to_keep_clear(std::span<const Point> body, const LayerOptions& opt
 /// Let a(s) be the rays' angle along the wall. The least function above a that falls nowhere faster than allowed turns
 /// too late by `late`, the greatest one below it too early by `early`; their mean falls nowhere faster either, is a
 /// itself where a is good, and treats both directions of the wall alike.
-void lean_in_concavities(std::span<const Point> body, const LayerOptions& options, std::vector<Corner>& corners) {
+void lean_in_concavities(std::span<const Point> body, const LayerGrowth& growth, std::vector<Corner>& corners) {
     if (std::none_of(corners.begin(), corners.end(), [](const Corner& c) { return c.turning < 0; })) return;
     /// A ray, or the first or last one of a fan.
     struct End {
@@ -81,15 +80,15 @@ void lean_in_concavities(std::span<const Point> body, const LayerOptions& option
     for (std::size_t i = 0; i < body.size(); ++i) {
         const std::size_t next = (i + 1) % body.size();
         Corner &corner = corners[i], &after = corners[next];
-        const double room = radians(farthest_from_normal) - 0.5 * std::abs(corner.turning);
-        const double most = std::clamp(corner.fan ? 0.25 * corner.turning : room, 0.0, radians(largest_lean));
+        const double room = core::radians(farthest_from_normal) - 0.5 * std::abs(corner.turning);
+        const double most = std::clamp(corner.fan ? 0.25 * corner.turning : room, 0.0, core::radians(largest_lean));
         if (corner.fan) ends.push_back({&corner.lean[0], most, corner.turning, 0});
         const double turning = 0.5 * ((corner.fan ? 0 : corner.turning) + (after.fan ? 0 : after.turning));
         ends.push_back({&corner.lean[corner.fan], most, turning, distance(body[i], body[next])});
     }
 
     const std::size_t n = ends.size();
-    const double steepest = 1 / (clearance * height_to_keep_clear(body, options));
+    const double steepest = 1 / (clearance * height_to_keep_clear(body, growth));
     const auto rise = [&](std::size_t i) { return ends[i].turning + steepest * ends[i].distance; };
     std::vector<double> late(n, 0.0), early(n, 0.0);
     // Twice round: what the first round brings to its start goes on in the second.
@@ -104,7 +103,7 @@ void lean_in_concavities(std::span<const Point> body, const LayerOptions& option
         if (!corner.fan) corner.lean[1] = corner.lean[0];
 }
 
-Point leaning(Point direction, double lean) { return lean == 0 ? direction : unit(rotated(direction, lean)); }
+Point leaning(Point direction, double lean) { return lean == 0 ? direction : unit(core::rotated(direction, lean)); }
 
 Point first_direction(const Corner& c) { return leaning(c.fan ? c.before : c.bisector, c.lean[0]); }
 Point last_direction(const Corner& c) { return leaning(c.fan ? c.after : c.bisector, c.lean[1]); }
@@ -118,7 +117,7 @@ void add_vertex_rays(Point vertex, const Corner& corner, double limit, std::vect
     const std::size_t spread = steps_for(2 * half, limit);
     for (std::size_t k = 1; k < spread; ++k) {
         const double share = (2.0 * static_cast<double>(k) - static_cast<double>(spread)) / static_cast<double>(spread);
-        rays.push_back({vertex, unit(rotated(corner.bisector, middle + share * half))});
+        rays.push_back({vertex, unit(core::rotated(corner.bisector, middle + share * half))});
     }
     rays.push_back({vertex, last_direction(corner)});
 }
@@ -129,8 +128,8 @@ public:
     RaysBetween(const RayLine& first, const RayLine& last)
         : from_(first.origin), to_(last.origin), normal_(-perpendicular(unit(to_ - from_))) {
         // On either side of the edge's own normal every ray stays within 90 degrees.
-        first_angle_ = angle_between(normal_, first.direction);
-        last_angle_ = angle_between(normal_, last.direction);
+        first_angle_ = core::angle_between(normal_, first.direction);
+        last_angle_ = core::angle_between(normal_, last.direction);
     }
     double angle() const { return last_angle_ - first_angle_; }
     /// The ray at the share part / whole of the way, unless the edge is too short to be divided there in floating
@@ -139,7 +138,7 @@ public:
         const double rest = whole - part;
         const Point origin{(rest * from_.x + part * to_.x) / whole, (rest * from_.y + part * to_.y) / whole};
         if (origin == rays.back().origin || origin == to_ || origin == from_) return;
-        rays.push_back({origin, unit(rotated(normal_, (rest * first_angle_ + part * last_angle_) / whole))});
+        rays.push_back({origin, unit(core::rotated(normal_, (rest * first_angle_ + part * last_angle_) / whole))});
     }
 
 private:
@@ -174,17 +173,10 @@ std::vector<double> steps_between(const Ending& low, const Ending& high, std::sp
 
 }  // namespace
 
-std::vector<std::size_t> RaySet::following() const {
-    std::vector<std::size_t> next(rays.size());
-    for (std::size_t e = 0; e < bodies(); ++e)
-        for (std::size_t i = begin[e]; i < begin[e + 1]; ++i) next[i] = i + 1 < begin[e + 1] ? i + 1 : begin[e];
-    return next;
-}
-
-std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& options) {
+std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& options, const LayerGrowth& growth) {
     std::vector<Corner> corners = make_corners(body, options);
-    lean_in_concavities(body, options, corners);
-    const double limit = radians(options.max_ray_angle_deg);
+    lean_in_concavities(body, growth, corners);
+    const double limit = core::radians(options.max_ray_angle_deg);
     std::vector<RayLine> rays;
     rays.reserve(2 * body.size());
     for (std::size_t i = 0; i < body.size(); ++i) {
@@ -195,41 +187,41 @@ std::vector<RayLine> make_rays(std::span<const Point> body, const LayerOptions& 
     return rays;
 }
 
-RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares,
-                   const std::vector<std::vector<double>>& border_asks) {
+DividedRays insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares,
+                        const std::vector<std::vector<double>>& factors) {
     const std::vector<std::size_t> next = set.following();
-    RaySet result;
-    for (std::size_t e = 0; e < set.bodies(); ++e) {
+    DividedRays result;
+    std::vector<RayLine>& lines = result.set.lines;
+    for (std::size_t e = 0; e < set.elements(); ++e) {
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
-            const RayLine &ray = set.rays[i], &after = set.rays[next[i]];
+            const RayLine &ray = set.lines[i], &after = set.lines[next[i]];
             const bool divided = !shares[i].empty() && ray.origin != after.origin;
-            const auto ask = [&](std::size_t k) {
-                if (!border_asks.empty())
-                    result.border_asks.resize(result.rays.size(), divided ? border_asks[i][k] : 0);
+            const auto take_factor = [&](std::size_t k) {
+                if (!factors.empty()) result.factors.resize(lines.size(), divided ? factors[i][k] : 0);
             };
-            result.rays.push_back(ray);
-            ask(0);
+            lines.push_back(ray);
+            take_factor(0);
             if (!divided) continue;
             const RaysBetween between(ray, after);
             for (std::size_t k = 0; k < shares[i].size(); ++k) {
-                between.add(shares[i][k], 1, result.rays);
-                ask(k + 1);
+                between.add(shares[i][k], 1, lines);
+                take_factor(k + 1);
             }
         }
-        result.begin.push_back(result.rays.size());
+        result.set.begin.push_back(lines.size());
     }
     return result;
 }
 
-RaySet add_rays_at_steps(const RaySet& set, const Heights& heights, std::span<const double> limits) {
+RaySet add_rays_at_steps(const RaySet& set, const LayerHeights& heights, std::span<const double> limits) {
     const std::vector<std::size_t> next = set.following();
     const auto ending = [&](std::size_t i) {
         const std::span<const double> stack = heights.of(i);
         const auto above = std::upper_bound(stack.begin(), stack.end(), limits[i]);
         return Ending{std::min(limits[i], stack.back()), static_cast<std::uint32_t>(above - stack.begin()) - 1};
     };
-    std::vector<std::vector<double>> shares(set.rays.size());
-    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+    std::vector<std::vector<double>> shares(set.lines.size());
+    for (std::size_t i = 0; i < set.lines.size(); ++i) {
         const Ending here = ending(i), there = ending(next[i]);
         if (here.layers < there.layers) {
             shares[i] = steps_between(here, there, heights.of(next[i]));
@@ -239,7 +231,18 @@ RaySet add_rays_at_steps(const RaySet& set, const Heights& heights, std::span<co
             for (double& share : shares[i]) share = 1 - share;
         }
     }
-    return insert_rays(set, shares);
+    return insert_rays(set, shares).set;
+}
+
+}  // namespace lamina::layers
+
+namespace lamina {
+
+std::vector<std::size_t> RaySet::following() const {
+    std::vector<std::size_t> next(lines.size());
+    for (std::size_t e = 0; e < elements(); ++e)
+        for (std::size_t i = begin[e]; i < begin[e + 1]; ++i) next[i] = i + 1 < begin[e + 1] ? i + 1 : begin[e];
+    return next;
 }
 
 }  // namespace lamina

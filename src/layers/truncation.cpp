@@ -13,10 +13,11 @@
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
-#include "layers/front.hpp"
-#include "layers/segments.hpp"
+#include "core/segments.hpp"
+#include "layers/rays.hpp"
+#include "layers/truncation.hpp"
 
-namespace lamina {
+namespace lamina::layers {
 namespace {
 
 /// Share of the way to a wall that a ray may go: opposing fronts leave a quarter of the gap free.
@@ -34,10 +35,10 @@ constexpr double thinning = 0.1;
 Point at_height(const RayLine& ray, double height) { return ray.origin + height * ray.direction; }
 
 bool is_one_convex_body(const RaySet& set) {
-    if (set.bodies() != 1) return false;
-    const std::size_t n = set.rays.size();
+    if (set.elements() != 1) return false;
+    const std::size_t n = set.lines.size();
     for (std::size_t i = 0; i < n; ++i) {
-        const RayLine &a = set.rays[i], &b = set.rays[(i + 1) % n];
+        const RayLine &a = set.lines[i], &b = set.lines[(i + 1) % n];
         if (cross(a.direction, b.direction) < 0) return false;
     }
     return true;
@@ -45,11 +46,11 @@ bool is_one_convex_body(const RaySet& set) {
 
 double mean_spacing(const RaySet& set) {
     double perimeter = 0;
-    for (std::size_t e = 0; e < set.bodies(); ++e) {
+    for (std::size_t e = 0; e < set.elements(); ++e) {
         for (std::size_t i = set.begin[e], last = set.begin[e + 1] - 1; i < set.begin[e + 1]; last = i++)
-            perimeter += distance(set.rays[last].origin, set.rays[i].origin);
+            perimeter += distance(set.lines[last].origin, set.lines[i].origin);
     }
-    return perimeter / static_cast<double>(set.rays.size());
+    return perimeter / static_cast<double>(set.lines.size());
 }
 
 /// The rays looked at on one scale, and the wall drawn through their origins.
@@ -61,11 +62,11 @@ struct Sample {
 
 Sample thin_out(const RaySet& set, double height, double spacing) {
     Sample sample;
-    for (std::size_t e = 0; e < set.bodies(); ++e) {
+    for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t first = sample.rays.size();
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
             if (sample.rays.size() > first) {
-                const RayLine &kept = set.rays[sample.rays.back()], &ray = set.rays[i];
+                const RayLine &kept = set.lines[sample.rays.back()], &ray = set.lines[i];
                 if (distance(kept.origin, ray.origin) < spacing &&
                     distance(at_height(kept, height), at_height(ray, height)) < spacing)
                     continue;
@@ -73,7 +74,7 @@ Sample thin_out(const RaySet& set, double height, double spacing) {
             sample.rays.push_back(i);
         }
         for (std::size_t k = first, last = sample.rays.size() - 1; k < sample.rays.size(); last = k++) {
-            if (set.rays[sample.rays[last]].origin != set.rays[sample.rays[k]].origin)
+            if (set.lines[sample.rays[last]].origin != set.lines[sample.rays[k]].origin)
                 sample.wall.emplace_back(sample.rays[last], sample.rays[k]);
         }
         sample.begin.push_back(sample.rays.size());
@@ -94,27 +95,27 @@ Crossing cross_lines(Point p, Point d, Point q, Point e) {
 }
 
 /// Limits of the sampled rays for what they meet at heights in (low, high].
-std::vector<double> limits_on_scale(const RaySet& set, const Heights& heights, const Sample& sample, double low,
+std::vector<double> limits_on_scale(const RaySet& set, const LayerHeights& heights, const Sample& sample, double low,
                                     double high, std::span<const double> before) {
     // A ray that has ended is in nobody's way beyond its end.
     const auto way = [&](std::size_t i) { return std::min(before[i] / ray_fraction, heights.full(i) / wall_fraction); };
     std::vector<Box> ray_boxes, wall_boxes;
     for (std::size_t i : sample.rays) {
         const double reach = std::min(high, way(i));
-        ray_boxes.push_back(box_of(set.rays[i].origin, at_height(set.rays[i], reach)));
+        ray_boxes.push_back(core::bounding_box(set.lines[i].origin, at_height(set.lines[i], reach)));
     }
-    for (auto [a, b] : sample.wall) wall_boxes.push_back(box_of(set.rays[a].origin, set.rays[b].origin));
-    const BoxTree ray_tree(ray_boxes), wall_tree(std::move(wall_boxes));
+    for (auto [a, b] : sample.wall) wall_boxes.push_back(core::bounding_box(set.lines[a].origin, set.lines[b].origin));
+    const core::BoxTree ray_tree(ray_boxes), wall_tree(std::move(wall_boxes));
 
     std::vector<double> limits(sample.rays.size(), HUGE_VAL);
-    parallel_for(sample.rays.size(), 64, [&](std::size_t begin, std::size_t end) {
+    core::parallel_for(sample.rays.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const std::size_t i = sample.rays[k];
-            const RayLine& ray = set.rays[i];
+            const RayLine& ray = set.lines[i];
             if (before[i] <= wall_fraction * low) continue;
             ray_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
                 const std::size_t j = sample.rays[item];
-                const RayLine& other = set.rays[j];
+                const RayLine& other = set.lines[j];
                 if (other.origin == ray.origin) return;
                 const Crossing at = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
                 if (!at.exists || at.first <= low || at.first > high) return;
@@ -122,7 +123,8 @@ std::vector<double> limits_on_scale(const RaySet& set, const Heights& heights, c
                 limits[k] = std::min(limits[k], ray_fraction * at.first);
             });
             wall_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
-                const Point a = set.rays[sample.wall[item].first].origin, b = set.rays[sample.wall[item].second].origin;
+                const Point a = set.lines[sample.wall[item].first].origin,
+                            b = set.lines[sample.wall[item].second].origin;
                 if (a == ray.origin || b == ray.origin) return;
                 const Crossing at = cross_lines(ray.origin, ray.direction, a, b - a);
                 if (!at.exists || at.first <= low || at.first > high || at.second < 0 || at.second > 1) return;
@@ -139,7 +141,7 @@ void carry_over(const RaySet& set, const Sample& sample, std::span<const double>
     const std::vector<std::size_t> next = set.following();
     for (std::size_t k = 0; k < sample.rays.size(); ++k)
         limits[sample.rays[k]] = std::min(limits[sample.rays[k]], found[k]);
-    for (std::size_t e = 0; e < set.bodies(); ++e) {
+    for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t first = sample.begin[e], last = sample.begin[e + 1];
         for (std::size_t k = first; k < last; ++k) {
             const std::size_t after = k + 1 < last ? k + 1 : first;
@@ -147,11 +149,11 @@ void carry_over(const RaySet& set, const Sample& sample, std::span<const double>
             if (next[from] == to || std::isinf(found[k]) || std::isinf(found[after])) continue;
             double length = 0;
             for (std::size_t i = from; i != to; i = next[i])
-                length += distance(set.rays[i].origin, set.rays[next[i]].origin);
+                length += distance(set.lines[i].origin, set.lines[next[i]].origin);
             if (length == 0) continue;
             double done = 0;
             for (std::size_t i = from; next[i] != to; i = next[i]) {
-                done += distance(set.rays[i].origin, set.rays[next[i]].origin);
+                done += distance(set.lines[i].origin, set.lines[next[i]].origin);
                 const double between = ((length - done) * found[k] + done * found[after]) / length;
                 limits[next[i]] = std::min(limits[next[i]], between);
             }
@@ -160,22 +162,22 @@ void carry_over(const RaySet& set, const Sample& sample, std::span<const double>
 }
 
 /// Bounds the slope of the limits along each wall.
-void smooth_limits(const RaySet& set, const Heights& heights, std::vector<double>& limits) {
+void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<double>& limits) {
     lower_to_neighbours(set, limits, [&](std::size_t from, std::size_t to) {
         const double height = std::min(limits[from], heights.full(from));
         return limits[from] +
-               limit_slope * distance(at_height(set.rays[from], height), at_height(set.rays[to], height));
+               limit_slope * distance(at_height(set.lines[from], height), at_height(set.lines[to], height));
     });
 }
 
 }  // namespace
 
-std::vector<double> height_limits(const RaySet& set, const Heights& heights) {
-    std::vector<double> limits(set.rays.size(), HUGE_VAL);
+std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights) {
+    std::vector<double> limits(set.lines.size(), HUGE_VAL);
     if (is_one_convex_body(set)) return limits;
     const double reach = heights.tallest() / wall_fraction;
     double low = 0;
-    double high = set.rays.size() <= single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
+    double high = set.lines.size() <= single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
     for (;;) {
         const Sample sample = thin_out(set, high, low > 0 ? thinning * high : 0.0);
         carry_over(set, sample, limits_on_scale(set, heights, sample, low, high, limits), limits);
@@ -188,4 +190,4 @@ std::vector<double> height_limits(const RaySet& set, const Heights& heights) {
     return limits;
 }
 
-}  // namespace lamina
+}  // namespace lamina::layers

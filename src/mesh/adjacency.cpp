@@ -11,7 +11,7 @@
 
 #include "core/parallel.hpp"
 
-namespace lamina::detail {
+namespace lamina::mesh {
 
 namespace {
 
@@ -51,13 +51,13 @@ void claim(std::uint32_t& owner, std::uint32_t block, bool concurrently) {
 }
 
 /// For each vertex the block of all its cells, `shared` between blocks, or `unclaimed` by any cell.
-UninitializedArray<std::uint32_t> vertex_owners(const Mesh& mesh, std::size_t cells) {
-    UninitializedArray<std::uint32_t> owners(mesh.points.size());
-    parallel_for(owners.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
+core::UninitializedArray<std::uint32_t> vertex_owners(const Mesh& mesh, std::size_t cells) {
+    core::UninitializedArray<std::uint32_t> owners(mesh.points.size());
+    core::parallel_for(owners.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
         std::fill(owners.begin() + begin, owners.begin() + end, unclaimed);
     });
     const bool concurrently = thread_count() > 1;
-    parallel_for(cells, block_cells, [&](std::size_t begin, std::size_t end) {
+    core::parallel_for(cells, block_cells, [&](std::size_t begin, std::size_t end) {
         const auto block = static_cast<std::uint32_t>(begin / block_cells);
         for_each_edge(mesh, begin, end,
                       [&](std::size_t, VertexId a, VertexId) { claim(owners[a.index()], block, concurrently); });
@@ -99,7 +99,7 @@ public:
     std::size_t after(std::size_t i) const { return i + 1 == ups_ ? edges_.size() - downs_ : i + 1; }
 
 private:
-    UninitializedArray<Edge> edges_;
+    core::UninitializedArray<Edge> edges_;
     std::size_t ups_ = 0, downs_ = 0;
 };
 
@@ -109,7 +109,7 @@ struct Matches {
 };
 
 /// Finds the twins in a list that holds all directed edges of every undirected edge in it.
-void match(const EdgeList& list, UninitializedArray<std::uint32_t>& twin, Matches& matches) {
+void match(const EdgeList& list, core::UninitializedArray<std::uint32_t>& twin, Matches& matches) {
     constexpr std::uint32_t empty = 0xffffffff, crowded = 0x80000000;  // crowded: more cells than two, or on one side
     const std::size_t mask = std::bit_ceil(list.most() + list.most() / 3 + 8) - 1;
     std::vector<std::uint32_t> table(mask + 1, empty);  // the first edge of each undirected edge
@@ -203,9 +203,9 @@ Adjacency find_adjacency(const Mesh& mesh) {
     const CellEdges cell_edges(mesh);
     const std::size_t cells = cell_edges.cells();
     if (cell_edges.size() >= no_edge) throw MeshError("mesh too large: more than 2^32 edges of cells");
-    const UninitializedArray<std::uint32_t> owners = vertex_owners(mesh, cells);
+    const core::UninitializedArray<std::uint32_t> owners = vertex_owners(mesh, cells);
     Adjacency adjacency;
-    adjacency.twin = UninitializedArray<std::uint32_t>(cell_edges.size());
+    adjacency.twin = core::UninitializedArray<std::uint32_t>(cell_edges.size());
 
     constexpr std::size_t cells_a_bucket = 1 << 17, most_buckets = 256;
     const std::size_t buckets = std::min(cells / cells_a_bucket + 1, most_buckets);
@@ -222,7 +222,7 @@ Adjacency find_adjacency(const Mesh& mesh) {
         match(within, adjacency.twin, result.matches);
         return result;
     };
-    const std::vector<BlockResult> blocks = parallel_blocks(cells, block_cells, match_block);
+    const std::vector<BlockResult> blocks = core::parallel_blocks(cells, block_cells, match_block);
     for (const BlockResult& block : blocks) append(adjacency, block.matches);
 
     const auto match_bucket = [&](std::size_t bucket, std::size_t) {
@@ -236,7 +236,7 @@ Adjacency find_adjacency(const Mesh& mesh) {
         match(edges, adjacency.twin, matches);
         return matches;
     };
-    for (const Matches& matches : parallel_blocks(buckets, 1, match_bucket)) append(adjacency, matches);
+    for (const Matches& matches : core::parallel_blocks(buckets, 1, match_bucket)) append(adjacency, matches);
 
     const auto orphans_among = [&](std::size_t begin, std::size_t end) {
         std::vector<VertexId> orphans;
@@ -244,7 +244,7 @@ Adjacency find_adjacency(const Mesh& mesh) {
             if (owners[v] == unclaimed) orphans.emplace_back(v);
         return orphans;
     };
-    for (const auto& orphans : parallel_blocks(owners.size(), vertex_grain, orphans_among))
+    for (const auto& orphans : core::parallel_blocks(owners.size(), vertex_grain, orphans_among))
         adjacency.orphans.insert(adjacency.orphans.end(), orphans.begin(), orphans.end());
     std::sort(adjacency.boundary.begin(), adjacency.boundary.end());
     std::sort(adjacency.overused.begin(), adjacency.overused.end());
@@ -277,11 +277,11 @@ std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment>
         });
         return hits;
     };
-    for (const std::vector<Hit>& hits : parallel_blocks(CellEdges(mesh).cells(), block_cells, hits_of))
+    for (const std::vector<Hit>& hits : core::parallel_blocks(CellEdges(mesh).cells(), block_cells, hits_of))
         for (const auto [edge, place] : hits)
             for (std::size_t i = place; i < order.size() && undirected(order[i]) == undirected(order[place]); ++i)
                 found[order[i]] = std::min(found[order[i]], edge);
     return found;
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::mesh

@@ -10,7 +10,7 @@
 
 #include "core/uninitialized.hpp"
 
-namespace lamina::detail {
+namespace lamina::mesh {
 
 /// Numbers the directed edges of the cells: triangle t owns 3t, 3t+1, 3t+2, then quad q owns 3T+4q ... 3T+4q+3.
 /// Edge i of a cell goes from its vertex i to the next one, the cell on its left. Cells: triangles, then quads.
@@ -50,11 +50,11 @@ private:
 inline constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
 
 struct Adjacency {
-    UninitializedArray<std::uint32_t> twin;  ///< for each directed edge the opposite one, or no_edge
-    std::vector<std::uint32_t> boundary;     ///< directed edges on one cell alone, ascending
-    std::vector<std::uint32_t> overused;     ///< directed edges that meet others than their one twin, ascending
-    std::vector<VertexId> orphans;           ///< vertices of no cell, ascending
-    std::size_t edges = 0;                   ///< undirected
+    core::UninitializedArray<std::uint32_t> twin;  ///< for each directed edge the opposite one, or no_edge
+    std::vector<std::uint32_t> boundary;           ///< directed edges on one cell alone, ascending
+    std::vector<std::uint32_t> overused;           ///< directed edges that meet others than their one twin, ascending
+    std::vector<VertexId> orphans;                 ///< vertices of no cell, ascending
+    std::size_t edges = 0;                         ///< undirected
 };
 
 /// Linear time. Blocks of successive cells match their own edges through a small hash table, in parallel; edges whose
@@ -67,4 +67,4 @@ Adjacency find_adjacency(const Mesh& mesh);
 /// Precondition: all indices in range.
 std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments);
 
-}  // namespace lamina::detail
+}  // namespace lamina::mesh

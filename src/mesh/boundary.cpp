@@ -11,7 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
 
-namespace lamina::detail {
+namespace lamina::mesh {
 
 namespace {
 
@@ -31,11 +31,11 @@ Box box_of(std::span<const Point> points, const Segment& edge) {
 }
 
 /// Over edges in the order of the loops, which is coherent in the plane.
-BoxTree make_tree(std::span<const Point> points, std::span<const Segment> edges) {
+core::BoxTree make_tree(std::span<const Point> points, std::span<const Segment> edges) {
     std::vector<Box> boxes;
     boxes.reserve(edges.size());
     for (const Segment& edge : edges) boxes.push_back(box_of(points, edge));
-    return BoxTree(std::move(boxes));
+    return core::BoxTree(std::move(boxes));
 }
 
 /// Follows the edges, which are sorted by their first vertex, each of which starts one edge. Loops come in the order of
@@ -79,7 +79,7 @@ Loops trace_loops(std::span<const Point> points, std::span<const Segment> edges)
 }
 
 int orientation(Point a, Point b, Point c) {
-    const double value = inline_orient2d(a, b, c);
+    const double value = core::inline_orient2d(a, b, c);
     return (value > 0) - (value < 0);
 }
 
@@ -98,7 +98,7 @@ bool improper_contact(std::span<const Point> points, const Segment& s, const Seg
            (b_side == 0 && box_of(points, t).contains(b));
 }
 
-void check_contacts(std::span<const Point> points, const Loops& loops, const BoxTree& tree, DefectList& defects) {
+void check_contacts(std::span<const Point> points, const Loops& loops, const core::BoxTree& tree, DefectList& defects) {
     const auto check_edges = [&](std::size_t begin, std::size_t end) {
         DefectList found;
         for (std::size_t i = begin; i < end; ++i) {
@@ -115,7 +115,8 @@ void check_contacts(std::span<const Point> points, const Loops& loops, const Box
         }
         return found;
     };
-    for (DefectList& found : parallel_blocks(loops.edges.size(), 1024, check_edges)) defects.append(std::move(found));
+    for (DefectList& found : core::parallel_blocks(loops.edges.size(), 1024, check_edges))
+        defects.append(std::move(found));
 }
 
 /// Exact for a simple loop: at its lexicographically smallest vertex it turns the way it goes round.
@@ -128,7 +129,7 @@ bool counter_clockwise(std::span<const Point> points, std::span<const Segment> l
 }
 
 /// Winding number, round a vertex of loop l, of all other loops: signed crossings of the ray to the right.
-long winding_of_others(std::span<const Point> points, const Loops& loops, const BoxTree& tree, std::size_t l) {
+long winding_of_others(std::span<const Point> points, const Loops& loops, const core::BoxTree& tree, std::size_t l) {
     const Point p = points[loops.edges[loops.first[l]].a.index()];
     long winding = 0;
     tree.overlaps({p, {HUGE_VAL, p.y}}, [&](std::size_t e) {
@@ -144,7 +145,8 @@ long winding_of_others(std::span<const Point> points, const Loops& loops, const 
 
 /// Between the loops of a valid mesh the winding number is 0 (outside) or 1: a counter-clockwise loop lies outside all
 /// domains, a clockwise one inside exactly one.
-void check_nesting(std::span<const Point> points, const Loops& loops, const BoxTree& tree, BoundarySummary& summary) {
+void check_nesting(std::span<const Point> points, const Loops& loops, const core::BoxTree& tree,
+                   BoundarySummary& summary) {
     for (std::size_t l = 0; l + 1 < loops.first.size(); ++l) {
         const std::span loop(loops.edges.data() + loops.first[l], loops.first[l + 1] - loops.first[l]);
         const bool outer = counter_clockwise(points, loop);
@@ -184,7 +186,7 @@ BoundarySummary check_boundary(std::span<const Point> points, std::vector<Segmen
     if (!summary.defects.empty()) return summary;  // which edge follows which is not defined
 
     const Loops loops = trace_loops(points, edges);
-    const BoxTree tree = make_tree(points, loops.edges);
+    const core::BoxTree tree = make_tree(points, loops.edges);
     summary.loops = loops.first.size() - 1;
     add_areas(points, loops, summary);
     check_contacts(points, loops, tree, summary.defects);
@@ -192,4 +194,4 @@ BoundarySummary check_boundary(std::span<const Point> points, std::vector<Segmen
     return summary;
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::mesh

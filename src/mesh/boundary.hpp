@@ -8,7 +8,7 @@
 
 #include "mesh/defects.hpp"
 
-namespace lamina::detail {
+namespace lamina::mesh {
 
 struct BoundarySummary {
     std::size_t loops = 0;
@@ -25,4 +25,4 @@ struct BoundarySummary {
 /// Precondition: the edges are those of conforming cells that have one cell, directed with the mesh on their left.
 BoundarySummary check_boundary(std::span<const Point> points, std::vector<Segment> edges);
 
-}  // namespace lamina::detail
+}  // namespace lamina::mesh

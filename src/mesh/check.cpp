@@ -12,20 +12,21 @@
 
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
+#include "core/segments.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/boundary.hpp"
 #include "mesh/defects.hpp"
 #include "mesh/quality.hpp"
 
-namespace lamina {
+namespace lamina::mesh {
 
 namespace {
 
-using detail::Adjacency;
-using detail::CellEdges;
-using detail::CellShape;
-using detail::DefectList;
-using detail::QualityCollector;
+using mesh::Adjacency;
+using mesh::CellEdges;
+using mesh::CellShape;
+using mesh::DefectList;
+using mesh::QualityCollector;
 
 /// Cells or vertices a block: what a block of cells takes stays in the second-level cache.
 constexpr std::size_t grain = 1 << 13;
@@ -50,7 +51,7 @@ void check_blocks(std::size_t n, DefectList& defects, F&& check_one) {
         for (std::size_t i = begin; i < end; ++i) check_one(i, found);
         return found;
     };
-    for (DefectList& found : parallel_blocks(n, grain, check_block)) defects.append(std::move(found));
+    for (DefectList& found : core::parallel_blocks(n, grain, check_block)) defects.append(std::move(found));
 }
 
 // --- Arrays: whatever comes after may index and compute without looking.
@@ -111,7 +112,7 @@ struct CellsSummary {
     std::vector<std::uint32_t> narrow;  ///< isotropic cells with an angle below the bound
     std::size_t interior_edges = 0;     ///< between isotropic triangles; constraints are taken out afterwards
     std::size_t delaunay_violations = 0;
-    std::vector<double> hand_over;  ///< area of the layer's cell over the isotropic one's
+    std::vector<double> transition;  ///< area of the layer's cell over the isotropic one's
     DefectList defects;
 
     explicit CellsSummary(double bound = 0) : layer(bound), isotropic(bound) {}
@@ -122,7 +123,7 @@ struct CellsSummary {
         narrow.insert(narrow.end(), part.narrow.begin(), part.narrow.end());
         interior_edges += part.interior_edges;
         delaunay_violations += part.delaunay_violations;
-        hand_over.insert(hand_over.end(), part.hand_over.begin(), part.hand_over.end());
+        transition.insert(transition.end(), part.transition.begin(), part.transition.end());
         defects.append(std::move(part.defects));
     }
 };
@@ -138,7 +139,7 @@ bool is_isotropic_triangle(const Mesh& mesh, std::size_t cell) {
 /// > 0 for counter-clockwise, 0 for flat. A quad is simple and counter-clockwise if one of its diagonals splits it in
 /// two such triangles.
 double cell_orientation(const Point* p, std::size_t corners) {
-    using detail::inline_orient2d;
+    using core::inline_orient2d;
     if (corners == 3) return inline_orient2d(p[0], p[1], p[2]);
     return std::max(std::min(inline_orient2d(p[0], p[1], p[2]), inline_orient2d(p[0], p[2], p[3])),
                     std::min(inline_orient2d(p[0], p[1], p[3]), inline_orient2d(p[1], p[2], p[3])));
@@ -156,7 +157,7 @@ double check_cell(const Mesh& mesh, const CellEdges& edges, std::size_t cell, co
                               p[0]};
         });
     const CellShape shape =
-        corners == 3 ? detail::measure_triangle(p[0], p[1], p[2]) : detail::measure_quad(p[0], p[1], p[2], p[3]);
+        corners == 3 ? core::measure_triangle(p[0], p[1], p[2]) : mesh::measure_quad(p[0], p[1], p[2], p[3]);
     summary.area += shape.area;
     const bool isotropic = is_isotropic(mesh, cell);
     (isotropic ? summary.isotropic : summary.layer).add(shape);
@@ -167,7 +168,7 @@ double check_cell(const Mesh& mesh, const CellEdges& edges, std::size_t cell, co
 
 /// Exact; counter-clockwise a, b, c.
 bool strictly_in_circle(Point a, Point b, Point c, Point d) {
-    const detail::RoundedIncircle rounded = detail::rounded_incircle(a, b, c, d);
+    const core::RoundedIncircle rounded = core::rounded_incircle(a, b, c, d);
     return (rounded.certain() ? rounded.det : incircle(a, b, c, d)) > 0;
 }
 
@@ -194,7 +195,7 @@ void check_edge(const Mesh& mesh, const CellEdges& edges, std::size_t edge, std:
     if (!isotropic && !other_isotropic) return;
     const double area = area_of(cell), other_area = area_of(other);
     if (isotropic != other_isotropic) {
-        summary.hand_over.push_back(isotropic ? other_area / area : area / other_area);
+        summary.transition.push_back(isotropic ? other_area / area : area / other_area);
         return;
     }
     summary.isotropic.add_neighbours(area, other_area);
@@ -210,7 +211,7 @@ std::vector<std::uint32_t> first_of_pairs(const Adjacency& adjacency, std::size_
     std::size_t n = 0;
     for (std::size_t e = begin; e < end; ++e) {
         firsts[n] = static_cast<std::uint32_t>(e);
-        n += (adjacency.twin[e] > e) & (adjacency.twin[e] != detail::no_edge);
+        n += (adjacency.twin[e] > e) & (adjacency.twin[e] != mesh::no_edge);
     }
     firsts.resize(n);
     return firsts;
@@ -240,12 +241,12 @@ CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, const Mes
         return summary;
     };
     CellsSummary all(options.min_angle_deg);
-    for (CellsSummary& part : parallel_blocks(CellEdges(mesh).cells(), blocks * grain, several_blocks))
+    for (CellsSummary& part : core::parallel_blocks(CellEdges(mesh).cells(), blocks * grain, several_blocks))
         all.append(std::move(part));
     return all;
 }
 
-HandOverSummary summarize(std::vector<double> area_ratios) {
+TransitionSummary summarize(std::vector<double> area_ratios) {
     if (area_ratios.empty()) return {};
     const auto percentile = [&](std::size_t percent) {
         const auto at = area_ratios.begin() + static_cast<std::ptrdiff_t>((area_ratios.size() - 1) * percent / 100);
@@ -269,18 +270,18 @@ std::vector<Segment> sorted_constraints(const Mesh& mesh) {
 void exempt_constraints(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
                         CellsSummary& summary, DefectList& defects) {
     const CellEdges edges(mesh);
-    const std::vector<std::uint32_t> edge_of = detail::find_edges(mesh, constraints);
+    const std::vector<std::uint32_t> edge_of = mesh::find_edges(mesh, constraints);
     for (std::size_t i = 0; i < constraints.size(); ++i) {
         const Segment& constraint = constraints[i];
         const std::uint32_t found = edge_of[i];
-        if (found == detail::no_edge) {
+        if (found == mesh::no_edge) {
             defects.add([&] {
                 return MeshDefect{fmt::format("constraint {} is no edge of the mesh", name_of(constraint)),
                                   mesh.points[constraint.a.index()]};
             });
             continue;
         }
-        if (adjacency.twin[found] == detail::no_edge) continue;
+        if (adjacency.twin[found] == mesh::no_edge) continue;
         const std::size_t edge = std::min(found, adjacency.twin[found]), twin = adjacency.twin[edge];
         if (!is_isotropic_triangle(mesh, edges.cell_of(edge)) || !is_isotropic_triangle(mesh, edges.cell_of(twin)))
             continue;
@@ -320,7 +321,7 @@ private:
     /// Of an edge of an isotropic cell: on the boundary, on the layer or another piece, or a constraint.
     bool is_frozen(std::size_t edge) const {
         const std::uint32_t twin = adjacency_.twin[edge];
-        if (twin == detail::no_edge) return true;
+        if (twin == mesh::no_edge) return true;
         const std::size_t cell = edges_.cell_of(edge), other = edges_.cell_of(twin);
         if (!is_isotropic(mesh_, other)) return true;
         if (!mesh_.piece.empty() && mesh_.piece[cell] != mesh_.piece[other]) return true;
@@ -346,8 +347,7 @@ private:
         const Point v = mesh_.points[edges_.origin(edge).index()];
         const Point a = mesh_.points[edges_.target(right).index()] - v;
         const Point b = mesh_.points[edges_.origin(left).index()] - v;
-        const double d = dot(a, b);
-        return cross(a, b) > 0 && d > 0 && 4 * d * d > squared_length(a) * squared_length(b);
+        return core::encloses_sharp_angle(a, b);
     }
 };
 
@@ -358,7 +358,7 @@ std::size_t count_exempt(const FrozenCorners& corners, const std::vector<std::ui
                              narrow.begin() + static_cast<std::ptrdiff_t>(end),
                              [&](std::uint32_t cell) { return corners.excuse(cell); });
     };
-    for (const auto part : parallel_blocks(narrow.size(), grain, count)) exempt += static_cast<std::size_t>(part);
+    for (const auto part : core::parallel_blocks(narrow.size(), grain, count)) exempt += static_cast<std::size_t>(part);
     return exempt;
 }
 
@@ -421,7 +421,7 @@ void check_markers(const Mesh& mesh, const std::vector<Segment>& boundary, Defec
 }
 
 /// What holds for every valid mesh; a second look at what check_boundary proves.
-void check_totals(const MeshCheck& check, const detail::BoundarySummary& boundary, DefectList& defects) {
+void check_totals(const MeshCheck& check, const mesh::BoundarySummary& boundary, DefectList& defects) {
     // A connected planar domain with k holes has characteristic 1 - k, one outer loop and k inner ones.
     const long expected = 2 * static_cast<long>(boundary.outer_loops) - static_cast<long>(boundary.loops);
     if (check.euler_characteristic != expected)
@@ -440,7 +440,14 @@ void check_totals(const MeshCheck& check, const detail::BoundarySummary& boundar
 
 }  // namespace
 
+}  // namespace lamina::mesh
+
+namespace lamina {
+
+using namespace mesh;
+
 MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
+    validate(options);
     MeshCheck check;
     DefectList defects;
     const auto finish = [&] {
@@ -452,7 +459,7 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     if (!defects.empty()) return finish();
     const std::size_t cells = CellEdges(mesh).cells();
 
-    const Adjacency adjacency = detail::find_adjacency(mesh);
+    const Adjacency adjacency = find_adjacency(mesh);
     CellsSummary all = check_cells(mesh, adjacency, options);
     defects.append(std::move(all.defects));
     check.area = all.area;
@@ -465,7 +472,7 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     exempt_constraints(mesh, adjacency, constraints, all, defects);
     check.interior_edges = all.interior_edges;
     check.delaunay_violations = all.delaunay_violations;
-    check.hand_over = summarize(std::move(all.hand_over));
+    check.transition = summarize(std::move(all.transition));
     check.layer = all.layer.summary();
     check.isotropic = all.isotropic.summary();
     check.isotropic.exempt = count_exempt({mesh, adjacency, constraints}, all.narrow);
@@ -474,7 +481,7 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     const std::vector<Segment> edges = boundary_edges(mesh, adjacency);
     check_markers(mesh, edges, defects);
     if (adjacency.overused.empty()) {
-        detail::BoundarySummary boundary = detail::check_boundary(mesh.points, edges);
+        BoundarySummary boundary = check_boundary(mesh.points, edges);
         check.boundary_loops = boundary.loops;
         defects.append(std::move(boundary.defects));
         if (defects.empty()) check_totals(check, boundary, defects);

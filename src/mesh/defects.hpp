@@ -7,7 +7,7 @@
 
 #include <lamina/mesh.hpp>
 
-namespace lamina::detail {
+namespace lamina::mesh {
 
 struct DefectList {
     static constexpr std::size_t most_kept = 20;
@@ -28,4 +28,4 @@ struct DefectList {
     }
 };
 
-}  // namespace lamina::detail
+}  // namespace lamina::mesh

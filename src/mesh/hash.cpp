@@ -16,7 +16,7 @@
 
 #include "core/parallel.hpp"
 
-namespace lamina {
+namespace lamina::mesh {
 
 namespace {
 
@@ -99,11 +99,17 @@ Sum hash_cells(const Mesh& mesh, const std::vector<Cell>& cells) {
         return sum;
     };
     Sum sum = 0;
-    for (const Sum part : parallel_blocks(cells.size(), std::size_t{1} << 14, hash_block)) sum += part;
+    for (const Sum part : core::parallel_blocks(cells.size(), std::size_t{1} << 14, hash_block)) sum += part;
     return sum;
 }
 
 }  // namespace
+
+}  // namespace lamina::mesh
+
+namespace lamina {
+
+using namespace mesh;
 
 std::string mesh_hash(const Mesh& mesh) {
     Sum sum = hash_cells(mesh, mesh.triangles) + hash_cells(mesh, mesh.quads);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace lamina::detail {
+namespace lamina::mesh {
 
 namespace {
 
@@ -28,12 +28,12 @@ double largest_of(std::size_t ratio_class) {
 
 CellShape measure_quad(Point a, Point b, Point c, Point d) {
     const double twice_area = cross(c - a, d - b);
-    if (!(twice_area > 0)) return flat_shape;
+    if (!(twice_area > 0)) return core::flat_shape;
     const Point corner[4] = {a, b, c, d};
     CellShape shape{.area = 0.5 * twice_area, .min_angle_deg = 360};
     for (int i = 0; i < 4; ++i) {
         const Point ahead = corner[(i + 1) % 4] - corner[i], back = corner[(i + 3) % 4] - corner[i];
-        double angle = degrees(atan2_reproducible(cross(ahead, back), dot(ahead, back)));
+        double angle = core::degrees(core::atan2_reproducible(cross(ahead, back), dot(ahead, back)));
         if (angle < 0) angle += 360;
         shape.min_angle_deg = std::min(shape.min_angle_deg, angle);
         shape.max_angle_deg = std::max(shape.max_angle_deg, angle);
@@ -116,4 +116,4 @@ QualitySummary QualityCollector::summary() const {
     return summary;
 }
 
-}  // namespace lamina::detail
+}  // namespace lamina::mesh

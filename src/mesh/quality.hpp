@@ -4,40 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include <lamina/mesh.hpp>
 
-#include "core/reproducible_math.hpp"
+#include "core/cell_shape.hpp"
 
-namespace lamina::detail {
+namespace lamina::mesh {
 
-struct CellShape {
-    double area = 0;
-    double min_angle_deg = 0;
-    double max_angle_deg = 0;
-    double aspect_ratio = 0;  ///< longest edge over the height on it; for a quad, squared longest edge over area
-};
+using core::CellShape;
 
-inline constexpr CellShape flat_shape{0, 0, 180, std::numeric_limits<double>::infinity()};
-
-/// Of counter-clockwise cells; one whose area rounds to zero or less has flat_shape. Angles to 1e-12 degrees.
-inline CellShape measure_triangle(Point a, Point b, Point c) {
-    const double twice_area = cross(b - a, c - a);
-    if (!(twice_area > 0)) return flat_shape;
-    const double bc = squared_length(c - b), ca = squared_length(a - c), ab = squared_length(b - a);
-    const double longest = std::max(std::max(bc, ca), ab), shortest = std::min(std::min(bc, ca), ab);
-    const double middle = std::max(std::min(bc, ca), std::min(std::max(bc, ca), ab));
-    // Law of cosines: half of the sums below is the scalar product of the edges at the angle. The two smaller angles
-    // are acute.
-    const double smallest = degrees(first_quadrant_angle(twice_area, 0.5 * (longest + middle - shortest)));
-    const double medium = degrees(first_quadrant_angle(twice_area, std::max(0.0, 0.5 * (longest + shortest - middle))));
-    return {.area = 0.5 * twice_area,
-            .min_angle_deg = std::max(0.0, smallest),
-            .max_angle_deg = 180 - smallest - medium,
-            .aspect_ratio = longest / twice_area};
-}
+/// Measures a counter-clockwise quadrilateral; one whose area rounds to zero or less has core::core::flat_shape.
 CellShape measure_quad(Point a, Point b, Point c, Point d);
 
 /// Mean ratio: 1 for the equilateral triangle and the square, 0 for flat and inverted cells. + - * / alone.
@@ -69,4 +46,4 @@ private:
     double max_area_ratio_ = 0;
 };
 
-}  // namespace lamina::detail
+}  // namespace lamina::mesh

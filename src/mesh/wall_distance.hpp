@@ -5,9 +5,9 @@
 
 #include <lamina/mesh.hpp>
 
-namespace lamina::detail {
+namespace lamina::mesh {
 
 /// Distance of each point to the nearest edge of a marker of kind wall; infinite where there is none.
 std::vector<double> wall_distances(const Mesh& mesh);
 
-}  // namespace lamina::detail
+}  // namespace lamina::mesh

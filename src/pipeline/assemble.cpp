@@ -1,89 +1,137 @@
-#include "pipeline/assemble.hpp"
-
+// Stage "assemble".
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include <lamina/error.hpp>
+#include <lamina/pipeline.hpp>
 
 #include "core/parallel.hpp"
 
-namespace lamina {
+namespace lamina::pipeline {
 
 namespace {
 
-std::vector<Marker> make_markers(const Pslg& pslg, const LayerEdges& edges, std::vector<Segment> far_field) {
+/// Takes the edges of the base out of the edges of an element's wall, which run clockwise, or in reverse order: edge i
+/// joins vertices i and i + 1 of the counter-clockwise wall.
+std::vector<Segment> take_base(const Element& element, std::span<const Point> points, std::vector<Segment>& wall) {
+    const auto edge_at = [&](std::size_t corner) {
+        const auto found = std::find_if(wall.begin(), wall.end(), [&](const Segment& edge) {
+            return points[edge.b.index()] == element.points[corner];
+        });
+        return static_cast<std::size_t>(found - wall.begin());
+    };
+    const std::size_t n = wall.size(), first = edge_at(element.features.base->first);
+    const std::size_t length = (edge_at(element.features.base->last) + n - first) % n;
+    std::vector<Segment> base, rest;
+    for (std::size_t k = 0; k < length; ++k) base.push_back(wall[(first + k) % n]);
+    for (std::size_t i = 0; i < n; ++i)
+        if ((i + n - first) % n >= length) rest.push_back(wall[i]);
+    wall = std::move(rest);
+    return base;
+}
+
+std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, std::vector<Segment> far_field,
+                                 const AssembleOptions& options) {
     std::vector<Marker> markers;
-    for (std::size_t i = 0; i < pslg.elements.size(); ++i)
-        markers.push_back({pslg.elements[i].name, MarkerKind::wall, edges.walls[i]});
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        const Element& element = geometry.elements[e];
+        std::vector<Segment> wall = layer.edges.walls[e], base;
+        if (options.base_marker && element.features.base) base = take_base(element, layer.points, wall);
+        markers.push_back({element.name, MarkerKind::wall, std::move(wall)});
+        if (!base.empty()) markers.push_back({element.name + "_base", MarkerKind::wall, std::move(base)});
+    }
     markers.push_back({"farfield", MarkerKind::far_field, std::move(far_field)});
     return markers;
 }
 
-}  // namespace
+/// Where the vertices and triangles of each refinement begin in the mesh, and where the last ones end.
+struct Places {
+    std::vector<std::size_t> point, triangle;
+};
 
-Mesh assemble(const Pslg& pslg, const LayerEdges& edges, LayerFill layer_fill, Decoupling decoupling,
-              std::vector<Refinement> pieces) {
-    LayerCells& layer_cells = layer_fill.cells;
-    const std::size_t layer_pieces = layer_fill.pieces();
-    const std::size_t layer_count = layer_cells.triangles.size(), quads = layer_cells.quads.size();
-    std::vector<std::size_t> first_point(pieces.size() + 1, decoupling.points.size());
-    std::vector<std::size_t> first_triangle(pieces.size() + 1, layer_count);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        first_point[i + 1] = first_point[i] + pieces[i].added.size();
-        first_triangle[i + 1] = first_triangle[i] + pieces[i].triangles.size();
+Places places_of(std::span<const Refinement> refinements, std::size_t points, std::size_t triangles) {
+    Places places{{points}, {triangles}};
+    for (const Refinement& refinement : refinements) {
+        places.point.push_back(places.point.back() + refinement.steiner_points.size());
+        places.triangle.push_back(places.triangle.back() + refinement.triangles.size());
     }
-    if (first_point.back() >= VertexId{}.value)
+    if (places.point.back() >= VertexId{}.value)
         throw MeshError(fmt::format("the mesh would have {} vertices, more than 32-bit numbers can tell apart",
-                                    first_point.back()));
+                                    places.point.back()));
+    return places;
+}
 
-    Mesh mesh;
-    mesh.markers = make_markers(pslg, edges, std::move(decoupling.far_field));
-    mesh.constraints = edges.interfaces;
-    mesh.points = std::move(decoupling.points);
-    mesh.triangles = std::move(layer_cells.triangles);
-    mesh.quads = std::move(layer_cells.quads);
-    mesh.layer = std::move(layer_cells.triangle_layer);
-    const std::size_t triangles = first_triangle.back(), cells = triangles + quads;
+/// Makes the arrays of the mesh long enough for all cells and fills in what the layer knows.
+void make_arrays(LayerCells cells, const Places& places, Mesh& mesh) {
+    const std::size_t layer_triangles = cells.triangles.size(), quads = cells.quads.size();
+    const std::size_t triangles = places.triangle.back(), all = triangles + quads;
+    mesh.triangles = std::move(cells.triangles);
+    mesh.quads = std::move(cells.quads);
+    mesh.layer = std::move(cells.triangle_layer);
     // The system hands out pages as they are first written: one thread alone would wait for all of them.
     const std::function<void()> arrays[] = {
         [&] { mesh.triangles.resize(triangles); },
-        [&] { mesh.points.resize(first_point.back()); },
-        [&] { mesh.piece.resize(cells); },
+        [&] { mesh.points.resize(places.point.back()); },
+        [&] { mesh.piece.resize(all); },
         [&] {
-            mesh.layer.reserve(cells);
+            mesh.layer.reserve(all);
             mesh.layer.resize(triangles, 0);
-            mesh.layer.insert(mesh.layer.end(), layer_cells.quad_layer.begin(), layer_cells.quad_layer.end());
+            mesh.layer.insert(mesh.layer.end(), cells.quad_layer.begin(), cells.quad_layer.end());
         },
         [&] {
-            mesh.region.reserve(cells);
-            mesh.region.resize(layer_count, Region::layer);
+            mesh.region.reserve(all);
+            mesh.region.resize(layer_triangles, Region::layer);
             mesh.region.resize(triangles, Region::isotropic);
-            mesh.region.resize(cells, Region::layer);
+            mesh.region.resize(all, Region::layer);
         },
     };
-    parallel_for(std::size(arrays), 1, [&](std::size_t begin, std::size_t end) {
+    core::parallel_for(std::size(arrays), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) arrays[i]();
     });
-    for (std::size_t i = 0; i < layer_pieces; ++i)
-        std::fill(mesh.piece.begin() + std::ptrdiff_t(layer_fill.first_triangle[i]),
-                  mesh.piece.begin() + std::ptrdiff_t(layer_fill.first_triangle[i + 1]), std::uint32_t(i));
-    parallel_for(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 0; i < cells.pieces(); ++i)
+        std::fill(mesh.piece.begin() + std::ptrdiff_t(cells.first_triangle[i]),
+                  mesh.piece.begin() + std::ptrdiff_t(cells.first_triangle[i + 1]), std::uint32_t(i));
+}
+
+/// Copies one refinement to its place; `border` are the ids of its border vertices in the mesh.
+void place(const Refinement& refinement, std::span<const VertexId> border, std::size_t first_point,
+           std::size_t first_triangle, Mesh& mesh) {
+    std::copy(refinement.steiner_points.begin(), refinement.steiner_points.end(),
+              mesh.points.begin() + std::ptrdiff_t(first_point));
+    const std::size_t shift = first_point - border.size();
+    for (std::size_t t = 0; t < refinement.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const std::size_t v = refinement.triangles[t].v[k].index();
+            mesh.triangles[first_triangle + t].v[k] = v < border.size() ? border[v] : VertexId{v + shift};
+        }
+}
+
+}  // namespace
+
+}  // namespace lamina::pipeline
+
+namespace lamina {
+
+using namespace pipeline;
+
+Mesh assemble(const Geometry& geometry, const Layer& layer, LayerCells cells, Decoupling decoupling,
+              std::vector<Refinement> refinements, const AssembleOptions& options) {
+    const Places places = places_of(refinements, decoupling.points.size(), cells.triangles.size());
+    const std::size_t layer_pieces = cells.pieces();
+    Mesh mesh;
+    mesh.markers = make_markers(geometry, layer, std::move(decoupling.far_field), options);
+    mesh.constraints = layer.edges.interfaces;
+    mesh.points = std::move(decoupling.points);
+    make_arrays(std::move(cells), places, mesh);
+    core::parallel_for(refinements.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            Refinement piece = std::move(pieces[i]);
-            const std::vector<VertexId>& border = decoupling.subdomains[i].global;
-            std::copy(piece.added.begin(), piece.added.end(), mesh.points.begin() + std::ptrdiff_t(first_point[i]));
-            const std::size_t shift = first_point[i] - border.size();
-            for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
-                Triangle& target = mesh.triangles[first_triangle[i] + t];
-                for (int k = 0; k < 3; ++k) {
-                    const std::size_t v = piece.triangles[t].v[k].index();
-                    target.v[k] = v < border.size() ? border[v] : VertexId{v + shift};
-                }
-                mesh.piece[first_triangle[i] + t] = static_cast<std::uint32_t>(layer_pieces + i);
-            }
+            const Refinement refinement = std::move(refinements[i]);  // freed once it is copied
+            place(refinement, decoupling.subdomains[i].global, places.point[i], places.triangle[i], mesh);
+            std::fill_n(mesh.piece.begin() + std::ptrdiff_t(places.triangle[i]), refinement.triangles.size(),
+                        static_cast<std::uint32_t>(layer_pieces + i));
         }
     });
     return mesh;

@@ -77,7 +77,7 @@ TEST(BadInput, WakesAndSizeSources) {
     for (const char* outline : {"", "1,2,3,4", "-9,-9,9,-9,0", "-9,-9,9,-9,0,x", "-9,-9,0,9,9,-9", "2,-1,3,-1,3,1"})
         expect_refused(folder, mesh_naca_with({"--far-field-outline", outline}), usage, "outline");
     expect_refused(folder, mesh_naca_with({"--far-field-outline", "-9,-9,9,-9,0,9", "--far-field-shape", "circle"}),
-                   usage, "given twice");
+                   usage, "exclude each other");
     for (const char* wake : {"", "x", "10:", "10:0", "10:-1", "10:2:0", "10:2:1:1", "1e9", "nan", "10:inf"})
         expect_refused(folder, mesh_naca_with({"--wake", wake}), usage, "--wake");
     for (const char* shape :
@@ -107,7 +107,7 @@ TEST(BadInput, AFirstHeightGivenTwiceOrByHalf) {
     const auto refuse = [&](const std::vector<std::string>& options, const std::string& said) {
         expect_refused(folder, mesh_naca_with(options), usage, said);
     };
-    refuse({"--first-height", "1e-5", "--y-plus", "1", "--reynolds", "1e6"}, "given twice");
+    refuse({"--first-height", "1e-5", "--y-plus", "1", "--reynolds", "1e6"}, "exclude each other");
     refuse({"--y-plus", "1"}, "needs reynolds");
     refuse({"--reynolds", "1e6"}, "y-plus");
     refuse({"--chord", "2"}, "y-plus");
@@ -127,7 +127,7 @@ TEST(BadInput, GrowthLawsThatLackSomething) {
 
 TEST(BadInput, AFarFieldThatDoesNotEncloseTheBodies) {
     const TemporaryFolder folder;
-    expect_refused(folder, mesh_naca_with({"--far-field", "0.2"}), usage, "far field of 0.2 chords");
+    expect_refused(folder, mesh_naca_with({"--far-field", "0.2"}), usage, "--far-field: leaves no room");
 }
 
 TEST(BadInput, OptionsThatAreNotKnown) {

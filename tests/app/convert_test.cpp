@@ -137,7 +137,7 @@ TEST(Convert, FollowsLinks) {
 
 TEST(Formats, HelpAndGuideListThemAll) {
     const TemporaryFolder folder;
-    std::ifstream in(std::string(LAMINA_SOURCE) + "/docs/guide.md");
+    std::ifstream in(std::string(LAMINA_SOURCE_DIR) + "/docs/guide.md");
     std::stringstream guide;
     guide << in.rdbuf();
     const std::string mesh_help = run_lamina(folder, {"mesh", "--help"}).out,

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <lamina/triangle_files.hpp>
 #include "app/program.hpp"
-#include "io/triangle_files.hpp"
 #include "support/point_sets.hpp"
 
 namespace lamina::test {
@@ -96,7 +96,8 @@ TEST(DelaunayCommand, Refusals) {
     const TemporaryFolder folder;
     folder.write("cross.poly", "4 2\n1 0 0\n2 1 1\n3 0 1\n4 1 0\n2 0\n1 1 2\n2 3 4\n0\n");
     folder.write("bad.node", "2 2\n1 0 0\n2 0 oops\n");
-    expect_refused(folder, {"delaunay", "cross.poly"}, 3, "segment 1 (2-3) crosses segment 0 (0-1) (at 0.5, 0.5)");
+    expect_refused(folder, {"delaunay", "cross.poly"}, 3,
+                   "segment 1 (2-3) crosses segment 0 (0-1) (counted from 0) (at 0.5, 0.5)");
     expect_refused(folder, {"delaunay", "bad.node"}, 3, "bad.node:3: coordinate expected, found 'oops'");
     expect_refused(folder, {"delaunay", "none.node"}, 5, "none.node");
     expect_refused(folder, {"delaunay", "bad.txt"}, 2, "neither a .node nor a .poly file");

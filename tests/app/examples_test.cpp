@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 Json mesh_of_example(const std::string& name, const std::vector<std::string>& options = {}) {
     const TemporaryFolder folder;
     std::vector<std::string> arguments{
-        "mesh", std::string(LAMINA_SOURCE "/examples/") + name, "-o", "m.vtu", "--report", "r.json"};
+        "mesh", std::string(LAMINA_SOURCE_DIR "/examples/") + name, "-o", "m.vtu", "--report", "r.json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ProgramRun mesh = run_lamina(folder, arguments);
     EXPECT_EQ(mesh.exit_code, 0) << mesh.err;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/program.hpp"
+#include "support/layers.hpp"
 
 namespace lamina::test {
 namespace {
@@ -171,14 +172,14 @@ TEST_F(MeshCommand, EveryWallPointOfTheInputIsAVertexExactly) {
 
 TEST_F(MeshCommand, LayerHeightsAreTheRequestedOnesOnFullRays) {
     const auto vertices = vertices_of(folder() / "n.su2");
-    Pslg pslg;
-    pslg.elements.push_back(naca_airfoil("0012", 200));
+    Geometry geometry;
+    geometry.elements.push_back(naca_airfoil("0012", 200));
     LayerOptions options;
     options.first_height = 2.5e-5;
     options.growth = 1.15;
     options.layers = 30;
     options.max_ray_angle_deg = 4;
-    const Layer layer = make_layer(pslg, options);
+    const Layer layer = test::make_layer(geometry, options);
     std::size_t full = 0;
     for (const Ray& ray : layer.rays.front()) {
         if (ray.layers < ray.requested) continue;
@@ -189,7 +190,7 @@ TEST_F(MeshCommand, LayerHeightsAreTheRequestedOnesOnFullRays) {
             const Point p = layer.points[ray.first_point + n];
             EXPECT_TRUE(vertices.contains({p.x, p.y}));
             const double spacing = distance(below, p);
-            const double expected = n == 0 ? options.first_height : options.growth * spacing_below;
+            const double expected = n == 0 ? test::first_height(options) : options.growth * spacing_below;
             EXPECT_NEAR(spacing, expected, 0.01 * expected) << n;
             below = p;
             spacing_below = spacing;
@@ -262,7 +263,7 @@ TEST(MeshOfRealSections, GeneratedOnes) {
 TEST(MeshOfRealSections, Measured) {
     const char* shared = std::getenv("LAMINA_SHARED");
     const std::filesystem::path folder =
-        std::filesystem::path(shared != nullptr ? shared : LAMINA_SOURCE "/../shared") / "geometry/uiuc/selig";
+        std::filesystem::path(shared != nullptr ? shared : LAMINA_SOURCE_DIR "/../shared") / "geometry/uiuc/selig";
     for (const char* name : {"rae2822.dat", "e387.dat", "s1223.dat", "naca63a210.dat", "n0012.dat", "goe417a.dat"}) {
         if (std::filesystem::exists(folder / name)) expect_good_mesh((folder / name).string());
     }

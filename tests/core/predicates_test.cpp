@@ -244,8 +244,8 @@ bool flattened_turn_right(Quadruple p, Tally& tally) {
     if (p[0].y == p[1].y || p[1].y == p[2].y) return true;
     const int turn = exact_flattened_turn(to_integers(p));
     tally.flat_ties += turn == 0;
-    return sign_of(detail::flattened_turn(p[0], p[1], p[2], p[3].x)) == turn &&
-           sign_of(detail::flattened_turn_after_filter(p[0], p[1], p[2], p[3].x)) == turn;
+    return sign_of(core::flattened_turn(p[0], p[1], p[2], p[3].x)) == turn &&
+           sign_of(core::flattened_turn_after_filter(p[0], p[1], p[2], p[3].x)) == turn;
 }
 
 template <class Generator>
@@ -260,13 +260,13 @@ Tally compare(Generator generate, int cases, std::uint64_t seed) {
         const bool right =
             sign_of(orient2d(p[0], p[1], p[2])) == turn && sign_of(incircle(p[0], p[1], p[2], p[3])) == inside &&
             (inside == 0 || perturbed == inside) &&
-            sign_of(detail::incircle_after_filter(p[0], p[1], p[2], p[3])) == perturbed &&
-            sign_of(detail::orient2d_after_filter(p[0], p[1], p[2])) == turn && flattened_turn_right(p, tally);
+            sign_of(core::incircle_after_filter(p[0], p[1], p[2], p[3])) == perturbed &&
+            sign_of(core::orient2d_after_filter(p[0], p[1], p[2])) == turn && flattened_turn_right(p, tally);
         if (!right && tally.wrong++ == 0)
             ADD_FAILURE() << std::hexfloat << p[0].x << ' ' << p[0].y << "  " << p[1].x << ' ' << p[1].y << "  "
                           << p[2].x << ' ' << p[2].y << "  " << p[3].x << ' ' << p[3].y << ": orient2d should be "
                           << turn << ", incircle " << inside;
-        tally.filter_failures += !detail::rounded_incircle(p[0], p[1], p[2], p[3]).certain();
+        tally.filter_failures += !core::rounded_incircle(p[0], p[1], p[2], p[3]).certain();
         tally.ties += inside == 0;
     }
     return tally;

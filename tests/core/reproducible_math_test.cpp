@@ -14,23 +14,23 @@ TEST(ReproducibleMath, SineAndCosineAgreeWithTheLibrary) {
         std::uniform_real_distribution<double> angle(-range, range);
         for (int i = 0; i < 100000; ++i) {
             const double a = angle(random);
-            ASSERT_NEAR(sin_reproducible(a), std::sin(a), 2.3e-16 * std::abs(std::sin(a)) + 1e-300) << a;
-            ASSERT_NEAR(cos_reproducible(a), std::cos(a), 2.3e-16 * std::abs(std::cos(a)) + 1e-300) << a;
+            ASSERT_NEAR(core::sin_reproducible(a), std::sin(a), 2.3e-16 * std::abs(std::sin(a)) + 1e-300) << a;
+            ASSERT_NEAR(core::cos_reproducible(a), std::cos(a), 2.3e-16 * std::abs(std::cos(a)) + 1e-300) << a;
         }
     }
 }
 
 TEST(ReproducibleMath, ExactValuesAndSymmetry) {
-    EXPECT_EQ(sin_reproducible(0.0), 0.0);
-    EXPECT_EQ(cos_reproducible(0.0), 1.0);
-    EXPECT_EQ(sin_reproducible(pi / 2), 1.0);
-    EXPECT_EQ(cos_reproducible(pi), -1.0);
-    EXPECT_EQ(sin_reproducible(-pi / 2), -1.0);
+    EXPECT_EQ(core::sin_reproducible(0.0), 0.0);
+    EXPECT_EQ(core::cos_reproducible(0.0), 1.0);
+    EXPECT_EQ(core::sin_reproducible(core::pi / 2), 1.0);
+    EXPECT_EQ(core::cos_reproducible(core::pi), -1.0);
+    EXPECT_EQ(core::sin_reproducible(-core::pi / 2), -1.0);
     for (int i = 1; i < 1000; ++i) {
         const double a = 0.0137 * i;
-        EXPECT_EQ(sin_reproducible(-a), -sin_reproducible(a));
-        EXPECT_EQ(cos_reproducible(-a), cos_reproducible(a));
-        EXPECT_EQ(atan2_reproducible(-a, 1.7), -atan2_reproducible(a, 1.7));
+        EXPECT_EQ(core::sin_reproducible(-a), -core::sin_reproducible(a));
+        EXPECT_EQ(core::cos_reproducible(-a), core::cos_reproducible(a));
+        EXPECT_EQ(core::atan2_reproducible(-a, 1.7), -core::atan2_reproducible(a, 1.7));
     }
 }
 
@@ -42,14 +42,14 @@ TEST(ReproducibleMath, ArctangentAgreesWithTheLibrary) {
         if (i % 3 == 0) x *= std::pow(10.0, exponent(random) / 2);
         if (i % 5 == 0) y *= std::pow(10.0, exponent(random) / 2);
         const double expected = std::atan2(y, x);
-        ASSERT_NEAR(atan2_reproducible(y, x), expected, 4.5e-16 * std::abs(expected) + 1e-300) << y << ' ' << x;
+        ASSERT_NEAR(core::atan2_reproducible(y, x), expected, 4.5e-16 * std::abs(expected) + 1e-300) << y << ' ' << x;
     }
-    EXPECT_EQ(atan2_reproducible(0.0, 0.0), 0.0);
-    EXPECT_EQ(atan2_reproducible(0.0, -1.0), pi);
-    EXPECT_EQ(atan2_reproducible(-0.0, -1.0), -pi);
-    EXPECT_EQ(atan2_reproducible(1.0, 0.0), pi / 2);
-    EXPECT_EQ(atan2_reproducible(-1.0, 0.0), -pi / 2);
-    EXPECT_EQ(atan2_reproducible(1.0, 1.0), pi / 4);
+    EXPECT_EQ(core::atan2_reproducible(0.0, 0.0), 0.0);
+    EXPECT_EQ(core::atan2_reproducible(0.0, -1.0), core::pi);
+    EXPECT_EQ(core::atan2_reproducible(-0.0, -1.0), -core::pi);
+    EXPECT_EQ(core::atan2_reproducible(1.0, 0.0), core::pi / 2);
+    EXPECT_EQ(core::atan2_reproducible(-1.0, 0.0), -core::pi / 2);
+    EXPECT_EQ(core::atan2_reproducible(1.0, 1.0), core::pi / 4);
 }
 
 TEST(ReproducibleMath, FirstQuadrantAnglesAgreeWithTheLibrary) {
@@ -58,10 +58,10 @@ TEST(ReproducibleMath, FirstQuadrantAnglesAgreeWithTheLibrary) {
     for (int i = 0; i < 300000; ++i) {
         double x = coordinate(random), y = coordinate(random);
         if (i % 3 == 0) x *= std::pow(10.0, exponent(random));
-        ASSERT_NEAR(first_quadrant_angle(y, x), std::atan2(y, x), 2e-15) << y << ' ' << x;
+        ASSERT_NEAR(core::first_quadrant_angle(y, x), std::atan2(y, x), 2e-15) << y << ' ' << x;
     }
-    EXPECT_NEAR(first_quadrant_angle(0, 1), 0, 2e-15);
-    EXPECT_NEAR(first_quadrant_angle(1, 0), pi / 2, 2e-15);
+    EXPECT_NEAR(core::first_quadrant_angle(0, 1), 0, 2e-15);
+    EXPECT_NEAR(core::first_quadrant_angle(1, 0), core::pi / 2, 2e-15);
 }
 
 TEST(ReproducibleMath, PowersAgreeWithTheLibrary) {
@@ -71,16 +71,16 @@ TEST(ReproducibleMath, PowersAgreeWithTheLibrary) {
         for (int i = 0; i < 50000; ++i) {
             const double base = std::pow(10.0, magnitude(random)), power = largest * exponent(random);
             const double expected = static_cast<double>(std::pow(static_cast<long double>(base), power));
-            ASSERT_NEAR(pow_reproducible(base, power), expected, (2 + power) * 2.3e-16 * expected)
+            ASSERT_NEAR(core::pow_reproducible(base, power), expected, (2 + power) * 2.3e-16 * expected)
                 << base << ' ' << power;
         }
     }
     for (double base : {0.3, 1.0, 2.0, 17.0}) {
-        EXPECT_EQ(pow_reproducible(base, 0), 1);
-        EXPECT_EQ(pow_reproducible(base, 1), base);
-        EXPECT_EQ(pow_reproducible(base, 2), base * base);
-        EXPECT_EQ(pow_reproducible(base, 0.5), std::sqrt(base));
-        EXPECT_EQ(pow_reproducible(base, 1.5), std::sqrt(base) * base);
+        EXPECT_EQ(core::pow_reproducible(base, 0), 1);
+        EXPECT_EQ(core::pow_reproducible(base, 1), base);
+        EXPECT_EQ(core::pow_reproducible(base, 2), base * base);
+        EXPECT_EQ(core::pow_reproducible(base, 0.5), std::sqrt(base));
+        EXPECT_EQ(core::pow_reproducible(base, 1.5), std::sqrt(base) * base);
     }
 }
 

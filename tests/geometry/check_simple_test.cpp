@@ -10,15 +10,15 @@
 namespace lamina {
 namespace {
 
-bool accepted(const Pslg& pslg) {
+bool accepted(const Geometry& geometry) {
     try {
-        check_simple(pslg);
+        check_simple(geometry);
         return true;
     } catch (const InputError&) {
         return false;
     }
 }
-bool accepted(const shapes::Outline& outline) { return accepted(shapes::pslg({outline})); }
+bool accepted(const shapes::Outline& outline) { return accepted(shapes::geometry({outline})); }
 
 int sign(double v) { return (v > 0) - (v < 0); }
 
@@ -101,18 +101,18 @@ TEST(CheckSimple, IsExact) {
 
 TEST(CheckSimple, SeveralBodies) {
     const shapes::Outline a = shapes::box(), b = shapes::moved(shapes::box(), 0, 1, {1.5, 0});
-    EXPECT_TRUE(accepted(shapes::pslg({a, b})));
-    EXPECT_FALSE(accepted(shapes::pslg({a, a})));
-    EXPECT_FALSE(accepted(shapes::pslg({a, shapes::moved(a, 0, 1, {1, 0})}))) << "a common edge";
-    EXPECT_FALSE(accepted(shapes::pslg({a, shapes::moved(a, 0, 1, {1, 1})}))) << "a common corner";
-    EXPECT_FALSE(accepted(shapes::pslg({a, shapes::moved(a, 0, 0.5, {0.25, 0.25})}))) << "inside";
-    EXPECT_FALSE(accepted(shapes::pslg({a, shapes::moved(a, 0, 1, {0.5, 0.5})}))) << "crossing";
+    EXPECT_TRUE(accepted(shapes::geometry({a, b})));
+    EXPECT_FALSE(accepted(shapes::geometry({a, a})));
+    EXPECT_FALSE(accepted(shapes::geometry({a, shapes::moved(a, 0, 1, {1, 0})}))) << "a common edge";
+    EXPECT_FALSE(accepted(shapes::geometry({a, shapes::moved(a, 0, 1, {1, 1})}))) << "a common corner";
+    EXPECT_FALSE(accepted(shapes::geometry({a, shapes::moved(a, 0, 0.5, {0.25, 0.25})}))) << "inside";
+    EXPECT_FALSE(accepted(shapes::geometry({a, shapes::moved(a, 0, 1, {0.5, 0.5})}))) << "crossing";
     // In the cove, outside the body.
-    EXPECT_TRUE(accepted(shapes::pslg({shapes::c_shape(0.1), shapes::moved(a, 0, 0.5, {0.7, 0.7})})));
+    EXPECT_TRUE(accepted(shapes::geometry({shapes::c_shape(0.1), shapes::moved(a, 0, 0.5, {0.7, 0.7})})));
 }
 
 TEST(CheckSimple, RefusesWhatIsNoOutline) {
-    EXPECT_TRUE(accepted(Pslg{}));
+    EXPECT_TRUE(accepted(Geometry{}));
     EXPECT_FALSE(accepted(shapes::polygon({})));
     EXPECT_FALSE(accepted(shapes::polygon({{0, 0}, {1, 0}})));
     EXPECT_FALSE(accepted(shapes::polygon({{0, 0}, {1, 0}, {1, 0}, {0, 1}})));

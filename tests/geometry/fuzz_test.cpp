@@ -1,7 +1,8 @@
-// Damaged files: whatever the bytes, the reader ends with a Pslg that passes check_simple() or with an Error.
+// Damaged files: whatever the bytes, the reader ends with a Geometry that passes check_simple() or with an Error.
 #include <gtest/gtest.h>
 
 #include <lamina/geometry.hpp>
+#include <lamina/surface.hpp>
 #include <random>
 
 #include "geometry/parse_airfoil.hpp"
@@ -85,11 +86,11 @@ TEST(Fuzz, DamagedFilesGiveAPslgOrAnError) {
     for (std::size_t i = 0; i < cases; ++i) {
         const std::string content = mutate(seeds[i % seeds.size()]);
         try {
-            const Pslg pslg{parse_airfoil(content, "fuzz.dat")};
-            ASSERT_FALSE(pslg.elements.empty());
-            ASSERT_NO_THROW(check_simple(pslg)) << content;
-            ASSERT_FALSE(describe(pslg).empty());
-            for (const Element& e : pslg.elements) {
+            const Geometry geometry = geometry::finish(geometry::parse_airfoil(content, "fuzz.dat"), {});
+            ASSERT_FALSE(geometry.elements.empty());
+            ASSERT_NO_THROW(check_simple(geometry)) << content;
+            ASSERT_FALSE(describe(geometry).empty());
+            for (const Element& e : geometry.elements) {
                 ASSERT_EQ(e.points.size(), e.lines.size());
                 ASSERT_GT(summarize(e).area, 0);
             }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <lamina/geometry.hpp>
+#include <lamina/surface.hpp>
 
 namespace lamina {
 namespace {

@@ -5,6 +5,7 @@
 #include <clocale>
 #include <lamina/error.hpp>
 #include <lamina/geometry.hpp>
+#include <lamina/surface.hpp>
 
 #include "support/geometry_fixtures.hpp"
 #include "support/shapes.hpp"
@@ -18,7 +19,7 @@ using fixtures::read;
 
 bool has_repair(const Element& e, const std::string& part) {
     return std::any_of(e.repairs.begin(), e.repairs.end(),
-                       [&](const Repair& r) { return r.text.find(part) != std::string::npos; });
+                       [&](const std::string& r) { return r.find(part) != std::string::npos; });
 }
 
 std::string as_file(const std::vector<Point>& points) {
@@ -30,9 +31,9 @@ std::string as_file(const std::vector<Point>& points) {
 TEST(Reader, EveryFormatGivesTheSameLoop) {
     for (const std::string& content : fixtures::same_loop) {
         SCOPED_TRACE(content);
-        const Pslg pslg = read(content);
-        ASSERT_EQ(pslg.elements.size(), 1u);
-        const Element& e = pslg.elements[0];
+        const Geometry geometry = read(content);
+        ASSERT_EQ(geometry.elements.size(), 1u);
+        const Element& e = geometry.elements[0];
         EXPECT_EQ(e.name, "airfoil");
         EXPECT_EQ(e.points, fixtures::loop);
         ASSERT_EQ(e.lines.size(), e.points.size());
@@ -126,12 +127,12 @@ TEST(Reader, SeveralElementsInOneFile) {
     for (const std::string& content :
          {fixtures::two_999, fixtures::two_blank, fixtures::two_labelled, fixtures::two_lednicer}) {
         SCOPED_TRACE(content);
-        const Pslg pslg = read(content);
-        ASSERT_EQ(pslg.elements.size(), 2u);
-        EXPECT_EQ(pslg.elements[0].points, fixtures::loop);
-        EXPECT_EQ(pslg.elements[1].points.size(), 5u);
-        EXPECT_EQ(pslg.elements[0].name, "sample_1");
-        EXPECT_EQ(pslg.elements[1].name, "sample_2");
+        const Geometry geometry = read(content);
+        ASSERT_EQ(geometry.elements.size(), 2u);
+        EXPECT_EQ(geometry.elements[0].points, fixtures::loop);
+        EXPECT_EQ(geometry.elements[1].points.size(), 5u);
+        EXPECT_EQ(geometry.elements[0].name, "sample_1");
+        EXPECT_EQ(geometry.elements[1].name, "sample_2");
     }
     EXPECT_EQ(read(fixtures::two_labelled).elements[1].title, "Flap");
     EXPECT_EQ(read(fixtures::two_lednicer).elements[1].title, "Flap");
@@ -166,13 +167,13 @@ TEST(Reader, MergesATrailingEdgeClosedButForRounding) {
 }
 
 TEST(Reader, MergesSurfacesThatCrossByRounding) {
-    const Pslg pslg = read(
+    const Geometry geometry = read(
         "ROUNDED\n1.00000 0.0\n0.99681 0.00031\n0.7 0.04\n0.3 0.06\n0 0\n0.3 -0.03\n0.7 -0.01\n0.99679 0.00011\n"
         "1.00001 -0.00000\n");
-    EXPECT_EQ(pslg.elements[0].points.size(), 8u);
-    EXPECT_EQ(pslg.elements[0].points[0], (Point{1, 0}));
-    ASSERT_FALSE(pslg.elements[0].repairs.empty());
-    EXPECT_NE(pslg.elements[0].repairs[0].text.find("the edges on both sides of them cross"), std::string::npos);
+    EXPECT_EQ(geometry.elements[0].points.size(), 8u);
+    EXPECT_EQ(geometry.elements[0].points[0], (Point{1, 0}));
+    ASSERT_FALSE(geometry.elements[0].repairs.empty());
+    EXPECT_NE(geometry.elements[0].repairs[0].find("the edges on both sides of them cross"), std::string::npos);
     // At the nose, as where each surface brings its own.
     const Element nose =
         read("NOSE\n1 0\n0.6 0.05\n0.0005 0.01\n0 0\n0 0.00001\n0.0005 -0.01\n0.6 -0.04\n").elements[0];
@@ -255,10 +256,10 @@ TEST(Names, ComeFromFileStemsOrTheUser) {
     const std::string main = folder.write("main element (v2).dat", fixtures::selig).string();
     const std::string flap = folder.write(std::string(60, 'f') + ".dat", fixtures::second_body).string();
     const std::vector<std::string> inputs{main, flap};
-    const Pslg pslg = read_geometry(inputs);
-    EXPECT_EQ(pslg.elements[0].name, "main_element__v2_");
-    EXPECT_EQ(pslg.elements[1].name, std::string(32, 'f'));
-    EXPECT_EQ(pslg.elements[0].file, main);
+    const Geometry geometry = read_geometry(inputs);
+    EXPECT_EQ(geometry.elements[0].name, "main_element__v2_");
+    EXPECT_EQ(geometry.elements[1].name, std::string(32, 'f'));
+    EXPECT_EQ(geometry.elements[0].file, main);
 
     GeometryOptions options;
     options.names = {"wing", "flap"};

@@ -1,4 +1,4 @@
-// Meshes to files and back, files that are broken, and pictures.
+// Meshes to files and back, and files that are broken.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -191,10 +191,8 @@ TEST(MeshFiles, ThatCannotBeReadOrWritten) {
         EXPECT_THROW(check_writable(folder / name), IoError) << name;
         EXPECT_THROW(write_mesh(mesh, folder / name), IoError) << name;
     }
-    EXPECT_THROW(plot_mesh(mesh, folder / "none/m.png"), IoError);
     EXPECT_THROW(check_writable(folder / "m.msh5"), UsageError);
     EXPECT_THROW(check_writable(folder / "m"), UsageError);
-    EXPECT_THROW(plot_mesh(mesh, folder / "m.gif"), UsageError);
     Mesh named = mesh;
     named.markers[0].name = "main wing";
     EXPECT_THROW(write_mesh(named, folder / "m.su2"), UsageError);
@@ -204,50 +202,6 @@ TEST(MeshFiles, ThatCannotBeReadOrWritten) {
     EXPECT_EQ(folder.names(), before);
     write_mesh(named, folder / "m.vtu");
     EXPECT_EQ(read_mesh(folder / "m.vtu").markers[0].name, "main wing");
-}
-
-/// Width and height from the header of a PNG file.
-std::pair<unsigned, unsigned> png_size(const std::string& png) {
-    const auto number = [&](std::size_t at) {
-        unsigned value = 0;
-        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(png[at + i]);
-        return value;
-    };
-    return {number(16), number(20)};
-}
-
-TEST(Plot, WritesEveryFormatAndColor) {
-    const TemporaryFolder folder;
-    const Mesh mesh = annulus({.quads_in_layer = true});
-    std::set<std::string> pictures;
-    for (const PlotColor color :
-         {PlotColor::none, PlotColor::quality, PlotColor::size, PlotColor::piece, PlotColor::layer}) {
-        plot_mesh(mesh, folder / "m.png", {.color = color, .width_px = 300});
-        pictures.insert(folder.read("m.png"));
-        EXPECT_EQ(png_size(folder.read("m.png")), std::pair(300u, 300u));
-        plot_mesh(box_with_hole(), folder / "plain.png", {.color = color, .width_px = 50});  // without any cell data
-    }
-    EXPECT_EQ(pictures.size(), 5u);
-    plot_mesh(mesh, folder / "m.svg");
-    EXPECT_EQ(folder.read("m.svg").substr(0, 5), "<?xml");
-    plot_mesh(mesh, folder / "m.PDF");
-    EXPECT_EQ(folder.read("m.PDF").substr(0, 5), "%PDF-");
-}
-
-TEST(Plot, KeepsTheAspectOfTheWindow) {
-    const TemporaryFolder folder;
-    const Mesh mesh = annulus();
-    plot_mesh(mesh, folder / "m.png", {.window = {{0, 2, 0, 0.5}}, .width_px = 400});
-    EXPECT_EQ(png_size(folder.read("m.png")), std::pair(400u, 100u));
-    plot_mesh(mesh, folder / "m.png", {.window = {{0, 0.5, 0, 2}}, .width_px = 400});
-    EXPECT_EQ(png_size(folder.read("m.png")), std::pair(100u, 400u));
-    // Far inside one cell, and far away from all.
-    plot_mesh(mesh, folder / "m.png", {.window = {{1.1, 1.1 + 1e-12, 0.1, 0.1 + 1e-12}}, .width_px = 40});
-    plot_mesh(mesh, folder / "m.png", {.window = {{1e6, 1e6 + 1, 0, 1}}, .width_px = 40});
-    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{1, 1, 0, 1}}}), UsageError);
-    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{0, NAN, 0, 1}}}), UsageError);
-    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.width_px = 0}), UsageError);
-    EXPECT_NO_THROW(plot_mesh(Mesh{}, folder / "empty.png", {.width_px = 10}));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <lamina/error.hpp>
 
-#include "io/triangle_files.hpp"
+#include <lamina/triangle_files.hpp>
 #include "support/temporary_folder.hpp"
 
 namespace lamina::test {

@@ -10,7 +10,8 @@
 
 #include "core/parallel.hpp"
 #include "layers/connect.hpp"
-#include "pipeline/layer_region.hpp"
+#include "layers/fill.hpp"
+#include "support/layers.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina {
@@ -93,7 +94,7 @@ void expect_cover(const Layer& layer, const LayerEdges& edges, const LayerCells&
     EXPECT_NEAR(area, enclosed, 1e-13 * magnitude);
     // V - E + F is that of the region, whatever fills it.
     const std::size_t undirected = (directed.size() + boundary.size()) / 2;
-    const LayerCells delaunay = fill_layer(layer, edges, LayerTopology::delaunay).cells;
+    const LayerCells delaunay = fill_layer(layer, LayerTopology::delaunay);
     const std::size_t delaunay_edges = (3 * delaunay.triangles.size() + boundary.size()) / 2;
     EXPECT_EQ(count + delaunay_edges, delaunay.triangles.size() + undirected);
 }
@@ -120,13 +121,13 @@ std::size_t divided_tops(const Layer& layer) {
     return count;
 }
 
-void expect_connected(const Pslg& pslg, const LayerOptions& options) {
-    const Layer layer = make_layer(pslg, options);
-    ASSERT_EQ(validate(layer, options), std::vector<std::string>{});
-    const LayerEdges edges = layer_edges(layer);
+void expect_connected(const Geometry& geometry, const LayerOptions& options) {
+    const Layer layer = test::make_layer(geometry, options);
+    ASSERT_EQ(check_layer(layer, options), std::vector<std::string>{});
+    const LayerEdges edges = layer.edges;
     for (LayerTopology topology : topologies) {
         SCOPED_TRACE(static_cast<int>(topology));
-        const LayerCells cells = fill_layer(layer, edges, topology).cells;
+        const LayerCells cells = fill_layer(layer, topology);
         expect_cover(layer, edges, cells);
         if (topology != LayerTopology::delaunay) expect_rows(layer, cells);
         if (topology != LayerTopology::quads) {
@@ -135,7 +136,7 @@ void expect_connected(const Pslg& pslg, const LayerOptions& options) {
     }
 }
 void expect_connected(const Outline& outline, const LayerOptions& options) {
-    expect_connected(shapes::pslg({outline}), options);
+    expect_connected(shapes::geometry({outline}), options);
 }
 
 TEST(Connect, CoversTheLayerOfAnySection) {
@@ -159,7 +160,7 @@ TEST(Connect, CoversTruncatedLayers) {
         options.first_height = std::pow(10, -5 + 0.04 * static_cast<double>(random() % 100));
         options.growth = 1.05 + 0.005 * static_cast<double>(random() % 100);
         options.layers = 1 + random() % 40;
-        options.thickness = std::max(options.first_height, 0.5);
+        options.thickness = std::max(test::first_height(options), 0.5);
         options.max_ray_angle_deg = static_cast<double>(2 + random() % 20);
         expect_connected(outline, options);
         if (HasFailure()) break;
@@ -170,34 +171,35 @@ TEST(Connect, CoversTheLayersOfSeveralBodies) {
     const Outline main = shapes::section(0.12, 0, 40);
     for (double gap : {0.1, 0.01, 1e-4}) {
         const Outline flap = shapes::moved(shapes::section(0.12, 0.01, 30), -0.5, 0.3, {1 + gap, -0.01});
-        expect_connected(shapes::pslg({main, flap}), thin());
+        expect_connected(shapes::geometry({main, flap}), thin());
     }
 }
 
 TEST(Connect, NothingWithoutLayers) {
     LayerOptions options = thin();
     options.enabled = false;
-    const Layer layer = make_layer(shapes::pslg({shapes::box()}), options);
+    const Layer layer = test::make_layer(shapes::geometry({shapes::box()}), options);
     for (LayerTopology topology : topologies) {
-        const LayerCells cells = fill_layer(layer, layer_edges(layer), topology).cells;
+        const LayerCells cells = fill_layer(layer, topology);
         EXPECT_TRUE(cells.triangles.empty() && cells.quads.empty());
     }
 }
 
 TEST(Connect, QuadsFillTheGridWhereTheBorderIsNotDivided) {
-    const Layer layer = make_layer(shapes::pslg({shapes::circle(0.5, 100)}), thin());
+    const Layer layer = test::make_layer(shapes::geometry({shapes::circle(0.5, 100)}), thin());
     ASSERT_EQ(divided_tops(layer), 0u);
     const std::size_t columns = layer.rays[0].size();
-    const LayerCells quads = connect_layer(layer, GridCells::whole), split = connect_layer(layer, GridCells::split);
+    const LayerCells quads = layers::connect_layer(layer, layers::GridCells::whole),
+                     split = layers::connect_layer(layer, layers::GridCells::split);
     EXPECT_EQ(quads.quads.size(), 30 * columns);
     EXPECT_TRUE(quads.triangles.empty());
     EXPECT_EQ(split.triangles.size(), 60 * columns);
 
-    const Layer fans = make_layer(shapes::pslg({shapes::section(0.12, 0, 80)}), thin());
+    const Layer fans = test::make_layer(shapes::geometry({shapes::section(0.12, 0, 80)}), thin());
     std::size_t in_fans = 0;
     for (std::size_t i = 0; i + 1 < fans.rays[0].size(); ++i)
         in_fans += fans.rays[0][i].origin == fans.rays[0][i + 1].origin;
-    const LayerCells cells = connect_layer(fans, GridCells::whole);
+    const LayerCells cells = layers::connect_layer(fans, layers::GridCells::whole);
     EXPECT_EQ(static_cast<std::size_t>(std::count(cells.triangle_layer.begin(), cells.triangle_layer.end(), 1)),
               in_fans);
     EXPECT_EQ(cells.quads.size(), 30 * fans.rays[0].size() - in_fans - divided_tops(fans));
@@ -207,10 +209,10 @@ TEST(Connect, GentleCurvatureHasTheRowsOfTheDelaunayTriangulation) {
     LayerOptions options = thin();
     options.layers = 20;
     for (const Outline& outline : {shapes::circle(0.5, 300), shapes::ellipse(1, 0.6, 600)}) {
-        const Layer layer = make_layer(shapes::pslg({outline}), options);
+        const Layer layer = test::make_layer(shapes::geometry({outline}), options);
         ASSERT_EQ(divided_tops(layer), 0u);
-        const LayerCells delaunay = fill_layer(layer, layer_edges(layer), LayerTopology::delaunay).cells;
-        const LayerCells layered = connect_layer(layer, GridCells::split);
+        const LayerCells delaunay = fill_layer(layer, LayerTopology::delaunay);
+        const LayerCells layered = layers::connect_layer(layer, layers::GridCells::split);
         expect_rows(layer, delaunay);
         auto a = delaunay.triangle_layer, b = layered.triangle_layer;
         std::sort(a.begin(), a.end());
@@ -232,8 +234,9 @@ double largest_angle(const Layer& layer, VertexId a, VertexId b, VertexId c) {
 
 TEST(Connect, TheOtherDiagonalIsNoBetter) {
     for (const Outline& outline : {shapes::joukowski(0.1, 0.3, 100), shapes::refined(shapes::c_shape(0.3), 11)}) {
-        const Layer layer = make_layer(shapes::pslg({outline}), thin());
-        const LayerCells split = connect_layer(layer, GridCells::split), whole = connect_layer(layer, GridCells::whole);
+        const Layer layer = test::make_layer(shapes::geometry({outline}), thin());
+        const LayerCells split = layers::connect_layer(layer, layers::GridCells::split),
+                         whole = layers::connect_layer(layer, layers::GridCells::whole);
         std::map<Segment, VertexId> opposite;
         for (const Triangle& t : split.triangles)
             for (int i = 0; i < 3; ++i) opposite[{t.v[i], t.v[(i + 1) % 3]}] = t.v[(i + 2) % 3];
@@ -249,9 +252,9 @@ TEST(Connect, TheOtherDiagonalIsNoBetter) {
 }
 
 TEST(Connect, SymmetricSectionHasMirroredDiagonals) {
-    const Layer layer = make_layer(shapes::pslg({shapes::section(0.12, 0, 70)}), thin());
+    const Layer layer = test::make_layer(shapes::geometry({shapes::section(0.12, 0, 70)}), thin());
     std::vector<Point> centers, mirrored;
-    for (const Triangle& t : connect_layer(layer, GridCells::split).triangles) {
+    for (const Triangle& t : layers::connect_layer(layer, layers::GridCells::split).triangles) {
         Point sum;
         for (VertexId v : t.v) sum = sum + layer.points[v.index()];
         centers.push_back((1.0 / 3) * sum);
@@ -270,13 +273,14 @@ TEST(Connect, SymmetricSectionHasMirroredDiagonals) {
 }
 
 TEST(Connect, DoesNotDependOnThreads) {
-    const Layer layer = make_layer(shapes::pslg({shapes::section(0.12, 0, 900), shapes::circle(0.1, 2000)}), thin());
-    for (GridCells kind : {GridCells::split, GridCells::whole}) {
+    const Layer layer =
+        test::make_layer(shapes::geometry({shapes::section(0.12, 0, 900), shapes::circle(0.1, 2000)}), thin());
+    for (layers::GridCells kind : {layers::GridCells::split, layers::GridCells::whole}) {
         LayerCells one;
-        with_threads(1, [&] { one = connect_layer(layer, kind); });
+        with_threads(1, [&] { one = layers::connect_layer(layer, kind); });
         for (unsigned threads : {2u, 4u}) {
             with_threads(threads, [&] {
-                const LayerCells many = connect_layer(layer, kind);
+                const LayerCells many = layers::connect_layer(layer, kind);
                 EXPECT_EQ(many.triangles, one.triangles);
                 EXPECT_TRUE(std::equal(many.quads.begin(), many.quads.end(), one.quads.begin(), one.quads.end(),
                                        [](const Quad& p, const Quad& q) { return std::equal(p.v, p.v + 4, q.v); }));
@@ -326,10 +330,12 @@ struct Corner {
         border.insert(std::find(border.begin(), border.end(), after) + 1, add(at, after == p ? 1 : 0));
     }
     void expect_sound() const {
-        const LayerEdges edges = layer_edges(layer);
+        Layer closed = layer;
+        closed.edges = layer_edges(closed);
+        const LayerEdges& edges = closed.edges;
         for (LayerTopology topology : {LayerTopology::layered, LayerTopology::quads}) {
-            const LayerCells cells = fill_layer(layer, edges, topology).cells;
-            expect_cover(layer, edges, cells);
+            const LayerCells cells = fill_layer(closed, topology);
+            expect_cover(closed, edges, cells);
             expect_rows(layer, cells);
         }
     }
@@ -377,13 +383,14 @@ TEST(Connect, DividedStepsAreCutWithTheCellBelow) {
     divide(4, 6, 9);
     divide(6, 7, 9);
     layer.borders[0].push_back(VertexId(7));
+    layer.edges = layer_edges(layer);
 
     // From one corner of the step alone, the flattest triangle is the last.
     const double fan = std::max(largest_angle(layer, VertexId(5), VertexId(layer.points.size() - 1), VertexId(7)),
                                 largest_angle(layer, VertexId(5), VertexId(4), VertexId(8)));
     for (LayerTopology topology : {LayerTopology::layered, LayerTopology::quads}) {
-        const LayerCells cells = fill_layer(layer, layer_edges(layer), topology).cells;
-        expect_cover(layer, layer_edges(layer), cells);
+        const LayerCells cells = fill_layer(layer, topology);
+        expect_cover(layer, layer.edges, cells);
         expect_rows(layer, cells);
         double flattest = 0;
         for (const Triangle& t : cells.triangles)

@@ -3,6 +3,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "support/layers.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina {
@@ -11,14 +12,14 @@ namespace {
 LayerOptions ten_layers(double full_height) {
     LayerOptions options;
     options.layers = 10;
-    options.first_height = 1;
-    options.first_height = full_height / layer_height(options, *options.layers);
+    options.first_height = 1.0;
+    options.first_height = full_height / layer_height(test::growth_of(options), *options.layers);
     return options;
 }
 
 std::vector<ElementCoverage> coverage_of(std::initializer_list<shapes::Outline> bodies, const LayerOptions& options) {
-    const Layer layer = make_layer(shapes::pslg(bodies), options);
-    EXPECT_EQ(validate(layer, options), std::vector<std::string>{});
+    const Layer layer = test::make_layer(shapes::geometry(bodies), options);
+    EXPECT_EQ(check_layer(layer, options), std::vector<std::string>{});
     return layer.coverage;
 }
 
@@ -60,7 +61,7 @@ TEST(Coverage, ConcaveCornersAreCovesAsFarAsTheirLayersMeet) {
     const double height = 0.05;
     LayerOptions options = ten_layers(height);
     options.max_ray_angle_deg = 90;  // one ray a vertex
-    const Layer layer = make_layer(shapes::pslg({shapes::refined(shapes::l_shape(), 40)}), options);
+    const Layer layer = test::make_layer(shapes::geometry({shapes::refined(shapes::l_shape(), 40)}), options);
     // Wall vertices stand 1 / 40 apart. A circle 3 heights across that touches one wall reaches the other one within
     // its radius.
     const std::size_t closed = layer.coverage[0].all.rays - layer.coverage[0].open.rays;

@@ -9,6 +9,7 @@
 #include <lamina/layers.hpp>
 
 #include "layers/sound_layer.hpp"
+#include "support/layers.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina {
@@ -57,7 +58,7 @@ TEST(GrowthLaw, FollowsItsFormula) {
             options.first_height = h;
             options.growth = growth;
             const auto expect = [&](std::uint32_t n, Real expected) {
-                EXPECT_NEAR(static_cast<double>(layer_height(options, n) / expected), 1, 1e-12) << n;
+                EXPECT_NEAR(static_cast<double>(layer_height(test::growth_of(options), n) / expected), 1, 1e-12) << n;
             };
             for (std::uint32_t n = 1; n < 60; ++n) {
                 options.growth_law = GrowthLaw::geometric;
@@ -77,20 +78,20 @@ TEST(GrowthLaw, ExponentialMeetsFirstHeightAndThickness) {
             options.growth_law = GrowthLaw::exponential;
             options.first_height = 2e-5;
             options.layers = layers;
-            options.thickness = options.first_height * layers * stretch;
+            options.thickness = test::first_height(options) * layers * stretch;
             const auto height = [&](Real a, std::uint32_t n) {
                 return *options.thickness * std::expm1(a * n / layers) / std::expm1(a);
             };
             Real low = 1e-9L, high = 10000;  // H(1) falls as a grows
             for (int k = 0; k < 200; ++k) {
                 const Real a = (low + high) / 2;
-                (height(a, 1) > options.first_height ? low : high) = a;
+                (height(a, 1) > test::first_height(options) ? low : high) = a;
             }
             for (std::uint32_t n = 1; n <= layers; n += 1 + layers / 20)
-                EXPECT_NEAR(static_cast<double>(layer_height(options, n) / height(low, n)), 1, 1e-8)
+                EXPECT_NEAR(static_cast<double>(layer_height(test::growth_of(options), n) / height(low, n)), 1, 1e-8)
                     << n << " of " << layers;
-            EXPECT_NEAR(layer_height(options, layers) / *options.thickness, 1, 1e-12);
-            EXPECT_EQ(layer_height(options, 1), options.first_height);
+            EXPECT_NEAR(layer_height(test::growth_of(options), layers) / *options.thickness, 1, 1e-12);
+            EXPECT_EQ(layer_height(test::growth_of(options), 1), test::first_height(options));
         }
     }
 }
@@ -99,8 +100,8 @@ TEST(GrowthLaw, AflrAcceleratesUpToItsCap) {
     LayerOptions options = options_of(GrowthLaw::aflr);
     double ratio = 1;
     for (std::uint32_t n = 1; n < 30; ++n) {
-        const double step = layer_height(options, n) - layer_height(options, n - 1);
-        const double above = layer_height(options, n + 1) - layer_height(options, n);
+        const double step = layer_height(test::growth_of(options), n) - layer_height(test::growth_of(options), n - 1);
+        const double above = layer_height(test::growth_of(options), n + 1) - layer_height(test::growth_of(options), n);
         if (n >= 5) ratio *= 1.05;
         EXPECT_NEAR(above / step, std::min(ratio, 1.5), 1e-9) << n;
     }
@@ -121,9 +122,9 @@ TEST(GrowthLaw, PlacesLayersAtTheirHeights) {
                 for (std::uint32_t n = 1; n <= ray.layers; ++n) {
                     const Point p = layer.points[ray.first_point + n - 1];
                     const double step = distance(below, p);
-                    ASSERT_GT(step, 0.999 * options.first_height);
+                    ASSERT_GT(step, 0.999 * test::first_height(options));
                     height += step;
-                    ASSERT_NEAR(height / layer_height(own, n), 1, 1e-9);
+                    ASSERT_NEAR(height / layer_height(test::growth_of(own), n), 1, 1e-9);
                     below = p;
                 }
             }
@@ -236,13 +237,13 @@ TEST(AutomaticLayers, EndAtTheThicknessIfThatIsLess) {
     ASSERT_EQ(free.rays[0].size(), cut.rays[0].size());
     std::uint32_t most = 0;
     for (const Ray& ray : cut.rays[0]) most = std::max(most, ray.layers);
-    EXPECT_LE(layer_height(options, most), 0.01);
-    EXPECT_GT(layer_height(options, most + 1), 0.01);
+    EXPECT_LE(layer_height(test::growth_of(options), most), 0.01);
+    EXPECT_GT(layer_height(test::growth_of(options), most + 1), 0.01);
     for (std::size_t i = 0; i < cut.rays[0].size(); ++i) EXPECT_LE(cut.rays[0][i].layers, free.rays[0][i].layers);
 }
 
 TEST(AutomaticLayers, NeedAGrowthThatGetsThere) {
-    EXPECT_THROW(make_layer(shapes::pslg({shapes::circle(1, 20)}), automatic(1.001)), UsageError);
+    EXPECT_THROW(test::make_layer(shapes::geometry({shapes::circle(1, 20)}), automatic(1.001)), UsageError);
     LayerOptions options = automatic(1.001);
     options.thickness = 1e-3;
     sound_layer(shapes::circle(1, 20), options);
@@ -300,21 +301,21 @@ TEST(FirstHeight, FollowsTheFlatPlate) {
 }
 
 TEST(GrowthLaw, RefusesWhatLacksWhatItNeeds) {
-    const Pslg circle = shapes::pslg({shapes::circle(1, 20)});
+    const Geometry circle = shapes::geometry({shapes::circle(1, 20)});
     const auto refused = [&](GrowthLaw law, auto change) {
         LayerOptions options = options_of(law);
         change(options);
-        EXPECT_THROW(make_layer(circle, options), UsageError);
+        EXPECT_THROW(test::make_layer(circle, options), UsageError);
     };
     for (const GrowthLaw law : every_law) {
         refused(law, [](LayerOptions& o) { o.growth = 1; });
-        refused(law, [](LayerOptions& o) { o.first_height = 0; });
+        refused(law, [](LayerOptions& o) { o.first_height = 0.0; });
         refused(law, [](LayerOptions& o) { o.layers = 0; });
     }
     refused(GrowthLaw::exponential, [](LayerOptions& o) { o.thickness.reset(); });
     refused(GrowthLaw::exponential, [](LayerOptions& o) { o.layers.reset(); });
     refused(GrowthLaw::exponential, [](LayerOptions& o) { o.layers = 1; });
-    refused(GrowthLaw::exponential, [](LayerOptions& o) { o.thickness = *o.layers * o.first_height; });
+    refused(GrowthLaw::exponential, [](LayerOptions& o) { o.thickness = *o.layers * test::first_height(o); });
     refused(GrowthLaw::adaptive, [](LayerOptions& o) { o.layers.reset(); });
 }
 

@@ -1,4 +1,4 @@
-// Properties of the boundary layer on parametric outlines; validate() judges every layer made here.
+// Properties of the boundary layer on parametric outlines; check_layer() judges every layer made here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <lamina/predicates.hpp>
 
 #include "layers/sound_layer.hpp"
+#include "support/layers.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina {
@@ -30,7 +31,7 @@ LayerOptions thin() {
 }
 
 LayerOptions scaled(LayerOptions options, double scale) {
-    options.first_height *= scale;
+    options.first_height = test::first_height(options) * scale;
     if (options.thickness) *options.thickness *= scale;
     return options;
 }
@@ -47,9 +48,9 @@ void expect_heights(const Layer& layer, const LayerOptions& options) {
             for (std::uint32_t n = 0; n < ray.layers; ++n) {
                 const Point p = layer.points[ray.first_point + n];
                 const double step = distance(below, p);
-                const double rounding = 1e-15 * scale / options.first_height;
+                const double rounding = 1e-15 * scale / test::first_height(options);
                 if (n == 0) {
-                    ASSERT_NEAR(step / options.first_height, 1, 1e-9 + rounding);
+                    ASSERT_NEAR(step / test::first_height(options), 1, 1e-9 + rounding);
                 } else {
                     ASSERT_NEAR(step / step_below, options.growth * ray.stretch, 1e-9 + 4 * rounding);
                 }
@@ -69,14 +70,14 @@ std::size_t full_rays(const Layer& layer) {
 
 TEST(LayerHeight, IsTheGeometricSum) {
     LayerOptions options = thin();
-    EXPECT_EQ(layer_height(options, 0), 0);
-    EXPECT_EQ(layer_height(options, 1), options.first_height);
+    EXPECT_EQ(layer_height(test::growth_of(options), 0), 0);
+    EXPECT_EQ(layer_height(test::growth_of(options), 1), test::first_height(options));
     for (std::uint32_t n = 1; n < 60; ++n) {
-        const double lower = layer_height(options, n) - layer_height(options, n - 1);
-        const double upper = layer_height(options, n + 1) - layer_height(options, n);
+        const double lower = layer_height(test::growth_of(options), n) - layer_height(test::growth_of(options), n - 1);
+        const double upper = layer_height(test::growth_of(options), n + 1) - layer_height(test::growth_of(options), n);
         EXPECT_NEAR(upper / lower, options.growth, 1e-11);
-        const double closed = options.first_height * (std::pow(options.growth, n) - 1) / (options.growth - 1);
-        EXPECT_NEAR(layer_height(options, n) / closed, 1, 1e-12);
+        const double closed = test::first_height(options) * (std::pow(options.growth, n) - 1) / (options.growth - 1);
+        EXPECT_NEAR(layer_height(test::growth_of(options), n) / closed, 1, 1e-12);
     }
 }
 
@@ -136,7 +137,7 @@ TEST(Layer, AngleBetweenRaysKeepsItsLimitForAnyLimit) {
             LayerOptions options = thin();
             options.max_ray_angle_deg = limit;
             options.corners = corners;
-            sound_layer(shapes::section(0.12, 0, 30), options);  // validate() looks at the angles
+            sound_layer(shapes::section(0.12, 0, 30), options);  // check_layer() looks at the angles
             sound_layer(shapes::l_shape(), options);
         }
     }
@@ -144,10 +145,10 @@ TEST(Layer, AngleBetweenRaysKeepsItsLimitForAnyLimit) {
 
 TEST(Layer, ThicknessCutsTheStack) {
     LayerOptions options = thin();
-    options.thickness = layer_height(options, 12);
+    options.thickness = layer_height(test::growth_of(options), 12);
     Layer layer = sound_layer(shapes::circle(1, 50), options);
     for (const Ray& ray : layer.rays[0]) EXPECT_EQ(ray.layers, 12u);
-    options.thickness = 0.999 * layer_height(options, 12);
+    options.thickness = 0.999 * layer_height(test::growth_of(options), 12);
     layer = sound_layer(shapes::circle(1, 50), options);
     for (const Ray& ray : layer.rays[0]) EXPECT_EQ(ray.layers, 11u);
     EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
@@ -263,12 +264,13 @@ TEST(Layer, RandomStarsStaySound) {
         options.first_height = std::pow(10, -5 + 4 * static_cast<double>(random() % 1000) / 1000);
         options.growth = 1.05 + 0.5 * static_cast<double>(random() % 1000) / 1000;
         options.layers = 1 + random() % 40;
-        options.thickness = std::max(options.first_height, 0.5);
+        options.thickness = std::max(test::first_height(options), 0.5);
         options.max_ray_angle_deg = 2 + random() % 20;
         options.corners = random() % 2 == 0 ? Corners::fan : Corners::refine;
-        options.border_ratio = random() % 2 == 0 ? 1.5 : 2;
+        BorderOptions border;
+        border.max_ratio = random() % 2 == 0 ? 1.5 : 2;
         SCOPED_TRACE(k);
-        sound_layer(outline, options);
+        sound_layer(outline, options, border);
         if (HasFailure()) break;
     }
 }
@@ -279,13 +281,13 @@ TEST(Layer, SeveralBodiesKeepApart) {
     for (double gap : {1.0, 0.1, 0.01, 1e-4}) {
         const Outline main = shapes::section(0.12, 0, 40);
         const Outline flap = shapes::moved(shapes::section(0.12, 0.01, 30), -0.5, 0.3, {1 + gap, -0.01});
-        const Layer layer = sound_layer(shapes::pslg({main, flap}), options);
+        const Layer layer = sound_layer(shapes::geometry({main, flap}), options);
         ASSERT_EQ(layer.borders.size(), 2u);
         EXPECT_GT(full_rays(layer), 20u);
     }
     // A body between two rays of another, smaller than their distance.
     const Outline speck = shapes::moved(shapes::circle(0.002, 8), 0, 1, {0.43, 1.05});
-    sound_layer(shapes::pslg({shapes::box(), speck}), options);
+    sound_layer(shapes::geometry({shapes::box(), speck}), options);
 }
 
 TEST(Layer, WithoutLayersTheBorderIsTheWall) {
@@ -305,21 +307,21 @@ TEST(Layer, WithoutLayersTheBorderIsTheWall) {
 TEST(Layer, SourcesDivideTheBorder) {
     const Outline outline = shapes::section(0.12, 0.01, 40);
     const std::size_t whole = sound_layer(outline, thin()).borders[0].size();
-    LayerOptions options = thin();
+    BorderOptions options;
     const std::vector<SizeSource> sources{
         {.a = {0.3, 0}, .b = {0.4, 0.3}, .size = 1e-3, .shape = SizeSource::Shape::box},
         {.a = {0.7, -0.1}, .b = {0.7, -0.1}, .size = 2e-3, .radius = 0.07},
         {.a = {1, 0}, .b = {2, 0.1}, .size = 5e-4}};
     for (std::size_t n = 0; n <= sources.size(); ++n) {
-        options.border_sources.assign(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(n));
-        const Layer layer = sound_layer(outline, options);
+        options.sources.assign(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(n));
+        const Layer layer = sound_layer(outline, thin(), options);
         const auto& border = layer.borders[0];
         EXPECT_GE(border.size(), whole + 30 * n);
         for (std::size_t k = 0; k < border.size(); ++k) {
             const Point a = layer.points[border[k].index()], b = layer.points[border[(k + 1) % border.size()].index()];
-            for (const SizeSource& source : options.border_sources) {
+            for (const SizeSource& source : options.sources) {
                 const double away = distance_to(source, midpoint(a, b));
-                EXPECT_LE(distance(a, b), (source.size + options.border_gradation * away) * 1.1);
+                EXPECT_LE(distance(a, b), (source.size + options.gradation * away) * 1.1);
             }
         }
     }
@@ -327,10 +329,10 @@ TEST(Layer, SourcesDivideTheBorder) {
 
 TEST(Layer, BorderIsGradedBesideAFineFan) {
     // Fan edges of a tenth of the box's side: along the side the pieces grow at the gradation asked for.
-    LayerOptions options = thin();
+    BorderOptions options;
     for (double gradation : {0.05, 0.1, 0.2}) {
-        options.border_gradation = gradation;
-        const Layer layer = sound_layer(shapes::box(), options);
+        options.gradation = gradation;
+        const Layer layer = sound_layer(shapes::box(), thin(), options);
         const auto& border = layer.borders[0];
         double shortest = HUGE_VAL, longest = 0;
         for (std::size_t k = 0; k < border.size(); ++k) {
@@ -345,13 +347,13 @@ TEST(Layer, BorderIsGradedBesideAFineFan) {
 }
 
 TEST(Layer, RefusesOptionsThatMakeNoSense) {
-    const Pslg circle = shapes::pslg({shapes::circle(1, 20)});
+    const Geometry circle = shapes::geometry({shapes::circle(1, 20)});
     const auto refused = [&](auto change) {
         LayerOptions options = thin();
         change(options);
-        EXPECT_THROW(make_layer(circle, options), UsageError);
+        EXPECT_THROW(test::make_layer(circle, options), UsageError);
     };
-    refused([](LayerOptions& o) { o.first_height = 0; });
+    refused([](LayerOptions& o) { o.first_height = 0.0; });
     refused([](LayerOptions& o) { o.first_height = -1e-5; });
     refused([](LayerOptions& o) { o.first_height = NAN; });
     refused([](LayerOptions& o) { o.first_height = 1e-18; });
@@ -363,8 +365,9 @@ TEST(Layer, RefusesOptionsThatMakeNoSense) {
     refused([](LayerOptions& o) { o.max_ray_angle_deg = 0; });
     refused([](LayerOptions& o) { o.max_ray_angle_deg = 180; });
     refused([](LayerOptions& o) { o.thickness = 1e-6; });
-    refused([](LayerOptions& o) { o.border_ratio = 1; });
-    refused([](LayerOptions& o) { o.border_gradation = 0; });
+    EXPECT_THROW(test::make_layer(circle, thin(), {.max_ratio = 1}), OptionError);
+    EXPECT_THROW(test::make_layer(circle, thin(), {.gradation = 0}), OptionError);
+    EXPECT_THROW(test::make_layer(circle, thin(), {.max_edge = NAN}), OptionError);
 }
 
 TEST(Validate, SeesWhatIsWrong) {
@@ -373,7 +376,7 @@ TEST(Validate, SeesWhatIsWrong) {
     const auto expect_finding = [&](auto spoil) {
         Layer layer = sound;
         spoil(layer);
-        EXPECT_FALSE(validate(layer, options).empty());
+        EXPECT_FALSE(check_layer(layer, options).empty());
     };
     const std::size_t ray_point = sound.rays[0][3].first_point + 4;
     expect_finding([&](Layer& l) { l.points[ray_point] = {2, 0}; });
@@ -397,16 +400,16 @@ TEST(Layer, RealSections) {
     for (const char* name : {"rae2822", "e387", "s1223", "naca63a210", "n0012", "goe417a"}) {
         SCOPED_TRACE(name);
         const std::vector<std::string> inputs{(folder / (std::string(name) + ".dat")).string()};
-        const Pslg pslg = read_geometry(inputs);
+        const Geometry geometry = read_geometry(inputs);
         LayerOptions options = thin();
-        const Layer layer = sound_layer(pslg, options);
+        const Layer layer = sound_layer(geometry, options);
         expect_heights(layer, options);
         // The file of naca63a210 holds a step of 0.3 % chord at mid-chord; the others are smooth.
         if (std::string(name) != "naca63a210") {
             EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
         }
         options.layers = 60;
-        sound_layer(pslg, options);
+        sound_layer(geometry, options);
     }
 }
 

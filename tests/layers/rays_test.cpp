@@ -8,6 +8,7 @@
 
 #include "core/reproducible_math.hpp"
 #include "layers/rays.hpp"
+#include "support/layers.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina {
@@ -17,13 +18,14 @@ using shapes::Outline;
 
 LayerOptions layers_as_high_as(double height) {
     LayerOptions options;
-    options.first_height = height / layer_height(options, *options.layers) * options.first_height;
+    options.first_height =
+        height / layer_height(test::growth_of(options), *options.layers) * test::first_height(options);
     return options;
 }
 
 double made_share(const Outline& outline, const LayerOptions& options) {
-    const Layer layer = make_layer(shapes::pslg({outline}), options);
-    EXPECT_EQ(validate(layer, options), std::vector<std::string>{});
+    const Layer layer = test::make_layer(shapes::geometry({outline}), options);
+    EXPECT_EQ(check_layer(layer, options), std::vector<std::string>{});
     const LayerCoverage& all = layer.coverage[0].all;
     return double(all.made_cells) / double(all.requested_cells);
 }
@@ -36,10 +38,14 @@ Outline noisy(Outline outline, double noise) {
     return outline;
 }
 
+std::vector<RayLine> rays_of(const Outline& outline, const LayerOptions& options) {
+    return layers::make_rays(outline, options, test::growth_of(options));
+}
+
 TEST(Rays, AreBisectorsWhereTheWallIsConvexOrTurnsGently) {
     const LayerOptions options = layers_as_high_as(0.02);
     for (const Outline& outline : {shapes::circle(1, 80), shapes::joukowski(0.08, 0.3, 300)}) {
-        const std::vector<RayLine> rays = make_rays(outline, options);
+        const std::vector<RayLine> rays = rays_of(outline, options);
         for (std::size_t i = 0; i < outline.size(); ++i) {
             const std::size_t n = outline.size();
             const Point before = unit(outline[i] - outline[(i + n - 1) % n]),
@@ -69,19 +75,19 @@ TEST(Rays, LeanAcrossNoise) {
 }
 
 TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
-    const double farthest = std::cos(radians(66));
+    const double farthest = std::cos(core::radians(66));
     for (const Outline& outline :
          {noisy(shapes::circle(1, 300), 6e-3), shapes::refined(shapes::c_shape(0.05), 20), shapes::comb(4, 0.1),
           shapes::refined(shapes::v_notch(0.4), 20), noisy(shapes::joukowski(0.1, 0.4, 200), 1e-3)}) {
         for (double height : {1e-3, 0.05, 1.0}) {
             LayerOptions options = layers_as_high_as(height);
             options.max_ray_angle_deg = 4;
-            const std::vector<RayLine> rays = make_rays(outline, options);
+            const std::vector<RayLine> rays = rays_of(outline, options);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const RayLine &ray = rays[i], &next = rays[(i + 1) % rays.size()];
-                EXPECT_LE(std::abs(atan2_reproducible(cross(ray.direction, next.direction),
-                                                      dot(ray.direction, next.direction))),
-                          radians(4 + 1e-6));
+                EXPECT_LE(std::abs(core::atan2_reproducible(cross(ray.direction, next.direction),
+                                                            dot(ray.direction, next.direction))),
+                          core::radians(4 + 1e-6));
                 if (ray.origin == next.origin) continue;
                 const Point normal = -perpendicular(unit(next.origin - ray.origin));
                 EXPECT_GT(std::min(dot(normal, ray.direction), dot(normal, next.direction)), 0.2);
@@ -107,8 +113,8 @@ TEST(Rays, AreAddedWhereLayersChangeInNumberFasterThanTheWallHasVertices) {
     const Outline plate = shapes::polygon({{0, -1}, {4, -1}, {4, 0}, {3, 0}, {2, 0}, {1, 0}, {0, 0}});
     const Outline small = shapes::moved(shapes::circle(0.05, 40), 0, 1, {2, 0.06});
     LayerOptions options = layers_as_high_as(0.1);
-    const Layer layer = make_layer(shapes::pslg({plate, small}), options);
-    EXPECT_EQ(validate(layer, options), std::vector<std::string>{});
+    const Layer layer = test::make_layer(shapes::geometry({plate, small}), options);
+    EXPECT_EQ(check_layer(layer, options), std::vector<std::string>{});
     const LayerCoverage& all = layer.coverage[0].all;
     EXPECT_GT(double(all.made_cells), 0.75 * double(all.requested_cells));
     double near = HUGE_VAL, far = 0;  // nearest ray with full layers on either side of the small body, farthest without
@@ -140,22 +146,22 @@ TEST(Rays, StandWhereTheBorderOfAResampledElementWantsToBeDivided) {
     const Outline fine = shapes::moved(shapes::circle(0.05, 200), 0, 1, {2, 0.3});
     LayerOptions options = layers_as_high_as(0.05);
     for (const bool mirror : {false, true}) {
-        Pslg pslg =
-            mirror ? shapes::pslg({shapes::mirrored(wall), shapes::mirrored(fine)}) : shapes::pslg({wall, fine});
-        options.ray_gradation = {};
-        const Layer divided = make_layer(pslg, options);
-        options.ray_gradation = options.border_gradation;
-        const Layer kept = make_layer(pslg, options);
+        Geometry geometry = mirror ? shapes::geometry({shapes::mirrored(wall), shapes::mirrored(fine)})
+                                   : shapes::geometry({wall, fine});
+        BorderOptions border;
+        const Layer divided = test::make_layer(geometry, options, border);
+        border.ray_gradation = border.gradation;
+        const Layer kept = test::make_layer(geometry, options, border);
         EXPECT_EQ(kept.points, divided.points);  // nobody resampled it
 
-        for (Element& element : pslg.elements) element.resampled = true;
-        const Layer layer = make_layer(pslg, options);
-        EXPECT_EQ(validate(layer, options), std::vector<std::string>{});
+        for (Element& element : geometry.elements) element.resampled = true;
+        const Layer layer = test::make_layer(geometry, options, border);
+        EXPECT_EQ(check_layer(layer, options, border), std::vector<std::string>{});
         EXPECT_GT(division_points(divided, 0), 20u);
         EXPECT_LT(division_points(layer, 0), division_points(divided, 0) / 4);
         // As many edges as before, not more and more.
         EXPECT_LT(double(layer.borders[0].size()), 1.15 * double(divided.borders[0].size()));
-        for (const Point p : pslg.elements[0].points)
+        for (const Point p : geometry.elements[0].points)
             EXPECT_TRUE(std::any_of(layer.walls[0].begin(), layer.walls[0].end(),
                                     [&](VertexId v) { return layer.points[v.index()] == p; }));
     }
@@ -165,8 +171,7 @@ TEST(Rays, OfAMirroredOutlineAreMirrored) {
     const LayerOptions options = layers_as_high_as(0.1);
     for (const Outline& outline : {shapes::refined(shapes::c_shape(0.3), 12), noisy(shapes::circle(1, 200), 4e-3),
                                    shapes::refined(shapes::v_notch(0.4), 15)}) {
-        std::vector<RayLine> rays = make_rays(outline, options),
-                             mirrored = make_rays(shapes::mirrored(outline), options);
+        std::vector<RayLine> rays = rays_of(outline, options), mirrored = rays_of(shapes::mirrored(outline), options);
         ASSERT_EQ(rays.size(), mirrored.size());
         for (RayLine& ray : mirrored) ray = {{ray.origin.x, -ray.origin.y}, {ray.direction.x, -ray.direction.y}};
         for (const RayLine& ray : rays) {

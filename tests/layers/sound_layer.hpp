@@ -1,4 +1,4 @@
-// Layers that validate() has looked at, and sets of points compared.
+// Layers that check_layer() has looked at, and sets of points compared.
 #pragma once
 
 #include <algorithm>
@@ -9,17 +9,19 @@
 
 #include <lamina/layers.hpp>
 
+#include "support/layers.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina {
 
-inline Layer sound_layer(const Pslg& pslg, const LayerOptions& options) {
-    Layer layer = make_layer(pslg, options);
-    for (const std::string& finding : validate(layer, options)) ADD_FAILURE() << finding;
+inline Layer sound_layer(const Geometry& geometry, const LayerOptions& options, const BorderOptions& border = {}) {
+    Layer layer = test::make_layer(geometry, options, border);
+    for (const std::string& finding : check_layer(layer, options, border)) ADD_FAILURE() << finding;
     return layer;
 }
-inline Layer sound_layer(const shapes::Outline& outline, const LayerOptions& options) {
-    return sound_layer(shapes::pslg({outline}), options);
+inline Layer sound_layer(const shapes::Outline& outline, const LayerOptions& options,
+                         const BorderOptions& border = {}) {
+    return sound_layer(shapes::geometry({outline}), options, border);
 }
 
 inline std::vector<Point> sorted_points(std::vector<Point> points, bool mirror) {

@@ -14,9 +14,9 @@
 namespace lamina {
 namespace {
 
-using detail::Adjacency;
-using detail::CellEdges;
-using detail::no_edge;
+using mesh::Adjacency;
+using mesh::CellEdges;
+using mesh::no_edge;
 
 struct Expected {
     std::vector<std::uint32_t> twin, boundary, overused;
@@ -55,7 +55,7 @@ void expect_as_by_map(const Mesh& mesh) {
     const Expected expected = by_map(mesh);
     for (const unsigned threads : {1u, 4u})
         with_threads(threads, [&] {
-            const Adjacency adjacency = detail::find_adjacency(mesh);
+            const Adjacency adjacency = mesh::find_adjacency(mesh);
             EXPECT_TRUE(
                 std::equal(adjacency.twin.begin(), adjacency.twin.end(), expected.twin.begin(), expected.twin.end()));
             EXPECT_EQ(adjacency.boundary, expected.boundary);
@@ -73,7 +73,7 @@ void expect_as_by_map(const Mesh& mesh) {
             }
             sought.push_back({VertexId{0}, VertexId{0}});
             lowest.push_back(no_edge);
-            EXPECT_EQ(detail::find_edges(mesh, sought), lowest);
+            EXPECT_EQ(mesh::find_edges(mesh, sought), lowest);
         });
 }
 

@@ -1,5 +1,5 @@
 // Background meshes: sizes at vertices, linear in triangles.
-#include "pipeline/background.hpp"
+#include "sizing/background.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(Background, PointsAreWithinATenthOfTheInterpolation) {
     for (const std::array<double, 4>& sizes :
          {std::array{0.05, 0.05, 0.05, 0.05}, std::array{0.01, 0.5, 0.1, 1.0}, std::array{3.0, 3.0, 0.02, 4.0}}) {
         const SizedMesh mesh = rectangle({{-1, -2}, {3, 1}}, sizes);
-        const auto sources = background_sources(mesh, gradation, domain);
+        const auto sources = sizing::background_sources(mesh, gradation, domain);
         EXPECT_GT(sources.size(), mesh.points.size());
         EXPECT_LT(sources.size(), 10000u);
         for (const Triangle& t : mesh.triangles)
@@ -59,10 +59,12 @@ TEST(Background, PointsAreWithinATenthOfTheInterpolation) {
 
 TEST(Background, FineEnoughMeshesNeedNoMorePointsAndNoneOutsideTheDomain) {
     const Box domain{{-1, -1}, {1, 1}};
-    EXPECT_EQ(background_sources(rectangle({{0, 0}, {1, 1}}, {1, 1, 1, 1}), 0.1, domain).size(), 4u);
-    EXPECT_EQ(background_sources(rectangle({{2, 2}, {3, 3}}, {1e-9, 1e-9, 1e-9, 1e-9}), 0.1, domain).size(), 4u);
-    EXPECT_THROW(background_sources(rectangle({{0, 0}, {1, 1}}, {1e-9, 1e-9, 1e-9, 1e-9}), 0.1, domain), UsageError);
-    EXPECT_THROW(background_sources(rectangle({{0, 0}, {1, 1}}, {1, 1, 0, 1}), 0.1, domain), UsageError);
+    EXPECT_EQ(sizing::background_sources(rectangle({{0, 0}, {1, 1}}, {1, 1, 1, 1}), 0.1, domain).size(), 4u);
+    EXPECT_EQ(sizing::background_sources(rectangle({{2, 2}, {3, 3}}, {1e-9, 1e-9, 1e-9, 1e-9}), 0.1, domain).size(),
+              4u);
+    EXPECT_THROW(sizing::background_sources(rectangle({{0, 0}, {1, 1}}, {1e-9, 1e-9, 1e-9, 1e-9}), 0.1, domain),
+                 UsageError);
+    EXPECT_THROW(sizing::background_sources(rectangle({{0, 0}, {1, 1}}, {1, 1, 0, 1}), 0.1, domain), UsageError);
 }
 
 double mean_edge(const Mesh& mesh, const Triangle& t) {
@@ -74,7 +76,7 @@ double mean_edge(const Mesh& mesh, const Triangle& t) {
 TEST(Background, AUniformSizeFillsItsAreaAndNoMore) {
     CaseOptions options = quick_options(5);
     const double h = 0.02;
-    options.background = shared(rectangle({{1.5, -0.5}, {2.5, 0.5}}, {h, h, h, h}));
+    options.sizing.background = shared(rectangle({{1.5, -0.5}, {2.5, 0.5}}, {h, h, h, h}));
     const MeshResult result = mesh_of({naca("0012")}, options);
     expect_sound(result, options);
     expect_nothing_left_over(result);
@@ -95,7 +97,7 @@ TEST(Background, ClosesTheLoop) {
     const auto wanted = [](Point p) { return 0.15 + 0.02 * p.x; };
     SizedMesh sizes{first.mesh.points, first.mesh.triangles, {}};
     for (Point p : sizes.points) sizes.sizes.push_back(wanted(p));
-    options.background = shared(sizes);
+    options.sizing.background = shared(sizes);
     const MeshResult second = mesh_of({naca("2412")}, options);
     expect_sound(second, options);
     expect_nothing_left_over(second);
@@ -120,7 +122,7 @@ TEST(Background, DividesTheLayersBorder) {
     CaseOptions options = quick_options(5);
     const double h = 0.003;
     const Box box{{0.3, -0.1}, {0.6, 0.3}};
-    options.background = shared(rectangle(box, {h, h, h, h}));
+    options.sizing.background = shared(rectangle(box, {h, h, h, h}));
     const MeshResult result = mesh_of({naca("2412")}, options);
     expect_sound(result, options);
     expect_nothing_left_over(result);
@@ -136,7 +138,7 @@ TEST(Background, DividesTheLayersBorder) {
 
 TEST(Background, DoesNotDependOnThreads) {
     CaseOptions options = quick_options(5);
-    options.background = shared(rectangle({{-1, -1}, {3, 1}}, {0.1, 0.02, 0.05, 0.2}));
+    options.sizing.background = shared(rectangle({{-1, -1}, {3, 1}}, {0.1, 0.02, 0.05, 0.2}));
     options.threads = 1;
     const MeshResult one = mesh_of({naca("0012")}, options);
     options.threads = 4;

@@ -16,7 +16,7 @@ using shapes::Outline;
 
 CaseOptions options_with(std::uint32_t layers) {
     CaseOptions options = judged_options();
-    options.far_field = 15;
+    options.far_field.size = 15;
     options.layer.layers = layers;
     return options;
 }
@@ -65,7 +65,7 @@ TEST(SeveralBodies, WithoutLayers) {
 
 TEST(SeveralBodies, InSmallPieces) {
     CaseOptions options = options_with(30);
-    options.pieces_target = 1000;
+    options.decoupling.pieces_target = 1000;
     const MeshResult result = mesh_of({naca("0012"), flap(0.02), slat(0.02)}, options);
     expect_sound(result, options);
     EXPECT_EQ(result.refinement.oversized, 0u);
@@ -89,7 +89,7 @@ TEST(Concavities, LayersThatFillThem) {
 
 std::filesystem::path shared_geometry() {
     const char* shared = std::getenv("LAMINA_SHARED");
-    return std::filesystem::path(shared != nullptr ? shared : LAMINA_SOURCE "/../shared") / "geometry";
+    return std::filesystem::path(shared != nullptr ? shared : LAMINA_SOURCE_DIR "/../shared") / "geometry";
 }
 
 TEST(MeasuredSections, TheJudgedOnes) {
@@ -125,12 +125,12 @@ TEST(MeasuredSections, SeveralElementsAreMeshedOrRefusedInWords) {
         for (const std::string& name : names) files.push_back((folder / name).string());
         try {
             CaseOptions options = options_with(30);
-            const Pslg pslg = read_geometry(files);
+            const Geometry geometry = read_geometry(files);
             Box box;
-            for (const Element& element : pslg.elements)
+            for (const Element& element : geometry.elements)
                 for (const Point p : element.points) box.include(p);
             options.layer.first_height = 2.5e-5 * box.width();
-            const MeshResult result = generate_mesh(pslg, options);
+            const MeshResult result = generate_mesh(geometry, options);
             expect_sound(result, options);
             expect_nothing_left_over(result);
             ++meshed;

@@ -23,14 +23,14 @@ inline CaseOptions judged_options() {
     options.layer.growth = 1.15;
     options.layer.layers = 30;
     options.layer.max_ray_angle_deg = 4;
-    options.far_field = 50;
+    options.far_field.size = 50;
     return options;
 }
 
 /// The same with a far field so near that a case takes little time.
 inline CaseOptions quick_options(double far_field = 10) {
     CaseOptions options = judged_options();
-    options.far_field = far_field;
+    options.far_field.size = far_field;
     return options;
 }
 
@@ -40,7 +40,7 @@ inline shapes::Outline naca(const std::string& digits, std::size_t points = 120,
 }
 
 inline MeshResult mesh_of(std::initializer_list<shapes::Outline> bodies, const CaseOptions& options) {
-    return generate_mesh(shapes::pslg(bodies), options);
+    return generate_mesh(shapes::geometry(bodies), options);
 }
 
 /// Lexicographic, for sets of points.
@@ -74,9 +74,9 @@ inline void expect_one_loop(const Marker& marker) {
 /// across the borders of pieces too, and no angle below the bound but at sharp corners of frozen edges.
 inline void expect_sound(const MeshResult& result, const CaseOptions& options) {
     const Mesh& mesh = result.mesh;
-    const MeshCheck check = check_mesh(mesh, {.min_angle_deg = options.min_angle_deg});
+    const MeshCheck check = check_mesh(mesh, {.min_angle_deg = options.refine.min_angle_deg});
     EXPECT_EQ(check.defect_count, 0u) << check.defects.front().what;
-    EXPECT_EQ(check.boundary_loops, result.pslg.elements.size() + 1);
+    EXPECT_EQ(check.boundary_loops, result.geometry.elements.size() + 1);
     EXPECT_EQ(check.delaunay_violations, 0u);
     EXPECT_EQ(check.isotropic.angles_below_bound, check.isotropic.exempt);
     EXPECT_LT(double(check.isotropic.exempt), 0.001 * double(check.isotropic.cells));
@@ -84,10 +84,10 @@ inline void expect_sound(const MeshResult& result, const CaseOptions& options) {
     EXPECT_EQ(check.isotropic.exempt, result.refinement.exempt);
     EXPECT_EQ(check.isotropic.angles_below_bound, result.refinement.below_bound);
 
-    ASSERT_EQ(mesh.markers.size(), result.pslg.elements.size() + 1);
+    ASSERT_EQ(mesh.markers.size(), result.geometry.elements.size() + 1);
     Box box;
-    for (std::size_t e = 0; e < result.pslg.elements.size(); ++e) {
-        const Element& element = result.pslg.elements[e];
+    for (std::size_t e = 0; e < result.geometry.elements.size(); ++e) {
+        const Element& element = result.geometry.elements[e];
         const Marker& marker = mesh.markers[e];
         EXPECT_EQ(marker.name, element.name);
         EXPECT_EQ(marker.kind, MarkerKind::wall);
@@ -102,14 +102,14 @@ inline void expect_sound(const MeshResult& result, const CaseOptions& options) {
     EXPECT_EQ(mesh.markers.back().kind, MarkerKind::far_field);
     expect_one_loop(mesh.markers.back());
 
-    const double side = 2 * options.far_field * box.width();
+    const double side = 2 * options.far_field.size * box.width();
     double area = side * side;
-    if (options.far_field_shape != FarFieldShape::box) {
+    if (options.far_field.shape != FarFieldShape::box) {
         area = 0;
         for (const Segment& edge : mesh.markers.back().edges)
             area += 0.5 * cross(mesh.points[edge.a.index()], mesh.points[edge.b.index()]);
     }
-    for (const Element& element : result.pslg.elements) area -= enclosed_area(element.points);
+    for (const Element& element : result.geometry.elements) area -= enclosed_area(element.points);
     EXPECT_NEAR(check.area, area, 1e-9 * side * side);
 }
 

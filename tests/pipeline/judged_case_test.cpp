@@ -5,6 +5,7 @@
 #include <lamina/predicates.hpp>
 
 #include "pipeline/cases.hpp"
+#include "support/layers.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lamina::test {
@@ -38,7 +39,7 @@ TEST_F(JudgedCase, NoCellIsInvertedOrFlat) {
 TEST_F(JudgedCase, WallPointsComeFirstInTheOrderOfTheInput) {
     std::size_t next = 0;
     for (std::size_t v = 0; v < result().surface_vertices && next < 200; ++v)
-        next += mesh().points[v] == result().pslg.elements[0].points[next];
+        next += mesh().points[v] == result().geometry.elements[0].points[next];
     EXPECT_EQ(next, 200u);
 }
 
@@ -55,14 +56,14 @@ TEST_F(JudgedCase, FarFieldIsTheSquareAskedFor) {
 TEST_F(JudgedCase, HeightsAreTheRequestedOnesOnFullRays) {
     const LayerOptions options = judged_options().layer;
     const std::set<Point, PointLess> vertices(mesh().points.begin(), mesh().points.end());
-    const Layer layer = make_layer(result().pslg, options);
+    const Layer layer = test::make_layer(result().geometry, options);
     EXPECT_EQ(layer.coverage[0].all.incomplete_rays, result().layer_coverage[0].all.incomplete_rays);
     std::size_t full = 0;
     for (const Ray& ray : layer.rays[0]) {
         if (ray.layers < options.layers) continue;
         ++full;
         Point below = layer.points[ray.origin.index()];
-        double expected = options.first_height;
+        double expected = test::first_height(options);
         for (std::size_t n = 0; n < ray.layers; ++n) {
             const Point p = layer.points[ray.first_point + n];
             EXPECT_TRUE(vertices.contains(p));

@@ -67,12 +67,12 @@ TEST(SizeSources, AreHonouredNearWallsAndFarFromThem) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
         SCOPED_TRACE(i);
         CaseOptions options = quick_options();
-        options.size_sources = cases[i];
-        options.pieces_target = i % 2 == 0 ? 50'000 : 3'000;
+        options.sizing.sources = cases[i];
+        options.decoupling.pieces_target = i % 2 == 0 ? 50'000 : 3'000;
         const MeshResult result = mesh_of({naca("2412")}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
-        expect_sizes(result, cases[i], options.gradation);
+        expect_sizes(result, cases[i], options.sizing.field.gradation);
         EXPECT_LT(result.check.isotropic.p999_neighbour_area_ratio, 3);
     }
 }
@@ -81,7 +81,7 @@ TEST(SizeSources, FillTheirAreaAndNoMore) {
     CaseOptions options = quick_options();
     const Box window{{1.5, -0.5}, {2.5, 0.5}};
     const double h = 0.01;
-    options.size_sources = {box(window.lower, window.upper, h)};
+    options.sizing.sources = {box(window.lower, window.upper, h)};
     const MeshResult result = mesh_of({naca("0012")}, options);
     expect_sound(result, options);
     // A lattice at 0.97 h, and refinement at 0.69 of the largest area along its borders (docs/decisions/0002).
@@ -92,11 +92,11 @@ TEST(SizeSources, FillTheirAreaAndNoMore) {
 TEST(SizeSources, WithoutLayersTheWallIsDivided) {
     CaseOptions options = quick_options();
     options.layer.enabled = false;
-    options.size_sources = {circle({0.5, 0}, 0.1, 0.003)};
+    options.sizing.sources = {circle({0.5, 0}, 0.1, 0.003)};
     const MeshResult result = mesh_of({naca("0012")}, options);
     expect_sound(result, options);
     expect_nothing_left_over(result);
-    expect_sizes(result, options.size_sources, options.gradation);
+    expect_sizes(result, options.sizing.sources, options.sizing.field.gradation);
 }
 
 /// Refused in words that hold `said`, and before anything long runs: these would never end.
@@ -116,29 +116,31 @@ TEST(Sizes, TooSmallForAnyMeshAreRefusedByName) {
         set(options);
         return options;
     };
-    expect_refused(with([](CaseOptions& o) { o.far_size = 1e-5; }), "far-size 1e-05");
-    expect_refused(with([](CaseOptions& o) { o.wall_size = 1e-10; }), "wall-size 1e-10");
+    expect_refused(with([](CaseOptions& o) { o.sizing.field.max_size = 1e-5; }), "far_size: 1e-05");
+    expect_refused(with([](CaseOptions& o) { o.sizing.wall_size = 1e-10; }), "wall_size: 1e-10");
     expect_refused(with([](CaseOptions& o) {
-                       o.size_sources = {circle({3, 0}, 1, 1e-6)};
+                       o.sizing.sources = {circle({3, 0}, 1, 1e-6)};
                    }),
-                   "refine with edges of 1e-06");
-    expect_refused(with([](CaseOptions& o) { o.size_sources = {box({-10, -1}, {-9, 1}, 1e-6)}; }), "refine");
+                   "refine: circle:3,0,1,1e-06");
+    expect_refused(with([](CaseOptions& o) { o.sizing.sources = {box({-10, -1}, {-9, 1}, 1e-6)}; }), "refine");
     expect_refused(with([](CaseOptions& o) {
-                       o.size_sources = {{.a = {2, 0}, .b = {30, 0}, .size = 1e-9}};
+                       o.sizing.sources = {{.a = {2, 0}, .b = {30, 0}, .size = 1e-9}};
                    }),
                    "refine");
     expect_refused(with([](CaseOptions& o) {
-                       o.gradation = 1e-6;
-                       o.wake = WakeOptions{.angle_deg = 0, .length = 5, .size = 1e-9};
+                       o.sizing.field.gradation = 1e-6;
+                       o.sizing.wake = WakeOptions{.angle_deg = 0, .length = 5, .size = 1e-9};
                    }),
-                   "wake with edges of 1e-09");
+                   "wake: 0:5:1e-09");
     expect_refused(with([](CaseOptions& o) {
-                       o.gradation = 1e-9;
-                       o.far_field = 500;
+                       o.sizing.field.gradation = 1e-9;
+                       o.far_field.size = 500;
                    }),
-                   "gradation 1e-09");
+                   "gradation: 1e-09");
     // What lies outside the far field asks for nothing.
-    EXPECT_NO_THROW(mesh_of({naca("0012")}, with([](CaseOptions& o) { o.size_sources = {circle({30, 0}, 1, 1e-6)}; })));
+    EXPECT_NO_THROW(mesh_of({naca("0012")}, with([](CaseOptions& o) {
+                                o.sizing.sources = {circle({30, 0}, 1, 1e-6)};
+                            })));
 }
 
 TEST(Wake, MakesSmallTrianglesAlongItsLine) {
@@ -146,16 +148,16 @@ TEST(Wake, MakesSmallTrianglesAlongItsLine) {
         SCOPED_TRACE(angle);
         CaseOptions options = quick_options();
         const Point along{std::cos(angle * M_PI / 180), std::sin(angle * M_PI / 180)};
-        options.wake = WakeOptions{.angle_deg = angle, .length = 3, .size = 0.004};
+        options.sizing.wake = WakeOptions{.angle_deg = angle, .length = 3, .size = 0.004};
         const MeshResult result = mesh_of({naca("0012")}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
         std::vector<SizeSource> line;
         for (int i = 0; i < 300; ++i) {
-            const double at = 0.01 * i, size = 1.05 * (0.004 + 0.1 * options.gradation * (at + 0.01));
+            const double at = 0.01 * i, size = 1.05 * (0.004 + 0.1 * options.sizing.field.gradation * (at + 0.01));
             line.push_back({.a = Point{1, 0} + at * along, .b = Point{1, 0} + (at + 0.01) * along, .size = size});
         }
-        expect_sizes(result, line, options.gradation);
+        expect_sizes(result, line, options.sizing.field.gradation);
     }
 }
 
@@ -163,7 +165,7 @@ TEST(Wake, StartsWithTheSizeOfTheBorderUnlessToldOtherwise) {
     CaseOptions options = quick_options();
     const shapes::Outline blunt = naca("4412", 101, TrailingEdge::blunt);
     const MeshResult without = mesh_of({blunt}, options);
-    options.wake = WakeOptions{.angle_deg = 5};
+    options.sizing.wake = WakeOptions{.angle_deg = 5};
     const MeshResult with = mesh_of({blunt}, options);
     expect_sound(with, options);
     expect_nothing_left_over(with);
@@ -180,7 +182,7 @@ TEST(Wake, EndsAtTheNextBody) {
     const shapes::Outline flap = shapes::moved(naca("0012", 80), -0.5, 0.3, {1.05, -0.03});
     for (const std::optional<double> size : {std::optional<double>{}, std::optional<double>{0.002}}) {
         CaseOptions options = quick_options();
-        options.wake = WakeOptions{.angle_deg = -10, .size = size};
+        options.sizing.wake = WakeOptions{.angle_deg = -10, .size = size};
         const MeshResult result = mesh_of({naca("0012"), flap}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);

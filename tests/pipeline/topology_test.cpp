@@ -12,7 +12,7 @@ constexpr LayerTopology topologies[] = {LayerTopology::delaunay, LayerTopology::
 
 CaseOptions options_with(LayerTopology topology) {
     CaseOptions options = judged_options();
-    options.far_field = 10;
+    options.far_field.size = 10;
     options.layer.topology = topology;
     return options;
 }

@@ -4,6 +4,7 @@
 #include <lamina/error.hpp>
 
 #include "pipeline/cases.hpp"
+#include "support/layers.hpp"
 
 namespace lamina::test {
 namespace {
@@ -18,7 +19,7 @@ std::size_t triangles_of(const Outline& body, const CaseOptions& options) {
 }
 
 CaseOptions scaled(CaseOptions options, double scale) {
-    options.layer.first_height *= scale;
+    options.layer.first_height = test::first_height(options.layer) * scale;
     return options;
 }
 
@@ -76,7 +77,7 @@ TEST(Pieces, AnyTargetGivesASoundMesh) {
     for (double target : {1e9, 50'000.0, 5'000.0, 800.0, 100.0}) {
         SCOPED_TRACE(target);
         CaseOptions options = judged_options();
-        options.pieces_target = target;
+        options.decoupling.pieces_target = target;
         const MeshResult result = mesh_of({body}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
@@ -93,8 +94,8 @@ TEST(Pieces, KRule) {
     for (double target : {1e9, 5'000.0, 1'000.0}) {
         SCOPED_TRACE(target);
         CaseOptions options = judged_options();
-        options.separators = SeparatorRule::k_rule;
-        options.pieces_target = target;
+        options.decoupling.separators = SeparatorRule::k_rule;
+        options.decoupling.pieces_target = target;
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
         // Its segments are shorter than the border's edges that they meet, and refuse a few points.
@@ -107,7 +108,7 @@ TEST(Sizes, FewerTrianglesWithMoreGradation) {
     for (double gradation : {0.02, 0.05, 0.1, 0.2, 0.4}) {
         SCOPED_TRACE(gradation);
         CaseOptions options = quick_options();
-        options.gradation = gradation;
+        options.sizing.field.gradation = gradation;
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
         EXPECT_EQ(result.refinement.oversized, 0u);
@@ -121,7 +122,7 @@ TEST(Sizes, AngleBounds) {
     for (double bound : {15.0, 20.7, 25.0, 28.0, 30.0}) {
         SCOPED_TRACE(bound);
         CaseOptions options = quick_options();
-        options.min_angle_deg = bound;
+        options.refine.min_angle_deg = bound;
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
         EXPECT_EQ(result.refinement.oversized, 0u);
@@ -146,11 +147,12 @@ TEST(Sizes, WallSizeBoundsTheEdgesAtTheBorder) {
     for (double size : {0.002, 0.005, 0.02, 0.1, 10.0}) {
         SCOPED_TRACE(size);
         CaseOptions options = quick_options();
-        options.wall_size = size;
+        options.sizing.wall_size = size;
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
-        EXPECT_LT(longest_edge(result.mesh, {{0, -0.08}, {1, 0.08}}), 1.8 * (size + options.gradation * 0.1));
+        EXPECT_LT(longest_edge(result.mesh, {{0, -0.08}, {1, 0.08}}),
+                  1.8 * (size + options.sizing.field.gradation * 0.1));
         EXPECT_LT(result.check.isotropic.max_neighbour_area_ratio, 4.5);
     }
 }
@@ -159,7 +161,7 @@ TEST(Sizes, FarSizeBoundsAllAreas) {
     for (double size : {0.2, 1.0, 100.0}) {
         SCOPED_TRACE(size);
         CaseOptions options = quick_options();
-        options.far_size = size;
+        options.sizing.field.max_size = size;
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
@@ -176,7 +178,7 @@ TEST(FarField, AnyDistanceWithRoom) {
     for (double chords : {0.7, 1.0, 5.0, 50.0, 500.0}) {
         SCOPED_TRACE(chords);
         CaseOptions options = judged_options();
-        options.far_field = chords;
+        options.far_field.size = chords;
         const MeshResult result = mesh_of({naca("0012")}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
@@ -188,9 +190,9 @@ TEST(FarField, Circle) {
         for (double target : {50'000.0, 1'000.0}) {
             SCOPED_TRACE(chords);
             CaseOptions options = judged_options();
-            options.far_field = chords;
-            options.far_field_shape = FarFieldShape::circle;
-            options.pieces_target = target;
+            options.far_field.size = chords;
+            options.far_field.shape = FarFieldShape::circle;
+            options.decoupling.pieces_target = target;
             const MeshResult result = mesh_of({naca("0012")}, options);
             expect_sound(result, options);
             expect_nothing_left_over(result);
@@ -214,9 +216,9 @@ TEST(FarField, AnyConvexOutline) {
         for (double target : {50'000.0, 1'000.0}) {
             SCOPED_TRACE(outline.size());
             CaseOptions options = judged_options();
-            options.far_field_shape = FarFieldShape::convex;
-            options.far_field_outline = outline;
-            options.pieces_target = target;
+            options.far_field.shape = FarFieldShape::outline;
+            options.far_field.outline = outline;
+            options.decoupling.pieces_target = target;
             const MeshResult result = mesh_of({naca("0012")}, options);
             expect_sound(result, options);
             EXPECT_EQ(result.refinement.oversized, 0u);
@@ -224,17 +226,17 @@ TEST(FarField, AnyConvexOutline) {
             EXPECT_LT(double(result.largest_inviscid_piece), 2 * target);
         }
     CaseOptions options = judged_options();
-    options.far_field_shape = FarFieldShape::convex;
-    options.far_field_outline = {{-5, -5}, {5, -5}, {1, 0.5}, {5, 5}, {-5, 5}};
+    options.far_field.shape = FarFieldShape::outline;
+    options.far_field.outline = {{-5, -5}, {5, -5}, {1, 0.5}, {5, 5}, {-5, 5}};
     EXPECT_THROW(mesh_of({naca("0012")}, options), UsageError);
-    options.far_field_outline = {{5, 5}, {9, 5}, {9, 9}};
+    options.far_field.outline = {{5, 5}, {9, 5}, {9, 9}};
     EXPECT_THROW(mesh_of({naca("0012")}, options), UsageError);
 }
 
 TEST(FarField, WithoutRoomIsRefused) {
     for (double chords : {0.0, -1.0, 0.1, 0.5, 0.55}) {
         CaseOptions options = judged_options();
-        options.far_field = chords;
+        options.far_field.size = chords;
         EXPECT_THROW(mesh_of({naca("0012")}, options), UsageError) << chords;
     }
 }
@@ -269,7 +271,7 @@ TEST(LayerOptionsInThePipeline, ThinThickAndSingle) {
     };
     for (const CaseOptions& options :
          {with(1e-7, 1.2, 20), with(1e-6, 1.2, 60), with(1e-3, 1.1, 1), with(2e-3, 1.2, 20), with(1e-5, 1.01, 100)}) {
-        SCOPED_TRACE(options.layer.first_height);
+        SCOPED_TRACE(test::first_height(options.layer));
         const MeshResult result = mesh_of({naca("0012")}, options);
         expect_sound(result, options);
         EXPECT_EQ(result.refinement.oversized, 0u);

@@ -77,7 +77,7 @@ inline const std::string open_base =
     "BLUNT\n1 0.01\n0.99 0.012\n.75 .04\n.5 .07\n.2 .06\n0 0\n.2 -.04\n.5 -.05\n.75 -.03\n0.99 -.011\n1 -0.01\n";
 
 /// Writes `content` to a file of its own and reads it.
-inline Pslg read(const std::string& content, const std::string& name = "sample.dat") {
+inline Geometry read(const std::string& content, const std::string& name = "sample.dat") {
     const test::TemporaryFolder folder;
     const std::vector<std::string> inputs{folder.write(name, content).string()};
     return read_geometry(inputs);

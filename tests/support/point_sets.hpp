@@ -7,26 +7,11 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/point.hpp>
 
+#include "core/random.hpp"
+
 namespace lamina::test {
 
-/// Deterministic random numbers, the same on every platform (splitmix64).
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits() {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    /// In [0, 1).
-    double real() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-    double real(double low, double high) { return low + (high - low) * real(); }
-    std::size_t below(std::size_t n) { return bits() % n; }
-
-private:
-    std::uint64_t state_;
-};
+using core::Random;
 
 std::vector<Point> random_points(std::size_t n, std::uint64_t seed);
 /// nx by ny unit squares' corners.

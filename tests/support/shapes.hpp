@@ -151,8 +151,8 @@ inline Outline started_at(Outline outline, std::size_t first) {
     return outline;
 }
 
-inline Pslg pslg(std::initializer_list<Outline> outlines) {
-    Pslg result;
+inline Geometry geometry(std::initializer_list<Outline> outlines) {
+    Geometry result;
     for (const Outline& outline : outlines) {
         Element element;
         element.name = "body" + std::to_string(result.elements.size());

@@ -1,0 +1,56 @@
+# What `cmake --install` installs: libraries, headers, the CMake package with its components, and a .pc file.
+include(CMakePackageConfigHelpers)
+
+set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lamina)
+set(lamina_installed core)
+foreach(component sizing delaunay mesh io lamina)
+  string(REPLACE sizing "delaunay;io" parts ${component})
+  foreach(part IN LISTS parts)
+    if(part IN_LIST LAMINA_COMPONENTS)
+      list(APPEND lamina_installed ${component})
+      break()
+    endif()
+  endforeach()
+endforeach()
+foreach(component IN LISTS lamina_installed)
+  install(EXPORT lamina-${component} NAMESPACE lamina:: DESTINATION ${cmake_folder} COMPONENT ${component})
+endforeach()
+
+if(BUILD_SHARED_LIBS)
+  set(lamina_shared ON)
+else()
+  set(lamina_shared OFF)
+endif()
+configure_package_config_file(cmake/laminaConfig.cmake.in laminaConfig.cmake INSTALL_DESTINATION ${cmake_folder})
+write_basic_package_version_file(laminaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/laminaConfig.cmake ${PROJECT_BINARY_DIR}/laminaConfigVersion.cmake
+        cmake/FindCGNS.cmake DESTINATION ${cmake_folder} COMPONENT core)
+install(DIRECTORY include/lamina ${PROJECT_BINARY_DIR}/include/lamina DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        COMPONENT core)
+
+# For builds that know pkg-config alone: the triangulation, and everything.
+function(lamina_pkg_config name description)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "FOLDERS;LIBRARIES")
+  list(TRANSFORM arg_FOLDERS PREPEND -llamina_)
+  list(JOIN arg_FOLDERS " " libs)
+  list(JOIN arg_LIBRARIES " " private)
+  set(pc_name ${name})
+  set(pc_description ${description})
+  configure_file(cmake/lamina.pc.in ${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT core)
+endfunction()
+if(LAMINA_THREADS STREQUAL "tbb")
+  set(thread_library -ltbb)
+endif()
+if(delaunay IN_LIST LAMINA_COMPONENTS)
+  lamina_pkg_config(lamina-delaunay "Exact, parallel Delaunay triangulation and refinement in two dimensions"
+    FOLDERS delaunay sizing core LIBRARIES ${thread_library})
+endif()
+if(lamina IN_LIST LAMINA_COMPONENTS)
+  if(LAMINA_CGNS)
+    set(cgns_library -lcgns)
+  endif()
+  lamina_pkg_config(lamina "${PROJECT_DESCRIPTION}"
+    FOLDERS pipeline plot io mesh decoupling layers surface geometry delaunay sizing core
+    LIBRARIES -lfmt -lz -lcairo ${cgns_library} ${thread_library})
+endif()

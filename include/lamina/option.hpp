@@ -1,0 +1,102 @@
+// Options as data. Each options struct of lamina has a table of its options: names, units, ranges and help stand there
+// once. The command line, case files, the guide and validate() all read these tables.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/export.hpp>
+
+namespace lamina {
+
+/// The value of an option, as a case file or a script writes it.
+using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
+
+/// What an option takes.
+enum class OptionKind {
+    number,         ///< one number
+    count,          ///< one whole number
+    count_or_auto,  ///< one whole number, or the word "auto"
+    flag,           ///< nothing on the command line; true or false in a case file
+    word,           ///< one word
+    words,          ///< several words, separated by commas on the command line
+    repeated,       ///< one word each time the option is given
+    path,           ///< one path
+    paths,          ///< several paths
+};
+
+/// The numbers that an option may take. They are always finite.
+struct LAMINA_EXPORT OptionRange {
+    double lower = -HUGE_VAL;
+    double upper = HUGE_VAL;  ///< included
+    bool with_lower = false;  ///< whether the lower bound is included
+
+    /// Returns false for NaN and infinities.
+    bool contains(double value) const;
+    /// Returns the range in words: "> 0 and <= 90".
+    std::string text() const;
+};
+
+inline constexpr OptionRange positive_numbers{0, HUGE_VAL, false};
+constexpr OptionRange numbers_above(double bound) { return {bound, HUGE_VAL, false}; }
+constexpr OptionRange numbers_above_up_to(double lower, double upper) { return {lower, upper, false}; }
+constexpr OptionRange numbers_from_to(double lower, double upper) { return {lower, upper, true}; }
+
+/// Returns the name of an option as case files and scripts write it: "first_height" for "first-height".
+LAMINA_EXPORT std::string option_key(const std::string& name);
+
+/// One option of an options struct.
+template <class Options>
+struct Option {
+    std::string name;  ///< as on the command line, without hyphens in front: "first-height"
+    OptionKind kind;
+    std::string metavar;  ///< what stands for the value in help: "H"
+    std::string help;     ///< what the option does, with unit
+    std::string range;    ///< the values it takes, in words; empty where the metavar says it
+    /// Sets the option. Throws OptionError for values of the wrong kind or out of range.
+    std::function<void(Options&, const OptionValue&)> set;
+    /// Returns the value; empty where an option without default is not set.
+    std::function<std::optional<OptionValue>(const Options&)> get;
+    std::string group = {};                  ///< heading in help and guide
+    std::vector<std::string> excludes = {};  ///< names of options that may not be given beside this one
+    std::vector<std::string> needs = {};     ///< names of options that must be given beside this one
+    bool library_only = false;               ///< neither on the command line nor in case files
+
+    /// Returns the name as case files and scripts write it: "first_height".
+    std::string key() const { return option_key(name); }
+};
+
+template <class Options>
+using OptionTable = std::vector<Option<Options>>;
+
+/// Throws OptionError unless every option of the table has a value that it could be set to.
+template <class Options>
+void require_in_range(const OptionTable<Options>& table, const Options& options) {
+    for (const Option<Options>& option : table) {
+        const std::optional<OptionValue> value = option.get(options);
+        if (!value) continue;
+        Options copy = options;
+        option.set(copy, *value);
+    }
+}
+
+/// Returns the table of an options struct that holds another one: member(outer) is a reference to the inner struct.
+template <class Outer, class Inner, class Member>
+OptionTable<Outer> lifted(const OptionTable<Inner>& table, Member member) {
+    OptionTable<Outer> result;
+    for (const Option<Inner>& o : table)
+        result.push_back({o.name, o.kind, o.metavar, o.help, o.range,
+                          [set = o.set, member](Outer& outer, const OptionValue& value) { set(member(outer), value); },
+                          [get = o.get, member](const Outer& outer) { return get(member(outer)); }, o.group, o.excludes,
+                          o.needs, o.library_only});
+    return result;
+}
+
+}  // namespace lamina

@@ -1,0 +1,228 @@
+// Builders for the rows of option tables. A builder takes the option's name, what help says of it, and member(options),
+// which returns a reference to what the option sets.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lamina/option.hpp>
+
+namespace lamina {
+
+/// The word that stands for a number that lamina finds itself.
+inline constexpr const char* automatic = "auto";
+
+/// The words for the values of an enumeration.
+template <class Choice>
+using Choices = std::vector<std::pair<std::string, Choice>>;
+
+// Typed access to a value. All throw OptionError for values of another kind.
+LAMINA_EXPORT double number_of(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT std::int64_t count_of(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT bool flag_of(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT std::string word_of(const OptionValue& value, const std::string& option);
+/// A number will do for a word that may be one.
+LAMINA_EXPORT std::string word_or_number_of(const OptionValue& value, const std::string& option);
+/// One word will do for a list of one.
+LAMINA_EXPORT std::vector<std::string> words_of(const OptionValue& value, const std::string& option);
+
+/// Throws OptionError where the range does not contain the value.
+LAMINA_EXPORT void require_in(const OptionRange& range, double value, const std::string& option);
+
+/// Makes the rows of one table, under one heading of the help at a time.
+template <class Options>
+class OptionTableBuilder {
+public:
+    explicit OptionTableBuilder(std::string group) : group_(std::move(group)) {}
+
+    /// A number; member(options) is a double or an optional of one.
+    template <class Member>
+    Option<Options>& number(const std::string& name, std::string metavar, std::string help, OptionRange range,
+                            Member member) {
+        const std::string key = option_key(name);
+        const auto set = [=](Options& o, const OptionValue& value) {
+            const double number = number_of(value, key);
+            require_in(range, number, key);
+            member(o) = number;
+        };
+        const auto get = [=](const Options& o) { return value_of<double>(member(o)); };
+        return add({name, OptionKind::number, std::move(metavar), std::move(help), range.text(), set, get});
+    }
+
+    /// A whole number; member(options) is an integer or an optional of one.
+    template <class Member>
+    Option<Options>& count(const std::string& name, std::string metavar, std::string help, OptionRange range,
+                           Member member) {
+        using Number = decltype(plain(member(std::declval<Options&>())));
+        const std::string key = option_key(name);
+        const auto set = [=](Options& o, const OptionValue& value) {
+            const std::int64_t number = count_of(value, key);
+            require_in(range, static_cast<double>(number), key);
+            member(o) = static_cast<Number>(number);
+        };
+        const auto get = [=](const Options& o) { return value_of<std::int64_t>(member(o)); };
+        return add({name, OptionKind::count, std::move(metavar), std::move(help), range.text(), set, get});
+    }
+
+    /// A whole number, or "auto", for which member(options) is an empty optional.
+    template <class Member>
+    Option<Options>& count_or_auto(const std::string& name, const std::string& metavar, std::string help,
+                                   OptionRange range, Member member) {
+        Option<Options>& option = count(name, metavar + "|auto", std::move(help), range, member);
+        option.kind = OptionKind::count_or_auto;
+        const auto set_count = option.set;
+        const auto get_count = option.get;
+        option.set = [=, key = option.key()](Options& o, const OptionValue& value) {
+            const auto* word = std::get_if<std::string>(&value);
+            if (word && *word != automatic) throw OptionError(key, "must be a whole number or 'auto'");
+            if (word) {
+                member(o).reset();
+            } else {
+                set_count(o, value);
+            }
+        };
+        option.get = [=](const Options& o) { return get_count(o).value_or(automatic); };
+        return option;
+    }
+
+    /// A flag, which sets the member to `meaning` where it is given.
+    template <class Member>
+    Option<Options>& flag(const std::string& name, std::string help, bool meaning, Member member) {
+        const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
+            member(o) = flag_of(value, key) == meaning;
+        };
+        const auto get = [=](const Options& o) { return std::optional<OptionValue>(member(o) == meaning); };
+        return add({name, OptionKind::flag, "", std::move(help), "", set, get});
+    }
+
+    /// One word of several.
+    template <class Choice, class Member>
+    Option<Options>& choice(const std::string& name, std::string help, const Choices<Choice>& choices, Member member) {
+        std::string metavar;
+        for (const auto& entry : choices) metavar += (metavar.empty() ? "" : "|") + entry.first;
+        const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
+            const std::string word = word_of(value, key);
+            const auto found =
+                std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == word; });
+            if (found == choices.end())
+                throw OptionError(key, "'" + word + "' is not known; known: " + joined(choices));
+            member(o) = found->second;
+        };
+        const auto get = [=](const Options& o) -> std::optional<OptionValue> {
+            const auto named =
+                std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.second == member(o); });
+            if (named == choices.end()) return std::nullopt;
+            return named->first;
+        };
+        return add({name, OptionKind::word, std::move(metavar), std::move(help), "", set, get});
+    }
+
+    /// A text as it stands; empty by default.
+    template <class Member>
+    Option<Options>& text(const std::string& name, OptionKind kind, std::string metavar, std::string help,
+                          Member member) {
+        const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
+            member(o) = word_of(value, key);
+        };
+        const auto get = [=](const Options& o) { return std::optional<OptionValue>(member(o)); };
+        return add({name, kind, std::move(metavar), std::move(help), "", set, get});
+    }
+
+    /// Several texts.
+    template <class Member>
+    Option<Options>& list(const std::string& name, OptionKind kind, std::string metavar, std::string help,
+                          Member member) {
+        const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
+            member(o) = words_of(value, key);
+        };
+        const auto get = [=](const Options& o) { return std::optional<OptionValue>(member(o)); };
+        return add({name, kind, std::move(metavar), std::move(help), "", set, get});
+    }
+
+    /// A word with a grammar of its own: parse(text) throws UsageError with the bare reason, print(value) returns the
+    /// text; member(options) is an optional.
+    template <class Parse, class Print, class Member>
+    Option<Options>& spec(const std::string& name, std::string metavar, std::string help, Parse parse, Print print,
+                          Member member) {
+        const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
+            member(o) = parsed(key, word_or_number_of(value, key), parse);
+        };
+        const auto get = [=](const Options& o) {
+            return member(o) ? std::optional<OptionValue>(print(*member(o))) : std::nullopt;
+        };
+        return add({name, OptionKind::word, std::move(metavar), std::move(help), "", set, get});
+    }
+
+    /// Several such words; member(options) is a vector.
+    template <class Parse, class Print, class Member>
+    Option<Options>& specs(const std::string& name, std::string metavar, std::string help, Parse parse, Print print,
+                           Member member) {
+        const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
+            member(o).clear();
+            for (const std::string& text : words_of(value, key)) member(o).push_back(parsed(key, text, parse));
+        };
+        const auto get = [=](const Options& o) {
+            std::vector<std::string> texts;
+            for (const auto& entry : member(o)) texts.push_back(print(entry));
+            return std::optional<OptionValue>(std::move(texts));
+        };
+        return add({name, OptionKind::repeated, std::move(metavar), std::move(help), "", set, get});
+    }
+
+    /// A row of any kind.
+    Option<Options>& add(Option<Options> option) {
+        option.group = group_;
+        table_.push_back(std::move(option));
+        return table_.back();
+    }
+
+    OptionTable<Options> take() { return std::move(table_); }
+
+private:
+    std::string group_;
+    OptionTable<Options> table_;
+
+    template <class Number>
+    static Number plain(Number);
+    template <class Number>
+    static Number plain(std::optional<Number>);
+
+    template <class As, class Member>
+    static std::optional<OptionValue> value_of(const Member& member) {
+        if constexpr (requires { member.has_value(); }) {
+            return member ? std::optional<OptionValue>(static_cast<As>(*member)) : std::nullopt;
+        } else {
+            return static_cast<As>(member);
+        }
+    }
+
+    template <class Choice>
+    static std::string joined(const Choices<Choice>& choices) {
+        std::string names;
+        for (const auto& entry : choices) names += (names.empty() ? "" : ", ") + entry.first;
+        return names;
+    }
+
+    template <class Parse>
+    static auto parsed(const std::string& key, const std::string& text, Parse parse) {
+        try {
+            return parse(text);
+        } catch (const OptionError&) {
+            throw;
+        } catch (const UsageError& error) {
+            throw OptionError(key, error.what());
+        }
+    }
+};
+
+/// The member at the end of a chain of pointers to members: member_at(&Case::options, &Options::layer).
+template <class... Members>
+auto member_at(Members... members) {
+    return [members...](auto& options) -> auto& { return (options.*....*members); };
+}
+
+}  // namespace lamina

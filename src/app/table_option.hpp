@@ -1,0 +1,44 @@
+// Options of commands that take a few rows of an option table.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <lamina/option.hpp>
+
+#include "app/options.hpp"
+
+namespace lamina::app {
+
+/// Returns the row of this name. Precondition: there is one.
+template <class Options>
+const Option<Options>& row_of(const OptionTable<Options>& table, const std::string& name) {
+    return *std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.name == name; });
+}
+
+/// Adds an option of a table to a command; `text` receives what the user gives.
+template <class Options>
+CLI::Option* add_table_option(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
+                              std::string& text) {
+    const Option<Options>& option = row_of(table, name);
+    const std::string range = option.range.empty() ? "" : "; " + option.range;
+    return command.add_option("--" + name, text, option.help + range)->type_name(option.metavar);
+}
+
+/// Sets an option of a table from the command line, where it is given. Throws UsageError "option --name: reason".
+template <class Options>
+void set_by_name(const OptionTable<Options>& table, const std::string& name, const std::string& text,
+                 Options& options) {
+    if (text.empty()) return;
+    const Option<Options>& option = row_of(table, name);
+    const std::string origin = "option --" + name;
+    try {
+        option.set(options, value_of_text(option.kind, {text}, origin));
+    } catch (const OptionError& error) {
+        throw UsageError(origin + ": " + error.reason());
+    }
+}
+
+}  // namespace lamina::app

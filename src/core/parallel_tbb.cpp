@@ -1,0 +1,113 @@
+#include "core/parallel.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <cassert>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace lamina::core {
+
+void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f) {
+    assert(grain > 0);
+    const std::size_t blocks = (n + grain - 1) / grain;
+    const std::size_t workers = std::min<std::size_t>(blocks, thread_count());
+    const auto run_block = [&](std::size_t b) { f(b * grain, std::min(n, (b + 1) * grain)); };
+    if (workers <= 1) {
+        for (std::size_t b = 0; b < blocks; ++b) run_block(b);
+        return;
+    }
+
+    // Every block below a failing one has been started already, so the lowest failure does not depend on timing.
+    std::atomic<std::size_t> next, finished;
+    // What the caller wrote happens before the workers' part, and that before the return. The scheduler sees to that;
+    // said once more with `next` and `finished` for the thread sanitizer, which does not know the scheduler.
+    finished.store(0, std::memory_order_relaxed);
+    next.store(0, std::memory_order_release);
+    std::mutex failure_mutex;
+    std::size_t failed_block = blocks;
+    std::exception_ptr failure;
+    const auto run_worker = [&](std::size_t) {
+        for (std::size_t b; (b = next.fetch_add(1)) < blocks;) {
+            try {
+                run_block(b);
+            } catch (...) {
+                next = blocks;
+                const std::lock_guard lock(failure_mutex);
+                if (b < failed_block) {
+                    failed_block = b;
+                    failure = std::current_exception();
+                }
+            }
+        }
+        finished.fetch_add(1, std::memory_order_release);
+    };
+    tbb::parallel_for(std::size_t{0}, workers, run_worker, tbb::simple_partitioner{});
+    [[maybe_unused]] const std::size_t all = finished.load(std::memory_order_acquire);
+    assert(all == workers);
+    if (failure) std::rethrow_exception(failure);
+}
+
+void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g) {
+    std::exception_ptr f_failure, g_failure;
+    const auto guarded = [](const std::function<void()>& task, std::exception_ptr& failure) {
+        try {
+            task();
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    };
+    if (thread_count() == 1) {
+        guarded(f, f_failure);
+        guarded(g, g_failure);
+    } else {
+        // Said to the thread sanitizer as in parallel_for().
+        std::atomic<int> finished;
+        finished.store(0, std::memory_order_release);
+        const auto run = [&](const std::function<void()>& task, std::exception_ptr& failure) {
+            if (finished.load(std::memory_order_acquire) <= 1) guarded(task, failure);
+            finished.fetch_add(1, std::memory_order_release);
+        };
+        tbb::parallel_invoke([&] { run(f, f_failure); }, [&] { run(g, g_failure); });
+        [[maybe_unused]] const int both = finished.load(std::memory_order_acquire);
+        assert(both == 2);
+    }
+    if (f_failure) std::rethrow_exception(f_failure);
+    if (g_failure) std::rethrow_exception(g_failure);
+}
+
+unsigned thread_index() {
+    const int index = tbb::this_task_arena::current_thread_index();
+    return index == tbb::task_arena::not_initialized ? 0u : static_cast<unsigned>(index);
+}
+
+}  // namespace lamina::core
+
+namespace lamina {
+
+void with_threads(unsigned threads, const std::function<void()>& f) {
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    if (threads == 0) threads = cores;
+    // By itself the library never starts more threads than there are cores.
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(threads, cores));
+    tbb::task_arena arena(static_cast<int>(threads));
+    // The scheduler may hand f to another thread: see parallel_for().
+    std::atomic<bool> handed_over, returned;
+    returned.store(false, std::memory_order_relaxed);
+    handed_over.store(true, std::memory_order_release);
+    arena.execute([&] {
+        if (handed_over.load(std::memory_order_acquire)) f();
+        returned.store(true, std::memory_order_release);
+    });
+    [[maybe_unused]] const bool done = returned.load(std::memory_order_acquire);
+    assert(done);
+}
+
+unsigned thread_count() { return static_cast<unsigned>(tbb::this_task_arena::max_concurrency()); }
+
+}  // namespace lamina

@@ -1,0 +1,19 @@
+// Refinement of all subdomains, with the times of the threads.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+
+#include "core/busy_times.hpp"
+
+namespace lamina::decoupling {
+
+/// Refines all subdomains in parallel, the largest first, each on whichever thread is free. The threads' times count as
+/// this kind of work.
+LAMINA_EXPORT std::vector<Refinement> refine_all(std::span<const Subdomain> subdomains, core::BusyTimes* times,
+                                                 std::size_t kind);
+
+}  // namespace lamina::decoupling

@@ -1,0 +1,53 @@
+// The tables of the options of triangulation and refinement.
+#include <lamina/delaunay.hpp>
+
+#include <lamina/option_builders.hpp>
+
+namespace lamina {
+
+namespace {
+
+OptionTable<DecompositionOptions> make_decomposition_table() {
+    OptionTableBuilder<DecompositionOptions> table("Outer region");
+    table.count("decomposition-depth", "N", "largest number of cuts on the way to a piece of the layer",
+                numbers_from_to(0, 24), member_at(&DecompositionOptions::depth));
+    table.count("leaf-vertices", "N", "pieces of the layer are cut down to about so many vertices",
+                numbers_from_to(1, 1e9), member_at(&DecompositionOptions::leaf_vertices));
+    return table.take();
+}
+
+OptionTable<RefineOptions> make_refine_table() {
+    OptionTableBuilder<RefineOptions> table("Outer region");
+    table.number("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees; 0: no bound",
+                 numbers_from_to(0, largest_min_angle_deg), member_at(&RefineOptions::min_angle_deg));
+    table
+        .count("max-points", "N", "points beyond which the refinement of one piece gives up", numbers_from_to(0, 4e9),
+               member_at(&RefineOptions::max_points))
+        .library_only = true;
+    return table.take();
+}
+
+}  // namespace
+
+const OptionTable<DecompositionOptions>& decomposition_option_table() {
+    static const OptionTable<DecompositionOptions> table = make_decomposition_table();
+    return table;
+}
+
+const OptionTable<RefineOptions>& refine_option_table() {
+    static const OptionTable<RefineOptions> table = make_refine_table();
+    return table;
+}
+
+void validate(const DecompositionOptions& options) { require_in_range(decomposition_option_table(), options); }
+void validate(const RefineOptions& options) { require_in_range(refine_option_table(), options); }
+
+RefineStats& RefineStats::operator+=(const RefineStats& other) {
+    refused += other.refused;
+    below_bound += other.below_bound;
+    exempt += other.exempt;
+    oversized += other.oversized;
+    return *this;
+}
+
+}  // namespace lamina

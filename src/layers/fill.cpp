@@ -1,0 +1,79 @@
+// Stage "fill the layer".
+#include "layers/fill.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "layers/connect.hpp"
+
+namespace lamina::layers {
+
+delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer, const DecompositionOptions& options,
+                                                           core::BusyTimes* times) {
+    if (layer.edges.region.empty()) return {};
+    // Where the layer is truncated to nothing, wall vertices are no part of it.
+    std::vector<char> used(layer.points.size(), 1);
+    for (const auto& wall : layer.walls)
+        for (VertexId v : wall) used[v.index()] = 0;
+    for (const Segment& s : layer.edges.region) used[s.a.index()] = used[s.b.index()] = 1;
+    if (std::find(used.begin(), used.end(), 0) == used.end())
+        return delaunay::pieces::triangulate_in_pieces(layer.points, layer.edges.region, options, times);
+
+    std::vector<Point> points;
+    std::vector<VertexId> whole, part(layer.points.size());
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (!used[i]) continue;
+        part[i] = VertexId{points.size()};
+        points.push_back(layer.points[i]);
+        whole.push_back(VertexId{i});
+    }
+    std::vector<Segment> region = layer.edges.region;
+    for (Segment& s : region) s = {part[s.a.index()], part[s.b.index()]};
+    auto pieces = delaunay::pieces::triangulate_in_pieces(points, region, options, times);
+    for (Triangle& t : pieces.triangles)
+        for (VertexId& v : t.v) v = whole[v.index()];
+    return pieces;
+}
+
+namespace {
+
+/// Puts each triangle on the layer of its highest point.
+LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
+    LayerCells cells;
+    cells.triangle_layer.reserve(triangles.size());
+    for (const Triangle& t : triangles) {
+        const auto layer_of = [&](int k) { return layer.layer_of_point[t.v[k].index()]; };
+        cells.triangle_layer.push_back(std::max({layer_of(0), layer_of(1), layer_of(2)}));
+    }
+    cells.triangles = std::move(triangles);
+    return cells;
+}
+
+}  // namespace
+
+LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionOptions& options,
+                core::BusyTimes* times) {
+    if (layer.edges.region.empty()) return {};
+    if (topology != LayerTopology::delaunay) {
+        const core::BusyTimes::Scope busy(times, delaunay::pieces::triangulating);
+        LayerCells cells = connect_layer(layer, topology == LayerTopology::quads ? GridCells::whole : GridCells::split);
+        cells.first_triangle = {0, cells.triangles.size()};
+        return cells;
+    }
+    auto triangulation = triangulate_layer(layer, options, times);
+    LayerCells cells = cells_of(layer, std::move(triangulation.triangles));
+    cells.first_triangle = std::move(triangulation.first);
+    cells.decomposition = triangulation.stats;
+    return cells;
+}
+
+}  // namespace lamina::layers
+
+namespace lamina {
+
+LayerCells fill_layer(const Layer& layer, LayerTopology topology, const DecompositionOptions& options) {
+    validate(options);
+    return layers::fill(layer, topology, options, nullptr);
+}
+
+}  // namespace lamina

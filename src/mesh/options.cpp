@@ -1,0 +1,26 @@
+// The table of the options of the check.
+#include <lamina/mesh.hpp>
+
+#include <lamina/option_builders.hpp>
+
+namespace lamina {
+
+namespace {
+
+OptionTable<MeshCheckOptions> make_table() {
+    OptionTableBuilder<MeshCheckOptions> table("Check");
+    table.number("min-angle", "DEG", "smallest angle that isotropic triangles are measured against, in degrees",
+                 numbers_from_to(0, 60), member_at(&MeshCheckOptions::min_angle_deg));
+    return table.take();
+}
+
+}  // namespace
+
+const OptionTable<MeshCheckOptions>& mesh_check_option_table() {
+    static const OptionTable<MeshCheckOptions> table = make_table();
+    return table;
+}
+
+void validate(const MeshCheckOptions& options) { require_in_range(mesh_check_option_table(), options); }
+
+}  // namespace lamina

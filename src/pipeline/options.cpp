@@ -1,0 +1,118 @@
+// The table of all options, and what one stage's options ask of another stage.
+#include <lamina/pipeline.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <lamina/option_builders.hpp>
+#include "core/reproducible_math.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+/// Spacings along walls follow those of the layer's border, but grow at least so fast: very slow gradations are for the
+/// outer region alone.
+constexpr double slowest_wall_gradation = 0.05;
+
+template <class Inner, class Member>
+void append(const OptionTable<Inner>& inner, Member member, OptionTable<CaseOptions>& table) {
+    OptionTable<CaseOptions> rows = lifted<CaseOptions>(inner, member_at(member));
+    std::move(rows.begin(), rows.end(), std::back_inserter(table));
+}
+
+OptionTable<CaseOptions> make_table() {
+    OptionTable<CaseOptions> table;
+    append(surface_option_table(), &CaseOptions::surface, table);
+    append(geometry_option_table(), &CaseOptions::geometry, table);
+    append(layer_option_table(), &CaseOptions::layer, table);
+    append(far_field_option_table(), &CaseOptions::far_field, table);
+    append(sizing_option_table(), &CaseOptions::sizing, table);
+    append(refine_option_table(), &CaseOptions::refine, table);
+    append(decoupling_option_table(), &CaseOptions::decoupling, table);
+    append(decomposition_option_table(), &CaseOptions::decomposition, table);
+
+    OptionTableBuilder<CaseOptions> files("Files");
+    files.flag("base-marker", "the base of a blunt trailing edge is a marker of its own, NAME_base", true,
+               member_at(&CaseOptions::assemble, &AssembleOptions::base_marker));
+    OptionTableBuilder<CaseOptions> run("Run");
+    run.count("threads", "N", "number of threads, 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
+              member_at(&CaseOptions::threads));
+    for (auto* builder : {&files, &run}) {
+        OptionTable<CaseOptions> rows = builder->take();
+        std::move(rows.begin(), rows.end(), std::back_inserter(table));
+    }
+    return table;
+}
+
+}  // namespace
+
+}  // namespace lamina::pipeline
+
+namespace lamina {
+
+using namespace pipeline;
+
+const OptionTable<CaseOptions>& case_option_table() {
+    static const OptionTable<CaseOptions> table = make_table();
+    return table;
+}
+
+void validate(const CaseOptions& options) {
+    validate(options.geometry);
+    validate(options.surface);
+    validate(options.layer);
+    validate(options.sizing);
+    validate(options.far_field);
+    validate(options.decoupling);
+    validate(options.decomposition);
+    validate(options.refine);
+    if (options.refine.min_angle_deg == 0)
+        throw OptionError("min_angle", "must be > 0: the layer's border depends on it");
+}
+
+SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth) {
+    SpacingLimits limits;
+    limits.max_turning_deg = options.layer.max_ray_angle_deg;
+    // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
+    // Where the wall's spacing exceeds that, border edges are divided and the rows below fan out to the division
+    // points.
+    constexpr double margin = 0.9;
+    limits.gradation = std::max(margin * border_gradation(options.sizing.field), slowest_wall_gradation);
+    // Layers that go by the wall's spacing are as high over it as that allows.
+    if (!options.layer.enabled || !growth.layers || growth.law == GrowthLaw::adaptive) return limits;
+    const double height = std::min(layer_height(growth, *growth.layers), growth.thickness.value_or(HUGE_VAL));
+    const double fan_edge = height * core::radians(options.layer.max_ray_angle_deg);
+    if (fan_edge > 0) limits.fan_spacing = fan_edge;
+    return limits;
+}
+
+BorderOptions border_options(const CaseOptions& options, std::span<const SizeSource> sources) {
+    BorderOptions border;
+    border.gradation = border_gradation(options.sizing.field);
+    border.ray_gradation = std::max(border.gradation, slowest_wall_gradation);
+    border.max_edge =
+        frozen_share * std::min(options.sizing.wall_size.value_or(HUGE_VAL), options.sizing.field.max_size);
+    // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
+    // (docs/decisions/0003); a tenth more saves many splits and is never seen to.
+    const double bound = core::radians(options.refine.min_angle_deg);
+    border.max_ratio = 1.1 * std::sqrt(2.0) / (2 * core::sin_reproducible(bound));
+    constexpr double shift_of_cuts = 1.08;
+    for (SizeSource source : sources) {
+        source.size *= frozen_share / shift_of_cuts;
+        border.sources.push_back(source);
+    }
+    return border;
+}
+
+SizedBodies sized_bodies(const Geometry& geometry) {
+    SizedBodies bodies;
+    bodies.chord = bounding_box(geometry).width();
+    for (const Element& element : geometry.elements) {
+        bodies.walls.push_back(element.points);
+        bodies.trailing_edges.push_back(element.features.trailing_edge);
+    }
+    return bodies;
+}
+
+}  // namespace lamina

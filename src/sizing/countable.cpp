@@ -1,0 +1,102 @@
+// Triangles round a source, in units of the largest allowed, are the integral of 1 / h^2: the area at its size s, and
+// beside a border of length L, where h = s + g d at a distance d, L times the integral up to the reach D:
+//
+//     L D / (s (s + g D))
+#include <lamina/sizing.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/equilateral.hpp"
+#include "core/reproducible_math.hpp"
+#include "core/text.hpp"
+#include "sizing/wake.hpp"
+
+namespace lamina::sizing {
+
+namespace {
+
+/// Vertices have 32-bit numbers, and there are twice as many triangles; half of them leaves room for what is not
+/// foreseen.
+constexpr double max_triangles = 4294967296.0;
+
+void require_countable_integral(double inverse_square_integral, const std::string& option, const std::string& value) {
+    const double triangles = inverse_square_integral / core::equilateral_area;
+    if (triangles <= max_triangles) return;
+    throw OptionError(
+        option, core::concat(value, " asks for about ", core::rounded_text(triangles), " triangles, and no more than ",
+                             core::rounded_text(max_triangles), " can be numbered"));
+}
+
+double beside(double length, double size, double gradation, double reach) {
+    return length * reach / (size * (size + gradation * reach));
+}
+
+/// The length of a segment within a box.
+double length_inside(const Box& box, Point a, Point b) {
+    double from = 0, to = 1;
+    const auto clip = [&](double start, double along, double low, double high) {
+        if (along == 0) {
+            if (start < low || start > high) to = -1;
+            return;
+        }
+        const double enter = (low - start) / along, leave = (high - start) / along;
+        from = std::max(from, std::min(enter, leave));
+        to = std::min(to, std::max(enter, leave));
+    };
+    clip(a.x, b.x - a.x, box.lower.x, box.upper.x);
+    clip(a.y, b.y - a.y, box.lower.y, box.upper.y);
+    return std::max(to - from, 0.0) * distance(a, b);
+}
+
+double asked_by(const SizeSource& source, double gradation, double reach, const Box& domain) {
+    const Box inside = bounding_box(source).intersection(domain);
+    const double width = std::max(inside.width(), 0.0), height = std::max(inside.height(), 0.0);
+    double area = 0, border = 0;
+    if (source.shape == SizeSource::Shape::box) {
+        area = width * height;
+        border = 2 * (width + height);
+    } else if (source.radius > 0) {
+        area = 0.25 * core::pi * width * height;
+        border = 0.5 * core::pi * (width + height);
+    } else {
+        border = 2 * length_inside(domain, source.a, source.b);
+    }
+    return area / (source.size * source.size) + beside(border, source.size, gradation, reach);
+}
+
+}  // namespace
+
+}  // namespace lamina::sizing
+
+namespace lamina {
+
+using namespace sizing;
+
+void require_countable(const SizingOptions& options, const SizedBodies& bodies, const Box& domain) {
+    const double g = options.field.gradation, reach = 0.1 * std::min(domain.width(), domain.height());
+    if (const double size = options.field.max_size; size < HUGE_VAL)
+        require_countable_integral(domain.width() * domain.height() / (size * size), "far_size", core::to_text(size));
+    for (const SizeSource& source : options.sources)
+        require_countable_integral(asked_by(source, g, reach, domain), "refine", size_source_text(source));
+    if (const auto& size = options.wall_size) {
+        double length = 0;
+        for (const std::vector<Point>& wall : bodies.walls)
+            for (std::size_t i = 0; i < wall.size(); ++i) length += distance(wall[i], wall[(i + 1) % wall.size()]);
+        require_countable_integral(beside(length, *size, g, reach), "wall_size", core::to_text(*size));
+    }
+    if (options.wake && options.wake->size) {
+        double wakes = 0;
+        for (const SizeSource& source : given_wake_sources(options, bodies))
+            wakes += asked_by(source, g, reach, domain);
+        require_countable_integral(wakes, "wake", wake_text(*options.wake));
+    }
+}
+
+void require_countable(const SizeField& size) {
+    if (!size.is_uniform())
+        require_countable_integral(size.inverse_square_integral(), "gradation",
+                                   core::concat(size.gradation(), " with these sizes at walls and sources"));
+}
+
+}  // namespace lamina

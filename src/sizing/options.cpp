@@ -1,0 +1,45 @@
+// The table of the options of sizes.
+#include <lamina/sizing.hpp>
+
+#include <lamina/option_builders.hpp>
+
+namespace lamina {
+
+namespace {
+
+OptionTable<SizingOptions> make_table() {
+    OptionTableBuilder<SizingOptions> table("Outer region");
+    table.number("gradation", "G", "growth of the edge length per unit of distance", numbers_above_up_to(0, 1),
+                 member_at(&SizingOptions::field, &SizeFieldOptions::gradation));
+    table.number("wall-size", "H",
+                 "largest edge length at the outer border of the layer, in units of the input; else the edges of the "
+                 "border decide",
+                 positive_numbers, member_at(&SizingOptions::wall_size));
+    // Infinity stands for no bound.
+    Option<SizingOptions>& far_size =
+        table.number("far-size", "H", "largest edge length, in units of the input; else unbounded", positive_numbers,
+                     member_at(&SizingOptions::field, &SizeFieldOptions::max_size));
+    far_size.get = [get = far_size.get](const SizingOptions& options) {
+        return options.field.max_size == HUGE_VAL ? std::nullopt : get(options);
+    };
+    table.spec("wake", "ANGLE[:LENGTH[:SIZE]]",
+               "small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, LENGTH in chords "
+               "(2), SIZE at the trailing edge in units of the input (else the size there without a wake)",
+               parse_wake, wake_text, member_at(&SizingOptions::wake));
+    table.specs("refine", "SHAPE",
+                "edge length H in and round a shape, box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H, in units "
+                "of the input; may be given several times",
+                parse_size_source, size_source_text, member_at(&SizingOptions::sources));
+    return table.take();
+}
+
+}  // namespace
+
+const OptionTable<SizingOptions>& sizing_option_table() {
+    static const OptionTable<SizingOptions> table = make_table();
+    return table;
+}
+
+void validate(const SizingOptions& options) { require_in_range(sizing_option_table(), options); }
+
+}  // namespace lamina

@@ -1,0 +1,117 @@
+// What asks for sizes: the borders of the layers, wakes, background meshes and the user's own shapes.
+#include <lamina/sizing.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/box_tree.hpp"
+#include "core/parallel.hpp"
+#include "sizing/background.hpp"
+#include "sizing/wake.hpp"
+
+namespace lamina::sizing {
+
+namespace {
+
+/// An edge of a border asks for at most this many times the size of which it is a fit share. Without a bound a long
+/// edge's excess of a few per cent would be a multiple of the size at a fine edge far away.
+constexpr double largest_raise = 2.5;
+
+/// Returns the size that each edge asks for: that of which it is a fit share, or more beside a longer edge, on the same
+/// border or across a slot, so that none is too long for the field that the others make: the largest of (size -
+/// gradation x distance between the middles), within the bound.
+std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradation) {
+    std::vector<Box> boxes;
+    std::vector<double> negative_sizes;
+    for (const SizeSource& edge : edges) {
+        boxes.push_back(bounding_box(edge));
+        negative_sizes.push_back(-edge.size);
+    }
+    const core::BoxTree tree(std::move(boxes));
+    const auto values = tree.least_values(std::move(negative_sizes));
+    std::vector<double> sizes(edges.size());
+    core::parallel_for(edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Point p = midpoint(edges[i].a, edges[i].b);
+            const double passed_on = -tree.least(p, gradation, -edges[i].size, values, [&](std::size_t other) {
+                return distance(p, midpoint(edges[other].a, edges[other].b));
+            });
+            sizes[i] = std::min(passed_on, largest_raise * edges[i].size);
+        }
+    });
+    return sizes;
+}
+
+/// Returns a source for each edge of closed borders: it asks for the size of which the edge is a fit share, or for
+/// wall_size where that is less. More than its own would be a jump from frozen edges to triangles many times as large.
+std::vector<SizeSource> border_sources(Loops borders, const SizingOptions& options) {
+    std::vector<SizeSource> sources;
+    for (const std::vector<Point>& border : borders)
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            const Point a = border[i], b = border[i + 1 < border.size() ? i + 1 : 0];
+            sources.push_back({.a = a, .b = b, .size = distance(a, b) / frozen_share});
+        }
+    const std::vector<double> sizes = edge_sizes(sources, options.field.gradation);
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        sources[i].size = std::min(sizes[i], options.wall_size.value_or(HUGE_VAL));
+    return sources;
+}
+
+/// Returns what sources ask for at a point, without any cap.
+double size_at(Point p, std::span<const SizeSource> sources, double gradation) {
+    double size = HUGE_VAL;
+    for (const SizeSource& source : sources) size = std::min(size, source.size + gradation * distance_to(source, p));
+    return size;
+}
+
+void append(const std::vector<SizeSource>& more, std::vector<SizeSource>& sources) {
+    sources.insert(sources.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+}  // namespace lamina::sizing
+
+namespace lamina {
+
+using namespace sizing;
+
+double border_gradation(const SizeFieldOptions& field) {
+    // Edges are divided into whole numbers of pieces: graded as steeply as the field, some would be too long for it.
+    constexpr double rounding_of_pieces = 1.15;
+    return frozen_share * field.gradation / rounding_of_pieces;
+}
+
+SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodies& bodies, Loops fronts,
+                                  const Box& domain) {
+    const double gradation = options.field.gradation;
+    SizeRequests requests;
+    append(options.sources, requests.sources);
+    append(given_wake_sources(options, bodies), requests.sources);
+    requests.at_borders = requests.sources;
+    if (options.background) {
+        const std::vector<SizeSource> all = background_sources(*options.background, gradation, domain);
+        append(all, requests.sources);
+        // Of a background mesh only few points bind at the borders.
+        append(binding_sources(all, fronts, border_gradation(options.field), frozen_share), requests.at_borders);
+    }
+    if (!options.wake || options.wake->size) return requests;
+
+    std::vector<SizeSource> without_wakes = border_sources(fronts, options);
+    append(requests.sources, without_wakes);
+    for (const Wake& wake : find_wakes(bodies, *options.wake)) {
+        const auto along = wake_sources(wake, size_at(wake.from, without_wakes, gradation), gradation);
+        append(along, requests.sources);
+        append(along, requests.at_borders);
+    }
+    return requests;
+}
+
+SizeField make_size_field(Loops borders, std::span<const SizeSource> sources, const SizingOptions& options,
+                          const Box& domain) {
+    std::vector<SizeSource> all = border_sources(borders, options);
+    all.insert(all.end(), sources.begin(), sources.end());
+    return SizeField(all, options.field, domain);
+}
+
+}  // namespace lamina

@@ -1,0 +1,201 @@
+// Evaluation of a size field: a walk down the tree that size_tree.cpp builds.
+#include <lamina/sizing.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include <lamina/error.hpp>
+
+#include "sizing/size_tree.hpp"
+
+namespace lamina::sizing {
+
+namespace {
+
+void require_valid(std::span<const SizeSource> sources, const SizeFieldOptions& options, const Box& domain) {
+    if (!(options.gradation >= 0 && options.gradation < HUGE_VAL))
+        throw OptionError("gradation", "must be finite and not negative");
+    if (!(options.max_size > 0)) throw OptionError("max_size", "must be positive");
+    if (sources.empty() && !(options.max_size < HUGE_VAL))
+        throw OptionError("max_size", "must be given where there is no source of sizes");
+    if (!(domain.width() >= 0 && domain.height() >= 0 && domain.width() + domain.height() > 0 &&
+          domain.width() + domain.height() < HUGE_VAL))
+        throw OptionError("domain", "is empty or infinite");
+    for (const SizeSource& s : sources) {
+        if (!(s.size > 0 && s.size < HUGE_VAL)) throw OptionError("sources", "a size must be positive and finite");
+        if (!(s.radius >= 0 && s.radius < HUGE_VAL))
+            throw OptionError("sources", "a radius must be finite and not negative");
+        if (s.shape == SizeSource::Shape::box && !(s.a.x <= s.b.x && s.a.y <= s.b.y))
+            throw OptionError("sources", "a box is empty");
+    }
+}
+
+}  // namespace
+
+}  // namespace lamina::sizing
+
+namespace lamina {
+
+using namespace sizing;
+
+struct SizeField::Tree {
+    struct Key {
+        std::uint64_t x, y;
+    };
+
+    Box domain;
+    double side = 0;
+    double keys_per_length = 0;
+    std::vector<Slots> nodes;
+    std::vector<Leaf> leaves;
+
+    Key key(Point p) const {
+        constexpr std::uint64_t last = (std::uint64_t{1} << key_bits) - 1;
+        const double x = (std::clamp(p.x, domain.lower.x, domain.upper.x) - domain.lower.x) * keys_per_length;
+        const double y = (std::clamp(p.y, domain.lower.y, domain.upper.y) - domain.lower.y) * keys_per_length;
+        // By way of the signed type, which is what the hardware converts.
+        return {std::min(static_cast<std::uint64_t>(static_cast<std::int64_t>(x)), last),
+                std::min(static_cast<std::uint64_t>(static_cast<std::int64_t>(y)), last)};
+    }
+
+    /// The field at a point of a leaf, found in a slot of side 2^shift.
+    double value(std::uint32_t entry, int shift, Key key) const {
+        const int bits = shift + ((entry & half_bit) != 0);
+        const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
+        const auto scale = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - bits) << 52);  // 2^-bits
+        const double u = static_cast<double>(static_cast<std::int64_t>(key.x & mask)) * scale;
+        const double v = static_cast<double>(static_cast<std::int64_t>(key.y & mask)) * scale;
+        const Leaf& h = leaves[entry & index_mask];
+        const double south = h[0] + u * (static_cast<double>(h[1]) - h[0]);
+        const double north = h[2] + u * (static_cast<double>(h[3]) - h[2]);
+        return side * (south + v * (north - south));
+    }
+
+    static std::size_t slot(Key k, int shift) { return ((k.y >> shift) & 3) * 4 + ((k.x >> shift) & 3); }
+};
+
+SizeField::SizeField(double uniform_size) : uniform_(uniform_size) {
+    if (!(uniform_size > 0 && uniform_size < HUGE_VAL)) throw OptionError("size", "must be positive and finite");
+}
+
+SizeField::SizeField(std::span<const SizeSource> sources, const SizeFieldOptions& options, const Box& domain) {
+    require_valid(sources, options, domain);
+    auto tree = std::make_shared<Tree>();
+    tree->domain = domain;
+    tree->side = std::max(domain.width(), domain.height());
+    tree->keys_per_length = static_cast<double>(std::uint64_t{1} << key_bits) / tree->side;
+    SizeTree part = build_size_tree(sources, options, domain.lower, tree->side);
+    tree->nodes = std::move(part.nodes);
+    tree->leaves = std::move(part.leaves);
+    tree_ = std::move(tree);
+    start_.shift = root_shift;
+    gradation_ = options.gradation;
+}
+
+double SizeField::operator()(Point p) const {
+    if (!tree_) return uniform_;
+    const Tree& tree = *tree_;
+    const Tree::Key key = tree.key(p);
+    std::uint32_t node = start_.node;
+    int shift = start_.shift;
+    if (((key.x ^ start_.x) | (key.y ^ start_.y)) >> (shift + 2) != 0) {  // outside the cell of start_
+        node = 0;
+        shift = root_shift;
+    }
+    std::uint32_t entry = tree.nodes[node][Tree::slot(key, shift)];
+    while ((entry & leaf_bit) == 0) {
+        shift -= 2;
+        entry = tree.nodes[entry][Tree::slot(key, shift)];
+    }
+    return tree.value(entry, shift, key);
+}
+
+SizeField SizeField::restricted_to(const Box& box) const {
+    SizeField result = *this;
+    if (!tree_) return result;
+    const Tree::Key lower = tree_->key(box.lower), upper = tree_->key(box.upper);
+    Start start{.node = 0, .shift = root_shift, .x = lower.x, .y = lower.y};
+    for (;;) {
+        const std::size_t slot = Tree::slot(lower, start.shift);
+        const std::uint32_t entry = tree_->nodes[start.node][slot];
+        if (slot != Tree::slot(upper, start.shift) || (entry & leaf_bit) != 0) break;
+        start.node = entry;
+        start.shift -= 2;
+    }
+    result.start_ = start;
+    return result;
+}
+
+SizeField::Range SizeField::range(const Box& box, double enough) const {
+    if (!tree_) return {uniform_, uniform_};
+    const Tree& tree = *tree_;
+    const Tree::Key lower = tree.key(box.lower), upper = tree.key(box.upper);
+    struct Place {
+        std::uint32_t node;
+        int shift;
+        std::uint64_t x, y;
+    };
+    std::vector<Place> open{{0, root_shift, 0, 0}};
+    Range range{HUGE_VAL, 0};
+    while (!open.empty() && !(range.high > enough * range.low)) {
+        const Place place = open.back();
+        open.pop_back();
+        for (std::uint64_t slot = 0; slot < 16; ++slot) {
+            const std::uint64_t x = place.x + ((slot & 3) << place.shift), y = place.y + ((slot >> 2) << place.shift);
+            const std::uint64_t last = (std::uint64_t{1} << place.shift) - 1;
+            if (x > upper.x || x + last < lower.x || y > upper.y || y + last < lower.y) continue;
+            const std::uint32_t entry = tree.nodes[place.node][slot];
+            if ((entry & leaf_bit) == 0) {
+                open.push_back({entry, place.shift - 2, x, y});
+                continue;
+            }
+            // Bilinear: the extremes over a rectangle are at its corners.
+            for (std::uint64_t at_x : {std::max(x, lower.x), std::min(x + last, upper.x)})
+                for (std::uint64_t at_y : {std::max(y, lower.y), std::min(y + last, upper.y)}) {
+                    const double h = tree.value(entry, place.shift, {at_x, at_y});
+                    range = {std::min(range.low, h), std::max(range.high, h)};
+                }
+        }
+    }
+    return range;
+}
+
+double SizeField::inverse_square_integral() const {
+    assert(tree_);
+    const Tree& tree = *tree_;
+    struct Place {
+        std::uint32_t node;
+        Point lower;
+        double side;  ///< of a slot
+    };
+    const auto overlap = [&](Point lower, double side) {
+        const Box inside = Box{lower, lower + Point{side, side}}.intersection(tree.domain);
+        return std::max(inside.width(), 0.0) * std::max(inside.height(), 0.0);
+    };
+    std::vector<Place> open{{0, tree.domain.lower, 0.25 * tree.side}};
+    double sum = 0;
+    while (!open.empty()) {
+        const Place place = open.back();
+        open.pop_back();
+        for (unsigned slot = 0; slot < 16; ++slot) {
+            const Point lower = place.lower + place.side * Point{double(slot & 3), double(slot >> 2)};
+            const std::uint32_t entry = tree.nodes[place.node][slot];
+            if ((entry & leaf_bit) == 0) {
+                open.push_back({entry, lower, 0.25 * place.side});
+                continue;
+            }
+            // A leaf of half the node's side counts at its corners for each of its four slots.
+            double mean = 0;
+            for (double h : tree.leaves[entry & index_mask]) mean += 0.25 / (tree.side * h * tree.side * h);
+            sum += overlap(lower, place.side) * mean;
+        }
+    }
+    return sum;
+}
+
+std::size_t SizeField::cells() const { return tree_ ? tree_->leaves.size() : 1; }
+
+}  // namespace lamina

@@ -1,0 +1,71 @@
+// The words for size sources and wakes: "box:0,-1,3,1,0.05", "10:2:0.01".
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <lamina/sizing.hpp>
+
+#include "core/text.hpp"
+
+namespace lamina::sizing {
+
+namespace {
+
+void require(bool condition, const std::string& text, const std::string& reason) {
+    if (!condition) throw UsageError("'" + text + "': " + reason);
+}
+
+}  // namespace
+
+}  // namespace lamina::sizing
+
+namespace lamina {
+
+WakeOptions parse_wake(const std::string& text) {
+    const std::vector<double> numbers = core::parse_numbers(text, ':');
+    sizing::require(numbers.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
+    WakeOptions wake;
+    wake.angle_deg = numbers[0];
+    sizing::require(std::abs(wake.angle_deg) <= 360, text, "the angle must be from -360 to 360 degrees");
+    if (numbers.size() > 1) wake.length = numbers[1];
+    sizing::require(wake.length > 0, text, "the length must be > 0");
+    if (numbers.size() > 2) wake.size = numbers[2];
+    sizing::require(wake.size.value_or(1) > 0, text, "the size must be > 0");
+    return wake;
+}
+
+std::string wake_text(const WakeOptions& wake) {
+    const std::string text = core::concat(wake.angle_deg, ":", wake.length);
+    return wake.size ? core::concat(text, ":", *wake.size) : text;
+}
+
+SizeSource parse_size_source(const std::string& text) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string shape = text.substr(0, colon);
+    const std::size_t wanted = shape == "box" || shape == "line" ? 5 : shape == "circle" ? 4 : 0;
+    sizing::require(wanted > 0 && colon < text.size(), text,
+                    "a shape is box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H");
+    const std::vector<double> n = core::parse_numbers(text.substr(colon + 1), ',');
+    sizing::require(n.size() == wanted, text, core::concat("a ", shape, " takes ", wanted, " numbers, not ", n.size()));
+    sizing::require(n.back() > 0, text, "the edge length must be > 0");
+    if (shape == "circle") {
+        sizing::require(n[2] > 0, text, "the radius must be > 0");
+        return {.a = {n[0], n[1]}, .b = {n[0], n[1]}, .size = n[3], .radius = n[2]};
+    }
+    const Point a{n[0], n[1]}, b{n[2], n[3]};
+    if (shape == "line") return {.a = a, .b = b, .size = n[4]};
+    Box box;
+    box.include(a);
+    box.include(b);
+    return {.a = box.lower, .b = box.upper, .size = n[4], .shape = SizeSource::Shape::box};
+}
+
+std::string size_source_text(const SizeSource& source) {
+    const auto [a, b, size, radius, shape] = source;
+    if (radius > 0) return core::concat("circle:", a.x, ",", a.y, ",", radius, ",", size);
+    return core::concat(shape == SizeSource::Shape::box ? "box:" : "line:", a.x, ",", a.y, ",", b.x, ",", b.y, ",",
+                        size);
+}
+
+}  // namespace lamina

@@ -1,0 +1,64 @@
+#include "sizing/wake.hpp"
+
+#include <algorithm>
+
+#include "core/reproducible_math.hpp"
+
+namespace lamina::sizing {
+
+namespace {
+
+/// Sizes along a wake grow by this share of the gradation: slowly, or the line would be no better than its first point.
+constexpr double wake_growth = 0.1;
+/// A wake is a chain of segments of one size each; the size of the next one is larger by this factor.
+constexpr double wake_step = 1.05;
+
+/// Returns how far the ray from p gets before it enters a wall that p does not lie on.
+double free_length(Loops walls, Point p, Point direction, double length) {
+    const double touching = 1e-9 * length;
+    for (const std::vector<Point>& wall : walls) {
+        for (std::size_t i = 0; i < wall.size(); ++i) {
+            const Point a = wall[i] - p, b = wall[(i + 1) % wall.size()] - p;
+            const double side_a = cross(direction, a), side_b = cross(direction, b);
+            if ((side_a > 0) == (side_b > 0)) continue;
+            const double t = (side_b * dot(direction, a) - side_a * dot(direction, b)) / (side_b - side_a);
+            if (t > touching && t < length) length = t;
+        }
+    }
+    return length;
+}
+
+}  // namespace
+
+std::vector<Wake> find_wakes(const SizedBodies& bodies, const WakeOptions& options) {
+    const double angle = core::radians(options.angle_deg), length = options.length * bodies.chord;
+    const Point direction{core::cos_reproducible(angle), core::sin_reproducible(angle)};
+    std::vector<Wake> wakes;
+    for (const Point from : bodies.trailing_edges)
+        wakes.push_back({from, direction, free_length(bodies.walls, from, direction, length)});
+    return wakes;
+}
+
+std::vector<SizeSource> wake_sources(const Wake& wake, double size, double gradation) {
+    const double growth = wake_growth * gradation;
+    std::vector<SizeSource> sources;
+    for (double at = 0; at < wake.length;) {
+        const double next = std::min(at + (wake_step - 1) * size / growth, wake.length);
+        sources.push_back({wake.from + at * wake.direction, wake.from + next * wake.direction, size});
+        size *= wake_step;
+        at = next;
+    }
+    return sources;
+}
+
+std::vector<SizeSource> given_wake_sources(const SizingOptions& options, const SizedBodies& bodies) {
+    std::vector<SizeSource> sources;
+    if (!options.wake || !options.wake->size) return sources;
+    for (const Wake& wake : find_wakes(bodies, *options.wake)) {
+        const std::vector<SizeSource> along = wake_sources(wake, *options.wake->size, options.field.gradation);
+        sources.insert(sources.end(), along.begin(), along.end());
+    }
+    return sources;
+}
+
+}  // namespace lamina::sizing

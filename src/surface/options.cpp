@@ -1,0 +1,53 @@
+// The table of the surface's options.
+#include <lamina/surface.hpp>
+
+#include <lamina/option_builders.hpp>
+
+namespace lamina {
+
+namespace {
+
+OptionTable<SurfaceOptions> make_table() {
+    OptionTableBuilder<SurfaceOptions> table("Geometry");
+    const auto at = [](auto SurfaceOptions::*member) { return member_at(member); };
+    table.choice(
+        "surface",
+        "what becomes of the given points: they are kept, replaced by new ones on a spline through them, or "
+        "replaced where they are coarse",
+        Choices<Surface>{{"auto", Surface::automatic}, {"keep", Surface::keep}, {"resample", Surface::resample}},
+        at(&SurfaceOptions::surface));
+    table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle asks for",
+                numbers_from_to(3, 1e7), at(&SurfaceOptions::points));
+    table.number("smooth", "TOL", "smooth the points first; none moves by more than this, in units of the input",
+                 positive_numbers, at(&SurfaceOptions::smooth));
+
+    const auto library = [&](Option<SurfaceOptions>& option) { option.library_only = true; };
+    library(table.number("max-turning", "DEG", "largest turning at a vertex between two corners",
+                         numbers_above_up_to(0, 90), at(&SurfaceOptions::max_turning_deg)));
+    library(table.number("max-ratio", "R", "largest ratio of neighbouring spacings", numbers_above(1),
+                         at(&SurfaceOptions::max_ratio)));
+    library(table.number("surface-gradation", "G", "growth of the spacing per unit of arc length", positive_numbers,
+                         at(&SurfaceOptions::gradation)));
+    const std::pair<const char*, double SurfaceOptions::*> shares[] = {
+        {"max-spacing", &SurfaceOptions::max_spacing},
+        {"sharp-corner-spacing", &SurfaceOptions::sharp_corner_spacing},
+        {"corner-spacing", &SurfaceOptions::corner_spacing},
+        {"gap-spacing", &SurfaceOptions::gap_spacing},
+        {"min-spacing", &SurfaceOptions::min_spacing},
+        {"surface-tolerance", &SurfaceOptions::tolerance},
+    };
+    for (const auto& [name, member] : shares)
+        library(table.number(name, "SHARE", "see SurfaceOptions", positive_numbers, at(member)));
+    return table.take();
+}
+
+}  // namespace
+
+const OptionTable<SurfaceOptions>& surface_option_table() {
+    static const OptionTable<SurfaceOptions> table = make_table();
+    return table;
+}
+
+void validate(const SurfaceOptions& options) { require_in_range(surface_option_table(), options); }
+
+}  // namespace lamina

@@ -1,0 +1,381 @@
+#include <lamina/decoupling.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
+
+#include "decoupling/piece.hpp"
+#include "decoupling/separators.hpp"
+#include "decoupling/skeleton.hpp"
+#include "support/point_sets.hpp"
+
+namespace lamina::test {
+namespace {
+
+/// A body border: n points on an ellipse of unit length whose spacing shrinks by `ratio`, evenly, from the middle to
+/// the two ends.
+std::vector<Point> ellipse(std::size_t n, double thickness, Point center = {0.5, 0}, double ratio = 1.0) {
+    // Fine polyline of the upper half, weighted by 1 / wanted spacing, then equal shares of the weight.
+    constexpr int fine = 20000;
+    const auto at = [&](double t) { return center + Point{0.5 * std::cos(t), 0.5 * thickness * std::sin(t)}; };
+    std::vector<double> weight{0};
+    for (int i = 0; i < fine; ++i) {
+        const Point a = at(M_PI * i / fine), b = at(M_PI * (i + 1) / fine);
+        const double off = std::abs(midpoint(a, b).x - center.x) / 0.5;
+        weight.push_back(weight.back() + distance(a, b) / (1 + (1 / ratio - 1) * off));
+    }
+    std::vector<Point> points;
+    for (int half = 0; half < 2; ++half)
+        for (std::size_t k = 0; k < n / 2; ++k) {
+            const double wanted = weight.back() * double(k) / double(n / 2);
+            const auto i = std::upper_bound(weight.begin(), weight.end(), wanted) - weight.begin() - 1;
+            const Point p = at(M_PI * double(i) / fine);
+            points.push_back(half == 0 ? p : 2.0 * center - p);
+        }
+    return points;
+}
+
+struct Bodies {
+    std::vector<Point> points;
+    std::vector<std::vector<VertexId>> borders;
+    std::vector<SizeSource> sources;
+    double area = 0;
+
+    void add(const std::vector<Point>& loop) {
+        auto& border = borders.emplace_back();
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Point a = loop[i], b = loop[(i + 1) % loop.size()];
+            border.push_back(VertexId{points.size()});
+            points.push_back(a);
+            sources.push_back({a, b, distance(a, b) / frozen_share});
+            area += 0.5 * cross(a, b);
+        }
+    }
+    SizeField size(double gradation, double half) const {
+        return SizeField(sources, {.gradation = gradation}, {{0.5 - half, -half}, {0.5 + half, half}});
+    }
+};
+
+/// Cuts the region between the bodies and a box round a unit chord.
+Decoupling decouple_to(const Bodies& bodies, const SizeField& size, double far_field, double pieces_target,
+                       SeparatorRule rule = SeparatorRule::equidistributed) {
+    return decouple(bodies.points, bodies.borders, size, {FarFieldShape::box, {0.5, 0}, far_field},
+                    {rule, pieces_target});
+}
+
+/// Refines every piece and checks the union from scratch: valid, of the right area, globally Delaunay.
+/// Returns the number of triangles.
+std::size_t expect_global_delaunay(const Bodies& bodies, const Decoupling& d, double far_field) {
+    std::vector<Point> points = d.points;
+    std::vector<Triangle> triangles;
+    std::size_t below = 0;
+    for (const Subdomain& s : d.subdomains) {
+        const Refinement r = refine(s);
+        EXPECT_EQ(r.stats.refused, 0u);
+        EXPECT_EQ(r.stats.oversized, 0u);
+        for (const Segment& e : s.segments) {
+            const Point a = s.points[e.a.index()], b = s.points[e.b.index()];
+            EXPECT_LT(distance(a, b), 0.85 * s.size(midpoint(a, b))) << "the test's own border is not graded";
+        }
+        below += r.stats.below_bound - r.stats.exempt;
+        const std::size_t first = points.size();
+        points.insert(points.end(), r.steiner_points.begin(), r.steiner_points.end());
+        for (const Triangle& t : r.triangles) {
+            Triangle global;
+            for (int k = 0; k < 3; ++k)
+                global.v[k] = t.v[k].index() < s.global.size() ? s.global[t.v[k].index()]
+                                                               : VertexId{first + t.v[k].index() - s.global.size()};
+            triangles.push_back(global);
+        }
+    }
+    EXPECT_EQ(below, 0u);
+    // Ties across separators are not in the pieces' hands: demand the Delaunay property without the tie rule.
+    for (const std::string& defect : check_triangulation(points, triangles, {}, {.require_delaunay = false}))
+        ADD_FAILURE() << defect;
+    std::map<std::pair<VertexId, VertexId>, VertexId> apex;
+    for (const Triangle& t : triangles)
+        for (int e = 0; e < 3; ++e) apex[{t.v[(e + 1) % 3], t.v[(e + 2) % 3]}] = t.v[e];
+    std::size_t violations = 0;
+    for (const auto& [edge, w] : apex) {
+        const auto other = apex.find({edge.second, edge.first});
+        if (other == apex.end()) continue;
+        violations += incircle(points[edge.first.index()], points[edge.second.index()], points[w.index()],
+                               points[other->second.index()]) > 0;
+    }
+    EXPECT_EQ(violations, 0u);
+    double area = 0;
+    for (const Triangle& t : triangles) {
+        const Point a = points[t.v[0].index()];
+        area += 0.5 * cross(points[t.v[1].index()] - a, points[t.v[2].index()] - a);
+    }
+    EXPECT_NEAR(area, 4 * far_field * far_field - bodies.area, 1e-9 * area);
+    return triangles.size();
+}
+
+TEST(Separators, EquidistributedSegmentsFollowTheField) {
+    const std::vector<SizeSource> sources{{{0, 0}, {0, 0}, 0.01}};
+    const SizeField size(sources, {.gradation = 0.2}, {{-20, -20}, {20, 20}});
+    const Point u{0.3, 0}, v{17, 11};
+    auto points = decoupling::separate(u, v, {size, SeparatorRule::equidistributed});
+    points.insert(points.begin(), u);
+    points.push_back(v);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const double h = size(midpoint(points[i], points[i + 1])), l = distance(points[i], points[i + 1]);
+        EXPECT_LT(l, 0.85 * h);
+        EXPECT_GT(l, 0.6 * h);
+        if (i > 0) {
+            EXPECT_LT(l / distance(points[i - 1], points[i]), 1.25);
+        }
+    }
+    auto back = decoupling::separate(v, u, {size, SeparatorRule::equidistributed});
+    std::reverse(back.begin(), back.end());
+    EXPECT_TRUE(std::equal(back.begin(), back.end(), points.begin() + 1));
+}
+
+TEST(Separators, KRuleKeepsItsBoundsAtBothEndsOfEverySegment) {
+    const std::vector<SizeSource> sources{{{0, 0}, {0, 0}, 0.01}};
+    const SizeField size(sources, {.gradation = 0.1}, {{-20, -20}, {20, 20}});
+    const Point u{0.3, 0}, v{9, 4};
+    auto points = decoupling::separate(u, v, {size, SeparatorRule::k_rule});
+    points.insert(points.begin(), u);
+    points.push_back(v);
+    ASSERT_GT(points.size(), 10u);
+    for (std::size_t i = 0; i + 2 < points.size(); ++i) {  // the last segment may be a remainder
+        const auto k = [&](Point p) { return 0.5 * std::sqrt(0.4330127 * size(p) * size(p) / std::sqrt(2.0)); };
+        const double l = distance(points[i], points[i + 1]);
+        EXPECT_LE(l, 2 * std::min(k(points[i]), k(points[i + 1])) * 1.08) << i;
+        EXPECT_GE(l, 2 * std::max(k(points[i]), k(points[i + 1])) / std::sqrt(3.0) * 0.92) << i;
+    }
+}
+
+TEST(Pieces, SquareWithHoleCutAndIslands) {
+    // A square cut in two by a diagonal chain, with a triangular hole in one half and a diamond loop in the other.
+    std::vector<Point> points{{0, 0},     {4, 0},     {4, 4}, {0, 4},     {2.5, 0.5}, {3.5, 0.5},
+                              {3.5, 1.5}, {0.5, 2.5}, {1, 3}, {0.5, 3.5}, {0.2, 3}};
+    std::vector<Segment> edges;
+    const auto add = [&](std::size_t a, std::size_t b, bool both) {
+        edges.push_back({VertexId{a}, VertexId{b}});
+        if (both) edges.push_back({VertexId{b}, VertexId{a}});
+    };
+    add(0, 1, false), add(1, 2, false), add(2, 3, false), add(3, 0, false), add(0, 2, true);
+    add(4, 6, false), add(6, 5, false), add(5, 4, false);                  // hole: clockwise
+    add(7, 8, true), add(8, 9, true), add(9, 10, true), add(10, 7, true);  // meshed on both sides
+    const auto pieces = decoupling::trace_pieces(points, edges);
+    ASSERT_EQ(pieces.size(), 3u);
+    std::multiset<std::size_t> sizes;
+    std::size_t used = 0;
+    for (const auto& piece : pieces) {
+        std::size_t count = 0;
+        for (const auto& loop : piece.loops) count += loop.size();
+        sizes.insert(count);
+        used += count;
+    }
+    EXPECT_EQ(used, edges.size());
+    EXPECT_EQ(sizes, (std::multiset<std::size_t>{4, 6, 7}));
+}
+
+TEST(Pieces, SlitKeepsOneFaceAndTwoSlitsMakeTwo) {
+    std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 1}, {3, 1}, {3, 3}, {1, 3}};
+    std::vector<Segment> edges;
+    for (std::size_t i = 0; i < 4; ++i) {
+        edges.push_back({VertexId{i}, VertexId{(i + 1) % 4}});
+        edges.push_back({VertexId{4 + (i + 1) % 4}, VertexId{4 + i}});
+    }
+    EXPECT_EQ(decoupling::trace_pieces(points, edges).size(), 1u);
+    edges.push_back({VertexId{0}, VertexId{4}});
+    edges.push_back({VertexId{4}, VertexId{0}});
+    EXPECT_EQ(decoupling::trace_pieces(points, edges).size(), 1u);
+    edges.push_back({VertexId{2}, VertexId{6}});
+    edges.push_back({VertexId{6}, VertexId{2}});
+    EXPECT_EQ(decoupling::trace_pieces(points, edges).size(), 2u);
+}
+
+TEST(Decouple, UnionOfPiecesIsGloballyDelaunay) {
+    Bodies bodies;
+    bodies.add(ellipse(400, 0.15, {0.5, 0}, 10));
+    std::map<double, std::size_t> count;
+    for (double target : {1e9, 20'000.0, 3'000.0, 800.0}) {
+        const SizeField size = bodies.size(0.08, 30);
+        const Decoupling d = decouple_to(bodies, size, 30, target);
+        count[target] = expect_global_delaunay(bodies, d, 30);
+    }
+    // Cutting costs few triangles.
+    EXPECT_LT(double(count[3'000.0]), 1.06 * double(count[1e9]));
+}
+
+TEST(Decouple, KRuleIsGloballyDelaunay) {
+    Bodies bodies;
+    bodies.add(ellipse(160, 0.12));
+    const SizeField size = bodies.size(0.05, 20);
+    const Decoupling d = decouple_to(bodies, size, 20, 4000, SeparatorRule::k_rule);
+    expect_global_delaunay(bodies, d, 20);
+}
+
+TEST(Decouple, SeveralBodies) {
+    Bodies bodies;
+    bodies.add(ellipse(120, 0.2, {0.5, 0}, 4));
+    bodies.add(ellipse(100, 0.3, {1.7, -0.2}));
+    const SizeField size = bodies.size(0.1, 20);
+    const Decoupling d = decouple_to(bodies, size, 20, 5000);
+    expect_global_delaunay(bodies, d, 20);
+}
+
+TEST(Decouple, PiecesStayNearTheirTargetAndEstimatesNearTheOutcome) {
+    Bodies bodies;
+    bodies.add(ellipse(400, 0.12));
+    const SizeField size = bodies.size(0.03, 50);
+    const double target = 8000;
+    const Decoupling d = decouple_to(bodies, size, 50, target);
+    EXPECT_GT(d.subdomains.size(), 10u);
+    for (const Subdomain& s : d.subdomains) {
+        const double made = double(refine(s).triangles.size());
+        EXPECT_LT(made, 2 * target);
+        EXPECT_NEAR(s.estimated_triangles / made, 1.0, 0.1);
+    }
+}
+
+/// Three borders a thousand times as fine as the space between them: triangles with fine corners and a wide middle.
+/// No piece above twice the target, estimates within 15 % of the outcome for most pieces, few triangles more than
+/// uncut, frozen borders kept.
+void expect_cut_to_size(const Bodies& bodies, const SizeField& size, double far_field, double target) {
+    SCOPED_TRACE(target);
+    const Decoupling whole = decouple_to(bodies, size, far_field, 1e9);
+    const auto undivided = double(expect_global_delaunay(bodies, whole, far_field));
+    const Decoupling d = decouple_to(bodies, size, far_field, target);
+    const auto divided = double(expect_global_delaunay(bodies, d, far_field));
+    EXPECT_LT(divided, (target < 1000 ? 1.03 : 1.015) * undivided);
+    std::size_t foreseen = 0;
+    for (const Subdomain& s : d.subdomains) {
+        const auto made = double(refine(s).triangles.size());
+        EXPECT_LT(made, 2 * target);
+        foreseen += std::abs(s.estimated_triangles - made) <= 0.15 * made;
+    }
+    EXPECT_GE(double(foreseen), 0.95 * double(d.subdomains.size()));
+}
+
+TEST(Decouple, OneBodyIsCutToAnySize) {
+    Bodies bodies;
+    bodies.add(ellipse(400, 0.15, {0.5, 0}, 10));
+    for (double target : {5'000.0, 1'000.0, 400.0}) expect_cut_to_size(bodies, bodies.size(0.07, 30), 30, target);
+}
+
+TEST(Decouple, SeveralBodiesAreCutToAnySize) {
+    Bodies bodies;
+    bodies.add(ellipse(300, 0.2, {0.5, 0}, 4));
+    bodies.add(ellipse(200, 0.3, {1.7, -0.2}, 3));
+    bodies.add(ellipse(240, 0.3, {0.2, 0.45}, 2));
+    for (double target : {5'000.0, 1'000.0, 400.0}) expect_cut_to_size(bodies, bodies.size(0.07, 20), 20, target);
+}
+
+TEST(Decouple, SourcesOfSizesAreCutToSizeWhereverTheyLie) {
+    Bodies bodies;
+    bodies.add(ellipse(300, 0.2, {0.5, 0}, 4));
+    bodies.sources.push_back({.a = {1.05, 0}, .b = {6, 0.4}, .size = 0.01});
+    bodies.sources.push_back({.a = {-6, 3}, .b = {-6, 3}, .size = 0.02, .radius = 0.7});
+    bodies.sources.push_back({.a = {-0.3, -1.2}, .b = {0.2, -0.4}, .size = 0.008, .shape = SizeSource::Shape::box});
+    for (double target : {10'000.0, 2'000.0}) expect_cut_to_size(bodies, bodies.size(0.1, 20), 20, target);
+}
+
+// What is a ring of many edges where h is small may be one or two edges wide on the other side.
+TEST(Decouple, RingsKeepTheirWidthWhereTheyAreCoarsest) {
+    Bodies bodies;
+    bodies.add(ellipse(400, 0.12, {0.5, 0}, 4));
+    bodies.sources.push_back({.a = {1.2, -0.3}, .b = {2.2, 0.3}, .size = 0.002, .shape = SizeSource::Shape::box});
+    const SizeField size = bodies.size(0.1, 50);
+    expect_global_delaunay(bodies, decouple_to(bodies, size, 50, 4000), 50);
+}
+
+TEST(Decouple, NarrowGapsAreLeftAlone) {
+    Bodies bodies;
+    bodies.add(ellipse(600, 0.2, {0.5, 0}, 4));
+    bodies.add(ellipse(600, 0.2, {0.6, 0.215}, 4));
+    const SizeField size = bodies.size(0.1, 10);
+    const Decoupling d = decouple_to(bodies, size, 10, 500);
+    expect_global_delaunay(bodies, d, 10);
+    // No vertex of a line in the gap, which is about five edges wide at its narrowest.
+    for (std::size_t v = bodies.points.size(); v < d.points.size(); ++v) {
+        const Point p = d.points[v];
+        EXPECT_FALSE(p.x > 0.5 && p.x < 0.6 && p.y > 0.08 && p.y < 0.135) << p.x << ' ' << p.y;
+    }
+}
+
+TEST(Pieces, SplitAndJoinKeepEveryEdge) {
+    const auto ids = [](std::initializer_list<int> values) {
+        std::vector<VertexId> result;
+        for (int v : values) result.push_back(VertexId{static_cast<std::size_t>(v)});
+        return result;
+    };
+    const decoupling::Piece ring{{ids({0, 1, 2, 3}), ids({4, 5, 6})}};
+    const decoupling::Piece slit = decoupling::join(ring, {1, 2}, {0, 1}, ids({8, 9}));
+    ASSERT_EQ(slit.loops.size(), 1u);
+    EXPECT_EQ(slit.loops[0], ids({6, 4, 5, 6, 8, 9, 1, 2, 3, 0, 1, 9, 8}));
+    const decoupling::Halves halves = decoupling::split(slit, 1, 8, ids({7}));
+    EXPECT_EQ(halves.first.loops[0], ids({4, 7, 3, 0, 1, 9, 8, 6}));
+    EXPECT_EQ(halves.second.loops[0], ids({3, 7, 4, 5, 6, 8, 9, 1, 2}));
+}
+
+/// A line that dangles in a piece, as between a body and the border it was joined to.
+TEST(Pieces, DanglingLinesAreRefinedFromBothSides) {
+    Bodies bodies;
+    bodies.add(ellipse(60, 0.4));
+    const SizeField size = bodies.size(0.1, 3);
+    Decoupling d = decouple_to(bodies, size, 1.2, 1e9);
+    ASSERT_EQ(d.subdomains.size(), 1u);
+    Subdomain& s = d.subdomains.front();
+    VertexId nose = s.segments.front().a, corner = nose;
+    for (const Segment& e : s.segments) {
+        if (std::abs(s.points[e.a.index()].y) < 0.3 && s.points[e.a.index()].x > 0.99 && s.points[e.a.index()].x < 1.1)
+            nose = std::abs(s.points[e.a.index()].y) <= std::abs(s.points[nose.index()].y) ? e.a : nose;
+    }
+    for (const Segment& e : s.segments)
+        if (s.points[e.a.index()].x > 1.6 && (s.points[corner.index()].x < 1.6 ||
+                                              std::abs(s.points[e.a.index()].y) < std::abs(s.points[corner.index()].y)))
+            corner = e.a;
+    const auto line = decoupling::separate(s.points[nose.index()], s.points[corner.index()],
+                                           {size, SeparatorRule::equidistributed}, 3);
+    ASSERT_GT(line.size(), 2u);
+    VertexId before = nose;
+    const auto add = [&](VertexId v) {
+        s.segments.push_back({before, v});
+        s.segments.push_back({v, before});
+        before = v;
+    };
+    for (Point p : line) {
+        s.global.push_back(VertexId{d.points.size()});
+        d.points.push_back(p);
+        s.points.push_back(p);
+        add(VertexId{s.points.size() - 1});
+    }
+    add(corner);
+    expect_global_delaunay(bodies, d, 1.2);
+}
+
+TEST(Decouple, EstimatesSeeWideSpacesBetweenFineBorders) {
+    Bodies bodies;
+    const auto small = [](Point center) {
+        std::vector<Point> loop = ellipse(40, 1, {0, 0});
+        for (Point& p : loop) p = center + 2e-4 * p;
+        return loop;
+    };
+    for (Point center : {Point{0, 0}, Point{1, 0}, Point{0.5, 0.8}}) bodies.add(small(center));
+    const SizeField size = bodies.size(0.3, 5);
+    const Decoupling d = decouple_to(bodies, size, 5, 1e5);
+    for (const Subdomain& s : d.subdomains)
+        EXPECT_NEAR(s.estimated_triangles / double(refine(s).triangles.size()), 1.0, 0.15);
+}
+
+TEST(Decouple, RefusesAFarFieldWithoutRoom) {
+    Bodies bodies;
+    bodies.add(ellipse(60, 0.12));
+    const SizeField size = bodies.size(0.1, 5);
+    EXPECT_THROW(decouple_to(bodies, size, 0.5, 1e5), UsageError);
+    EXPECT_NO_THROW(decouple_to(bodies, size, 0.8, 1e5));
+}
+
+}  // namespace
+}  // namespace lamina::test

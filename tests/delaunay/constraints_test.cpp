@@ -1,0 +1,442 @@
+// Constrained triangulation: whatever segments do to each other and to vertices.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
+
+#include "support/point_sets.hpp"
+
+namespace lamina::test {
+namespace {
+
+using Segments = std::vector<Segment>;
+
+Segment segment(std::size_t a, std::size_t b) { return {VertexId{a}, VertexId{b}}; }
+
+std::vector<Point> with_added(std::vector<Point> points, const ConstrainedTriangulation& t) {
+    points.insert(points.end(), t.steiner_points.begin(), t.steiner_points.end());
+    return points;
+}
+
+double covered_area(const std::vector<Point>& points, const std::vector<Triangle>& triangles) {
+    double area = 0;
+    for (const Triangle& t : triangles)
+        area += 0.5 *
+                cross(points[t.v[1].index()] - points[t.v[0].index()], points[t.v[2].index()] - points[t.v[0].index()]);
+    return area;
+}
+
+bool on_segment(Point a, Point b, Point p) { return orient2d(a, b, p) == 0 && dot(p - a, p - b) <= 0; }
+
+bool cross_properly(Point p, Point q, Point r, Point s) {
+    return orient2d(p, q, r) * orient2d(p, q, s) < 0 && orient2d(r, s, p) * orient2d(r, s, q) < 0;
+}
+
+/// Undirected, sorted.
+Segments undirected(Segments segments) {
+    for (Segment& s : segments)
+        if (s.b < s.a) std::swap(s.a, s.b);
+    std::sort(segments.begin(), segments.end());
+    segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+    return segments;
+}
+
+/// The segments cut at every vertex on them, by brute force.
+Segments brute_force_pieces(const std::vector<Point>& points, const Segments& segments) {
+    Segments pieces;
+    for (const Segment& s : segments) {
+        const Point a = points[s.a.index()], b = points[s.b.index()];
+        std::vector<std::size_t> on;
+        for (std::size_t v = 0; v < points.size(); ++v)
+            if (on_segment(a, b, points[v])) on.push_back(v);
+        std::sort(on.begin(), on.end(),
+                  [&](std::size_t l, std::size_t r) { return lexicographically_less(points[l], points[r]); });
+        for (std::size_t i = 0; i + 1 < on.size(); ++i) pieces.push_back(segment(on[i], on[i + 1]));
+    }
+    return undirected(pieces);
+}
+
+/// Any triangulation that holds the pieces, then flips until every other edge is locally Delaunay: by Lee and Lin
+/// (1986) that is the constrained Delaunay triangulation, and with the tie rule there is only one.
+std::vector<Triangle> brute_force_constrained(const std::vector<Point>& points, const Segments& pieces) {
+    const std::size_t n = points.size();
+    std::set<std::pair<std::size_t, std::size_t>> edges;
+    const auto has = [&](std::size_t a, std::size_t b) { return edges.count({std::min(a, b), std::max(a, b)}) > 0; };
+    for (const Segment& s : pieces) edges.insert({s.a.index(), s.b.index()});
+    for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = a + 1; b < n; ++b) {
+            bool free = true;
+            for (std::size_t v = 0; v < n && free; ++v)
+                free = v == a || v == b || !on_segment(points[a], points[b], points[v]);
+            for (const auto& [c, d] : edges) free = free && !cross_properly(points[a], points[b], points[c], points[d]);
+            if (free) edges.insert({a, b});
+        }
+    // The vertex on the left of a -> b whose triangle with it is empty; n if the edge is on the hull.
+    const auto apex = [&](std::size_t a, std::size_t b) {
+        std::size_t best = n;
+        for (std::size_t c = 0; c < n; ++c) {
+            if (c == a || c == b || !has(a, c) || !has(b, c) || orient2d(points[a], points[b], points[c]) <= 0)
+                continue;
+            if (best == n || (orient2d(points[a], points[best], points[c]) <= 0 &&
+                              orient2d(points[best], points[b], points[c]) <= 0))
+                best = c;
+        }
+        return best;
+    };
+    for (bool flipped = true; flipped;) {
+        flipped = false;
+        for (const auto& [a, b] : std::vector(edges.begin(), edges.end())) {
+            if (!has(a, b) || std::binary_search(pieces.begin(), pieces.end(), segment(a, b))) continue;
+            const std::size_t c = apex(a, b), d = apex(b, a);
+            if (c == n || d == n || incircle_perturbed(points[a], points[b], points[c], points[d]) < 0) continue;
+            edges.erase({a, b});
+            edges.insert({std::min(c, d), std::max(c, d)});
+            flipped = true;
+        }
+    }
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b] : edges)
+        for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}})
+            if (const std::size_t c = apex(from, to); c < n && c > from && c > to)
+                triangles.push_back({VertexId{from}, VertexId{to}, VertexId{c}});
+    return canonical(triangles);
+}
+
+/// Random segments among n points; without crossings where `planar`.
+Segments random_segments(const std::vector<Point>& points, std::size_t tries, bool planar, Random& random) {
+    Segments segments;
+    for (std::size_t i = 0; i < tries; ++i) {
+        const Segment s = segment(random.below(points.size()), random.below(points.size()));
+        if (s.a == s.b) continue;
+        const bool free = std::none_of(segments.begin(), segments.end(), [&](const Segment& o) {
+            return cross_properly(points[s.a.index()], points[s.b.index()], points[o.a.index()], points[o.b.index()]);
+        });
+        if (free || !planar) segments.push_back(s);
+    }
+    return segments;
+}
+
+/// Points of every kind the tie rule and the collinear cases are about.
+std::vector<Point> mixed_points(std::size_t n, std::uint64_t seed) {
+    switch (seed % 4) {
+        case 0:
+            return random_points(n, seed);
+        case 1:
+            return random_grid_points(n, std::max(4, int(std::sqrt(2.0 * double(n)))), seed);
+        case 2: {
+            auto circle = cocircular_points(5);
+            Random random(seed);
+            for (std::size_t i = circle.size(); i > 1; --i) std::swap(circle[i - 1], circle[random.below(i)]);
+            circle.resize(std::min(n, circle.size()));
+            return circle;
+        }
+        default: {
+            // Clusters along a few slanted lines.
+            Random random(seed);
+            std::set<std::pair<double, double>> seen;
+            while (seen.size() < n) {
+                const double k = double(random.below(3 * n));
+                const double line = double(random.below(3));
+                seen.insert({k, 2 * k + 7 * line * line});
+            }
+            std::vector<Point> points;
+            for (const auto& [x, y] : seen) points.push_back({x, y});
+            return points;
+        }
+    }
+}
+
+/// Every promise about the result of keeping everything.
+void expect_constrained(const std::vector<Point>& points, const Segments& segments, const ConstrainedTriangulation& t) {
+    const auto all = with_added(points, t);
+    for (const std::string& defect : check_triangulation(all, t.triangles, t.segments)) ADD_FAILURE() << defect;
+    // The convex hull is covered: as many triangles as any triangulation of these points has.
+    EXPECT_EQ(t.triangles.size(), triangulate(all).triangles.size());
+    ASSERT_EQ(t.segments.size(), t.parents.size());
+    EXPECT_EQ(undirected(t.segments).size(), t.segments.size()) << "listed twice";
+    EXPECT_TRUE(std::is_sorted(t.parents.begin(), t.parents.end()));
+    if (t.steiner_points.empty()) {
+        EXPECT_EQ(undirected(t.segments), brute_force_pieces(points, segments));
+    }
+    for (std::size_t i = 0; i < t.segments.size(); ++i) {
+        // Near its parent, in its direction, and on it exactly where nothing was rounded.
+        const Point a = points[segments[t.parents[i]].a.index()], b = points[segments[t.parents[i]].b.index()];
+        const Point p = all[t.segments[i].a.index()], q = all[t.segments[i].b.index()];
+        if (t.steiner_points.empty() || distance(p, q) > 1e-14) {
+            EXPECT_GT(dot(q - p, b - a), 0);
+        }
+        const double size = std::max({length(a), length(b), 1.0});
+        for (Point end : {p, q}) EXPECT_LE(std::abs(cross(b - a, end - a)), 1e-12 * size * distance(a, b));
+        if (t.steiner_points.empty()) {
+            EXPECT_TRUE(on_segment(a, b, p) && on_segment(a, b, q));
+        }
+    }
+}
+
+Segments shuffled(Segments segments, std::uint64_t seed) {
+    Random random(seed);
+    for (std::size_t i = segments.size(); i > 1; --i) std::swap(segments[i - 1], segments[random.below(i)]);
+    for (Segment& s : segments)
+        if (random.below(2)) std::swap(s.a, s.b);
+    return segments;
+}
+
+TEST(Constraints, EqualBruteForceOnSmallSets) {
+    for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+        Random random(seed);
+        const auto points = mixed_points(4 + random.below(11), seed);
+        const auto segments = random_segments(points, 1 + random.below(8), true, random);
+        ConstrainedTriangulation t;
+        try {
+            t = triangulate(points, segments);
+        } catch (const InputError& e) {
+            EXPECT_TRUE(triangulate(points).triangles.empty()) << e.what();
+            continue;
+        }
+        SCOPED_TRACE(seed);
+        expect_constrained(points, segments, t);
+        EXPECT_EQ(canonical(t.triangles), brute_force_constrained(points, undirected(t.segments)));
+    }
+}
+
+TEST(Constraints, PlanarSegmentsOnLargerSetsInAnyOrder) {
+    for (std::uint64_t seed = 1; seed <= 700; ++seed) {
+        Random random(1000 + seed);
+        const auto points = mixed_points(20 + random.below(80), seed);
+        const auto segments = random_segments(points, 10 + random.below(60), true, random);
+        const auto t = triangulate(points, segments);
+        SCOPED_TRACE(seed);
+        expect_constrained(points, segments, t);
+        const auto other = triangulate(points, shuffled(segments, seed));
+        EXPECT_EQ(canonical(other.triangles), canonical(t.triangles));
+        EXPECT_EQ(undirected(other.segments), undirected(t.segments));
+        // Nothing to resolve: the same with crossings allowed.
+        const auto resolved = triangulate(points, segments, {.crossings = Crossings::insert});
+        EXPECT_TRUE(resolved.steiner_points.empty());
+        EXPECT_EQ(resolved.triangles, t.triangles);
+        EXPECT_EQ(resolved.segments, t.segments);
+        EXPECT_EQ(resolved.parents, t.parents);
+    }
+}
+
+TEST(Constraints, CrossingSegmentsAreResolvedInAnyOrder) {
+    for (std::uint64_t seed = 1; seed <= 700; ++seed) {
+        Random random(5000 + seed);
+        const auto points = mixed_points(8 + random.below(40), seed);
+        const auto segments = random_segments(points, 4 + random.below(25), false, random);
+        SCOPED_TRACE(seed);
+        const auto t = triangulate(points, segments, {.crossings = Crossings::insert});
+        expect_constrained(points, segments, t);
+        const auto other = triangulate(points, shuffled(segments, seed), {.crossings = Crossings::insert});
+        EXPECT_EQ(other.steiner_points, t.steiner_points);
+        EXPECT_EQ(canonical(other.triangles), canonical(t.triangles));
+        EXPECT_EQ(undirected(other.segments), undirected(t.segments));
+        const bool crossing = std::any_of(segments.begin(), segments.end(), [&](const Segment& s) {
+            return std::any_of(segments.begin(), segments.end(), [&](const Segment& o) {
+                return cross_properly(points[s.a.index()], points[s.b.index()], points[o.a.index()],
+                                      points[o.b.index()]);
+            });
+        });
+        if (crossing) {
+            EXPECT_THROW(triangulate(points, segments), InputError);
+        }
+    }
+}
+
+TEST(Constraints, NearlyParallelAndNearlyConcurrentSegmentsStayPlanar) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        Random random(seed);
+        std::vector<Point> points;
+        Segments segments;
+        for (int i = 0; i < 14; ++i) {
+            // Fans through one point but for rounding, or bundles a few ulps apart.
+            const double a = random.real(0, 6.28), tilt = seed % 2 ? a : 1e-15 * random.real(-8, 8) + 0.7;
+            const Point c{0.3 + 1e-16 * random.real(-4, 4), 0.1 + 1e-16 * random.real(-4, 4)};
+            const Point d{std::cos(tilt), std::sin(tilt)};
+            segments.push_back(segment(points.size(), points.size() + 1));
+            points.push_back(c + random.real(0.5, 1) * d);
+            points.push_back(c - random.real(0.5, 1) * d);
+        }
+        points.push_back({0.31, 5});
+        const auto t = triangulate(points, segments, {.crossings = Crossings::insert});
+        SCOPED_TRACE(seed);
+        expect_constrained(points, segments, t);
+        EXPECT_EQ(triangulate(points, shuffled(segments, seed), {.crossings = Crossings::insert}).steiner_points,
+                  t.steiner_points);
+    }
+}
+
+TEST(Constraints, CrossingAtAVertexSnapsToIt) {
+    const std::vector<Point> points{{0, 0}, {2, 2}, {0, 2}, {2, 0}, {1, 1}, {1, 5}};
+    const Segments segments{segment(0, 1), segment(2, 3)};
+    for (Crossings crossings : {Crossings::refuse, Crossings::insert}) {
+        const auto t = triangulate(points, segments, {.crossings = crossings});
+        EXPECT_TRUE(t.steiner_points.empty());
+        const Segments expected{segment(0, 4), segment(4, 1), segment(2, 4), segment(4, 3)};
+        EXPECT_EQ(t.segments, expected);
+        EXPECT_EQ(t.parents, (std::vector<std::uint32_t>{0, 0, 1, 1}));
+    }
+}
+
+TEST(Constraints, OverlappingAndRepeatedSegmentsMerge) {
+    const std::vector<Point> points{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {1, 2}, {1, -2}};
+    const Segments segments{segment(0, 2), segment(3, 1), segment(0, 2), segment(1, 2), segment(0, 3)};
+    const auto t = triangulate(points, segments);
+    EXPECT_EQ(t.segments, (Segments{segment(0, 1), segment(1, 2), segment(3, 2)}));
+    EXPECT_EQ(t.parents, (std::vector<std::uint32_t>{0, 0, 1}));
+    expect_constrained(points, segments, t);
+}
+
+TEST(Constraints, ErrorsNameTheSegments) {
+    const std::vector<Point> points{{0, 0}, {4, 4}, {0, 4}, {4, 0}, {1, 1}, {3, 5}};
+    const auto message = [&](const Segments& segments, ConstrainedOptions options = {}) -> std::string {
+        try {
+            triangulate(points, segments, options);
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "no error";
+    };
+    // Segment 0 is split at point 4: its pieces still carry its name.
+    EXPECT_EQ(message({segment(0, 1), segment(2, 3)}), "segment 1 (2-3) crosses segment 0 (0-1) (at 2, 2)");
+    EXPECT_EQ(message({segment(0, 1), segment(2, 3)}, {.crossings = Crossings::insert}), "no error");
+    EXPECT_EQ(message({segment(0, 9)}, {.crossings = Crossings::insert}),
+              "segment 0 (0-9) does not join two of the 6 points");
+    EXPECT_EQ(message({segment(0, 1)}, {.holes = {{2, 2}}}), "hole 0 lies on a segment (at 2, 2)");
+    EXPECT_EQ(message({segment(0, 1)}, {.holes = {{9, 9}, {1, 1}}}), "hole 1 lies on a vertex (at 1, 1)");
+}
+
+/// A square of side 10 with a square hole of side 2 and a pocket open to the outside.
+///
+///      3 ---- 6   5 ---- 2
+///      |       \ /       |
+///      |        4        |
+///      |    [ ]          |
+///      0 --------------- 1
+struct Plate {
+    std::vector<Point> points{{0, 0},  {10, 0}, {10, 10}, {0, 10}, {5, 8}, {6, 10},
+                              {4, 10}, {3, 3},  {3, 5},   {5, 5},  {5, 3}};
+    Segments segments{segment(0, 1), segment(1, 2), segment(2, 5), segment(5, 4),  segment(4, 6), segment(6, 3),
+                      segment(3, 0), segment(7, 8), segment(8, 9), segment(9, 10), segment(10, 7)};
+    double area = 100 - 2 - 4;
+};
+
+TEST(Constraints, HolesBySeedByLoopAndFromOutside) {
+    const Plate plate;
+    const auto by_loop = triangulate(plate.points, plate.segments, {.keep = Keep::left_of_segments});
+    const auto by_seed =
+        triangulate(plate.points, plate.segments, {.keep = Keep::inside_segments, .holes = {{4, 4}, {50, 50}}});
+    EXPECT_NEAR(covered_area(plate.points, by_loop.triangles), plate.area, 1e-12);
+    EXPECT_EQ(by_loop.triangles, by_seed.triangles);
+    EXPECT_EQ(by_loop.segments, plate.segments);
+    EXPECT_EQ(by_seed.segments, plate.segments);
+    for (const std::string& defect : check_triangulation(plate.points, by_seed.triangles, by_seed.segments))
+        ADD_FAILURE() << defect;
+    const auto inside = triangulate(plate.points, plate.segments, {.keep = Keep::inside_segments});
+    EXPECT_NEAR(covered_area(plate.points, inside.triangles), plate.area + 4, 1e-12);
+    const auto hull = triangulate(plate.points, plate.segments);
+    EXPECT_NEAR(covered_area(plate.points, hull.triangles), 100, 1e-12);
+    // Open polygons enclose nothing; a seed in the region takes all of it with the hole's segments left alone.
+    const Segments open(plate.segments.begin(), plate.segments.begin() + 6);
+    EXPECT_TRUE(triangulate(plate.points, open, {.keep = Keep::inside_segments}).triangles.empty());
+    const auto core = triangulate(plate.points, plate.segments, {.keep = Keep::inside_segments, .holes = {{1, 1}}});
+    EXPECT_NEAR(covered_area(plate.points, core.triangles), 4, 1e-12);
+    EXPECT_EQ(core.segments.size(), 4u);
+}
+
+TEST(Constraints, HolesInManyCells) {
+    // A lattice of cells, each second one a hole found by the walk.
+    const int n = 21;
+    const auto points = square_lattice(n, n);
+    Segments segments;
+    for (int i = 0; i < n; ++i) {
+        segments.push_back(segment(std::size_t(i) * n, std::size_t(i) * n + n - 1));
+        segments.push_back(segment(i, std::size_t(n - 1) * n + i));
+    }
+    ConstrainedOptions options;
+    for (int i = 0; i < n - 1; ++i)
+        for (int j = i % 2; j < n - 1; j += 2) options.holes.push_back({i + 0.3, j + 0.4});
+    const auto t = triangulate(points, segments, options);
+    EXPECT_EQ(t.triangles.size(), std::size_t((n - 1) * (n - 1)));
+    EXPECT_NEAR(covered_area(points, t.triangles), (n - 1) * (n - 1) / 2.0, 1e-9);
+}
+
+TEST(Constraints, LatticesWithLongSegments) {
+    const auto points = square_lattice(60, 60);
+    const Segments segments{segment(0, 3599), segment(59, 3540), segment(30, 3599), segment(0, 59), segment(1, 3541)};
+    EXPECT_THROW(triangulate(points, segments), InputError);
+    const auto t = triangulate(points, segments, {.crossings = Crossings::insert});
+    expect_constrained(points, segments, t);
+    EXPECT_FALSE(t.steiner_points.empty());
+    const Segments apart{segment(0, 3599), segment(30, 1859), segment(1860, 3570), segment(0, 59)};
+    expect_constrained(points, apart, triangulate(points, apart));
+}
+
+TEST(Constraints, CocircularRingsWithChords) {
+    auto points = cocircular_points(5);
+    const std::size_t n = points.size();
+    for (Point p : cocircular_points(3)) points.push_back(p);
+    Segments chords;
+    for (std::size_t i = 0; i < n; i += 3) chords.push_back(segment(i, (i * 7 + 5) % n));
+    const auto t = triangulate(points, chords, {.crossings = Crossings::insert});
+    expect_constrained(points, chords, t);
+}
+
+TEST(Constraints, CollinearChainsOfManyVertices) {
+    std::vector<Point> points;
+    for (int i = 0; i < 500; ++i) points.push_back({3.0 * i, 7.0 * i});
+    points.push_back({-1000, 4000});
+    points.push_back({4000, 1000});
+    const Segments segments{segment(0, 499), segment(400, 20), segment(250, 251)};
+    const auto t = triangulate(points, segments);
+    expect_constrained(points, segments, t);
+    EXPECT_EQ(t.segments.size(), 499u);
+}
+
+TEST(Constraints, NestedThinSpirals) {
+    // Two arms a hair apart, wound up together.
+    for (double gap : {0.3, 1e-3, 1e-9}) {
+        std::vector<Point> points;
+        Segments segments;
+        for (double shift : {0.0, gap}) {
+            for (int i = 0; i <= 1200; ++i) {
+                const double a = 0.05 * i, r = 1 + a + shift;
+                if (i > 0) segments.push_back(segment(points.size() - 1, points.size()));
+                points.push_back({r * std::cos(a), r * std::sin(a)});
+            }
+        }
+        const auto t = triangulate(points, segments);
+        expect_constrained(points, segments, t);
+        // Closed at both ends, it is a ribbon: one strip of triangles.
+        auto ribbon = segments;
+        ribbon.push_back(segment(0, 1201));
+        ribbon.push_back(segment(1200, 2401));
+        const auto strip = triangulate(points, ribbon, {.keep = Keep::inside_segments});
+        EXPECT_EQ(strip.triangles.size(), points.size() - 2) << gap;
+    }
+}
+
+TEST(Constraints, OneSegmentThroughManyTriangles) {
+    auto points = random_points(60000, 21);
+    const std::size_t n = points.size();
+    points.push_back({-1, 0.5});
+    points.push_back({2, 0.5000001});
+    // Rows on both sides of a segment as long as all of them: every vertex is in the cavity.
+    for (int i = 0; i < 1000; ++i) {
+        points.push_back({3 + 0.001 * i, 0.1 + 1e-5 * i * (999 - i) / 1e3});
+        points.push_back({3 + 0.001 * i + 0.0005, -0.1});
+    }
+    points.push_back({2.5, 0});
+    points.push_back({4.5, 0.001});
+    const Segments segments{segment(n, n + 1), segment(points.size() - 2, points.size() - 1)};
+    expect_constrained(points, segments, triangulate(points, segments));
+}
+
+}  // namespace
+}  // namespace lamina::test

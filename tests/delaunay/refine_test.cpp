@@ -1,0 +1,304 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
+
+#include "support/point_sets.hpp"
+
+namespace lamina::test {
+namespace {
+
+constexpr double equilateral_area = 0.43301270189221932;
+
+/// Border points, then added ones.
+std::vector<Point> all_points(const Border& border, const Refinement& r) {
+    std::vector<Point> points = border.points;
+    points.insert(points.end(), r.steiner_points.begin(), r.steiner_points.end());
+    return points;
+}
+
+/// Every promise of refine(), checked from the outside.
+void expect_promises(const Border& border, const Refinement& r, const SizeField& size, const RefineOptions& options,
+                     double area) {
+    const auto points = all_points(border, r);
+    for (const std::string& defect : check_triangulation(points, r.triangles, border.segments)) ADD_FAILURE() << defect;
+    double covered = 0;
+    std::size_t below = 0, oversized = 0;
+    for (const Triangle& t : r.triangles) {
+        const Point a = points[t.v[0].index()], b = points[t.v[1].index()], c = points[t.v[2].index()];
+        const double triangle = 0.5 * cross(b - a, c - a);
+        covered += triangle;
+        below += smallest_angle_deg(points, t) < options.min_angle_deg - 1e-6;
+        const double h = (size(a) + size(b) + size(c)) / 3;
+        oversized += triangle > equilateral_area * h * h * (1 + 1e-6);
+    }
+    EXPECT_NEAR(covered, area, 1e-9 * area);
+    EXPECT_EQ(below, r.stats.below_bound);
+    EXPECT_EQ(oversized, r.stats.oversized);
+}
+
+/// Deterministic graded field with a single small edge at the origin.
+SizeField graded(double smallest, double gradation, double extent) {
+    const std::vector<SizeSource> sources{{{0, 0}, {smallest, 0}, smallest}};
+    return SizeField(sources, {.gradation = gradation}, {{-extent, -extent}, {extent, extent}});
+}
+
+TEST(Refine, UniformSquareMeetsBounds) {
+    for (double angle : {20.7, 28.0, 30.0}) {
+        const double h = 0.02;
+        const Border border = square_border(1, 0.8 * h);
+        const SizeField size(h);
+        const RefineOptions options{.min_angle_deg = angle};
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, 1.0);
+        EXPECT_EQ(r.stats.below_bound, 0u) << angle;
+        EXPECT_EQ(r.stats.oversized, 0u) << angle;
+        EXPECT_EQ(r.stats.refused, 0u) << angle;
+        // Not finer than needed: the mean triangle has at least half of the area allowed.
+        EXPECT_LT(double(r.triangles.size()), 2.0 / (equilateral_area * h * h));
+    }
+}
+
+TEST(Refine, GradedBorderMeetsBounds) {
+    // A square whose border spacing follows h(x) = 0.001 + 0.2 |x|.
+    const SizeField size = graded(1e-3, 0.2, 4);
+    Border border;
+    const std::vector<Point> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int side = 0; side < 4; ++side) {
+        const Point a = corners[side], b = corners[(side + 1) % 4];
+        // March with lengths of 0.8 h, from the finer end.
+        const bool forward = size(a) <= size(b);
+        const Point from = forward ? a : b, to = forward ? b : a;
+        std::vector<double> cuts{0};
+        while (cuts.back() < 1) cuts.push_back(cuts.back() + 0.75 * size(from + cuts.back() * (to - from)));
+        const double stretch = 1 / cuts.back();
+        std::vector<Point> line;
+        for (double c : cuts) line.push_back(from + std::min(1.0, c * stretch) * (to - from));
+        if (!forward) std::reverse(line.begin(), line.end());
+        border.points.insert(border.points.end(), line.begin(), line.end() - 1);
+    }
+    for (std::size_t i = 0; i < border.points.size(); ++i)
+        border.segments.push_back({VertexId{i}, VertexId{(i + 1) % border.points.size()}});
+    for (double angle : {20.7, 30.0}) {
+        const RefineOptions options{.min_angle_deg = angle};
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, 1.0);
+        EXPECT_EQ(r.stats.below_bound, 0u) << angle;
+        EXPECT_EQ(r.stats.oversized, 0u) << angle;
+    }
+}
+
+/// Mean of the smallest angles.
+double mean_smallest_angle(const Border& border, const Refinement& r) {
+    const auto points = all_points(border, r);
+    double sum = 0;
+    for (const Triangle& t : r.triangles) sum += smallest_angle_deg(points, t);
+    return sum / double(r.triangles.size());
+}
+
+TEST(Refine, LatticePatchesKeepEveryPromise) {
+    for (double angle : {20.7, 30.0}) {
+        const double h = 0.008;
+        const Border border = square_border(1, 0.8 * h);
+        const SizeField size(h);
+        const RefineOptions with{.min_angle_deg = angle}, without{.min_angle_deg = angle, .lattice = false};
+        const Refinement r = refine(border.points, border.segments, size, with);
+        expect_promises(border, r, size, with, 1.0);
+        EXPECT_EQ(r.stats.below_bound, 0u);
+        EXPECT_EQ(r.stats.oversized, 0u);
+        EXPECT_EQ(r.stats.refused, 0u);
+        EXPECT_GT(mean_smallest_angle(border, r), 57);
+        const Refinement pure = refine(border.points, border.segments, size, without);
+        expect_promises(border, pure, size, without, 1.0);
+        EXPECT_LT(double(r.triangles.size()), 0.85 * double(pure.triangles.size()));
+        EXPECT_GT(mean_smallest_angle(border, pure), 46);
+    }
+}
+
+/// Equal shares of the integral of ds / h between u and v, at most frozen_share each: the points between them.
+std::vector<Point> graded_points(Point u, Point v, const SizeField& size) {
+    constexpr std::size_t steps = 20'000;
+    const auto at = [&](std::size_t i) { return u + (static_cast<double>(i) / steps) * (v - u); };
+    std::vector<double> integral{0};
+    for (std::size_t i = 0; i < steps; ++i)
+        integral.push_back(integral.back() + distance(u, v) / steps / size(midpoint(at(i), at(i + 1))));
+    const auto n = static_cast<std::size_t>(std::ceil(integral.back() / frozen_share));
+    std::vector<Point> points;
+    for (std::size_t k = 1, i = 0; k < n; ++k) {
+        while (integral[i] < integral.back() * static_cast<double>(k) / static_cast<double>(n)) ++i;
+        points.push_back(at(i));
+    }
+    return points;
+}
+
+/// The polygon's sides divided as the size field asks.
+Border graded_border(const std::vector<Point>& corners, const SizeField& size) {
+    Border border;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        border.points.push_back(corners[i]);
+        for (Point p : graded_points(corners[i], corners[(i + 1) % corners.size()], size)) border.points.push_back(p);
+    }
+    for (std::size_t i = 0; i < border.points.size(); ++i)
+        border.segments.push_back({VertexId{i}, VertexId{(i + 1) % border.points.size()}});
+    return border;
+}
+
+double enclosed_area(const Border& border) {
+    double area = 0;
+    for (const Segment& s : border.segments)
+        area += 0.5 * cross(border.points[s.a.index()], border.points[s.b.index()]);
+    return area;
+}
+
+TEST(Refine, LatticePatchesAreFoundInACornerOfASteepField) {
+    // One size in a thousandth of the region, which holds most of the triangles; outside it h doubles within ten edges.
+    const std::vector<SizeSource> sources{{.a = {-1, -1}, .b = {1, 1}, .size = 0.01, .shape = SizeSource::Shape::box}};
+    const SizeField size(sources, {.gradation = 0.1}, {{-1, -1}, {31, 31}});
+    const Border border = graded_border({{0, 0}, {31, 0}, {31, 31}, {0, 31}}, size);
+    const RefineOptions with, without{.lattice = false};
+    const Refinement r = refine(border.points, border.segments, size, with);
+    expect_promises(border, r, size, with, enclosed_area(border));
+    EXPECT_LT(double(r.triangles.size()),
+              0.85 * double(refine(border.points, border.segments, size, without).triangles.size()));
+}
+
+TEST(Refine, LatticePatchesFitTheCommonestSize) {
+    // Something finer beside it does not make the lattice finer.
+    const Border border = square_border(1, 0.008);
+    const RefineOptions options;
+    const double alone = double(refine(border.points, border.segments, SizeField(0.01), options).triangles.size());
+    for (double fine : {0.0051, 0.0055, 0.006, 0.0065}) {
+        const std::vector<SizeSource> sources{{{0.5, 0.5}, {0.5, 0.5}, fine}};
+        const SizeField size(sources, {.gradation = 0.1, .max_size = 0.01}, {{0, 0}, {1, 1}});
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, 1);
+        EXPECT_LT(double(r.triangles.size()), 1.05 * alone) << fine;
+    }
+}
+
+TEST(Refine, LatticePatchesOfManyLevelsKeepEveryPromise) {
+    // Sizes grow from a corner by a factor of 8, under one percent an edge.
+    const std::vector<SizeSource> sources{{{-0.1, -0.2}, {-0.1, -0.2}, 1e-3}};
+    const SizeField size(sources, {.gradation = 0.006}, {{-1, -1}, {2, 2}});
+    const std::vector<Point> corners{{0, 0}, {0.9, -0.1}, {1.2, 0.8}, {0.3, 1}, {0.1, 0.5}};
+    const Border border = graded_border(corners, size);
+    const double area = enclosed_area(border);
+    const RefineOptions with, without{.lattice = false};
+    const Refinement r = refine(border.points, border.segments, size, with);
+    expect_promises(border, r, size, with, area);
+    EXPECT_EQ(r.stats.below_bound, 0u);
+    EXPECT_EQ(r.stats.oversized, 0u);
+    EXPECT_EQ(r.stats.refused, 0u);
+    EXPECT_GT(mean_smallest_angle(border, r), 54);
+    EXPECT_LT(r.triangles.size(), refine(border.points, border.segments, size, without).triangles.size());
+}
+
+TEST(Refine, LatticePatchesStayOutOfHolesNotchesAndThinParts) {
+    const double h = 0.01;
+    Border border;
+    border.add_loop({{0, 0}, {2, 0}, {2, 0.05}, {1.2, 0.06}, {1.2, 1}, {1.02, 0.1}, {1, 1}, {0.5, 1.2}, {0, 1}},
+                    0.8 * h);
+    border.add_loop({{0.3, 0.3}, {0.35, 0.7}, {0.7, 0.75}, {0.6, 0.3}}, 0.8 * h);
+    const SizeField size(h);
+    const RefineOptions options;
+    const Refinement r = refine(border.points, border.segments, size, options);
+    expect_promises(border, r, size, options, enclosed_area(border));
+    // The needle's tip leaves what it leaves without patches, too.
+    const Refinement pure = refine(border.points, border.segments, size, {.lattice = false});
+    EXPECT_EQ(r.stats.below_bound, pure.stats.below_bound);
+    EXPECT_GT(mean_smallest_angle(border, r), 52);
+}
+
+TEST(Refine, LatticePatchesOfRandomPolygons) {
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        Random random(seed);
+        std::vector<Point> corners;
+        const int n = 3 + int(random.below(9));
+        for (int i = 0; i < n; ++i) {
+            const double t = 2 * M_PI * (i + 0.5 * random.real()) / n, radius = random.real(0.4, 1);
+            corners.push_back({radius * std::cos(t), radius * std::sin(t)});
+        }
+        const double h = random.real(0.008, 0.03);
+        Border border;
+        border.add_loop(corners, 0.8 * h);
+        const SizeField size(h);
+        const RefineOptions options;
+        expect_promises(border, refine(border.points, border.segments, size, options), size, options,
+                        enclosed_area(border));
+    }
+}
+
+TEST(Refine, SameResultForSameArgumentsAndForAnyReserve) {
+    const Border border = square_border(1, 0.02);
+    const SizeField size(0.025);
+    const Refinement a = refine(border.points, border.segments, size);
+    const Refinement b = refine(border.points, border.segments, size, {.expected_triangles = 100000});
+    EXPECT_EQ(a.steiner_points, b.steiner_points);
+    EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TEST(Refine, RegionWithHoleAndReflexCorners) {
+    Border border;
+    border.add_loop({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, 0.05);
+    border.add_loop({{0.3, 0.3}, {0.3, 0.7}, {0.7, 0.7}, {0.7, 0.3}}, 0.05);
+    const SizeField size(0.06);
+    const RefineOptions options;
+    const Refinement r = refine(border.points, border.segments, size, options);
+    expect_promises(border, r, size, options, 5.0 - 0.16);
+    EXPECT_EQ(r.stats.below_bound, 0u);
+}
+
+TEST(Refine, SmallInputAnglesTerminateAndStayConfined) {
+    for (double degrees : {1.0, 5.0, 15.0, 40.0}) {
+        Border border;
+        const double a = degrees * M_PI / 180;
+        border.add_loop({{0, 0}, {1, 0}, {std::cos(a), std::sin(a)}}, 0.02);
+        const SizeField size(0.03);
+        const Refinement r = refine(border.points, border.segments, size);
+        const auto points = all_points(border, r);
+        for (const std::string& defect : check_triangulation(points, r.triangles, border.segments))
+            ADD_FAILURE() << defect;
+    }
+}
+
+TEST(Refine, CoarseBorderIsNeverSplit) {
+    // Border edges fifty times longer than h: points beside them would encroach and are refused; the mesh stays valid.
+    const Border border = square_border(1, 0.5);
+    const SizeField size(0.01);
+    const Refinement r = refine(border.points, border.segments, size);
+    const auto points = all_points(border, r);
+    for (const std::string& defect : check_triangulation(points, r.triangles, border.segments)) ADD_FAILURE() << defect;
+    EXPECT_GT(r.stats.refused, 0u);
+}
+
+TEST(Refine, StopsAtTheLimitOfPoints) {
+    const Border border = square_border(1, 0.1);
+    EXPECT_THROW(refine(border.points, border.segments, SizeField(0.001), {.max_points = 1000}), MeshError);
+}
+
+TEST(Refine, RandomConvexPolygons) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        Random random(seed);
+        std::vector<Point> corners;
+        const int n = 5 + int(random.below(8));
+        for (int i = 0; i < n; ++i) {
+            const double t = 2 * M_PI * (i + 0.6 * random.real()) / n;
+            corners.push_back({std::cos(t), std::sin(t)});
+        }
+        const double h = random.real(0.02, 0.1);
+        Border border;
+        border.add_loop(corners, 0.8 * h);
+        const SizeField size(h);
+        const RefineOptions options;
+        const Refinement r = refine(border.points, border.segments, size, options);
+        double area = 0;
+        for (int i = 0; i < n; ++i) area += 0.5 * cross(corners[i], corners[(i + 1) % n]);
+        expect_promises(border, r, size, options, area);
+        EXPECT_EQ(r.stats.below_bound, r.stats.exempt) << seed;
+    }
+}
+
+}  // namespace
+}  // namespace lamina::test

@@ -1,0 +1,55 @@
+// Markers of the bases of blunt trailing edges.
+#include <gtest/gtest.h>
+
+#include <lamina/io.hpp>
+#include <lamina/pipeline.hpp>
+
+#include "support/temporary_folder.hpp"
+#include "support/wall_data.hpp"
+
+namespace lamina {
+namespace {
+
+using test::TemporaryFolder;
+
+TEST(BaseMarkers, OnlyForABluntTrailingEdge) {
+    CaseOptions options;
+    options.far_field.size = 5;
+    options.layer.layers = 8;
+    options.layer.first_height = 1e-4;
+    for (const bool blunt : {true, false}) {
+        const std::vector<std::string> input{blunt ? "naca:0012:61:blunt" : "naca:0012:60"};
+        options.assemble.base_marker = false;
+        const std::size_t edges = generate_mesh(input, options).mesh.markers[0].edges.size();
+        options.assemble.base_marker = true;
+        const Mesh mesh = generate_mesh(input, options).mesh;
+        EXPECT_TRUE(check_mesh(mesh).valid());
+        ASSERT_EQ(mesh.markers.size(), blunt ? 3u : 2u);
+        EXPECT_EQ(mesh.markers[0].name, "airfoil");
+        if (!blunt) continue;
+        EXPECT_EQ(mesh.markers[1].name, "airfoil_base");
+        EXPECT_EQ(mesh.markers[1].kind, MarkerKind::wall);
+        EXPECT_EQ(mesh.markers[0].edges.size() + mesh.markers[1].edges.size(), edges);
+        for (const Segment& edge : mesh.markers[1].edges) EXPECT_EQ(mesh.points[edge.a.index()].x, 1);
+        double length_of_base = 0;
+        for (const Segment& edge : mesh.markers[1].edges)
+            length_of_base += distance(mesh.points[edge.a.index()], mesh.points[edge.b.index()]);
+        EXPECT_NEAR(length_of_base, 0.00252, 1e-12);  // NACA 4-digit thickness at x = 1
+
+        // The table follows the whole outline nevertheless.
+        const TemporaryFolder folder;
+        write_wall_data(mesh, folder / "w.csv");
+        const auto rows = test::read_wall_rows(folder.read("w.csv"));
+        ASSERT_EQ(rows.size(), edges);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            EXPECT_EQ(rows[i].vertex, i);
+            EXPECT_NEAR(length(rows[i].normal), 1, 1e-14);
+            EXPECT_GT(rows[i].first_height, 0);
+            const test::WallRow& before = rows[i == 0 ? 0 : i - 1];
+            EXPECT_NEAR(rows[i].arc_length - before.arc_length, distance(rows[i].at, before.at), 1e-14);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina

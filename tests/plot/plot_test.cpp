@@ -1,0 +1,73 @@
+// Pictures of meshes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include <lamina/plot.hpp>
+
+#include "support/sample_meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lamina {
+namespace {
+
+using test::annulus;
+using test::box_with_hole;
+using test::TemporaryFolder;
+
+/// Width and height from the header of a PNG file.
+std::pair<unsigned, unsigned> png_size(const std::string& png) {
+    const auto number = [&](std::size_t at) {
+        unsigned value = 0;
+        for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(png[at + i]);
+        return value;
+    };
+    return {number(16), number(20)};
+}
+
+TEST(Plot, WritesEveryFormatAndColor) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.quads_in_layer = true});
+    std::set<std::string> pictures;
+    for (const PlotColor color :
+         {PlotColor::none, PlotColor::quality, PlotColor::size, PlotColor::piece, PlotColor::layer}) {
+        plot_mesh(mesh, folder / "m.png", {.color = color, .width_px = 300});
+        pictures.insert(folder.read("m.png"));
+        EXPECT_EQ(png_size(folder.read("m.png")), std::pair(300u, 300u));
+        plot_mesh(box_with_hole(), folder / "plain.png", {.color = color, .width_px = 50});  // without any cell data
+    }
+    EXPECT_EQ(pictures.size(), 5u);
+    plot_mesh(mesh, folder / "m.svg");
+    EXPECT_EQ(folder.read("m.svg").substr(0, 5), "<?xml");
+    plot_mesh(mesh, folder / "m.PDF");
+    EXPECT_EQ(folder.read("m.PDF").substr(0, 5), "%PDF-");
+}
+
+TEST(Plot, KeepsTheAspectOfTheWindow) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus();
+    plot_mesh(mesh, folder / "m.png", {.window = {{0, 2, 0, 0.5}}, .width_px = 400});
+    EXPECT_EQ(png_size(folder.read("m.png")), std::pair(400u, 100u));
+    plot_mesh(mesh, folder / "m.png", {.window = {{0, 0.5, 0, 2}}, .width_px = 400});
+    EXPECT_EQ(png_size(folder.read("m.png")), std::pair(100u, 400u));
+    // Far inside one cell, and far away from all.
+    plot_mesh(mesh, folder / "m.png", {.window = {{1.1, 1.1 + 1e-12, 0.1, 0.1 + 1e-12}}, .width_px = 40});
+    plot_mesh(mesh, folder / "m.png", {.window = {{1e6, 1e6 + 1, 0, 1}}, .width_px = 40});
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{1, 1, 0, 1}}}), UsageError);
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{0, NAN, 0, 1}}}), UsageError);
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.width_px = 0}), UsageError);
+    EXPECT_NO_THROW(plot_mesh(Mesh{}, folder / "empty.png", {.width_px = 20}));
+}
+
+TEST(Plot, RefusesWhatItCannotWrite) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus();
+    EXPECT_THROW(plot_mesh(mesh, folder / "none/m.png"), IoError);
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.gif"), UsageError);
+    EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <lamina/surface.hpp>
+
+#include "support/geometry_fixtures.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+ElementSummary of(const shapes::Outline& outline) { return summarize(shapes::geometry({outline}).elements[0]); }
+
+TEST(Summary, MeasuresKnownShapes) {
+    const ElementSummary box = of(shapes::box());
+    EXPECT_EQ(box.chord, 1);
+    EXPECT_EQ(box.area, 1);
+    EXPECT_EQ(box.perimeter, 4);
+    EXPECT_EQ(box.min_spacing, 1);
+    EXPECT_EQ(box.max_spacing, 1);
+    EXPECT_EQ(box.max_spacing_ratio, 1);
+    EXPECT_NEAR(box.max_turning_deg, 90, 1e-12);
+    EXPECT_EQ(box.sharp_corners, 4u);
+
+    const ElementSummary l = of(shapes::l_shape());
+    EXPECT_EQ(l.area, 3);
+    EXPECT_EQ(l.sharp_corners, 5u) << "the concave corner is none";
+    EXPECT_EQ(l.max_spacing_ratio, 2);
+
+    const ElementSummary wedge = of(shapes::wedge());
+    EXPECT_GT(wedge.max_turning_deg, 160);
+    EXPECT_EQ(wedge.max_turning_at, (Point{0, 0}));
+}
+
+TEST(Summary, TellsABluntTrailingEdge) {
+    EXPECT_TRUE(of(shapes::section(0.12, 0.01, 40)).blunt_trailing_edge);
+    EXPECT_TRUE(of(shapes::plate(0.05, 20)).blunt_trailing_edge);
+    EXPECT_FALSE(of(shapes::section(0.12, 0, 40)).blunt_trailing_edge);
+    EXPECT_FALSE(of(shapes::circle(1, 60)).blunt_trailing_edge);
+}
+
+TEST(Summary, FindsTheTrailingEdge) {
+    const auto trailing_edge = [](const shapes::Outline& outline) { return of(outline).trailing_edge; };
+    EXPECT_EQ(trailing_edge(shapes::section(0.12, 0, 40)), (Point{1, 0}));
+    EXPECT_NEAR(distance(trailing_edge(shapes::section(0.12, 0.01, 40)), {1, 0}), 0, 1e-12);
+    EXPECT_EQ(trailing_edge(shapes::circle(1, 60)), (Point{1, 0}));
+    EXPECT_EQ(trailing_edge(shapes::diamond()), (Point{1, 0}));
+    // Deflected and scaled; sharp and blunt.
+    for (double base : {0.0, 0.01})
+        for (double angle : {-1.0, -0.6, 0.3, 0.9}) {
+            const Point turned{2 + 0.3 * std::cos(angle), 1 + 0.3 * std::sin(angle)};
+            const auto flap = shapes::moved(shapes::section(0.12, base, 40), angle, 0.3, {2, 1});
+            EXPECT_NEAR(distance(trailing_edge(flap), turned), 0, 1e-12) << base << ' ' << angle;
+        }
+}
+
+TEST(Summary, ScalesWithTheBody) {
+    const ElementSummary a = of(shapes::section(0.12, 0.01, 40)),
+                         b = of(shapes::moved(shapes::section(0.12, 0.01, 40), 0, 8, {1, 2}));
+    EXPECT_NEAR(b.perimeter, 8 * a.perimeter, 1e-12);
+    EXPECT_NEAR(b.area, 64 * a.area, 1e-12);
+    EXPECT_NEAR(b.max_turning_deg, a.max_turning_deg, 1e-9);
+    EXPECT_EQ(b.sharp_corners, a.sharp_corners);
+}
+
+TEST(Describe, SaysWhatWasFoundAndMended) {
+    const std::string text = describe(fixtures::read(fixtures::clockwise));
+    for (const char* part : {"airfoil", "sample.dat (selig)", "SAMPLE", "9 read, 8 in the outline", "chord",
+                             "x 0 to 1, y -0.05 to 0.07", "clockwise order reversed", "closing point merged"})
+        EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+    const std::vector<std::string> naca{"naca:0012"};
+    EXPECT_NE(describe(read_geometry(naca)).find("200 generated"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lamina

@@ -1,0 +1,394 @@
+// The surface stage: what it promises of spacings, corners, symmetry and shape.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <random>
+#include <set>
+
+#include <lamina/error.hpp>
+#include <lamina/surface.hpp>
+
+#include "support/geometry_fixtures.hpp"
+#include "support/shapes.hpp"
+#include "surface/corners.hpp"
+#include "surface/noise.hpp"
+
+namespace lamina {
+namespace {
+
+using shapes::Outline;
+
+constexpr double to_degrees = 180 / 3.14159265358979323846;
+
+SurfaceOptions resampling(double max_turning_deg = 5) {
+    SurfaceOptions options;
+    options.surface = Surface::resample;
+    options.max_turning_deg = max_turning_deg;
+    return options;
+}
+
+Element prepared(const Outline& outline, const SurfaceOptions& options) {
+    const Geometry result = prepare_surfaces(shapes::geometry({outline}), options);
+    EXPECT_NO_THROW(check_simple(result));
+    return result.elements[0];
+}
+
+double largest_ratio(const Outline& p) {
+    double ratio = 1;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const double before = distance(p[(i + p.size() - 1) % p.size()], p[i]),
+                     after = distance(p[i], p[(i + 1) % p.size()]);
+        ratio = std::max({ratio, before / after, after / before});
+    }
+    return ratio;
+}
+
+/// At vertices that turn by less than `corner`.
+double largest_turning_deg(const Outline& p, double corner = 45) {
+    double largest = 0;
+    for (double t : surface::turnings(p))
+        if (std::abs(t) * to_degrees < corner) largest = std::max(largest, std::abs(t) * to_degrees);
+    return largest;
+}
+
+double longest_edge(const Outline& p) {
+    double longest = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) longest = std::max(longest, distance(p[i], p[(i + 1) % p.size()]));
+    return longest;
+}
+
+bool contains(const Outline& outline, Point p) { return std::find(outline.begin(), outline.end(), p) != outline.end(); }
+
+double distance_to(const Outline& outline, Point p) {
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const Point a = outline[i], along = outline[(i + 1) % outline.size()] - a;
+        const double t = std::clamp(dot(p - a, along) / squared_length(along), 0.0, 1.0);
+        least = std::min(least, distance(p, a + t * along));
+    }
+    return least;
+}
+
+/// Of the vertices and the middles of the edges.
+double farthest_from(const Outline& exact, const Outline& outline) {
+    double farthest = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        farthest = std::max(farthest, distance_to(exact, outline[i]));
+        farthest = std::max(farthest, distance_to(exact, midpoint(outline[i], outline[(i + 1) % outline.size()])));
+    }
+    return farthest;
+}
+
+std::size_t inflections(const Outline& p) {
+    const std::vector<double> t = surface::turnings(p);
+    std::size_t changes = 0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+        if (t[i] * t[(i + 1) % t.size()] < 0) ++changes;
+    return changes;
+}
+
+/// Sections as coarse as those of old collections.
+std::vector<Outline> coarse_sections() {
+    return {shapes::section(0.12, 0, 15),     shapes::section(0.12, 0.003, 20),
+            shapes::section(0.2, 0.02, 12),   shapes::joukowski(0.1, 0.08, 40),
+            naca_airfoil("23012", 40).points, naca_airfoil("0006", 31, TrailingEdge::blunt).points,
+            shapes::ellipse(1, 0.2, 30),      shapes::circle(1, 16),
+            shapes::plate(0.05, 8),           shapes::refined(shapes::v_notch(0.6), 3),
+            shapes::refined(shapes::box(), 2)};
+}
+
+TEST(Resampling, BoundsSpacingsAndTurning) {
+    for (const Outline& outline : coarse_sections()) {
+        SCOPED_TRACE(outline.size());
+        for (double limit : {2.0, 5.0}) {
+            const SurfaceOptions options = resampling(limit);
+            const Element e = prepared(outline, options);
+            EXPECT_LE(largest_ratio(e.points), options.max_ratio);
+            EXPECT_LE(largest_turning_deg(e.points), limit);
+            Box box;
+            for (Point p : outline) box.include(p);
+            EXPECT_LE(longest_edge(e.points), options.max_spacing * 1.01 * std::max(box.width(), box.height()));
+            EXPECT_EQ(e.surface_notes.size(), 1u);
+        }
+    }
+}
+
+TEST(Resampling, KeepsCorners) {
+    struct Case {
+        Outline outline;
+        std::vector<Point> corners;
+    };
+    const double r = 0.025;
+    for (const Case& c : std::vector<Case>{{shapes::section(0.12, 0, 15), {{1, 0}}},
+                                           {shapes::section(0.2, 0.02, 12), {{1, 0.01}, {1, -0.01}}},
+                                           {shapes::joukowski(0.1, 0.08, 40), {{2, 0}}},
+                                           {shapes::plate(2 * r, 8), {{1, r}, {1, -r}}},
+                                           {shapes::refined(shapes::v_notch(0.6), 3), shapes::v_notch(0.6)},
+                                           {shapes::refined(shapes::box(), 2), shapes::box()}}) {
+        SCOPED_TRACE(c.outline.size());
+        const Outline p = prepared(c.outline, resampling()).points;
+        for (Point corner : c.corners) EXPECT_TRUE(contains(p, corner)) << corner.x << ' ' << corner.y;
+        EXPECT_EQ(surface::find_corners(c.outline).size(), c.corners.size()) << "and nothing else is one";
+    }
+    // A flap's hinge: a kink of 20 degrees between straight parts.
+    Outline kinked{{0, 0}, {0.7, 0}, {0.85, -0.05}, {1, -0.1}, {0.85, -0.03}, {0.7, 0.03}, {0.35, 0.05}};
+    EXPECT_TRUE(contains(prepared(kinked, resampling()).points, {0.7, 0}));
+}
+
+TEST(Resampling, ClustersAtTheTrailingEdge) {
+    const Element sharp = prepared(shapes::section(0.12, 0, 15), resampling());
+    const Outline& p = sharp.points;
+    ASSERT_EQ(p[0], (Point{1, 0}));
+    EXPECT_LT(distance(p[0], p[1]), 0.0012);
+    EXPECT_LT(distance(p[0], p.back()), 0.0012);
+    const Element blunt = prepared(shapes::section(0.12, 0.004, 15), resampling());
+    const auto on_base = std::count_if(blunt.points.begin(), blunt.points.end(), [](Point q) { return q.x == 1; });
+    EXPECT_GE(on_base, 4);
+}
+
+TEST(Resampling, FollowsCurvesThatAreKnownExactly) {
+    struct Case {
+        Outline coarse, exact;
+        double tolerance;
+    };
+    const std::vector<Case> cases{
+        {shapes::ellipse(1, 0.3, 40), shapes::ellipse(1, 0.3, 20000), 3e-4},
+        {shapes::circle(1, 24), shapes::circle(1, 20000), 3e-4},
+        {naca_airfoil("0012", 60).points, naca_airfoil("0012", 20000).points, 1.5e-4},
+        {naca_airfoil("4412", 60).points, naca_airfoil("4412", 20000).points, 1.5e-4},
+        {shapes::joukowski(0.1, 0.05, 60), shapes::joukowski(0.1, 0.05, 20000), 6e-4},
+    };
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.coarse.size());
+        const Element e = prepared(c.coarse, resampling());
+        EXPECT_LT(farthest_from(c.exact, e.points), c.tolerance);
+        // The polygon of the points is farther away.
+        EXPECT_LT(2 * farthest_from(c.exact, e.points), farthest_from(c.exact, c.coarse));
+    }
+}
+
+void expect_equal_loops(const Outline& a, const Outline& b) {
+    ASSERT_EQ(a.size(), b.size());
+    const auto nearest =
+        std::min_element(b.begin(), b.end(), [&](Point p, Point q) { return distance(p, a[0]) < distance(q, a[0]); });
+    const auto shift = static_cast<std::size_t>(nearest - b.begin());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT(distance(a[i], b[(i + shift) % b.size()]), 1e-11) << i;
+}
+
+TEST(Resampling, MirroredInputGivesMirroredPoints) {
+    for (const Outline& outline : coarse_sections()) {
+        SCOPED_TRACE(outline.size());
+        expect_equal_loops(shapes::mirrored(prepared(outline, resampling()).points),
+                           prepared(shapes::mirrored(outline), resampling()).points);
+    }
+}
+
+TEST(Resampling, ASymmetricSectionStaysSymmetricAndKeepsItsNose) {
+    for (const Outline& outline : {shapes::section(0.12, 0, 15), naca_airfoil("0012", 50).points,
+                                   naca_airfoil("0009", 41, TrailingEdge::blunt).points}) {
+        const Outline p = prepared(outline, resampling()).points;
+        expect_equal_loops(p, shapes::mirrored(p));
+        EXPECT_LT(distance_to(p, {0, 0}), 1e-12);
+        EXPECT_TRUE(std::any_of(p.begin(), p.end(), [](Point q) { return length(q) < 1e-12; }));
+    }
+}
+
+TEST(Resampling, MovesTurnsAndScalesWithTheBody) {
+    const Outline outline = naca_airfoil("4412", 50).points;
+    const Outline p = prepared(outline, resampling()).points;
+    const Outline shifted = prepared(shapes::moved(outline, 0, 4, {3, -2}), resampling()).points;
+    const Outline expected = shapes::moved(p, 0, 4, {3, -2});
+    ASSERT_EQ(shifted.size(), expected.size());
+    for (std::size_t i = 0; i < p.size(); ++i) EXPECT_LT(distance(shifted[i], expected[i]), 1e-10);
+}
+
+TEST(Resampling, MakesAboutAsManyPointsAsAskedFor) {
+    for (std::size_t points : {60u, 150u, 400u, 2000u}) {
+        SurfaceOptions options;
+        options.points = points;
+        for (const Outline& outline : {naca_airfoil("4412", 50).points, shapes::section(0.12, 0.003, 20)}) {
+            const Element e = prepared(outline, options);
+            EXPECT_NEAR(double(e.points.size()), double(points), 0.02 * double(points) + 3);
+            if (points >= 150) {
+                EXPECT_LE(largest_ratio(e.points), options.max_ratio);
+            }
+        }
+    }
+}
+
+TEST(Resampling, PolygonsKeepTheirSides) {
+    Outline hexagon;
+    for (int k = 0; k < 6; ++k) hexagon.push_back(shapes::circle(1, 6)[static_cast<std::size_t>(k)]);
+    for (const Outline& polygon : {shapes::wedge(), shapes::diamond(), shapes::box(), shapes::l_shape(),
+                                   shapes::c_shape(0.3), shapes::comb(3, 0.2), hexagon}) {
+        SCOPED_TRACE(polygon.size());
+        const Element e = prepared(polygon, resampling());
+        EXPECT_GT(e.points.size(), polygon.size());
+        for (Point p : polygon) EXPECT_TRUE(contains(e.points, p));
+        for (Point p : e.points) EXPECT_LT(distance_to(polygon, p), 1e-12);
+        SurfaceOptions automatic;
+        EXPECT_EQ(prepared(polygon, automatic).points, polygon) << "left alone unless asked for";
+    }
+}
+
+TEST(Resampling, SurvivesNearDuplicates) {
+    std::mt19937 random(5);
+    for (Outline outline : {naca_airfoil("4412", 50).points, shapes::section(0.12, 0.003, 20)}) {
+        const Outline clean = prepared(outline, resampling()).points;
+        for (double off : {1e-6, 1e-5, 1e-4})
+            for (std::size_t at : {5u, 14u, 24u, 25u, 33u}) {
+                Outline doubled = outline;
+                const Point p = outline[at];
+                doubled.insert(doubled.begin() + at + 1, p + off * unit(outline[at + 1] - p) +
+                                                             0.3 * off * perpendicular(unit(outline[at + 1] - p)));
+                const Element e = prepared(doubled, resampling());
+                EXPECT_LT(farthest_from(clean, e.points), 2e-4) << off << ' ' << at;
+                EXPECT_LE(largest_turning_deg(e.points), 5);
+            }
+    }
+}
+
+TEST(Resampling, SpacingsInASlotFitIt) {
+    constexpr double gap = 0.004;
+    const Outline main = naca_airfoil("0012", 60).points;
+    const Outline below = shapes::moved(main, 0, 1, {0, -0.12 - gap});
+    const Geometry result = prepare_surfaces(shapes::geometry({main, below}), resampling());
+    EXPECT_NO_THROW(check_simple(result));
+    double longest = 0;
+    for (int e = 0; e < 2; ++e) {
+        const Outline &p = result.elements[static_cast<std::size_t>(e)].points,
+                      &other = result.elements[static_cast<std::size_t>(1 - e)].points;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const double room = distance_to(other, p[i]);
+            if (room < 2 * gap) longest = std::max(longest, distance(p[i], p[(i + 1) % p.size()]) / room);
+        }
+    }
+    EXPECT_GT(longest, 0);
+    EXPECT_LT(longest, 1.2);
+}
+
+TEST(Resampling, GivesWayWhereTheCurveWouldCross) {
+    // The spline through the coarse arc reaches beyond the plate that its chords just pass.
+    Outline arc = shapes::moved(shapes::circle(1, 12), 0.2617993877991494, 1, {0, 0});
+    const double reach = std::cos(0.2617993877991494);
+    Outline plate{{reach + 0.005, -0.3}, {1.5, -0.3}, {1.5, 0.3}, {reach + 0.005, 0.3}};
+    const Geometry given = shapes::geometry({arc, plate});
+    ASSERT_NO_THROW(check_simple(given));
+    const Geometry result = prepare_surfaces(given, resampling());
+    EXPECT_NO_THROW(check_simple(result));
+    EXPECT_EQ(result.elements[0].points, arc);
+    EXPECT_NE(result.elements[0].surface_notes.back().find("kept as given"), std::string::npos);
+}
+
+TEST(AutomaticSurface, KeepsWhatIsFineOrExact) {
+    const SurfaceOptions automatic;
+    const std::vector<std::string> naca{"naca:0012:40"};
+    EXPECT_EQ(prepare_surfaces(read_geometry(naca), automatic).elements[0].points.size(), 40u);
+    for (const Outline& outline :
+         {shapes::circle(1, 90), shapes::joukowski(0.1, 0.05, 4000), shapes::ellipse(1, 0.05, 3000)})
+        EXPECT_EQ(prepared(outline, automatic).points, outline);
+}
+
+TEST(AutomaticSurface, ResamplesCoarseCurvesAndSaysWhy) {
+    const Element e = prepared(shapes::circle(1, 20), {});
+    EXPECT_GT(e.points.size(), 36u);
+    EXPECT_NE(e.surface_notes.back().find("20 points resampled to"), std::string::npos) << e.surface_notes.back();
+    EXPECT_NE(e.surface_notes.back().find("turn by up to 18.0 degrees"), std::string::npos) << e.surface_notes.back();
+}
+
+TEST(KeptSurface, IsUntouched) {
+    SurfaceOptions keep;
+    keep.surface = Surface::keep;
+    for (const Outline& outline : coarse_sections()) EXPECT_EQ(prepared(outline, keep).points, outline);
+}
+
+/// A section with every point but the ends moved at random by up to `noise`.
+Outline noisy_section(double noise, std::size_t points) {
+    std::mt19937 random(7);
+    const auto uniform = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
+    Outline outline = naca_airfoil("2412", points).points;
+    for (std::size_t i = 1; i < outline.size(); ++i)
+        outline[i] = outline[i] + 0.7 * noise * Point{uniform(), uniform()};
+    return outline;
+}
+
+TEST(Smoothing, TakesNoiseAwayWithinTheTolerance) {
+    for (double noise : {1e-5, 1e-4}) {
+        const Outline outline = noisy_section(noise, 200);
+        SurfaceOptions options;
+        options.surface = Surface::keep;
+        options.smooth = noise;
+        const Outline smooth = prepared(outline, options).points;
+        ASSERT_EQ(smooth.size(), outline.size());
+        double moved = 0;
+        for (std::size_t i = 0; i < smooth.size(); ++i) moved = std::max(moved, distance(smooth[i], outline[i]));
+        EXPECT_LE(moved, noise);
+        EXPECT_GT(moved, 0.3 * noise);
+        EXPECT_EQ(smooth[0], outline[0]) << "the trailing edge is a corner";
+        EXPECT_LT(3 * inflections(smooth), inflections(outline));
+        EXPECT_LT(surface::find_noise(smooth, surface::find_corners(smooth)).vertices, 3u);
+    }
+}
+
+TEST(Smoothing, IsOfferedWhereItHelps) {
+    const auto offers = [](const Outline& outline) {
+        const Element e = prepared(outline, {});
+        return e.surface_notes.front().find("--smooth") != std::string::npos;
+    };
+    EXPECT_TRUE(offers(noisy_section(2e-4, 200)));
+    EXPECT_FALSE(offers(naca_airfoil("2412", 200).points));
+    EXPECT_FALSE(offers(shapes::joukowski(0.1, 0.05, 200)));
+}
+
+TEST(MisplacedPoints, AreToldAndKept) {
+    const Outline good = naca_airfoil("2412", 60).points;
+    EXPECT_TRUE(surface::find_misplaced(good).empty());
+    for (const std::size_t i : {8u, 20u, 42u, 50u}) {
+        for (const double off : {-0.012, 0.012}) {
+            Outline outline = good;
+            outline[i].y += off;
+            for (const Outline& any : {outline, shapes::mirrored(outline)}) {
+                const std::vector<std::size_t> misplaced = surface::find_misplaced(any);
+                ASSERT_EQ(misplaced.size(), 1u) << i << ' ' << off;
+                EXPECT_EQ(any[misplaced[0]].x, outline[i].x);
+                const Element e = prepared(any, {});
+                EXPECT_TRUE(std::any_of(e.surface_notes.begin(), e.surface_notes.end(), [](const std::string& note) {
+                    return note.find("stands off the curve") != std::string::npos;
+                }));
+            }
+        }
+    }
+    // Corners, flaps, steps and coves are meant.
+    for (const Outline& shape : {shapes::l_shape(), shapes::c_shape(0.05), shapes::comb(4, 0.1), shapes::diamond(),
+                                 shapes::plate(0.05, 12), shapes::refined(shapes::v_notch(0.4), 15)})
+        EXPECT_TRUE(surface::find_misplaced(shape).empty());
+}
+
+TEST(Smoothing, OfAClosedCurveKnowsNoSeam) {
+    std::mt19937 random(3);
+    Outline rough = shapes::circle(1, 120);
+    for (Point& p : rough) p = (1 + 1e-4 * (static_cast<double>(random()) / 2147483648.0 - 1)) * p;
+    SurfaceOptions options;
+    options.surface = Surface::keep;
+    options.smooth = 2e-4;
+    const Outline smooth = prepared(rough, options).points;
+    EXPECT_EQ(inflections(smooth), 0u);
+    expect_equal_loops(smooth, prepared(shapes::started_at(rough, 31), options).points);
+}
+
+TEST(SurfaceOptionsOutOfRange, AreRefused) {
+    const Geometry body = shapes::geometry({shapes::circle(1, 20)});
+    for (auto spoil : std::initializer_list<void (*)(SurfaceOptions&)>{
+             [](SurfaceOptions& o) { o.points = 2; }, [](SurfaceOptions& o) { o.smooth = 0; },
+             [](SurfaceOptions& o) { o.max_ratio = 1; }, [](SurfaceOptions& o) { o.max_turning_deg = 0; },
+             [](SurfaceOptions& o) { o.max_spacing = -1; }, [](SurfaceOptions& o) { o.tolerance = NAN; }}) {
+        SurfaceOptions options;
+        spoil(options);
+        EXPECT_THROW(prepare_surfaces(body, options), UsageError);
+    }
+}
+
+}  // namespace
+}  // namespace lamina
