@@ -7,7 +7,6 @@
 #include <lamina/pipeline.hpp>
 
 #include "paired.hpp"
-#include "pipeline/size_sources.hpp"
 
 namespace lamina::bench {
 namespace {
@@ -40,20 +39,18 @@ BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark:
 #ifdef LAMINA_BENCH_TRIANGLE
 /// What lies between the layer and the far field, both divided as ours are.
 Work triangle_outside_the_layer(const CaseOptions& options) {
-    Geometry geometry =
-        prepare_surfaces(read_geometry(std::vector<std::string>{"naca:0012"}), surface_options(options));
-    DecouplingOptions far;
-    far.far_field = options.far_field.size;
-    far.chord = 1;
-    far.center = {0.5, 0};
-    const SizedLayer layer = make_sized_layer(geometry, options, far_field_box(far));
-    const SizeField field = make_size_field(layer, options, far_field_box(far));
-    const Decoupling outer = decouple(layer.layer.points, layer.layer.borders, field, far);
+    const std::vector<std::string> input{"naca:0012"};
+    const LayerGrowth growth = layer_growth(options.layer, 1);
+    const Geometry geometry = prepare_surfaces(read_geometry(input), options.surface, spacing_limits(options, growth));
+    const FarField far_field = place_far_field(bounding_box(geometry), options.far_field);
+    const Layer layer = close_border(grow_rays(geometry, options.layer, growth), border_options(options, {}));
+    const SizeField field = make_size_field(border_loops(layer), {}, options.sizing, far_field.box());
+    const Decoupling outer = decouple(layer.points, layer.borders, field, far_field);
 
     std::vector<Point> points;
     std::vector<VertexId> number(outer.points.size());
     std::vector<Segment> segments = outer.far_field;
-    for (const auto& border : layer.layer.borders)
+    for (const auto& border : layer.borders)
         for (std::size_t i = 0; i < border.size(); ++i)
             segments.push_back({border[i], border[i + 1 < border.size() ? i + 1 : 0]});
     for (Segment& s : segments)

@@ -18,7 +18,6 @@
 #include "delaunay/pieces/border.hpp"
 #include "delaunay/pieces/pieces.hpp"
 #include "delaunay/triangulator.hpp"
-#include "layers/fill.hpp"
 #include "paired.hpp"
 #include "support/triangulation_families.hpp"
 
@@ -49,9 +48,8 @@ Region naca_layer(std::size_t n) {
     options.layers = 30;
     Geometry geometry;
     geometry.elements.push_back(naca_airfoil("0012", n / 32));
-    Layer layer = make_layer(geometry, options);
-    LayerEdges edges = layer_edges(layer);
-    return {std::move(layer.points), std::move(edges.region)};
+    Layer layer = close_border(grow_rays(geometry, options));
+    return {std::move(layer.points), std::move(layer.edges.region)};
 }
 
 /// The depth alone decides where the decomposition ends.
@@ -141,9 +139,8 @@ void growth(benchmark::State& state, Region (*make)(std::size_t)) {
                                 .triangles.size();
                         },
                         made);
-                    const auto& wall = times.of_thread(0);
-                    const double cut = wall[static_cast<std::size_t>(lamina::Work::decomposition)],
-                                 fill = wall[static_cast<std::size_t>(lamina::Work::layer_triangulation)];
+                    const double cut = times.seconds(0, delaunay::pieces::cutting),
+                                 fill = times.seconds(0, delaunay::pieces::triangulating);
                     decomposition.push_back(cpu_s * cut / (cut + fill));
                     leaves.push_back(cpu_s * fill / (cut + fill));
                 });
