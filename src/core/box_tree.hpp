@@ -41,8 +41,8 @@ public:
         walk([&](const Box& box, std::size_t, std::size_t) { return box.overlaps(query); }, visit);
     }
 
-    /// Least value of each group of items on every level, for least().
-    std::vector<std::vector<double>> least_values(std::vector<double> values) const {
+    /// Least value of each group of items on every level, for minimum().
+    std::vector<std::vector<double>> group_minima(std::vector<double> values) const {
         std::vector<std::vector<double>> least{std::move(values)};
         for (std::size_t level = 1; level < levels_.size(); ++level) {
             std::vector<double> up(levels_[level].size(), HUGE_VAL);
@@ -55,7 +55,7 @@ public:
 
     /// min(start, min over items of value + slope x distance(item, p)); `exact(item)` gives the distance to an item.
     template <class Distance>
-    double least(Point p, double slope, double start, const std::vector<std::vector<double>>& values,
+    double minimum(Point p, double slope, double start, const std::vector<std::vector<double>>& values,
                  Distance&& exact) const {
         double best = start;
         walk(

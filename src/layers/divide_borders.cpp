@@ -130,7 +130,7 @@ public:
             sizes.push_back(source.size);
         }
         tree_ = core::BoxTree(std::move(boxes));
-        values_ = tree_.least_values(std::move(sizes));
+        values_ = tree_.group_minima(std::move(sizes));
         // Along a border first: a good bound makes the search in the tree short.
         for (int round = 0; round < 2; ++round) {
             for (std::size_t i = 0; i < edges.size(); ++i) pass_on(i, i, edges[i].next);
@@ -160,7 +160,7 @@ private:
     }
 
     double at(Point p, double start) const {
-        return tree_.least(p, gradation_, start, values_, [&](std::size_t i) { return distance_to(sources_[i], p); });
+        return tree_.minimum(p, gradation_, start, values_, [&](std::size_t i) { return distance_to(sources_[i], p); });
     }
 
     /// Between the ends the target rises from both until it meets or reaches `cap`, unless something near the middle

@@ -145,7 +145,7 @@ std::vector<SizeSource> binding_sources(std::span<const SizeSource> sources, Loo
             negative_lengths.push_back(-margin * distance(a, b));
         }
     const core::BoxTree tree(std::move(boxes));
-    const auto values = tree.least_values(std::move(negative_lengths));
+    const auto values = tree.group_minima(std::move(negative_lengths));
 
     struct Binding {
         std::size_t edge, source;
@@ -158,7 +158,7 @@ std::vector<SizeSource> binding_sources(std::span<const SizeSource> sources, Loo
             const double asked = -share * sources[i].size;
             double worst = asked;
             std::size_t edge = 0;
-            tree.least(p, gradation, asked, values, [&](std::size_t e) {
+            tree.minimum(p, gradation, asked, values, [&](std::size_t e) {
                 const double apart = distance_to(edges[e], p);
                 if (values[0][e] + gradation * apart < worst) {
                     worst = values[0][e] + gradation * apart;

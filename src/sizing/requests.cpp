@@ -28,12 +28,12 @@ std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradati
         negative_sizes.push_back(-edge.size);
     }
     const core::BoxTree tree(std::move(boxes));
-    const auto values = tree.least_values(std::move(negative_sizes));
+    const auto values = tree.group_minima(std::move(negative_sizes));
     std::vector<double> sizes(edges.size());
     core::parallel_for(edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Point p = midpoint(edges[i].a, edges[i].b);
-            const double passed_on = -tree.least(p, gradation, -edges[i].size, values, [&](std::size_t other) {
+            const double passed_on = -tree.minimum(p, gradation, -edges[i].size, values, [&](std::size_t other) {
                 return distance(p, midpoint(edges[other].a, edges[other].b));
             });
             sizes[i] = std::min(passed_on, largest_raise * edges[i].size);

@@ -14,11 +14,11 @@ Walls::Walls(const Geometry& geometry) {
         }
     }
     tree_ = core::BoxTree(std::move(boxes));
-    zeros_ = tree_.least_values(std::vector<double>(edges_.size(), 0.0));
+    zeros_ = tree_.group_minima(std::vector<double>(edges_.size(), 0.0));
 }
 
 double Walls::room(std::size_t element, Point p, Point normal, double least_own, double most) const {
-    return tree_.least(p, 1, most, zeros_, [&](std::size_t i) {
+    return tree_.minimum(p, 1, most, zeros_, [&](std::size_t i) {
         const Edge& edge = edges_[i];
         const double d = core::distance_to_segment(p, edge.a, edge.b);
         if (edge.element != element) return d;
