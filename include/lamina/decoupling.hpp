@@ -45,7 +45,7 @@ struct FarField {
     double radius = 0;             ///< half-width of the box or radius of the circle
     std::vector<Point> outline{};  ///< corners of the polygon
 
-    Box box() const;
+    LAMINA_EXPORT Box box() const;
 };
 
 /// Places the far field round the box of all bodies. Throws OptionError where an outline does not enclose its middle.

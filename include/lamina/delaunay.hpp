@@ -136,7 +136,7 @@ struct RefineStats {
     std::size_t exempt = 0;       ///< of those, at a corner below 60 degrees between two border edges
     std::size_t oversized = 0;    ///< triangles that stayed above the size bound
 
-    RefineStats& operator+=(const RefineStats& other);
+    LAMINA_EXPORT RefineStats& operator+=(const RefineStats& other);
 };
 
 /// A refined region. A vertex below the number of border points is a border point; the others are steiner_points.

@@ -3,6 +3,7 @@
 // Discrete & Computational Geometry 18 (1997).
 #pragma once
 
+#include <lamina/export.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
@@ -23,14 +24,14 @@ constexpr bool in_exact_range(Point p) {
 }
 
 /// > 0 if a, b, c turn counter-clockwise, < 0 if clockwise, 0 if collinear. Only the sign is exact.
-double orient2d(Point a, Point b, Point c);
+LAMINA_EXPORT double orient2d(Point a, Point b, Point c);
 
 /// > 0 if d lies inside the circle through a, b, c (counter-clockwise), < 0 outside, 0 on it. Only the sign is exact.
-double incircle(Point a, Point b, Point c, Point d);
+LAMINA_EXPORT double incircle(Point a, Point b, Point c, Point d);
 
 /// incircle() with the one tie rule of the program: the lifted height of each point is lowered infinitesimally, the
 /// lexicographically smallest point most. Never 0 for four distinct points of which a, b, c are not collinear; every
 /// empty cocircular polygon is thus fanned from its smallest vertex, whatever routine asks and in whatever order.
-double incircle_perturbed(Point a, Point b, Point c, Point d);
+LAMINA_EXPORT double incircle_perturbed(Point a, Point b, Point c, Point d);
 
 }  // namespace lamina

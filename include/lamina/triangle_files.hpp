@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <lamina/export.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
@@ -42,7 +43,7 @@ struct TriangleInput {
 /// Comments from # to
 /// the end of the line and blank lines are skipped. Throws IoError, InputError with file and line, UsageError for other
 /// extensions.
-TriangleInput read_triangle_files(const std::filesystem::path& file);
+LAMINA_EXPORT TriangleInput read_triangle_files(const std::filesystem::path& file);
 
 /// What is written; arrays as in TriangleInput.
 struct TriangleOutput {
@@ -63,15 +64,16 @@ struct TriangleOutput {
 };
 
 /// The triangles of a .ele file over so many points. Throws IoError, InputError with file and line.
-std::vector<Triangle> read_triangle_elements(const std::filesystem::path& file, std::size_t first_index,
-                                             std::size_t points);
+LAMINA_EXPORT std::vector<Triangle> read_triangle_elements(const std::filesystem::path& file, std::size_t first_index,
+                                                           std::size_t points);
 
 /// Gives the marker 1 to each vertex and segment on the boundary of the triangles that has no marker (marker 0), as
 /// Triangle does.
-void mark_boundary(TriangleOutput& output);
+LAMINA_EXPORT void mark_boundary(TriangleOutput& output);
 
 /// Writes STEM.node and STEM.ele, STEM.poly if asked for, and STEM.edge if there are edges: numbers with 17 significant
 /// digits, no file before all are complete. Throws IoError.
-void write_triangle_files(const TriangleOutput& output, const std::filesystem::path& stem, bool with_poly);
+LAMINA_EXPORT void write_triangle_files(const TriangleOutput& output, const std::filesystem::path& stem,
+                                        bool with_poly);
 
 }  // namespace lamina

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 
+#include <lamina/export.hpp>
+
 namespace lamina::core {
 
 /// The whole pages within [data, data + bytes) become free memory; what they held is lost and must not be read again.
 /// The allocation itself stays valid and is freed as usual. Does nothing where the system offers no such call.
-void give_back_pages(void* data, std::size_t bytes);
+LAMINA_EXPORT void give_back_pages(void* data, std::size_t bytes);
 
 }  // namespace lamina::core

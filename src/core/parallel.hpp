@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include <lamina/export.hpp>
 #include <lamina/threads.hpp>
 
 namespace lamina::core {
@@ -16,7 +17,8 @@ namespace lamina::core {
 /// alone. They are started in ascending order, each on the next free thread, so callers put the largest jobs first.
 /// When calls throw, no further block is started and the exception of the lowest failing block is rethrown. Calls may
 /// nest. Precondition: grain > 0.
-void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f);
+LAMINA_EXPORT void parallel_for(std::size_t n, std::size_t grain,
+                                const std::function<void(std::size_t, std::size_t)>& f);
 
 /// Calls f(begin, end) for the blocks of parallel_for() and returns the results in the order of the blocks. Callers
 /// reduce them from front to back. Precondition: the result type is default-constructible.
@@ -29,9 +31,9 @@ auto parallel_blocks(std::size_t n, std::size_t grain, F&& f) {
 
 /// Calls f and g, at the same time where a second thread is free, and returns when both have ended. When both throw,
 /// the exception of f is rethrown. Calls may nest: a task that divides itself calls this function for its parts.
-void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g);
+LAMINA_EXPORT void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g);
 
 /// Returns the number of the calling thread, which is less than thread_count().
-unsigned thread_index();
+LAMINA_EXPORT unsigned thread_index();
 
 }  // namespace lamina::core

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include <lamina/export.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina::core {
@@ -19,13 +20,13 @@ inline constexpr double incircle_bound = (10 + 96 * epsilon) * epsilon;
 inline constexpr double flattened_turn_bound = (9 + 96 * epsilon) * epsilon;
 
 /// orient2d() where the filter could not tell.
-double orient2d_after_filter(Point a, Point b, Point c);
+LAMINA_EXPORT double orient2d_after_filter(Point a, Point b, Point c);
 
 /// incircle_perturbed() where the filter could not tell: adaptive and exact stages, then the tie rule.
-double incircle_after_filter(Point a, Point b, Point c, Point d);
+LAMINA_EXPORT double incircle_after_filter(Point a, Point b, Point c, Point d);
 
 /// flattened_turn() where the filter could not tell.
-double flattened_turn_after_filter(Point a, Point b, Point c, double cut);
+LAMINA_EXPORT double flattened_turn_after_filter(Point a, Point b, Point c, double cut);
 
 /// orient2d(), inline.
 inline double inline_orient2d(Point a, Point b, Point c) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include <lamina/export.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
@@ -13,7 +14,7 @@
 namespace lamina::delaunay {
 
 /// Of a region far larger than its triangles, in which h grows by `gradient` per unit of distance.
-double estimated_triangles(double area, double mean_inverse_square_size, double gradient);
+LAMINA_EXPORT double estimated_triangles(double area, double mean_inverse_square_size, double gradient);
 
 /// Where they will be: points in a triangle of a triangulation, each with a share of what the triangle will hold.
 struct Load {
@@ -29,6 +30,6 @@ struct Loads {
 };
 
 /// From a triangulation of a piece, all of whose fixed edges are frozen.
-Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size);
+LAMINA_EXPORT Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size);
 
 }  // namespace lamina::delaunay

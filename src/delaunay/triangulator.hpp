@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/export.hpp>
 
 #include "delaunay/triangles.hpp"
 
@@ -13,7 +14,7 @@ namespace lamina::delaunay {
 
 /// The Delaunay triangulation of distinct points, closed by ghost triangles; empty where all points are on one line.
 /// Throws InputError for duplicates and coordinates outside the exact range.
-Tris triangulate_points(std::span<const Point> points);
+LAMINA_EXPORT Tris triangulate_points(std::span<const Point> points);
 
 /// A triangulation whose vertices are numbered in the order of their insertion, from 1 on.
 struct OrderedTriangulation {
@@ -46,7 +47,7 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
                                                     Tris& tris, std::vector<Index>& at_vertex);
 
 /// The same for segments that run through no vertex; throws InputError where one does.
-void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris);
+LAMINA_EXPORT void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris);
 
 /// A triangle at each vertex (any one), no_index for vertices without.
 std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count);
@@ -71,7 +72,7 @@ Tris keep_marked(const Tris& tris, const Marks& marks);
 /// Inserts the segments, as insert_and_split_segments() does, and marks the region on their left, which they bound all
 /// round; vertices of the triangulation by their numbers.
 Marks mark_region(OrderedTriangulation& triangulation, std::span<const Segment> border);
-Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
+LAMINA_EXPORT Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count);
 
 /// Everything but the ghosts.
 Triangulation without_ghosts(const Tris& tris);

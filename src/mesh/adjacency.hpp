@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 
 #include "core/uninitialized.hpp"
@@ -61,10 +62,10 @@ struct Adjacency {
 /// ends are both shared with other blocks, few where cells that follow one another are neighbours, are dealt by hash
 /// and matched in the same way. 12 to 14 bytes a triangle.
 /// Precondition: all indices in range. Throws MeshError from 2^32 directed edges on.
-Adjacency find_adjacency(const Mesh& mesh);
+LAMINA_EXPORT Adjacency find_adjacency(const Mesh& mesh);
 
 /// For each segment the lowest directed edge between its ends, in either direction, or no_edge; linear time.
 /// Precondition: all indices in range.
-std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments);
+LAMINA_EXPORT std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments);
 
 }  // namespace lamina::mesh

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 
 #include "core/cell_shape.hpp"
@@ -15,13 +16,13 @@ namespace lamina::mesh {
 using core::CellShape;
 
 /// Measures a counter-clockwise quadrilateral; one whose area rounds to zero or less has core::core::flat_shape.
-CellShape measure_quad(Point a, Point b, Point c, Point d);
+LAMINA_EXPORT CellShape measure_quad(Point a, Point b, Point c, Point d);
 
 /// Mean ratio: 1 for the equilateral triangle and the square, 0 for flat and inverted cells. + - * / alone.
 /// Source: P. M. Knupp, Algebraic mesh quality metrics for unstructured initial meshes (2003); "shape" of the Verdict
 /// library and VTK. Of a quadrilateral, the worst corner.
-double shape_of_triangle(Point a, Point b, Point c);
-double shape_of_quad(Point a, Point b, Point c, Point d);
+LAMINA_EXPORT double shape_of_triangle(Point a, Point b, Point c);
+LAMINA_EXPORT double shape_of_quad(Point a, Point b, Point c, Point d);
 
 /// Collects shapes of a part of the cells; parts are added in a fixed order.
 class QualityCollector {

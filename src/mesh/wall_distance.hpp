@@ -3,11 +3,12 @@
 
 #include <vector>
 
+#include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 
 namespace lamina::mesh {
 
 /// Distance of each point to the nearest edge of a marker of kind wall; infinite where there is none.
-std::vector<double> wall_distances(const Mesh& mesh);
+LAMINA_EXPORT std::vector<double> wall_distances(const Mesh& mesh);
 
 }  // namespace lamina::mesh

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/export.hpp>
 
 #include "core/busy_times.hpp"
 #include "delaunay/pieces/sorted_points.hpp"
@@ -19,8 +20,9 @@ struct PiecewiseTriangulation {
 };
 
 /// The Delaunay triangulation of the points, piece by piece. Throws as triangulate() does.
-PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, const DecompositionOptions& options,
-                                             core::BusyTimes* times = nullptr);
+LAMINA_EXPORT PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points,
+                                                           const DecompositionOptions& options,
+                                                           core::BusyTimes* times = nullptr);
 
 /// That of triangulate(): small sets stay in one piece.
 DecompositionOptions usual_decomposition(std::size_t points);
@@ -28,7 +30,9 @@ DecompositionOptions usual_decomposition(std::size_t points);
 /// The constrained Delaunay triangulation of the region on the left of its border: what triangulate() keeps
 /// with Keep::left_of_segments, piece by piece. Throws as it does.
 /// Precondition: the border bounds the region all round, and every point lies in the region or on its border.
-PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std::span<const Segment> border,
-                                             const DecompositionOptions& options, core::BusyTimes* times = nullptr);
+LAMINA_EXPORT PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points,
+                                                           std::span<const Segment> border,
+                                                           const DecompositionOptions& options,
+                                                           core::BusyTimes* times = nullptr);
 
 }  // namespace lamina::delaunay::pieces
