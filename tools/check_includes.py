@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Checks that every folder of src/ includes only what it may.
+
+    tools/check_includes.py [--table]
+
+- A folder may include the folders that its CMakeLists.txt names after DEPENDS, and those that they depend on. The
+  dependencies have no circle.
+- The subfolder delaunay/pieces may include the rest of delaunay, which may not include it.
+- app/ includes public headers (<lamina/...>) and its own headers alone.
+- A public header includes public headers alone, of its own folder or of those that this folder depends on.
+- Inside a folder headers do not include each other in a circle.
+
+Prints one line for each violation; the exit status is 1 where there is one. --table prints who may include whom.
+"""
+
+import argparse
+import pathlib
+import re
+import sys
+
+REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
+SOURCE = REPOSITORY / "src"
+PUBLIC = REPOSITORY / "include" / "lamina"
+
+# The folder that owns each public header; a header that is not listed belongs to the folder of its name.
+OWNERS = {name: "core" for name in ("angle_bounds", "error", "export", "files", "ids", "option", "option_builders",
+                                    "point", "predicates", "threads", "version")}
+OWNERS["triangle_files"] = "io"
+
+
+def dependencies():
+    """Folder -> set of folders it may include, from the DEPENDS lists, closed transitively."""
+    direct = {}
+    for file in sorted(SOURCE.glob("*/CMakeLists.txt")):
+        call = re.search(r"lamina_library\(\s*(\w+)(.*?)\)", file.read_text(), re.S)
+        if not call:
+            continue
+        listed = re.search(r"DEPENDS\s+((?:[a-z]+\s+)+)SOURCES", call.group(2))
+        direct[call.group(1)] = set(listed.group(1).split()) if listed else set()
+    closed = {}
+
+    def close(folder, path):
+        if folder in path:
+            sys.exit("dependencies run in a circle: " + " -> ".join([*path, folder]))
+        if folder not in closed:
+            closed[folder] = set(direct[folder])
+            for below in direct[folder]:
+                closed[folder] |= close(below, [*path, folder])
+        return closed[folder]
+
+    for folder in direct:
+        close(folder, [])
+    return closed
+
+
+def includes(file):
+    """(line number, "public" or "private", path) of each include of lamina's own headers."""
+    for number, line in enumerate(file.read_text().splitlines(), 1):
+        if found := re.match(r"#include <lamina/([\w]+)\.hpp>", line):
+            yield number, "public", found.group(1)
+        elif found := re.match(r'#include "([\w/]+\.hpp)"', line):
+            yield number, "private", found.group(1)
+
+
+def owner(header):
+    return OWNERS.get(header, header)
+
+
+def check_file(file, folder, allowed):
+    """Violations of one source file or private header."""
+    inside = file.relative_to(SOURCE)
+    for number, kind, path in includes(file):
+        where = f"{file.relative_to(REPOSITORY)}:{number}"
+        if kind == "public":
+            if folder != "app" and owner(path) not in allowed | {folder}:
+                yield f"{where}: {folder} may not include <lamina/{path}.hpp> of {owner(path)}"
+            continue
+        target = path.split("/")[0]
+        if folder == "app" and target != "app":
+            yield f'{where}: app may include public headers alone, not "{path}"'
+        elif target not in allowed | {folder}:
+            yield f'{where}: {folder} may not include "{path}"'
+        elif path.startswith("delaunay/pieces/") and folder == "delaunay" and inside.parts[1] != "pieces":
+            yield f'{where}: delaunay may not include its subfolder "{path}"'
+
+
+def check_public(file, allowed):
+    folder = owner(file.stem)
+    for number, kind, path in includes(file):
+        where = f"{file.relative_to(REPOSITORY)}:{number}"
+        if kind == "private":
+            yield f'{where}: a public header may not include "{path}"'
+        elif owner(path) not in allowed.get(folder, set()) | {folder}:
+            yield f"{where}: {folder} may not include <lamina/{path}.hpp> of {owner(path)}"
+
+
+def circles():
+    """Circles of includes among the private headers."""
+    graph = {}
+    for file in SOURCE.rglob("*.hpp"):
+        name = str(file.relative_to(SOURCE))
+        graph[name] = [path for _, kind, path in includes(file) if kind == "private"]
+    state = {}
+
+    def visit(name, path):
+        if state.get(name) == "done":
+            return
+        if name in path:
+            yield "headers include each other: " + " -> ".join([*path[path.index(name):], name])
+            return
+        for other in graph.get(name, []):
+            yield from visit(other, [*path, name])
+        state[name] = "done"
+
+    for name in sorted(graph):
+        yield from visit(name, [])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--table", action="store_true", help="print who may include whom")
+    settings = parser.parse_args()
+    allowed = dependencies()
+    if settings.table:
+        for folder, below in sorted(allowed.items(), key=lambda row: len(row[1])):
+            print(f"{folder:<12}{' '.join(sorted(below, key=lambda name: len(allowed[name])))}")
+        return 0
+
+    violations = []
+    for folder in [*allowed, "app"]:
+        for file in sorted((SOURCE / folder).rglob("*.[ch]pp")):
+            violations += check_file(file, folder, allowed.get(folder, set()))
+    for file in sorted(PUBLIC.glob("*.hpp")):
+        violations += check_public(file, allowed)
+    violations += circles()
+    print("\n".join(violations) or "includes run one way")
+    return 1 if violations else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
