@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks that every folder of src/ includes only what it may.
 
-    tools/check_includes.py [--table]
+    tools/check_includes.py [--table | --dot]
 
 - A folder may include the folders that its CMakeLists.txt names after DEPENDS, and those that they depend on. The
   dependencies have no circle.
@@ -9,11 +9,14 @@
 - app/ includes public headers (<lamina/...>) and its own headers alone.
 - A public header includes public headers alone, of its own folder or of those that this folder depends on.
 - Inside a folder headers do not include each other in a circle.
+- The drawing docs/images/folders.svg shows these dependencies.
 
-Prints one line for each violation; the exit status is 1 where there is one. --table prints who may include whom.
+Prints one line for each violation; the exit status is 1 where there is one. --table prints who may include whom, --dot
+the same as a graph for Graphviz: docs/images/folders.svg.
 """
 
 import argparse
+import html
 import pathlib
 import re
 import sys
@@ -26,6 +29,10 @@ PUBLIC = REPOSITORY / "include" / "lamina"
 OWNERS = {name: "core" for name in ("angle_bounds", "error", "export", "files", "ids", "option", "option_builders",
                                     "point", "predicates", "threads", "version")}
 OWNERS["triangle_files"] = "io"
+
+# The colours of docs/images/stages.dot.
+COLOURS = {"geometry": "#cfe3f7", "surface": "#d8ecd0", "layers": "#fbe3c0", "sizing": "#f3d3e2",
+           "decoupling": "#e0d8f0", "pipeline": "#e8e8e8", "mesh": "#d4efef", "io": "#f4efc4", "plot": "#f0dccf"}
 
 
 def dependencies():
@@ -116,14 +123,38 @@ def circles():
         yield from visit(name, [])
 
 
+def as_dot(allowed):
+    """The dependencies in the language of Graphviz, without those that follow from others."""
+    allowed = {**allowed, "app": set(allowed)}
+    yield "digraph folders {"
+    yield '    ranksep=0.4; nodesep=0.3; bgcolor="white"; edge [color="#555555", arrowsize=0.7];'
+    yield '    node [fontname="Helvetica", fontsize=12, height=0.36, shape=box, style="filled,rounded", color="#555555"];'
+    for folder, below in sorted(allowed.items()):
+        yield f'    {folder} [label=<<b>{folder}</b>>, fillcolor="{COLOURS.get(folder, "#ffffff")}"];'
+        for other in sorted(below - set().union(*(allowed[name] for name in below))):
+            yield f"    {folder} -> {other};"
+    yield "}"
+
+
+def check_drawing(dot):
+    drawn = (REPOSITORY / "docs/images/folders.svg").read_text()
+    shown = {html.unescape(title) for title in re.findall(r"<title>(.*?)</title>", drawn)}
+    if any(f"{start}->{end}" not in shown for start, end in re.findall(r"(\w+) -> (\w+);", dot)):
+        yield "docs/images/folders.svg lacks an arrow: draw it anew with tools/pictures.sh"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--table", action="store_true", help="print who may include whom")
+    parser.add_argument("--dot", action="store_true", help="print the same as a graph for Graphviz")
     settings = parser.parse_args()
     allowed = dependencies()
     if settings.table:
         for folder, below in sorted(allowed.items(), key=lambda row: len(row[1])):
             print(f"{folder:<12}{' '.join(sorted(below, key=lambda name: len(allowed[name])))}")
+        return 0
+    if settings.dot:
+        print("\n".join(as_dot(allowed)))
         return 0
 
     violations = []
@@ -133,6 +164,7 @@ def main():
     for file in sorted(PUBLIC.glob("*.hpp")):
         violations += check_public(file, allowed)
     violations += circles()
+    violations += check_drawing("\n".join(as_dot(allowed)))
     print("\n".join(violations) or "includes run one way")
     return 1 if violations else 0
 

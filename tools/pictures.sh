@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Makes the pictures of the documentation, docs/images/*.png, with the program itself.
+# Makes the pictures of the documentation in docs/images: those of meshes with the program itself, the drawings of
+# docs/architecture.md with Graphviz.
 #   tools/pictures.sh [PROGRAM [COLLECTION]]     the program is build/release/src/app/lamina unless given
 # The pictures of high-lift sections are made where a folder with the collection of airfoil files is given.
-# Needs the Debian package pngquant, which makes the pictures a fifth as large.
+# Needs the Debian packages pngquant, which makes the pictures a fifth as large, and graphviz.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 lamina=$(readlink -f "${1:-build/release/src/app/lamina}")
@@ -27,6 +28,9 @@ picture() {
     pngquant --force --speed 1 --nofs -o "$images/$name.png" 16 "$scratch/$name.png"
     echo "$images/$name.png"
 }
+
+dot -Tsvg "$images/stages.dot" -o "$images/stages.svg"
+tools/check_includes.py --dot | dot -Tsvg -o "$images/folders.svg"
 
 mesh sharp naca:0012
 mesh blunt naca:0012:200:blunt
