@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""Meshes every case of a folder of airfoil files and writes what became of each as a Markdown table.
+"""Meshes every airfoil file of a folder and writes the results as a Markdown table.
 
     tools/collection.py FOLDER [--program LAMINA] [--output TABLE.md] [-- OPTIONS of lamina mesh]
 
-A case is one file, or the files of a group: the rows of the table under "## Element groups" in FOLDER/README.md (files
-between backquotes in the second column), and files of a folder that differ in slat, main and flap alone. Heights are
-relative to the chord of the configuration (its extent in x), as files come in all units.
+A case is one file, or a group of files that belong together. There are two kinds of groups: the rows of the table under
+"## Element groups" in FOLDER/README.md, whose second column names the files between backquotes; and files of one folder
+whose names differ in slat, main and flap only. The first height is relative to the chord of the configuration (its
+extent in x), because the files come in all units.
 
-Each mesh is judged twice: by the program that made it, and by `lamina check` on the file it wrote. The exit status is 1
-where a case crashed, hung, left an invalid mesh or ended with another code than 0 (meshed) or 3 (input refused).
+lamina judges each mesh twice: before it writes the file, and with `lamina check` on the file. The exit status is 1 if a
+case crashed, hung, left an invalid mesh, or ended with an exit code other than 0 (meshed) or 3 (input refused).
 """
 
 import argparse
@@ -29,7 +30,7 @@ NOT_GEOMETRY = {".md", ".py", ".json", ".toml"}
 # ---- cases ----
 
 def listed_groups(folder):
-    """Groups of files named in the README, each under the folder that holds its first file."""
+    """Returns the groups that the README of the folder lists."""
     readme = folder / "README.md"
     if not readme.is_file():
         return []
@@ -49,7 +50,7 @@ def listed_groups(folder):
 
 
 def alike_groups(files):
-    """Files with one name but for the words slat, main and flap belong together."""
+    """Returns groups of files whose names differ in the words slat, main and flap only."""
     by_stem = {}
     for file in files:
         stem, parts = re.subn(r"_(slat|main|flap)(?=[_.])", "", file.name)
@@ -61,6 +62,7 @@ def alike_groups(files):
 
 
 def cases_of(folder):
+    """Returns all cases of the folder, sorted, each as a list of files."""
     files = sorted(f for f in folder.rglob("*") if f.is_file() and f.suffix not in NOT_GEOMETRY)
     groups = listed_groups(folder)
     grouped = {f for group in groups for f in group}
@@ -72,7 +74,8 @@ def cases_of(folder):
 # ---- one case ----
 
 def run(command, limit):
-    """Exit code (None: ran past the limit; negative: killed by a signal), standard output, last line of errors."""
+    """Runs a command. Returns its exit code (None: it ran past the limit; negative: a signal killed it), its standard
+    output and the last line of its standard error."""
     try:
         done = subprocess.run(command, capture_output=True, timeout=limit)
     except subprocess.TimeoutExpired:
@@ -82,7 +85,7 @@ def run(command, limit):
 
 
 def chord_of(program, files, limit):
-    """Extent in x of all elements; None where the input cannot be read."""
+    """Returns the extent in x of all elements, or None if lamina cannot read the input."""
     code, text, _ = run([program, "info", *files], limit)
     spans = re.findall(r"^  box\s+x (\S+) to (\S+),", text, re.MULTILINE)
     if code != 0 or not spans:
@@ -91,7 +94,7 @@ def chord_of(program, files, limit):
 
 
 def mesh_case(case, settings):
-    """What became of one case, as a dictionary."""
+    """Meshes and checks one case. Returns the result as a dictionary."""
     program, limit = settings.program, settings.limit
     files = [str(f) for f in case]
     result = {"files": [str(f.relative_to(settings.folder)) for f in case]}
@@ -115,16 +118,19 @@ def mesh_case(case, settings):
 
 
 def failed(result):
+    """Returns True if the case gave no valid mesh although lamina did not refuse its input."""
     return result["code"] not in (0, 3)
 
 
 # ---- the table ----
 
 def share(part, whole):
+    """Returns a part of a whole in per cent, as text."""
     return f"{100 * part / whole:.1f}" if whole else "-"
 
 
 def row(result):
+    """Returns the row of the table for one case."""
     names = "<br>".join(f"`{f}`" for f in result["files"])
     if result["code"] != 0:
         outcome = {3: "refused", None: "**hangs**"}.get(result["code"], f"**fails ({result['code']})**")
@@ -142,6 +148,7 @@ def row(result):
 
 
 def table(results, settings):
+    """Returns the whole page: head, table, and the reasons of the cases that gave no mesh."""
     outcomes = {"valid": sum(r["code"] == 0 for r in results),
                 "refused": sum(r["code"] == 3 for r in results),
                 "failed": sum(failed(r) for r in results)}
@@ -149,35 +156,41 @@ def table(results, settings):
     lines = [
         "# Every file of the collection, meshed",
         "",
-        f"Made by `tools/collection.py`: {len(results)} cases, {outcomes['valid']} meshed and valid, "
-        f"{outcomes['refused']} refused, {outcomes['failed']} failed. First height {settings.first_height:g} chords; "
-        f"options besides: {options}; one thread each.",
+        f"`tools/collection.py` made this page. Of {len(results)} cases, {outcomes['valid']} gave a valid mesh, "
+        f"{outcomes['refused']} were refused, and",
+        f"{outcomes['failed']} failed. The first height is {settings.first_height:g} chords. "
+        f"Further options: {options}. Each case ran on one thread.",
         "",
-        "*Rays*: per cent of the rays that carry all the layers asked for. *Cells*: per cent of the layer cells asked",
-        "for that were made; *open*: the same where nothing lies in front of the wall (see docs/guide.md). *Angle*:",
-        "smallest angle of the isotropic region in degrees, by `lamina check`. *Left over*: points refused / triangles",
-        "larger than the size field asks for. *Time*: seconds.",
+        "- *rays*: per cent of the rays that carry all requested layers",
+        "- *cells*: per cent of the requested layer cells that were made",
+        "- *open*: the same in the open, where nothing lies in front of the wall ([guide](guide.md#report))",
+        "- *angle*: smallest angle of the isotropic region in degrees, by `lamina check`",
+        "- *unmet*: points refused / triangles larger than the size field asks for",
+        "- *time*: seconds",
         "",
-        "| files | outcome | triangles | rays | cells | open | angle | left over | time |",
+        "| files | outcome | triangles | rays | cells | open | angle | unmet | time |",
         "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
         *map(row, results),
     ]
     refused = [r for r in results if r["code"] != 0]
     if refused:
-        lines += ["", "## Not meshed, and why", ""]
+        lines += ["", "## Cases without a mesh, and why", ""]
         lines += [f"- `{' '.join(r['files'])}`: {r['reason'].removeprefix('lamina: error: ')}" for r in refused]
     return "\n".join(lines) + "\n"
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("folder", type=lambda text: pathlib.Path(text).resolve())
-    parser.add_argument("--program", default=str(REPOSITORY / "build/release/src/app/lamina"))
-    parser.add_argument("--output", type=pathlib.Path, help="the table's file; else standard output")
-    parser.add_argument("--first-height", type=float, default=1e-5, metavar="H", help="in chords [%(default)s]")
-    parser.add_argument("--limit", type=float, default=60, metavar="S", help="seconds a case may take [%(default)s]")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="cases at a time [%(default)s]")
-    parser.add_argument("--only", default="", metavar="TEXT", help="cases with a file whose path holds TEXT")
+    parser.add_argument("folder", type=lambda text: pathlib.Path(text).resolve(), help="folder of airfoil files")
+    parser.add_argument("--program", default=str(REPOSITORY / "build/release/src/app/lamina"),
+                        help="lamina [%(default)s]")
+    parser.add_argument("--output", type=pathlib.Path, help="file for the page; else standard output")
+    parser.add_argument("--first-height", type=float, default=1e-5, metavar="H",
+                        help="first height in chords [%(default)s]")
+    parser.add_argument("--limit", type=float, default=60, metavar="S",
+                        help="seconds that a case may take [%(default)s]")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="number of cases at a time [%(default)s]")
+    parser.add_argument("--only", default="", metavar="TEXT", help="run only cases with a file whose path holds TEXT")
     parser.add_argument("options", nargs="*", help="options of lamina mesh, after --")
     return parser.parse_args()
 

@@ -1,9 +1,13 @@
 #!/usr/bin/env bash
 # Makes the pictures of the documentation in docs/images: those of meshes with the program itself, the drawings of
 # docs/architecture.md with Graphviz.
-#   tools/pictures.sh [PROGRAM [COLLECTION]]     the program is build/release/src/app/lamina unless given
-# The pictures of high-lift sections are made where a folder with the collection of airfoil files is given.
-# Needs the Debian packages pngquant, which makes the pictures a fifth as large, and graphviz.
+#
+#   tools/pictures.sh [PROGRAM [COLLECTION]]
+#
+# PROGRAM is the path of lamina [build/release/src/app/lamina]. COLLECTION is the folder with the collection of airfoil
+# files; without it the script leaves out the pictures of high-lift sections. The script needs the Debian packages
+# graphviz and pngquant; pngquant makes the pictures a fifth as large. The script does not make pieces-several.png and
+# wake.png.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 lamina=$(readlink -f "${1:-build/release/src/app/lamina}")
@@ -12,7 +16,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$images"
 
-# mesh NAME INPUT [options]: the layer of the README's example, over a far field of 50 chords.
+# mesh NAME INPUT [options]: meshes INPUT with the layer of the README's example and a far field of 50 chords.
 mesh() {
     local name=$1
     shift
@@ -20,7 +24,7 @@ mesh() {
         -o "$scratch/$name.vtu"
 }
 
-# picture NAME MESH WINDOW [options]
+# picture NAME MESH WINDOW [options]: draws a window of MESH and makes the file small.
 picture() {
     local name=$1 mesh=$2 window=$3
     shift 3
@@ -37,7 +41,8 @@ mesh blunt naca:0012:200:blunt
 mesh pieces naca:0012 --pieces-target 1000
 for topology in delaunay layered quads; do
     mesh "tail-$topology" naca:0012 --layer-topology "$topology"
-    # A section of so few points that the layer's outer border is divided much finer than its rays stand.
+    # This section has so few points that the edges of the layer's outer border are much shorter than the distance
+    # between its rays.
     mesh "coarse-$topology" naca:4412:40 --surface keep --layer-topology "$topology"
 done
 mesh k-rule naca:0012 --pieces-target 1000 --separators k-rule
@@ -48,7 +53,7 @@ picture nose-size sharp -0.06,0.18,-0.09,0.09 --color size
 picture trailing-edge sharp 0.96,1.04,-0.03,0.03
 picture trailing-edge-tip sharp 0.9992,1.0008,-0.0006,0.0006
 picture blunt-trailing-edge blunt 0.995,1.007,-0.0045,0.0045
-picture hand-over sharp 0.30,0.54,0.04,0.22
+picture transition sharp 0.30,0.54,0.04,0.22
 picture quality sharp -0.6,1.6,-0.75,0.75 --color quality
 picture pieces-near pieces -0.8,1.8,-0.9,0.9 --color piece
 picture pieces-rings pieces -12,13,-9,9 --color piece
@@ -61,7 +66,7 @@ picture separators-k-rule k-rule -1.3,0.3,0.1,1.3
 
 [ -n "${2:-}" ] || exit 0
 multielement=$2/multielement
-# high_lift NAME FILE...: the default layer.
+# high_lift NAME FILE...: meshes elements of the collection with the default layer.
 high_lift() {
     local name=$1
     shift

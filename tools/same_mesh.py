@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Meshes one case again and again on different numbers of threads and compares the hashes of the meshes.
+"""Meshes one case many times on different numbers of threads and compares the hashes of the meshes.
 
     tools/same_mesh.py [--program LAMINA] [--runs N] [--threads 1,2,3,4,8,16] -- INPUT... [OPTIONS of lamina mesh]
 
-The exit status is 1 where a run failed or two hashes differ.
+The exit status is 1 if a run failed or if two hashes differ.
 """
 
 import argparse
@@ -18,7 +18,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
 
 
 def mesh(program, case, threads):
-    """Hash and number of triangles."""
+    """Meshes the case once. Returns the hash of the mesh and its number of triangles."""
     with tempfile.TemporaryDirectory() as scratch:
         report = f"{scratch}/report.json"
         subprocess.run([program, "mesh", *case, "--threads", str(threads), "--quiet", "-o", f"{scratch}/mesh.vtu",
@@ -29,9 +29,10 @@ def mesh(program, case, threads):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--program", default=str(REPOSITORY / "build/release/src/app/lamina"))
-    parser.add_argument("--runs", type=int, default=10, help="for each number of threads [%(default)s]")
-    parser.add_argument("--threads", default="1,2,3,4,8,16", help="[%(default)s]")
+    parser.add_argument("--program", default=str(REPOSITORY / "build/release/src/app/lamina"),
+                        help="lamina [%(default)s]")
+    parser.add_argument("--runs", type=int, default=10, help="runs for each number of threads [%(default)s]")
+    parser.add_argument("--threads", default="1,2,3,4,8,16", help="numbers of threads [%(default)s]")
     parser.add_argument("case", nargs="+", help="inputs and options of lamina mesh, after --")
     settings = parser.parse_args()
 
