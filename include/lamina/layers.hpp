@@ -1,4 +1,5 @@
-// Stages "grow rays", "close the border" and "fill the layer": the anisotropic region next to the walls.
+// Stages "grow rays", "close the border" and "fill the layer". They make the layer, the anisotropic region next to the
+// walls: grow_rays() -> Rays, close_border() -> Layer, fill_layer() -> LayerCells.
 // Source: J. K. Pardue, thesis (2015), chapters 3 and 4.
 #pragma once
 
@@ -19,32 +20,34 @@
 
 namespace lamina {
 
-/// The height H(n) of the top of layer n, where h is the first height and r is LayerOptions::growth.
+/// The law by which heights grow along a ray. H(n) is the height of the top of layer n above the wall, h the first
+/// height and r LayerOptions::growth. The spacings are the differences H(n) - H(n - 1). src/layers/growth_laws.cpp
+/// holds the one table of the laws: a further law gets an enumerator here and a row there.
 enum class GrowthLaw {
-    geometric,    ///< h (r^n - 1) / (r - 1)
-    polynomial,   ///< h n^r
-    exponential,  ///< T (e^(a n/N) - 1) / (e^a - 1) for N layers of total thickness T; a follows from H(1) = h
-    adaptive,     ///< geometric; r of each ray, 1.05 to 1.5, makes the last of N spacings that along the wall
-    aflr          ///< five equal spacings; each one after that is 1.05, 1.05^2, ... 1.5, 1.5 ... times the one below
+    geometric,    ///< H(n) = h (r^n - 1) / (r - 1)
+    polynomial,   ///< H(n) = h n^r
+    exponential,  ///< H(n) = T (e^(a n/N) - 1) / (e^a - 1) for N layers of total thickness T; a follows from H(1) = h
+    adaptive,  ///< geometric; each ray has its own r, 1.05 to 1.5, which makes the last of N spacings that of the rays
+    aflr       ///< five equal spacings; each one after that is 1.05, 1.05^2, ... 1.5, 1.5 ... times the one below
 };
 
-/// What stands at a sharp convex corner.
+/// The rays at a sharp convex corner.
 enum class Corners {
     fan,    ///< several rays from the vertex
     refine  ///< one ray from the vertex, and refining rays on the edges beside it
 };
 
-/// How the points of the layer are joined. The points are the same (docs/decisions/0012).
+/// How the points of the layer are joined to cells. All three use the same points (docs/decisions/0012).
 enum class LayerTopology {
     delaunay,  ///< constrained Delaunay triangulation
-    layered,   ///< the grid of rays and layers, each cell cut in two
-    quads,     ///< the same grid with whole cells; triangles in fans, at steps, and where the border is divided
+    layered,   ///< the grid of rays and layers, each cell cut into two triangles
+    quads,     ///< the grid with whole cells; triangles in fans, where the number of layers changes, and on the border
 };
 
-/// A first height given by the flow: the top of the first layer lies at this y+ on a flat plate.
+/// A first height that follows from the flow: the top of the first layer lies at this y+ on a flat plate.
 struct YPlus {
     double y_plus = 1;
-    double reynolds = 0;            ///< of the free stream, based on the chord
+    double reynolds = 0;            ///< Reynolds number of the free stream, based on the chord
     std::optional<double> chord{};  ///< in units of the input; empty: the extent in x of the whole configuration
 };
 
@@ -55,10 +58,10 @@ struct LayerOptions {
     /// Ratio of the heights of successive layers, or the power of the polynomial law. The other laws do not use it.
     double growth = 1.2;
     GrowthLaw growth_law = GrowthLaw::geometric;
-    /// Number of layers on each ray. Empty: up to isotropy, where the height of a layer reaches the distance to the
-    /// neighbouring rays.
+    /// Number of layers on each ray. Empty: each ray gets layers up to isotropy, where the spacing reaches the distance
+    /// to the neighbouring rays.
     std::optional<std::uint32_t> layers = 30;
-    std::optional<double> thickness{};  ///< total height beyond which no layer goes; T of the exponential law
+    std::optional<double> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
     double max_ray_angle_deg = 5;       ///< largest angle between neighbouring rays
     Corners corners = Corners::fan;
     LayerTopology topology = LayerTopology::delaunay;
@@ -66,21 +69,21 @@ struct LayerOptions {
 
 LAMINA_EXPORT const OptionTable<LayerOptions>& layer_option_table();
 
-/// Throws OptionError where an option is out of range, or where the growth law lacks what it needs (exponential: 2
-/// layers or more and a thickness; adaptive: layers).
+/// Throws OptionError where an option is out of range, or where the growth law lacks a number that it needs
+/// (exponential: 2 layers or more and a thickness; adaptive: a number of layers).
 LAMINA_EXPORT void validate(const LayerOptions& options);
 
-/// Growth of the layers with the first height in force.
+/// The growth law and its numbers, with the first height as a length.
 struct LayerGrowth {
     GrowthLaw law = GrowthLaw::geometric;
-    double first_height = 0;
-    double growth = 1.2;
-    std::optional<std::uint32_t> layers{};
-    std::optional<double> thickness{};
+    double first_height = 0;                ///< in units of the input
+    double growth = 1.2;                    ///< LayerOptions::growth
+    std::optional<std::uint32_t> layers{};  ///< LayerOptions::layers
+    std::optional<double> thickness{};      ///< LayerOptions::thickness
 };
 
-/// Returns the growth that the options ask for round a configuration of this chord. Throws OptionError where the
-/// heights contradict each other: a thickness below the first height, or below what the exponential law needs.
+/// Returns the growth that the options request round a configuration of this chord. Throws OptionError where the
+/// heights contradict each other: a thickness below the first height, or too small for the exponential law.
 LAMINA_EXPORT LayerGrowth layer_growth(const LayerOptions& options, double chord);
 
 /// Returns the first height whose top lies at this y+ on a flat plate of length `chord` in turbulent flow:
@@ -93,21 +96,21 @@ LAMINA_EXPORT double first_height_for(double y_plus, double reynolds, double cho
 /// whose ratio is growth.growth. Source: thesis 3.3, GrowthLaw.
 LAMINA_EXPORT double layer_height(const LayerGrowth& growth, std::uint32_t n);
 
-/// Where a ray starts and where it points.
+/// The origin and the direction of a ray.
 struct RayLine {
     Point origin;
     Point direction;  ///< unit vector
 };
 
-/// The heights of the layers asked for on one ray: a part of LayerHeights::table().
+/// The column of heights on one ray: a part of LayerHeights::table().
 struct HeightColumn {
-    std::size_t first = 0;     ///< where the column begins in the table
-    std::uint32_t layers = 0;  ///< number of layers asked for
+    std::size_t first = 0;     ///< index in the table where the column begins
+    std::uint32_t layers = 0;  ///< number of layers requested
     double growth = 0;         ///< as Ray::growth
     double stretch = 1;        ///< as Ray::stretch
 };
 
-/// The heights of the layers asked for, ray by ray. Rays with the same law and growth share a part of the table.
+/// The heights of the requested layers, ray by ray. Rays with the same heights share a part of the table.
 class LayerHeights {
 public:
     LayerHeights() = default;
@@ -115,16 +118,16 @@ public:
         : table_(std::move(table)), columns_(std::move(columns)) {}
 
     const HeightColumn& column(std::size_t ray) const { return columns_[ray]; }
-    /// Returns the heights on a ray: entry n is the height of layer n, entry 0 is 0, the last is that of the last layer
-    /// asked for.
+    /// Returns the heights on a ray. Entry n is the height of layer n; entry 0 is 0, and the last entry belongs to the
+    /// last layer requested.
     std::span<const double> of(std::size_t ray) const {
         const HeightColumn& column = columns_[ray];
         return {table_.data() + column.first, column.layers + std::size_t{1}};
     }
-    /// Returns the height of all layers asked for on a ray.
-    double full(std::size_t ray) const { return of(ray).back(); }
-    /// Returns the height of the tallest column.
-    LAMINA_EXPORT double tallest() const;
+    /// Returns the height of the last layer requested on a ray.
+    double full_height(std::size_t ray) const { return of(ray).back(); }
+    /// Returns the largest full height of all rays.
+    LAMINA_EXPORT double max_height() const;
     const std::vector<double>& table() const { return table_; }
 
 private:
@@ -132,156 +135,168 @@ private:
     std::vector<HeightColumn> columns_;
 };
 
-/// Rays of all elements one after the other. Element e owns the rays [begin[e], begin[e + 1]), closed round the
-/// element.
+/// The rays of all elements, one element after the other. Element e owns the rays [begin[e], begin[e + 1]) in
+/// counter-clockwise order; the first one follows the last.
 struct LAMINA_EXPORT RaySet {
     std::vector<RayLine> lines;
     std::vector<std::size_t> begin{0};
 
     std::size_t elements() const { return begin.size() - 1; }
-    /// Returns, for each ray, the one that follows counter-clockwise round its element.
+    /// Returns, for each ray, the index of the ray that follows counter-clockwise round its element.
     std::vector<std::size_t> following() const;
 };
 
-/// The rays and the layers on each. Without layers a ray is a wall vertex without a direction.
+/// The rays and the number of layers on each. If the layer is disabled, each wall vertex has one ray without a
+/// direction and without layers.
 struct Rays {
     RaySet set;
-    std::vector<char> resampled;  ///< per element: Element::resampled
+    std::vector<char> resampled;  ///< one per element: Element::resampled
     bool enabled = true;          ///< LayerOptions::enabled
     LayerGrowth growth;
-    LayerHeights heights;               ///< of the layers asked for
-    LayerHeights fitted;                ///< the same, stretched to end where the room does
-    std::vector<double> limits;         ///< height up to which each ray is free; empty without layers
+    LayerHeights heights;               ///< as the growth law makes them
+    LayerHeights fitted;                ///< stretched, where rays are cut short, to end at their limits
+    std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
     std::vector<std::uint32_t> counts;  ///< number of layers on each ray
 };
 
-/// Grows rays from the walls: one along the normal of each vertex, fans at sharp corners, refining rays between; finds
-/// how far each is free, and how many layers fit on it. Neighbouring rays differ by at most one layer; every cell
-/// between them is positively oriented; the fronts are simple and disjoint.
-/// Precondition: check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution
-/// of the coordinates and for layers absurdly thicker than the input is wide.
+/// Grows rays from the walls: one along the normal of each vertex, fans at sharp corners and refining rays between
+/// them. Finds the limit of each ray and the number of layers that fit below it. Neighbouring rays differ by at most
+/// one layer, every cell between them is positively oriented, and the fronts are simple and disjoint. Precondition:
+/// check_simple(geometry). Throws OptionError for options out of range, for heights below the resolution of the
+/// coordinates and for layers absurdly thicker than the input is wide.
 LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth);
 
-/// Grows rays with the growth that the options ask for round this geometry.
+/// Grows rays with the growth that the options request round this geometry.
 LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& options = {});
 
-/// Returns, per element, the closed polygon through the tips of its rays: the outer border before it is divided.
+/// Returns, for each element, its front: the closed polygon through the tips of its rays, counter-clockwise.
 LAMINA_EXPORT std::vector<std::vector<Point>> fronts(const Rays& rays);
 
-/// How the edges of the outer border are divided. The border is frozen afterwards, so it must suit refinement.
+/// How the edges of the fronts are divided, which makes them outer borders. Borders are frozen afterwards, so they must
+/// suit refinement (docs/decisions/0003).
 struct BorderOptions {
     /// Largest ratio of the lengths of adjacent edges; 1.4 serves angle bounds up to 30 degrees. Below 2 an edge that
-    /// must be halved often makes its neighbours follow, all along the border. Exceeded only where division points
-    /// would cross something by rounding.
+    /// must be halved often makes its neighbours follow, all along the border. The ratio is exceeded only where
+    /// rounding would make division points cross something.
     double max_ratio = 1.4;
     /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance.
     double gradation = 0.1;
-    double max_edge = HUGE_VAL;
-    /// Round resampled elements, where an edge would be divided with this for `gradation`, further rays stand on the
-    /// wall's edge below, so that rows of cells go on to the wall instead of fanning out below the division points.
+    double max_edge = HUGE_VAL;  ///< largest length of an edge, in units of the input
+    /// On resampled elements, a further ray stands on the wall below each point where this `gradation` would divide an
+    /// edge. Rows of cells then run on to the wall instead of fanning out below division points (docs/decisions/0017).
     /// Empty: no further rays.
     std::optional<double> ray_gradation{};
-    /// No edge is longer than size + gradation x distance of any of these, but for up to a tenth, since division points
-    /// shift towards the lengths beside them.
+    /// No edge is longer than size + gradation x distance of any of these sources. An edge may exceed that by up to a
+    /// tenth, since division points shift towards the lengths beside them.
     std::vector<SizeSource> sources{};
 };
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const BorderOptions& options);
 
-/// Largest factor by which the growth on a ray that was cut short may differ from what was asked for.
-inline constexpr double largest_stretch = 1.019;
+/// On a ray that is cut short, the growth differs from the requested growth by at most this factor.
+inline constexpr double max_stretch = 1.019;
 
 /// A line of layer points that leaves the wall.
 struct Ray {
     VertexId origin;          ///< wall vertex
     Point direction;          ///< unit vector
-    std::uint32_t layers;     ///< number of points made on the ray; less than asked for where it was cut short
-    std::uint32_t requested;  ///< number of points asked for
+    std::uint32_t layers;     ///< number of layers made; less than requested where the ray is cut short
+    std::uint32_t requested;  ///< number of layers requested
     double growth;            ///< r of GrowthLaw on this ray; e^(a/N) for the exponential law
-    std::size_t first_point;  ///< Layer::points[first_point + n] lies at height n + 1
-    double height_limit;      ///< nothing is placed beyond this height; infinite where nothing is in the way
-    /// Each spacing is `stretch` times what the law makes of the spacing below. 1 on rays with all their layers, else
-    /// within largest_stretch of 1, so that layers end where the room for them does and not in steps.
+    std::size_t first_point;  ///< Layer::points[first_point + n] lies at the top of layer n + 1
+    double height_limit;      ///< no point lies beyond this height; infinite where nothing is in the way
+    /// The growth law gives the ratio of each spacing to the one below; the ray's own ratio is `stretch` times that. It
+    /// is 1 on rays with all their layers and within max_stretch of 1 on others, so that layers end at the limit.
     double stretch = 1;
+
+    /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
+    VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }
+    /// Returns the vertex at the end of the ray.
+    VertexId tip() const { return vertex(layers); }
 };
 
-/// What became of the layers asked for on some part of the walls. Cells lie between neighbouring rays, one per layer.
+/// The numbers of rays and cells on some part of the walls. Cells lie between neighbouring rays, one per layer.
 struct LayerCoverage {
     std::size_t rays = 0;
-    std::size_t incomplete_rays = 0;  ///< with fewer layers than asked for
+    std::size_t incomplete_rays = 0;  ///< rays with fewer layers than requested
     std::size_t requested_cells = 0;
     std::size_t made_cells = 0;
 };
 
-/// Opposing layers of full height and the triangles between them fit into a space of so many full heights.
+/// Opposing layers and the triangles between them fit into a gap that is this many times as wide as one layer is high.
 inline constexpr double open_space = 3;
 
+/// The coverage of one element.
 struct LAMINA_EXPORT ElementCoverage {
     LayerCoverage all;
-    /// Outside slots, coves and tight concave curvature: rays for which an empty circle of open_space x (height of all
-    /// layers asked for) across touches the wall at the ray's origin, and cells between two such rays.
+    /// The part outside slots, coves and tight concave curvature. It consists of the rays at whose origin an empty
+    /// circle touches the wall, open_space x (height of all layers requested) in diameter, and of the cells between two
+    /// of these rays.
     LayerCoverage open;
 
     ElementCoverage& operator+=(const ElementCoverage& other);
 };
 
-/// Edges of walls and outer borders. An edge that both have bounds no layer.
+/// The edges of walls and outer borders. An edge that is part of both bounds no layer.
 struct LayerEdges {
-    std::vector<std::vector<Segment>> walls;  ///< per element, the mesh on their left: clockwise round the body
-    std::vector<Segment> region;              ///< edges that bound the layer, the layer on their left
-    /// Edges of outer borders between the layer and the outer region: smaller vertex first, sorted.
+    std::vector<std::vector<Segment>>
+        walls;                    ///< one list per element, the mesh on the left: clockwise round the element
+    std::vector<Segment> region;  ///< edges that bound the layer, the layer on their left
+    /// Edges of outer borders between the layer and the outer region. Each has its smaller vertex first; sorted.
     std::vector<Segment> interfaces;
 };
 
 /// The points of the layer and its outline.
 struct Layer {
-    /// Wall vertices first (element by element; the vertex of a refining ray stands where it lies on the wall), then
-    /// ray points, then division points of the outer border. All distinct. Ray points lie strictly between wall and
-    /// border.
+    /// The wall vertices come first, element by element and in the order of the wall, those of refining rays included;
+    /// then come the ray points, then the division points of the outer border. All points are distinct. Ray points lie
+    /// strictly between wall and border.
     std::vector<Point> points;
-    std::size_t wall_points = 0;
-    /// Per element: the wall's vertices, counter-clockwise, and its rays in the same order. A fan has several rays of
-    /// one origin.
+    std::size_t wall_points = 0;  ///< number of wall vertices
+    /// One list per element: the wall vertices, counter-clockwise.
     std::vector<std::vector<VertexId>> walls;
+    /// One list per element: the rays, in the order of the wall. The rays of a fan have one origin.
     std::vector<std::vector<Ray>> rays;
-    /// Per element: the closed outer border, counter-clockwise, simple and disjoint from the others. Where the layer is
-    /// cut short to nothing it runs through wall vertices, and along wall edges between two of them. Where such an edge
-    /// is divided, the wall has the division points, too (without rays).
+    /// One list per element: the closed outer border, counter-clockwise, simple and disjoint from the others. Where the
+    /// rays have no layers, the border runs through wall vertices, and along wall edges between two of them. If such an
+    /// edge is divided, its division points belong to the wall, too (without rays).
     std::vector<std::vector<VertexId>> borders;
-    std::vector<std::uint16_t> layer_of_point;  ///< 0 on the wall, n on layer n; division points: that of the lower end
-    std::vector<ElementCoverage> coverage;      ///< per element; empty without layers
+    /// One number per point: 0 on the wall, n at the top of layer n. Division points have that of the lower end of the
+    /// edge that they divide.
+    std::vector<std::uint16_t> layer_of_point;
+    std::vector<ElementCoverage> coverage;  ///< one per element; empty if the layer is disabled
     LayerGrowth growth;
     LayerEdges edges;
 };
 
-/// Sorts out the edges of the walls and borders of a layer: Layer::edges.
+/// Returns the edges of the walls and borders of a layer: Layer::edges.
 LAMINA_EXPORT LayerEdges layer_edges(const Layer& layer);
 
-/// Places the points on the rays and divides the outer border so that it can be frozen; adds rays where that is asked
-/// for. Throws OptionError for options out of range.
+/// Places the points on the rays and divides the fronts, which become outer borders that can be frozen. Adds rays where
+/// options.ray_gradation requests them. Throws OptionError for options out of range.
 LAMINA_EXPORT Layer close_border(Rays rays, const BorderOptions& options = {});
 
-/// Returns, per element, the closed outer border as points.
+/// Returns, for each element, the points of its closed outer border.
 LAMINA_EXPORT std::vector<std::vector<Point>> border_loops(const Layer& layer);
 
 /// The cells between walls and outer borders, all counter-clockwise, and the pieces that they were made in.
 struct LayerCells {
     std::vector<Triangle> triangles;
     std::vector<Quad> quads;
-    std::vector<std::uint16_t> triangle_layer, quad_layer;  ///< per cell: its layer from the wall, from 1 on
-    std::vector<std::size_t> first_triangle;  ///< of each piece, and the end; empty where there is no layer
+    std::vector<std::uint16_t> triangle_layer, quad_layer;  ///< one per cell: its layer from the wall, from 1 on
+    std::vector<std::size_t> first_triangle;  ///< of each piece, then the end; empty where there is no layer
     DecompositionStats decomposition;         ///< for LayerTopology::delaunay
 
     std::size_t pieces() const { return first_triangle.empty() ? 0 : first_triangle.size() - 1; }
 };
 
-/// Joins the points of the layer in the topology asked for. Only the Delaunay triangulation is made in several pieces.
+/// Joins the points of the layer in this topology. Only the Delaunay triangulation is made in several pieces.
 LAMINA_EXPORT LayerCells fill_layer(const Layer& layer, LayerTopology topology,
                                     const DecompositionOptions& options = {});
 
-/// Returns what is wrong with a layer made with these options, one line each; empty: every promise above holds. Exact
-/// where a sign decides; O(n log n) in practice.
+/// Returns the defects of a layer that was made with these options, one line each; empty: every promise above holds.
+/// Exact where a sign decides; O(n log n) in practice.
 LAMINA_EXPORT std::vector<std::string> check_layer(const Layer& layer, const LayerOptions& options,
                                                    const BorderOptions& border = {});
 

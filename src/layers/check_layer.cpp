@@ -166,7 +166,7 @@ private:
             heights_by_law(options_.growth_law, layer_.growth.first_height, ray.growth, ray.layers);
         stretch_heights(ray.stretch, heights);
         if (ray.stretch != 1 && std::isinf(ray.height_limit)) find("ray is stretched without a limit", origin);
-        if (!(ray.stretch <= largest_stretch && ray.stretch * largest_stretch >= 1 - 1e-12))
+        if (!(ray.stretch <= max_stretch && ray.stretch * max_stretch >= 1 - 1e-12))
             find(fmt::format("ray is stretched by {}", ray.stretch), origin);
         for (std::uint32_t n = 0; n < ray.layers; ++n) {
             const double height = heights[n + 1];

@@ -26,7 +26,7 @@ std::vector<char> open_rays(const RaySet& set, const LayerHeights& heights, std:
     std::vector<char> open(set.lines.size());
     core::parallel_for(set.lines.size(), 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double radius = 0.5 * open_space * heights.full(i), inner = inner_share * radius;
+            const double radius = 0.5 * open_space * heights.full_height(i), inner = inner_share * radius;
             const Point middle = set.lines[i].origin + radius * set.lines[i].direction;
             const double nearest = walls.minimum(middle, 1, inner, no_values, [&](std::size_t j) {
                 return core::distance_to_segment(middle, set.lines[j].origin, set.lines[next[j]].origin);

@@ -29,7 +29,7 @@ double stretched_height(std::span<const double> heights, std::uint32_t n, double
 
 /// The largest stretch with which layer n is not above the limit, between the bounds; the lower bound if none.
 double largest_fit(std::span<const double> heights, std::uint32_t n, double limit) {
-    double low = 1 / largest_stretch, high = largest_stretch;
+    double low = 1 / max_stretch, high = max_stretch;
     if (stretched_height(heights, n, high) <= limit) return high;
     for (int step = 0; step < 48; ++step) {
         const double middle = 0.5 * (low + high);
@@ -46,7 +46,7 @@ double fit(std::span<const double> heights, double limit) {
     if (fitting == 0) return 1;
     const double grown = largest_fit(heights, fitting, limit), shrunk = largest_fit(heights, fitting + 1, limit);
     const bool one_more = stretched_height(heights, fitting + 1, shrunk) <= limit;
-    const bool shrunk_less = grown == largest_stretch || grown * shrunk > 1;
+    const bool shrunk_less = grown == max_stretch || grown * shrunk > 1;
     return one_more && shrunk_less ? shrunk : grown;
 }
 
@@ -67,7 +67,7 @@ LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> li
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             columns[i] = heights.column(i);
-            if (limits[i] < heights.full(i)) columns[i].stretch = fit(heights.of(i), limits[i]);
+            if (limits[i] < heights.full_height(i)) columns[i].stretch = fit(heights.of(i), limits[i]);
         }
     });
     std::vector<double> table = heights.table();

@@ -32,7 +32,7 @@ void check_scale(const Box& box, const LayerGrowth& growth, const LayerHeights& 
     if (!(growth.first_height > least_roundings * std::numeric_limits<double>::epsilon() * largest))
         throw OptionError("first_height", fmt::format("{} is below the resolution of coordinates as large as {}",
                                                       growth.first_height, largest));
-    const double thickness = heights.tallest();
+    const double thickness = heights.max_height();
     if (!(thickness <= thickest_layer * extent))
         throw OptionError("layers", fmt::format("the layers asked for are {:.3g} thick, {:.3g} times the extent of the "
                                                 "input",

@@ -133,9 +133,9 @@ namespace lamina {
 
 using namespace layers;
 
-double LayerHeights::tallest() const {
+double LayerHeights::max_height() const {
     double tallest = 0;
-    for (std::size_t i = 0; i < columns_.size(); ++i) tallest = std::max(tallest, full(i));
+    for (std::size_t i = 0; i < columns_.size(); ++i) tallest = std::max(tallest, full_height(i));
     return tallest;
 }
 

@@ -28,7 +28,7 @@ LayerHeights make_heights(const RaySet& set, const LayerGrowth& growth);
 void stretch_heights(double stretch, std::span<double> heights);
 
 /// Returns the heights with the columns of rays whose limit is below the height of all their layers stretched, so that
-/// a layer ends at the limit, or next to it below where that would take more than largest_stretch.
+/// a layer ends at the limit, or next to it below where that would take more than max_stretch.
 LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> limits);
 
 }  // namespace lamina::layers

@@ -98,7 +98,9 @@ Crossing cross_lines(Point p, Point d, Point q, Point e) {
 std::vector<double> limits_on_scale(const RaySet& set, const LayerHeights& heights, const Sample& sample, double low,
                                     double high, std::span<const double> before) {
     // A ray that has ended is in nobody's way beyond its end.
-    const auto way = [&](std::size_t i) { return std::min(before[i] / ray_fraction, heights.full(i) / wall_fraction); };
+    const auto way = [&](std::size_t i) {
+        return std::min(before[i] / ray_fraction, heights.full_height(i) / wall_fraction);
+    };
     std::vector<Box> ray_boxes, wall_boxes;
     for (std::size_t i : sample.rays) {
         const double reach = std::min(high, way(i));
@@ -164,7 +166,7 @@ void carry_over(const RaySet& set, const Sample& sample, std::span<const double>
 /// Bounds the slope of the limits along each wall.
 void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<double>& limits) {
     lower_to_neighbours(set, limits, [&](std::size_t from, std::size_t to) {
-        const double height = std::min(limits[from], heights.full(from));
+        const double height = std::min(limits[from], heights.full_height(from));
         return limits[from] +
                limit_slope * distance(at_height(set.lines[from], height), at_height(set.lines[to], height));
     });
@@ -175,7 +177,7 @@ void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<d
 std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights) {
     std::vector<double> limits(set.lines.size(), HUGE_VAL);
     if (is_one_convex_body(set)) return limits;
-    const double reach = heights.tallest() / wall_fraction;
+    const double reach = heights.max_height() / wall_fraction;
     double low = 0;
     double high = set.lines.size() <= single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
     for (;;) {

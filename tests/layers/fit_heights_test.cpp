@@ -20,12 +20,12 @@ LayerHeights one_stack() {
 
 TEST(FitHeights, ALayerEndsAtTheLimit) {
     const LayerHeights heights = one_stack();
-    for (double share = 0.9999; share * heights.full(0) > 0.04; share *= 0.97) {
-        const double limit = share * heights.full(0);
+    for (double share = 0.9999; share * heights.full_height(0) > 0.04; share *= 0.97) {
+        const double limit = share * heights.full_height(0);
         const LayerHeights fitted = layers::fit_heights(heights, std::vector{limit});
         const std::span<const double> stack = fitted.of(0);
         ASSERT_EQ(stack.size(), asked + 1u);
-        EXPECT_LE(std::abs(std::log(fitted.column(0).stretch)), std::log(largest_stretch) + 1e-12);
+        EXPECT_LE(std::abs(std::log(fitted.column(0).stretch)), std::log(max_stretch) + 1e-12);
         const auto top = std::upper_bound(stack.begin(), stack.end(), limit) - 1;
         EXPECT_NEAR(*top / limit, 1, 1e-9);
         EXPECT_EQ(stack[1], heights.of(0)[1]);
@@ -38,7 +38,7 @@ TEST(FitHeights, ALayerEndsAtTheLimit) {
 
 TEST(FitHeights, NothingChangesWithoutALimitOrWithoutRoom) {
     const LayerHeights heights = one_stack();
-    for (double limit : {HUGE_VAL, heights.full(0), 0.5e-3, 0.0}) {
+    for (double limit : {HUGE_VAL, heights.full_height(0), 0.5e-3, 0.0}) {
         const LayerHeights fitted = layers::fit_heights(heights, std::vector{limit});
         EXPECT_EQ(fitted.column(0).stretch, 1);
         EXPECT_EQ(fitted.table(), heights.table());
@@ -53,7 +53,7 @@ TEST(FitHeights, OfFewLayersGrowthStaysNearWhatWasAskedFor) {
         const auto top = std::upper_bound(stack.begin(), stack.end(), limit) - 1;
         const auto fixed_top = std::upper_bound(fixed.begin(), fixed.end(), limit) - 1;
         EXPECT_GE(*top, *fixed_top);
-        EXPECT_LE(std::abs(std::log(fitted.column(0).stretch)), std::log(largest_stretch) + 1e-12);
+        EXPECT_LE(std::abs(std::log(fitted.column(0).stretch)), std::log(max_stretch) + 1e-12);
     }
 }
 
