@@ -96,6 +96,10 @@ LAMINA_EXPORT double first_height_for(double y_plus, double reynolds, double cho
 /// whose ratio is growth.growth. Source: thesis 3.3, GrowthLaw.
 LAMINA_EXPORT double layer_height(const LayerGrowth& growth, std::uint32_t n);
 
+/// Returns the height of all requested layers where it is the same on every ray. Empty where the spacing of the rays
+/// decides: for layers up to isotropy and for the adaptive law.
+LAMINA_EXPORT std::optional<double> requested_height(const LayerGrowth& growth);
+
 /// The origin and the direction of a ray.
 struct RayLine {
     Point origin;

@@ -10,8 +10,8 @@
 #include "core/box_tree.hpp"
 #include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
-#include "layers/heights.hpp"
-#include "layers/isotropy.hpp"
+#include "layers/fit_heights.hpp"
+#include "layers/growth_laws.hpp"
 
 namespace lamina::layers {
 
@@ -158,12 +158,11 @@ private:
     void check_heights(const Ray& ray) {
         const Point origin = at(ray.origin);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
-        const bool adaptive = options_.growth_law == GrowthLaw::adaptive;
-        if (adaptive ? ray.growth < smallest_adaptive_ratio || ray.growth > largest_adaptive_ratio
-                     : ray.growth != common_growth(layer_.growth))
+        const GrowthLawEntry& law = growth_law_entry(options_.growth_law);
+        if (law.by_spacing ? ray.growth < law.by_spacing->min_growth || ray.growth > law.by_spacing->max_growth
+                           : ray.growth != law.ray_growth(layer_.growth))
             find("ray grows at a rate of its own", origin);
-        std::vector<double> heights =
-            heights_by_law(options_.growth_law, layer_.growth.first_height, ray.growth, ray.layers);
+        std::vector<double> heights = law.heights(layer_.growth.first_height, ray.growth, ray.layers);
         stretch_heights(ray.stretch, heights);
         if (ray.stretch != 1 && std::isinf(ray.height_limit)) find("ray is stretched without a limit", origin);
         if (!(ray.stretch <= max_stretch && ray.stretch * max_stretch >= 1 - 1e-12))

@@ -1,23 +1,25 @@
-// Stacks that end where the space for them does. Layers of fixed heights under a limit that varies along the wall end
-// in steps of a whole layer, a fifth of the height at a growth of 1.2 (above: the limit; below: where the layers end):
+// Columns of heights that end where the space for them does. Layers of fixed heights under a limit that varies along
+// the wall would end in steps of a whole layer, a fifth of the height at a growth of 1.2:
 //
 //          . - - - .                        . - - - .
-//       .     ___     .                  . /         \ .
-//     .   ___|   |___   .              . /             \ .
+//       .     ___     .                  . /         \ .           . .  limits of the rays
+//     .   ___|   |___   .              . /             \ .         ___  ends of the layers
 //   .  __|           |__  .          . /                 \ .
-//          fixed                              fitted
+//         fixed heights                   fitted heights
 //
-// A growth some per mille off, the less the more layers, makes the difference.
+// A growth that differs by some per mille, the less the more layers there are, makes a layer end at the limit.
+#include "layers/fit_heights.hpp"
+
 #include <algorithm>
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "layers/heights.hpp"
 
 namespace lamina::layers {
+
 namespace {
 
-/// Height of layer n of a stack, stretched.
+/// Returns the height of layer n of a column whose spacings are stretched.
 double stretched_height(std::span<const double> heights, std::uint32_t n, double stretch) {
     double height = 0, factor = 1;
     for (std::uint32_t k = 0; k < n; ++k) {
@@ -27,24 +29,26 @@ double stretched_height(std::span<const double> heights, std::uint32_t n, double
     return height;
 }
 
-/// The largest stretch with which layer n is not above the limit, between the bounds; the lower bound if none.
-double largest_fit(std::span<const double> heights, std::uint32_t n, double limit) {
+/// Returns the largest stretch between the bounds with which layer n ends at or below the limit; the lower bound if
+/// there is none.
+double max_stretch_below(double limit, std::span<const double> heights, std::uint32_t n) {
     double low = 1 / max_stretch, high = max_stretch;
     if (stretched_height(heights, n, high) <= limit) return high;
-    for (int step = 0; step < 48; ++step) {
+    for (int halving = 0; halving < 48; ++halving) {
         const double middle = 0.5 * (low + high);
         (stretched_height(heights, n, middle) <= limit ? low : high) = middle;
     }
     return low;
 }
 
-/// As few per mille as possible: either the layers that fit as they are grow towards the limit, or they shrink for one
-/// more to fit.
-double fit(std::span<const double> heights, double limit) {
+/// Returns the stretch nearer to 1 of two: either the layers that fit as they are grow towards the limit, or they
+/// shrink until one more fits.
+double stretch_to(double limit, std::span<const double> heights) {
     const auto above = std::upper_bound(heights.begin(), heights.end(), limit);
     const auto fitting = static_cast<std::uint32_t>(above - heights.begin()) - 1;
     if (fitting == 0) return 1;
-    const double grown = largest_fit(heights, fitting, limit), shrunk = largest_fit(heights, fitting + 1, limit);
+    const double grown = max_stretch_below(limit, heights, fitting),
+                 shrunk = max_stretch_below(limit, heights, fitting + 1);
     const bool one_more = stretched_height(heights, fitting + 1, shrunk) <= limit;
     const bool shrunk_less = grown == max_stretch || grown * shrunk > 1;
     return one_more && shrunk_less ? shrunk : grown;
@@ -67,7 +71,7 @@ LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> li
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             columns[i] = heights.column(i);
-            if (limits[i] < heights.full_height(i)) columns[i].stretch = fit(heights.of(i), limits[i]);
+            if (limits[i] < heights.full_height(i)) columns[i].stretch = stretch_to(limits[i], heights.of(i));
         }
     });
     std::vector<double> table = heights.table();

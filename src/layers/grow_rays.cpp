@@ -8,6 +8,7 @@
 #include <lamina/layers.hpp>
 
 #include "layers/counts.hpp"
+#include "layers/fit_heights.hpp"
 #include "layers/front.hpp"
 #include "layers/heights.hpp"
 #include "layers/layered_rays.hpp"

@@ -1,5 +1,4 @@
-// Growth laws. Sources: R. V. Garimella, M. S. Shephard, Boundary layer mesh generation for viscous flow simulations,
-// Int. J. Numer. Meth. Engng 49 (2000); J. K. Pardue, thesis (2015), section 3.3.
+// Heights of layers on rays, by the growth law, up to the thickness or up to isotropy.
 #include "layers/heights.hpp"
 
 #include <algorithm>
@@ -9,80 +8,47 @@
 
 #include <lamina/error.hpp>
 
-#include "core/reproducible_math.hpp"
+#include "layers/growth_laws.hpp"
 #include "layers/isotropy.hpp"
 
 namespace lamina::layers {
 
 namespace {
 
-/// More layers than these up to isotropy are not what anybody wants.
+/// Largest number of layers up to isotropy; a growth that needs more is refused as a mistake.
 constexpr std::uint32_t max_automatic_layers = 1000;
 
-std::vector<double> geometric_heights(double first_height, double ratio, std::uint32_t layers) {
-    std::vector<double> heights{0.0};
-    for (double step = first_height; heights.size() <= layers; step *= ratio) heights.push_back(heights.back() + step);
-    return heights;
-}
-
-std::vector<double> polynomial_heights(double first_height, double power, std::uint32_t layers) {
-    std::vector<double> heights{0.0};
-    for (std::uint32_t n = 1; n <= layers; ++n) heights.push_back(first_height * core::pow_reproducible(n, power));
-    return heights;
-}
-
-std::vector<double> aflr_heights(double first_height, std::uint32_t layers) {
-    constexpr std::uint32_t equal_layers = 5;
-    constexpr double acceleration = 1.05, largest_ratio = 1.5;
-    std::vector<double> heights{0.0};
-    double step = first_height, ratio = 1;
-    for (std::uint32_t n = 1; n <= layers; ++n) {
-        if (n > equal_layers) {
-            ratio = std::min(acceleration * ratio, largest_ratio);
-            step *= ratio;
-        }
-        heights.push_back(heights.back() + step);
-    }
-    return heights;
-}
-
-/// The ratio with which `layers` layers are `thickness` high. The exponential law is the geometric one with
-/// r = e^(a/N): T (r^n - 1) / (r^N - 1) = h (r^n - 1) / (r - 1), where H(1) = h.
-double ratio_for_thickness(double first_height, std::uint32_t layers, double thickness) {
-    double low = 1, high = thickness / first_height;
-    for (;;) {
-        const double ratio = 0.5 * (low + high);
-        if (ratio == low || ratio == high) return low;
-        (geometric_heights(first_height, ratio, layers).back() <= thickness ? low : high) = ratio;
-    }
-}
-
-/// Takes away the layers above `thickness`, with a slack of rounding: a thickness of exactly n layers gives n.
-void cut(double thickness, std::vector<double>& heights) {
+/// Removes the layers above `thickness`. A slack of rounding keeps all n layers of a thickness that is exactly their
+/// height.
+void cut_at_thickness(double thickness, std::vector<double>& heights) {
     heights.erase(std::upper_bound(heights.begin(), heights.end(), thickness * (1 + 1e-12)), heights.end());
 }
 
-std::uint32_t layers_of(const std::vector<double>& heights) { return static_cast<std::uint32_t>(heights.size() - 1); }
+std::uint32_t layer_count(const std::vector<double>& heights) { return static_cast<std::uint32_t>(heights.size() - 1); }
 
-LayerHeights heights_up_to_isotropy(const RaySet& set, const LayerGrowth& growth, std::vector<double> table) {
+/// Returns columns that all lie in one table and end where their ray reaches isotropy.
+LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, std::vector<double> table) {
     const std::vector<std::uint32_t> layers = layers_up_to_isotropy(set, table);
     if (std::any_of(layers.begin(), layers.end(), [](auto n) { return n >= max_automatic_layers; }))
         throw OptionError("layers", fmt::format("more than {} layers up to isotropy: give a larger growth, a thickness "
                                                 "or their number",
                                                 max_automatic_layers));
     std::vector<HeightColumn> columns;
-    for (std::uint32_t n : layers) columns.push_back({0, n, growth.growth});
+    columns.reserve(layers.size());
+    for (std::uint32_t n : layers) columns.push_back({0, n, ray_growth});
     return LayerHeights(std::move(table), std::move(columns));
 }
 
-LayerHeights adaptive_heights(const RaySet& set, const LayerGrowth& growth) {
-    const std::vector<double> ratios = ratios_to_isotropy(set, growth.first_height, *growth.layers);
+/// Returns columns of which each has its own growth and its own part of the table.
+LayerHeights heights_by_spacing(const RaySet& set, const LayerGrowth& growth, const GrowthLawEntry& law) {
+    const std::vector<double> ray_growths = law.by_spacing->on_rays(set, growth);
     std::vector<double> table;
     std::vector<HeightColumn> columns;
-    for (double ratio : ratios) {
-        std::vector<double> heights = geometric_heights(growth.first_height, ratio, *growth.layers);
-        if (growth.thickness) cut(*growth.thickness, heights);
-        columns.push_back({table.size(), layers_of(heights), ratio});
+    columns.reserve(ray_growths.size());
+    for (double ray_growth : ray_growths) {
+        std::vector<double> heights = law.heights(growth.first_height, ray_growth, *growth.layers);
+        if (growth.thickness) cut_at_thickness(*growth.thickness, heights);
+        columns.push_back({table.size(), layer_count(heights), ray_growth});
         table.insert(table.end(), heights.begin(), heights.end());
     }
     return LayerHeights(std::move(table), std::move(columns));
@@ -90,25 +56,11 @@ LayerHeights adaptive_heights(const RaySet& set, const LayerGrowth& growth) {
 
 }  // namespace
 
-double common_growth(const LayerGrowth& growth) {
-    return growth.law == GrowthLaw::exponential
-               ? ratio_for_thickness(growth.first_height, *growth.layers, *growth.thickness)
-               : growth.growth;
-}
-
-std::vector<double> heights_by_law(GrowthLaw law, double first_height, double growth, std::uint32_t layers) {
-    if (law == GrowthLaw::polynomial) return polynomial_heights(first_height, growth, layers);
-    if (law == GrowthLaw::aflr) return aflr_heights(first_height, layers);
-    return geometric_heights(first_height, growth, layers);
-}
-
 double expected_height(const LayerGrowth& growth, double spacing) {
+    const GrowthLawEntry& law = growth_law_entry(growth.law);
     const auto layers = growth.layers.value_or(max_automatic_layers);
-    double ratio = common_growth(growth);
-    if (growth.law == GrowthLaw::adaptive && layers > 1)
-        ratio = std::clamp(core::pow_reproducible(spacing / growth.first_height, 1.0 / (layers - 1)),
-                           smallest_adaptive_ratio, largest_adaptive_ratio);
-    const std::vector<double> heights = heights_by_law(growth.law, growth.first_height, ratio, layers);
+    const double ray_growth = law.by_spacing ? law.by_spacing->expected(growth, spacing) : law.ray_growth(growth);
+    const std::vector<double> heights = law.heights(growth.first_height, ray_growth, layers);
     std::size_t n = heights.size() - 1;
     if (!growth.layers)
         for (n = 1; n < layers && heights[n] - heights[n - 1] < spacing;) ++n;
@@ -116,14 +68,14 @@ double expected_height(const LayerGrowth& growth, double spacing) {
 }
 
 LayerHeights make_heights(const RaySet& set, const LayerGrowth& growth) {
-    if (growth.law == GrowthLaw::adaptive) return adaptive_heights(set, growth);
-    const double ratio = common_growth(growth);
+    const GrowthLawEntry& law = growth_law_entry(growth.law);
+    if (law.by_spacing) return heights_by_spacing(set, growth, law);
+    const double ray_growth = law.ray_growth(growth);
     std::vector<double> table =
-        heights_by_law(growth.law, growth.first_height, ratio, growth.layers.value_or(max_automatic_layers));
-    // The exponential law meets its thickness itself.
-    if (growth.thickness && growth.law != GrowthLaw::exponential) cut(*growth.thickness, table);
-    if (!growth.layers) return heights_up_to_isotropy(set, growth, std::move(table));
-    const HeightColumn all{0, layers_of(table), ratio};
+        law.heights(growth.first_height, ray_growth, growth.layers.value_or(max_automatic_layers));
+    if (growth.thickness && !law.fills_thickness) cut_at_thickness(*growth.thickness, table);
+    if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, std::move(table));
+    const HeightColumn all{0, layer_count(table), ray_growth};
     return LayerHeights(std::move(table), std::vector<HeightColumn>(set.lines.size(), all));
 }
 
@@ -131,16 +83,10 @@ LayerHeights make_heights(const RaySet& set, const LayerGrowth& growth) {
 
 namespace lamina {
 
-using namespace layers;
-
 double LayerHeights::max_height() const {
-    double tallest = 0;
-    for (std::size_t i = 0; i < columns_.size(); ++i) tallest = std::max(tallest, full_height(i));
-    return tallest;
-}
-
-double layer_height(const LayerGrowth& growth, std::uint32_t n) {
-    return heights_by_law(growth.law, growth.first_height, common_growth(growth), n).back();
+    double highest = 0;
+    for (std::size_t i = 0; i < columns_.size(); ++i) highest = std::max(highest, full_height(i));
+    return highest;
 }
 
 }  // namespace lamina

@@ -158,12 +158,12 @@ std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<co
 }
 
 std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, std::uint32_t layers) {
-    if (layers < 2) return std::vector<double>(set.lines.size(), smallest_adaptive_ratio);
+    if (layers < 2) return std::vector<double>(set.lines.size(), min_adaptive_ratio);
     const Spacing spacing(set);
     std::vector<double> ratios(set.lines.size());
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         if (spacing.inside_fan(i)) continue;
-        ratios[i] = bisect(smallest_adaptive_ratio, largest_adaptive_ratio, [&](double ratio) {
+        ratios[i] = bisect(min_adaptive_ratio, max_adaptive_ratio, [&](double ratio) {
             const double last = first_height * whole_power(ratio, layers - 1);
             const double height = (last * ratio - first_height) / (ratio - 1);
             return last <= hand_over * spacing.at(i, height);

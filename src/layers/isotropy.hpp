@@ -10,7 +10,7 @@
 namespace lamina::layers {
 
 /// Bounds of the adaptive law's ratio.
-inline constexpr double smallest_adaptive_ratio = 1.05, largest_adaptive_ratio = 1.5;
+inline constexpr double min_adaptive_ratio = 1.05, max_adaptive_ratio = 1.5;
 
 /// Number of layers on each ray up to the first that is as high as the rays stand apart there, or as many as the table
 /// has. heights[n] is the height of layer n, heights[0] = 0. Neighbours differ by at most one.

@@ -1,30 +1,29 @@
-// The table of the layer's options, and what follows from them.
-#include <cmath>
+// The table of the layer's options, and the checks of them.
 #include <limits>
 
 #include <fmt/format.h>
 
 #include <lamina/layers.hpp>
-
 #include <lamina/option_builders.hpp>
-#include "core/reproducible_math.hpp"
+
+#include "layers/growth_laws.hpp"
 
 namespace lamina::layers {
 
 namespace {
 
-/// A number of YPlus, which the first height becomes when one of them is set.
+/// Adds an option that sets a number of YPlus. Setting one of them replaces a first height given as a length.
 template <class Member>
 Option<LayerOptions>& add_flow_number(OptionTableBuilder<LayerOptions>& table, const char* name, const char* metavar,
                                       const char* help, Member member) {
-    const auto of_flow = [member](LayerOptions & options) -> auto& {
+    const auto flow_member = [member](LayerOptions & options) -> auto& {
         if (!std::holds_alternative<YPlus>(options.first_height)) options.first_height = YPlus{};
         return std::get<YPlus>(options.first_height).*member;
     };
-    const auto set = [of_flow, key = option_key(name)](LayerOptions& options, const OptionValue& value) {
+    const auto set = [flow_member, key = option_key(name)](LayerOptions& options, const OptionValue& value) {
         const double number = number_of(value, key);
         require_in(positive_numbers, number, key);
-        of_flow(options) = number;
+        flow_member(options) = number;
     };
     const auto get = [member](const LayerOptions& options) -> std::optional<OptionValue> {
         const auto* flow = std::get_if<YPlus>(&options.first_height);
@@ -35,9 +34,8 @@ Option<LayerOptions>& add_flow_number(OptionTableBuilder<LayerOptions>& table, c
     return table.add({name, OptionKind::number, metavar, help, positive_numbers.text(), set, get});
 }
 
-OptionTable<LayerOptions> make_table() {
-    OptionTableBuilder<LayerOptions> table("Layer");
-    const auto at = [](auto LayerOptions::*member) { return member_at(member); };
+/// Adds the options of the first height: a length, or the flow that it follows from.
+void add_first_height(OptionTableBuilder<LayerOptions>& table) {
     const auto set_first_height = [](LayerOptions& options, const OptionValue& value) {
         const double height = number_of(value, "first_height");
         require_in(positive_numbers, height, "first_height");
@@ -59,16 +57,27 @@ OptionTable<LayerOptions> make_table() {
     add_flow_number(table, "chord", "C",
                     "chord for y-plus, in units of the input; else the extent in x of the configuration", &YPlus::chord)
         .needs = {"y-plus"};
+}
+
+/// Adds the option of the growth law, whose help lists the formulas.
+void add_growth_law(OptionTableBuilder<LayerOptions>& table) {
+    Choices<GrowthLaw> choices;
+    std::string help = "height of the top of layer n, where H is the first height:";
+    for (const GrowthLawEntry& law : growth_law_table()) {
+        help += fmt::format("{} {}, {}", choices.empty() ? "" : ";", law.name, law.formula);
+        choices.emplace_back(law.name, law.law);
+    }
+    table.choice("growth-law", help, choices, member_at(&LayerOptions::growth_law));
+}
+
+OptionTable<LayerOptions> make_table() {
+    OptionTableBuilder<LayerOptions> table("Layer");
+    const auto at = [](auto LayerOptions::*member) { return member_at(member); };
+    add_first_height(table);
     table.number("growth", "R", "ratio of the heights of successive layers, or power of the polynomial law",
                  numbers_above(1), at(&LayerOptions::growth));
-    table.choice("growth-law", "how heights grow along a ray",
-                 Choices<GrowthLaw>{{"geometric", GrowthLaw::geometric},
-                                    {"polynomial", GrowthLaw::polynomial},
-                                    {"exponential", GrowthLaw::exponential},
-                                    {"adaptive", GrowthLaw::adaptive},
-                                    {"aflr", GrowthLaw::aflr}},
-                 at(&LayerOptions::growth_law));
-    // Layer numbers are kept in 16 bits.
+    add_growth_law(table);
+    // Layer::layer_of_point has 16 bits.
     table.count_or_auto("layers", "N", "number of layers; auto: on each ray up to cells as high as wide",
                         numbers_from_to(1, std::numeric_limits<std::uint16_t>::max()), at(&LayerOptions::layers));
     table.number("thickness", "T", "total height beyond which no layer goes, in units of the input", positive_numbers,
@@ -93,18 +102,23 @@ OptionTable<LayerOptions> make_table() {
 
 namespace lamina {
 
+using namespace layers;
+
 const OptionTable<LayerOptions>& layer_option_table() {
-    static const OptionTable<LayerOptions> table = layers::make_table();
+    static const OptionTable<LayerOptions> table = make_table();
     return table;
 }
 
 void validate(const LayerOptions& options) {
     if (!options.enabled) return;
     require_in_range(layer_option_table(), options);
-    if (options.growth_law == GrowthLaw::adaptive && !options.layers)
-        throw OptionError("layers", "adaptive growth needs a number of layers, not auto");
-    if (options.growth_law == GrowthLaw::exponential && (!options.layers || *options.layers < 2 || !options.thickness))
-        throw OptionError("thickness", "exponential growth needs a thickness and 2 layers or more");
+    const GrowthLawEntry& law = growth_law_entry(options.growth_law);
+    if (law.min_layers > 0 && !options.layers)
+        throw OptionError("layers", fmt::format("{} growth needs a number of layers, not auto", law.name));
+    if (options.layers && *options.layers < law.min_layers)
+        throw OptionError("layers", fmt::format("{} growth needs {} layers or more", law.name, law.min_layers));
+    if (law.fills_thickness && !options.thickness)
+        throw OptionError("thickness", fmt::format("{} growth needs a thickness", law.name));
 }
 
 void validate(const BorderOptions& options) {
@@ -112,33 +126,6 @@ void validate(const BorderOptions& options) {
     require_in(positive_numbers, options.gradation, "gradation");
     if (!(options.max_edge > 0)) throw OptionError("max_edge", "must be greater than 0");
     if (options.ray_gradation) require_in(positive_numbers, *options.ray_gradation, "ray_gradation");
-}
-
-LayerGrowth layer_growth(const LayerOptions& options, double chord) {
-    if (!options.enabled) return {};
-    LayerGrowth growth{options.growth_law, 0, options.growth, options.layers, options.thickness};
-    if (const auto* height = std::get_if<double>(&options.first_height)) {
-        growth.first_height = *height;
-    } else {
-        const YPlus& flow = std::get<YPlus>(options.first_height);
-        growth.first_height = first_height_for(flow.y_plus, flow.reynolds, flow.chord.value_or(chord));
-    }
-    if (growth.thickness && !(*growth.thickness >= growth.first_height))
-        throw OptionError("thickness",
-                          fmt::format("{} is less than the first height {}", *growth.thickness, growth.first_height));
-    if (growth.law == GrowthLaw::exponential && !(*growth.thickness > *growth.layers * growth.first_height))
-        throw OptionError("thickness",
-                          fmt::format("{} is no more than {} layers of {}: exponential growth has nothing to grow",
-                                      *growth.thickness, *growth.layers, growth.first_height));
-    return growth;
-}
-
-double first_height_for(double y_plus, double reynolds, double chord) {
-    require_in(positive_numbers, y_plus, "y_plus");
-    require_in(positive_numbers, reynolds, "reynolds");
-    require_in(positive_numbers, chord, "chord");
-    const double friction = 0.026 / core::pow_reproducible(reynolds, 1.0 / 7);
-    return y_plus * chord / (reynolds * std::sqrt(0.5 * friction));
 }
 
 }  // namespace lamina

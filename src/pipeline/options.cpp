@@ -79,10 +79,10 @@ SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& grow
     // points.
     constexpr double margin = 0.9;
     limits.gradation = std::max(margin * border_gradation(options.sizing.field), slowest_wall_gradation);
-    // Layers that go by the wall's spacing are as high over it as that allows.
-    if (!options.layer.enabled || !growth.layers || growth.law == GrowthLaw::adaptive) return limits;
-    const double height = std::min(layer_height(growth, *growth.layers), growth.thickness.value_or(HUGE_VAL));
-    const double fan_edge = height * core::radians(options.layer.max_ray_angle_deg);
+    if (!options.layer.enabled) return limits;
+    const std::optional<double> height = requested_height(growth);
+    if (!height) return limits;  // layers that go by the wall's spacing are as high over it as that allows
+    const double fan_edge = *height * core::radians(options.layer.max_ray_angle_deg);
     if (fan_edge > 0) limits.fan_spacing = fan_edge;
     return limits;
 }

@@ -5,7 +5,8 @@
 
 #include <lamina/layers.hpp>
 
-#include "layers/heights.hpp"
+#include "layers/fit_heights.hpp"
+#include "layers/growth_laws.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr std::uint32_t asked = 30;
 
 LayerHeights one_stack() {
-    return LayerHeights(layers::heights_by_law(GrowthLaw::geometric, 1e-3, 1.2, asked), {{0, asked, 1.2}});
+    return LayerHeights(layers::growth_law_entry(GrowthLaw::geometric).heights(1e-3, 1.2, asked), {{0, asked, 1.2}});
 }
 
 TEST(FitHeights, ALayerEndsAtTheLimit) {
