@@ -2,13 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <lamina/layers.hpp>
 
+#include "core/angles.hpp"
 #include "core/box_tree.hpp"
-#include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
 #include "layers/fit_heights.hpp"
 #include "layers/growth_laws.hpp"
@@ -17,33 +18,52 @@ namespace lamina::layers {
 
 namespace {
 
-constexpr std::size_t most_findings = 20;
+constexpr std::size_t max_findings = 20;
 
-/// One directed edge of a wall or border.
+/// A directed edge of a wall or border.
 struct LoopEdge {
     VertexId a, b;
-    std::size_t body;
+    std::size_t element;
 };
 
-class Validator {
+/// The walls or the borders of all elements.
+struct Loops {
+    const char* name;  ///< "wall" or "border"
+    const std::vector<std::vector<VertexId>>& vertices;
+    std::vector<LoopEdge> edges;
+    core::BoxTree tree;  ///< over the edges
+
+    Loops(const char* loop_name, const std::vector<std::vector<VertexId>>& loops, const std::vector<Point>& points)
+        : name(loop_name), vertices(loops), tree({}) {
+        std::vector<Box> boxes;
+        for (std::size_t e = 0; e < loops.size(); ++e) {
+            for (std::size_t k = 0; k < loops[e].size(); ++k) {
+                const VertexId a = loops[e][k], b = loops[e][(k + 1) % loops[e].size()];
+                edges.push_back({a, b, e});
+                boxes.push_back(core::bounding_box(points[a.index()], points[b.index()]));
+            }
+        }
+        tree = core::BoxTree(std::move(boxes));
+    }
+};
+
+class LayerChecker {
 public:
-    Validator(const Layer& layer, const LayerOptions& options, const BorderOptions& border)
+    LayerChecker(const Layer& layer, const LayerOptions& options, const BorderOptions& border_options)
         : layer_(layer),
           options_(options),
-          border_options_(border),
-          walls_(edges_of(layer.walls)),
-          borders_(edges_of(layer.borders)),
-          wall_tree_(tree_of(walls_)),
-          border_tree_(tree_of(borders_)) {}
+          border_options_(border_options),
+          walls_("wall", layer.walls, layer.points),
+          borders_("border", layer.borders, layer.points) {}
 
-    std::vector<std::string> run() {
+    std::vector<std::string> run() && {
         check_points();
-        check_loops("wall", layer_.walls, walls_, wall_tree_);
-        check_loops("border", layer_.borders, borders_, border_tree_);
+        check_loops(walls_);
+        check_loops(borders_);
         check_borders_against_walls();
         check_rays();
         check_cells();
-        check_places();
+        check_sides();
         check_ratio();
         return std::move(findings_);
     }
@@ -52,88 +72,84 @@ private:
     const Layer& layer_;
     const LayerOptions& options_;
     const BorderOptions& border_options_;
-    std::vector<LoopEdge> walls_, borders_;
-    core::BoxTree wall_tree_, border_tree_;
+    Loops walls_, borders_;
     std::vector<std::string> findings_;
 
     Point at(VertexId v) const { return layer_.points[v.index()]; }
-    void find(const std::string& what, Point where) {
-        if (findings_.size() < most_findings)
-            findings_.push_back(fmt::format("{} at ({}, {})", what, where.x, where.y));
+    void report(const std::string& defect, Point where) {
+        if (findings_.size() < max_findings)
+            findings_.push_back(fmt::format("{} at ({}, {})", defect, where.x, where.y));
     }
 
-    std::vector<LoopEdge> edges_of(const std::vector<std::vector<VertexId>>& loops) const {
-        std::vector<LoopEdge> edges;
-        for (std::size_t e = 0; e < loops.size(); ++e)
-            for (std::size_t k = 0; k < loops[e].size(); ++k)
-                edges.push_back({loops[e][k], loops[e][(k + 1) % loops[e].size()], e});
-        return edges;
-    }
-    core::BoxTree tree_of(const std::vector<LoopEdge>& edges) const {
-        std::vector<Box> boxes;
-        for (const LoopEdge& edge : edges) boxes.push_back(core::bounding_box(at(edge.a), at(edge.b)));
-        return core::BoxTree(std::move(boxes));
-    }
-
+    /// All points are distinct and in the exact range.
     void check_points() {
-        if (layer_.layer_of_point.size() != layer_.points.size()) find("layer_of_point has the wrong size", {});
+        if (layer_.layer_of_point.size() != layer_.points.size()) report("layer_of_point has the wrong size", {});
         std::vector<Point> sorted = layer_.points;
         std::sort(sorted.begin(), sorted.end(), lexicographically_less);
         for (std::size_t i = 0; i < sorted.size(); ++i) {
-            if (!in_exact_range(sorted[i])) find("point outside the exact range", sorted[i]);
-            if (i > 0 && sorted[i] == sorted[i - 1]) find("two points in one place", sorted[i]);
+            if (!in_exact_range(sorted[i])) report("point outside the exact range", sorted[i]);
+            if (i > 0 && sorted[i] == sorted[i - 1]) report("two points in one place", sorted[i]);
         }
     }
 
-    /// Simple, counter-clockwise, disjoint from the others.
-    void check_loops(const char* name, const std::vector<std::vector<VertexId>>& loops,
-                     const std::vector<LoopEdge>& edges, const core::BoxTree& tree) {
-        for (const std::vector<VertexId>& loop : loops) {
+    /// Loops are counter-clockwise, simple and disjoint.
+    void check_loops(const Loops& loops) {
+        for (const std::vector<VertexId>& loop : loops.vertices) {
             double area = 0;
             for (std::size_t k = 0; k < loop.size(); ++k)
                 area += cross(at(loop[k]) - at(loop[0]), at(loop[(k + 1) % loop.size()]) - at(loop[0]));
-            if (loop.size() < 3 || !(area > 0)) find(fmt::format("{} is not counter-clockwise", name), at(loop[0]));
+            if (loop.size() < 3 || !(area > 0))
+                report(fmt::format("{} is not counter-clockwise", loops.name), at(loop[0]));
         }
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-            const auto [a, b, body] = edges[i];
-            tree.overlaps(core::bounding_box(at(a), at(b)), [&, a = a, b = b](std::size_t j) {
-                if (j <= i) return;
-                const auto [c, d, other] = edges[j];
-                const bool follows = b == c, precedes = a == d;
-                if (follows && precedes) {
-                    find(fmt::format("{} runs to and fro", name), at(a));
-                } else if (follows || precedes) {
-                    const Point apex = follows ? at(b) : at(a), p = follows ? at(a) : at(b),
-                                q = follows ? at(d) : at(c);
-                    if (core::segments_fold(apex, p, q)) find(fmt::format("{} folds back", name), apex);
-                } else if (core::segments_meet(at(a), at(b), at(c), at(d))) {
-                    find(fmt::format("{} edges meet", name), at(a));
-                }
+        for (std::size_t i = 0; i < loops.edges.size(); ++i) {
+            const LoopEdge& edge = loops.edges[i];
+            loops.tree.overlaps(core::bounding_box(at(edge.a), at(edge.b)), [&](std::size_t j) {
+                if (j > i) check_pair(loops.name, edge, loops.edges[j]);
             });
+        }
+    }
+
+    /// Two edges of loops of one kind meet in a common end only.
+    void check_pair(const char* name, const LoopEdge& edge, const LoopEdge& other) {
+        const auto [a, b, element] = edge;
+        const auto [c, d, other_element] = other;
+        if (b == c && a == d) {
+            report(fmt::format("{} runs to and fro", name), at(a));
+        } else if (b == c) {
+            if (core::segments_fold(at(b), at(a), at(d))) report(fmt::format("{} folds back", name), at(b));
+        } else if (a == d) {
+            if (core::segments_fold(at(a), at(b), at(c))) report(fmt::format("{} folds back", name), at(a));
+        } else if (core::segments_meet(at(a), at(b), at(c), at(d))) {
+            report(fmt::format("{} edges meet", name), at(a));
         }
     }
 
     void check_borders_against_walls() {
-        for (const auto& [a, b, body] : borders_) {
-            wall_tree_.overlaps(core::bounding_box(at(a), at(b)), [&, a = a, b = b](std::size_t j) {
-                const auto [c, d, other] = walls_[j];
-                if (a == c && b == d) return;
-                const bool at_a = a == c || a == d, at_b = b == c || b == d;
-                if (!at_a && !at_b) {
-                    if (core::segments_meet(at(a), at(b), at(c), at(d))) find("border meets wall", at(a));
-                } else if (at_a && at_b) {
-                    find("border runs along a wall the wrong way", at(a));
-                } else {
-                    const VertexId apex = at_a ? a : b;
-                    if (core::segments_fold(at(apex), at(at_a ? b : a), at(apex == c ? d : c)))
-                        find("border overlaps a wall", at(apex));
-                }
-            });
+        for (const LoopEdge& border : borders_.edges)
+            walls_.tree.overlaps(core::bounding_box(at(border.a), at(border.b)),
+                                 [&](std::size_t j) { check_border_against_wall(border, walls_.edges[j]); });
+    }
+
+    /// An edge of a border is an edge of the wall, or the two meet in a common end only.
+    void check_border_against_wall(const LoopEdge& border, const LoopEdge& wall) {
+        const auto [a, b, element] = border;
+        const auto [c, d, wall_element] = wall;
+        if (a == c && b == d) return;
+        const bool at_a = a == c || a == d, at_b = b == c || b == d;
+        if (!at_a && !at_b) {
+            if (core::segments_meet(at(a), at(b), at(c), at(d))) report("border meets wall", at(a));
+        } else if (at_a && at_b) {
+            report("border runs along a wall the wrong way", at(a));
+        } else {
+            const VertexId apex = at_a ? a : b;
+            if (core::segments_fold(at(apex), at(at_a ? b : a), at(apex == c ? d : c)))
+                report("border overlaps a wall", at(apex));
         }
     }
 
+    /// Rays stand in the order of the wall; neighbours differ by one layer and the largest ray angle at most.
     void check_rays() {
-        const double widest = core::radians(options_.max_ray_angle_deg) + 1e-9;
+        const double max_angle = core::radians(options_.max_ray_angle_deg) + 1e-9;
         for (std::size_t e = 0; e < layer_.rays.size(); ++e) {
             const std::vector<Ray>& rays = layer_.rays[e];
             std::size_t on_wall = 0;
@@ -141,114 +157,115 @@ private:
                 const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
                 const Point origin = at(ray.origin);
                 while (on_wall < layer_.walls[e].size() && layer_.walls[e][on_wall] != ray.origin) ++on_wall;
-                if (on_wall == layer_.walls[e].size()) find("rays are not in the order of the wall", origin);
-                if (std::abs(length(ray.direction) - 1) > 1e-12) find("direction is no unit vector", origin);
-                if (ray.layers > ray.requested) find("ray has more layers than requested", origin);
+                if (on_wall == layer_.walls[e].size()) report("rays are not in the order of the wall", origin);
+                if (std::abs(length(ray.direction) - 1) > 1e-12) report("direction is no unit vector", origin);
+                if (ray.layers > ray.requested) report("ray has more layers than requested", origin);
                 if (ray.layers > next.layers + 1 || next.layers > ray.layers + 1)
-                    find("neighbouring rays differ by more than one layer", origin);
-                const double angle =
-                    core::atan2_reproducible(cross(ray.direction, next.direction), dot(ray.direction, next.direction));
-                if (std::abs(angle) > widest)
-                    find(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
+                    report("neighbouring rays differ by more than one layer", origin);
+                const double angle = core::angle_between(ray.direction, next.direction);
+                if (std::abs(angle) > max_angle)
+                    report(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
                 check_heights(ray);
             }
         }
     }
 
+    /// The points of a ray lie at the heights of its law, stretched by no more than max_stretch, and below its limit.
     void check_heights(const Ray& ray) {
         const Point origin = at(ray.origin);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
         const GrowthLawEntry& law = growth_law_entry(options_.growth_law);
         if (law.by_spacing ? ray.growth < law.by_spacing->min_growth || ray.growth > law.by_spacing->max_growth
                            : ray.growth != law.ray_growth(layer_.growth))
-            find("ray grows at a rate of its own", origin);
+            report("ray has not the growth of its law", origin);
         std::vector<double> heights = law.heights(layer_.growth.first_height, ray.growth, ray.layers);
         stretch_heights(ray.stretch, heights);
-        if (ray.stretch != 1 && std::isinf(ray.height_limit)) find("ray is stretched without a limit", origin);
+        if (ray.stretch != 1 && std::isinf(ray.height_limit)) report("ray is stretched without a limit", origin);
         if (!(ray.stretch <= max_stretch && ray.stretch * max_stretch >= 1 - 1e-12))
-            find(fmt::format("ray is stretched by {}", ray.stretch), origin);
-        for (std::uint32_t n = 0; n < ray.layers; ++n) {
-            const double height = heights[n + 1];
-            const Point p = layer_.points[ray.first_point + n];
-            if (distance(p, origin + height * ray.direction) > 1e-11 * height + rounding)
-                find(fmt::format("layer {} is not at its height", n + 1), p);
-            if (layer_.layer_of_point[ray.first_point + n] != n + 1) find("layer_of_point is wrong", p);
+            report(fmt::format("ray is stretched by {}", ray.stretch), origin);
+        for (std::uint32_t n = 1; n <= ray.layers; ++n) {
+            const VertexId v = ray.vertex(n);
+            if (distance(at(v), origin + heights[n] * ray.direction) > 1e-11 * heights[n] + rounding)
+                report(fmt::format("layer {} is not at its height", n), at(v));
+            if (layer_.layer_of_point[v.index()] != n) report("layer_of_point is wrong", at(v));
         }
-        if (heights[ray.layers] > ray.height_limit * (1 + 1e-12)) find("ray is longer than its limit", origin);
+        if (heights[ray.layers] > ray.height_limit * (1 + 1e-12)) report("ray is longer than its limit", origin);
     }
 
-    Point on_ray(const Ray& ray, std::uint32_t n) const {
-        return n == 0 ? at(ray.origin) : layer_.points[ray.first_point + n - 1];
-    }
-
-    /// Every quadrilateral between neighbouring rays is convex, every triangle of a fan or step is positive.
     void check_cells() {
-        for (const std::vector<Ray>& rays : layer_.rays) {
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
-                const std::uint32_t common = std::min(ray.layers, next.layers);
-                for (std::uint32_t n = 1; n <= common; ++n) {
-                    const Point a = on_ray(ray, n - 1), b = on_ray(ray, n), c = on_ray(next, n),
-                                d = on_ray(next, n - 1);
-                    bool sound = orient2d(a, b, c) > 0 && orient2d(b, c, d) > 0;
-                    if (!(a == d)) sound = sound && orient2d(c, d, a) > 0 && orient2d(d, a, b) > 0;
-                    if (!sound) find(fmt::format("crossed cell of layer {}", n), a);
-                }
-                if (ray.layers == next.layers) continue;
-                const Point a = on_ray(ray, common), d = on_ray(next, common);
-                const Point top = on_ray(ray.layers > common ? ray : next, common + 1);
-                if (!(a == d) && orient2d(a, top, d) <= 0) find("crossed cell at a step", a);
-            }
-        }
+        for (const std::vector<Ray>& rays : layer_.rays)
+            for (std::size_t i = 0; i < rays.size(); ++i) check_cells_between(rays[i], rays[(i + 1) % rays.size()]);
     }
 
-    /// How often the upward vertical from p crosses edges of `body` and of others; on_edge where p lies on one.
-    struct Crossings {
-        std::size_t own = 0, others = 0;
-        bool on_edge = false;
+    /// Each quadrilateral between two neighbouring rays is convex, each triangle in a fan or at a step is positive.
+    void check_cells_between(const Ray& ray, const Ray& next) {
+        const std::uint32_t common = std::min(ray.layers, next.layers);
+        for (std::uint32_t n = 1; n <= common; ++n) {
+            const Point a = at(ray.vertex(n - 1)), b = at(ray.vertex(n)), c = at(next.vertex(n)),
+                        d = at(next.vertex(n - 1));
+            bool sound = orient2d(a, b, c) > 0 && orient2d(b, c, d) > 0;
+            if (!(a == d)) sound = sound && orient2d(c, d, a) > 0 && orient2d(d, a, b) > 0;
+            if (!sound) report(fmt::format("crossed cell of layer {}", n), a);
+        }
+        if (ray.layers == next.layers) return;
+        const Point a = at(ray.vertex(common)), d = at(next.vertex(common));
+        const Point top = at((ray.layers > common ? ray : next).vertex(common + 1));
+        if (!(a == d) && orient2d(a, top, d) <= 0) report("crossed cell at a step", a);
+    }
+
+    /// The position of a point relative to loops.
+    struct Sides {
+        bool in_own = false;     ///< inside the loop of its own element
+        bool in_others = false;  ///< inside an odd number of the other loops
+        bool on_edge = false;    ///< on an edge of any loop
     };
-    Crossings crossings(Point p, std::size_t body, const std::vector<LoopEdge>& edges,
-                        const core::BoxTree& tree) const {
-        Crossings result;
-        tree.overlaps({p, {p.x, HUGE_VAL}}, [&](std::size_t i) {
-            Point a = at(edges[i].a), b = at(edges[i].b);
+
+    /// Counts the edges that the upward vertical from p crosses. Exact.
+    Sides sides_of(Point p, std::size_t element, const Loops& loops) const {
+        Sides sides;
+        loops.tree.overlaps({p, {p.x, HUGE_VAL}}, [&](std::size_t i) {
+            Point a = at(loops.edges[i].a), b = at(loops.edges[i].b);
             if (b.x < a.x) std::swap(a, b);
             const double side = orient2d(a, b, p);
-            if (side == 0 && core::bounding_box(a, b).contains(p)) result.on_edge = true;
+            if (side == 0 && core::bounding_box(a, b).contains(p)) sides.on_edge = true;
             if ((a.x <= p.x) == (b.x <= p.x) || side >= 0) return;
-            ++(edges[i].body == body ? result.own : result.others);
+            bool& inside = loops.edges[i].element == element ? sides.in_own : sides.in_others;
+            inside = !inside;
         });
-        return result;
+        return sides;
     }
 
-    /// Every ray point and border point outside all walls; every point below the border strictly inside its own.
-    void check_places() {
-        std::vector<std::size_t> body(layer_.points.size(), 0);
-        std::vector<char> on_border(layer_.points.size(), 0);
+    /// Returns the element that each point belongs to.
+    std::vector<std::size_t> elements_of_points() const {
+        std::vector<std::size_t> element(layer_.points.size(), 0);
         for (std::size_t e = 0; e < layer_.rays.size(); ++e)
             for (const Ray& ray : layer_.rays[e])
-                for (std::uint32_t n = 0; n < ray.layers; ++n) body[ray.first_point + n] = e;
-        for (std::size_t e = 0; e < layer_.walls.size(); ++e)
-            for (VertexId v : layer_.walls[e]) body[v.index()] = e;
-        for (std::size_t e = 0; e < layer_.borders.size(); ++e) {
-            for (VertexId v : layer_.borders[e]) {
-                body[v.index()] = e;
-                on_border[v.index()] = 1;
-            }
-        }
+                for (std::uint32_t n = 1; n <= ray.layers; ++n) element[ray.vertex(n).index()] = e;
+        for (const Loops* loops : {&walls_, &borders_})
+            for (const LoopEdge& edge : loops->edges) element[edge.a.index()] = edge.element;
+        return element;
+    }
+
+    /// Points off the walls lie outside all walls; points below the border lie strictly inside their own border and
+    /// outside those of other elements.
+    void check_sides() {
+        const std::vector<std::size_t> element = elements_of_points();
+        std::vector<char> on_border(layer_.points.size(), 0);
+        for (const LoopEdge& edge : borders_.edges) on_border[edge.a.index()] = 1;
         for (std::size_t i = 0; i < layer_.points.size(); ++i) {
             const Point p = layer_.points[i];
             if (i >= layer_.wall_points) {
-                const Crossings in = crossings(p, body[i], walls_, wall_tree_);
-                if (in.on_edge || in.own % 2 != 0 || in.others % 2 != 0) find("point not outside the walls", p);
+                const Sides of_walls = sides_of(p, element[i], walls_);
+                if (of_walls.on_edge || of_walls.in_own || of_walls.in_others) report("point not outside the walls", p);
             }
-            const Crossings in = crossings(p, body[i], borders_, border_tree_);
-            if (in.others % 2 != 0) find("point inside another body's border", p);
+            const Sides of_borders = sides_of(p, element[i], borders_);
+            if (of_borders.in_others) report("point inside another element's border", p);
             if (on_border[i]) continue;
-            if (in.on_edge || in.own % 2 == 0) find("point not inside its border", p);
+            if (of_borders.on_edge || !of_borders.in_own) report("point not inside its border", p);
         }
     }
 
+    /// Adjacent border edges keep BorderOptions::max_ratio.
     void check_ratio() {
         const double limit = border_options_.max_ratio * (1 + 1e-6);
         for (const std::vector<VertexId>& border : layer_.borders) {
@@ -257,7 +274,7 @@ private:
                             c = at(border[(k + 2) % border.size()]);
                 const double ratio = distance(a, b) / distance(b, c);
                 if (!(ratio <= limit && limit * ratio >= 1))
-                    find(fmt::format("adjacent border edges in the ratio {}", ratio), b);
+                    report(fmt::format("adjacent border edges in the ratio {}", ratio), b);
             }
         }
     }
@@ -272,7 +289,7 @@ namespace lamina {
 using namespace layers;
 
 std::vector<std::string> check_layer(const Layer& layer, const LayerOptions& options, const BorderOptions& border) {
-    return Validator(layer, options, border).run();
+    return LayerChecker(layer, options, border).run();
 }
 
 }  // namespace lamina
