@@ -1,33 +1,30 @@
-// The layer's points joined ray by ray and layer by layer; internal to the program.
+// The points of the layer joined as a grid, ray by ray and layer by layer.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include <lamina/ids.hpp>
 #include <lamina/layers.hpp>
 
 namespace lamina::layers {
 
-/// What becomes of a cell of the grid with four corners.
+/// The form of a cell of the grid that has four corners.
 enum class GridCells {
     split,  ///< two triangles
     whole,  ///< a quadrilateral, where it is strictly convex and the border does not divide its top
 };
 
-/// The grid of rays and layers: between two neighbouring rays a column of as many cells as both have layers; below it a
-/// triangle where they have one origin, above it a triangle where one has a layer more. A cell on the outer border,
-/// whose points divide its top, is cut into triangles that fan from its lower corners (a divided triangle above a
-/// column together with the cell below it). Of all such cuts, as of the two diagonals of a cell, one is taken whose
-/// largest angle is smallest, of these the one with the fewest large angles beside it; where cuts are equal (within
-/// 1e-6, more than rounding) the lower corner on the ray of the lexicographically smaller origin (of the smaller
-/// direction, where rays have one origin) gets the diagonal or the larger fan. Every cell is positive, exactly, and its
-/// corners lie on two neighbouring layers.
+/// Returns the cells of the grid of rays and layers. Between two neighbouring rays stands a column of as many cells as
+/// both rays have layers, and above it a triangle where one ray has a layer more. The lowest cell is a triangle where
+/// the two have one origin. A cell on the outer border, where division points lie on its top, is cut into triangles
+/// that fan from its lower corners; a divided triangle above a column is cut together with the cell below it.
+///
+/// Of all such cuts, as of the two diagonals of a cell, the one is taken whose largest angle is smallest, and of these
+/// the one with the fewest large angles besides (StripCutter::cut()). Where cuts are equal, the lower corner on the ray
+/// of the lexicographically smaller origin gets the diagonal or the larger fan; if both rays have one origin, the
+/// smaller direction decides. Every cell is positive (exact), and its corners lie on two neighbouring layers.
 ///
 /// Precondition: check_layer() finds nothing wrong with the layer. Parallel; the result does not depend on the number
 /// of threads. Cells are listed ray by ray, from the wall outwards. Criterion: I. Babuska, A. K. Aziz, On the angle
 /// condition in the finite element method, SIAM J. Numer. Anal. 13 (1976): interpolation suffers from large angles, not
 /// from small ones.
-LayerCells connect_layer(const Layer& layer, GridCells cells);
+LayerCells connect_layer(const Layer& layer, GridCells form);
 
 }  // namespace lamina::layers

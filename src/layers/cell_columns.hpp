@@ -1,0 +1,41 @@
+// The columns of cells between neighbouring rays, with the stretches of the outer border that bound them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+namespace lamina::layers {
+
+/// The cells between two neighbouring rays; `second` follows counter-clockwise round the element.
+struct CellColumn {
+    const Ray &first, &second;
+    std::span<const VertexId> top;  ///< the outer border from the tip of `first` to that of `second`
+    /// Where the neighbouring column is empty and the ray between has one layer, the outer border runs along that ray:
+    /// up `first` from its origin, or down `second`. Otherwise empty.
+    std::span<const VertexId> up, down;
+};
+
+/// The columns of one element.
+class CellColumns {
+public:
+    /// border: the element's outer border. Keeps a reference to the rays.
+    CellColumns(std::span<const Ray> rays, std::span<const VertexId> border);
+
+    std::size_t size() const { return rays_.size(); }
+
+    /// Returns the column between ray i and the next one.
+    CellColumn operator[](std::size_t i) const;
+
+private:
+    std::span<const Ray> rays_;
+    std::vector<VertexId> border_;  ///< closed: the first vertex stands at its end again
+    std::vector<std::size_t> tip_;  ///< index of each tip in the border; at the end that of the first one again
+
+    std::span<const VertexId> border_between_tips(std::size_t i) const;
+    bool border_runs_along(std::size_t bare, std::size_t ray) const;
+};
+
+}  // namespace lamina::layers
