@@ -1,4 +1,4 @@
-// What became of the layers asked for, everywhere and where nothing stands in their way.
+// The share of the requested layers that was made, everywhere and where nothing is in their way.
 #include "layers/coverage.hpp"
 
 #include <algorithm>
@@ -11,14 +11,16 @@ namespace lamina::layers {
 
 namespace {
 
-/// Walls that come nearer to the middle of the circle than this share of its radius lie in it. The wall at the ray's
-/// own origin does not, though its edges dip into the circle where the wall is concave there.
+/// A circle holds a wall that comes nearer to its middle than this share of its radius. The slack is for the edges at
+/// the ray's own origin, which dip into the circle where the wall is concave.
 constexpr double inner_share = 0.95;
 
-/// True of each ray whose circle of open_space full heights across, touching the wall at the ray's origin, holds no
-/// wall. The largest empty circle is a measure of free space that knows slots, corners and tight curvature alike.
+/// Returns, for each ray, whether it is in the open: whether the circle that touches the wall at its origin, open_space
+/// full heights in diameter, holds no wall. An empty circle measures free space in slots, at corners and along tight
+/// curvature alike.
 std::vector<char> open_rays(const RaySet& set, const LayerHeights& heights, std::span<const std::size_t> next) {
     std::vector<Box> boxes;
+    boxes.reserve(set.lines.size());
     for (std::size_t i = 0; i < set.lines.size(); ++i)
         boxes.push_back(core::bounding_box(set.lines[i].origin, set.lines[next[i]].origin));
     const core::BoxTree walls(std::move(boxes));
@@ -55,14 +57,15 @@ std::vector<ElementCoverage> layer_coverage(const RaySet& set, const LayerHeight
     const std::vector<char> open = open_rays(set, heights, next);
     std::vector<ElementCoverage> coverage(set.elements());
     for (std::size_t e = 0; e < set.elements(); ++e) {
-        auto& [everywhere, in_the_open] = coverage[e];
+        auto& [all, in_the_open] = coverage[e];
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
-            const std::uint32_t asked = heights.column(i).layers, asked_next = heights.column(next[i]).layers;
-            const std::uint32_t requested = std::min(asked, asked_next), made = std::min(counts[i], counts[next[i]]);
-            add_ray(counts[i] == asked, everywhere);
-            add_cells(requested, made, everywhere);
-            if (open[i]) add_ray(counts[i] == asked, in_the_open);
-            if (open[i] && open[next[i]]) add_cells(requested, made, in_the_open);
+            const std::uint32_t requested = heights.column(i).layers;
+            const std::uint32_t requested_cells = std::min(requested, heights.column(next[i]).layers),
+                                made_cells = std::min(counts[i], counts[next[i]]);
+            add_ray(counts[i] == requested, all);
+            add_cells(requested_cells, made_cells, all);
+            if (open[i]) add_ray(counts[i] == requested, in_the_open);
+            if (open[i] && open[next[i]]) add_cells(requested_cells, made_cells, in_the_open);
         }
     }
     return coverage;

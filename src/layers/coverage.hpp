@@ -1,4 +1,4 @@
-// What became of the layers asked for; internal to the layer stage.
+// Coverage: how many of the requested layers were made.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace lamina::layers {
 
-/// Per element, given the number of layers on each ray.
+/// Returns the coverage of each element. heights: of the requested layers; counts: number of layers made on each ray.
 std::vector<ElementCoverage> layer_coverage(const RaySet& set, const LayerHeights& heights,
                                             std::span<const std::uint32_t> counts);
 

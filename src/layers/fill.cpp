@@ -1,4 +1,4 @@
-// Stage "fill the layer".
+// Stage "fill the layer": the points of the layer are joined to cells.
 #include "layers/fill.hpp"
 
 #include <algorithm>
@@ -8,36 +8,19 @@
 
 namespace lamina::layers {
 
-delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer, const DecompositionOptions& options,
-                                                           core::BusyTimes* times) {
-    if (layer.edges.region.empty()) return {};
-    // Where the layer is truncated to nothing, wall vertices are no part of it.
+namespace {
+
+/// Returns, for each point, whether it is part of the layer. Wall vertices are not where the rays beside them have no
+/// layers.
+std::vector<char> used_points(const Layer& layer) {
     std::vector<char> used(layer.points.size(), 1);
     for (const auto& wall : layer.walls)
         for (VertexId v : wall) used[v.index()] = 0;
     for (const Segment& s : layer.edges.region) used[s.a.index()] = used[s.b.index()] = 1;
-    if (std::find(used.begin(), used.end(), 0) == used.end())
-        return delaunay::pieces::triangulate_in_pieces(layer.points, layer.edges.region, options, times);
-
-    std::vector<Point> points;
-    std::vector<VertexId> whole, part(layer.points.size());
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        if (!used[i]) continue;
-        part[i] = VertexId{points.size()};
-        points.push_back(layer.points[i]);
-        whole.push_back(VertexId{i});
-    }
-    std::vector<Segment> region = layer.edges.region;
-    for (Segment& s : region) s = {part[s.a.index()], part[s.b.index()]};
-    auto pieces = delaunay::pieces::triangulate_in_pieces(points, region, options, times);
-    for (Triangle& t : pieces.triangles)
-        for (VertexId& v : t.v) v = whole[v.index()];
-    return pieces;
+    return used;
 }
 
-namespace {
-
-/// Puts each triangle on the layer of its highest point.
+/// Numbers each triangle by the layer of its highest point.
 LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
     LayerCells cells;
     cells.triangle_layer.reserve(triangles.size());
@@ -50,6 +33,29 @@ LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
 }
 
 }  // namespace
+
+delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer, const DecompositionOptions& options,
+                                                           core::BusyTimes* times) {
+    if (layer.edges.region.empty()) return {};
+    const std::vector<char> used = used_points(layer);
+    if (std::find(used.begin(), used.end(), 0) == used.end())
+        return delaunay::pieces::triangulate_in_pieces(layer.points, layer.edges.region, options, times);
+
+    std::vector<Point> points;  // the used ones
+    std::vector<VertexId> in_layer, in_points(layer.points.size());
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (!used[i]) continue;
+        in_points[i] = VertexId{points.size()};
+        points.push_back(layer.points[i]);
+        in_layer.push_back(VertexId{i});
+    }
+    std::vector<Segment> region = layer.edges.region;
+    for (Segment& s : region) s = {in_points[s.a.index()], in_points[s.b.index()]};
+    auto pieces = delaunay::pieces::triangulate_in_pieces(points, region, options, times);
+    for (Triangle& t : pieces.triangles)
+        for (VertexId& v : t.v) v = in_layer[v.index()];
+    return pieces;
+}
 
 LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionOptions& options,
                 core::BusyTimes* times) {
@@ -71,9 +77,11 @@ LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionO
 
 namespace lamina {
 
+using namespace layers;
+
 LayerCells fill_layer(const Layer& layer, LayerTopology topology, const DecompositionOptions& options) {
     validate(options);
-    return layers::fill(layer, topology, options, nullptr);
+    return fill(layer, topology, options, nullptr);
 }
 
 }  // namespace lamina

@@ -1,4 +1,4 @@
-// The cells between walls and outer borders, with the times of the threads that make them.
+// The cells between walls and outer borders, made with a record of the threads' times.
 #pragma once
 
 #include <lamina/layers.hpp>
@@ -8,11 +8,12 @@
 
 namespace lamina::layers {
 
-/// fill_layer(); the threads' times count as delaunay::pieces::Work.
+/// Does what fill_layer() does and adds the times of the threads to `times`, unless that is null. The kinds of work are
+/// those of delaunay::pieces::Work.
 LAMINA_EXPORT LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionOptions& options,
                               core::BusyTimes* times);
 
-/// Returns the constrained Delaunay triangles of the layer's points between walls and outer borders, in pieces.
+/// Returns the constrained Delaunay triangulation of the layer's points between walls and outer borders, in pieces.
 LAMINA_EXPORT delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer,
                                                                          const DecompositionOptions& options = {},
                                                                          core::BusyTimes* times = nullptr);
