@@ -50,7 +50,7 @@ DividedRays rays_at_divisions(const Rays& rays, const BorderOptions& options) {
             const Point from = layered.tip(ray);
             const double length = distance(from, layered.tip(after.ray));
             for (Point p : division.points[e][k]) shares[ray].push_back(distance(from, p) / length);
-            factors[ray] = division.factors[e][k];
+            factors[ray] = division.target_factors[e][k];
         }
     return insert_rays(rays.set, shares, factors);
 }

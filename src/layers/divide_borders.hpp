@@ -1,7 +1,6 @@
-// Division of the layer's outer borders into edges of gradually varying length.
+// The division of fronts into edges of gradually varying length, which makes them outer borders.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -9,22 +8,23 @@
 
 namespace lamina::layers {
 
-/// How the edges of closed borders are divided, per border and edge; edge k runs from corner k to corner k + 1.
+/// How the edges of fronts are divided. Both members hold one list per front and edge; edge k runs from corner k to
+/// corner k + 1.
 struct BorderDivision {
     std::vector<std::vector<std::vector<Point>>> points;  ///< the division points inside the edge, in order
-    /// For each part of the edge, how many times its own length it asks for should it become an edge of its own.
-    std::vector<std::vector<std::vector<double>>> factors;
+    /// One number per part of the edge: the target length there over the length of the part, at least 1.
+    std::vector<std::vector<std::vector<double>>> target_factors;
 };
 
-/// Divides the edges of closed borders so that lengths vary gradually along and between the borders; corners stay and
-/// no edge is merged. The target length at x is the minimum over all edges j of (what j asks for + gradation x
-/// distance(x, j)) and over options.sources. An edge asks for its own length; its parts that face another edge across a
-/// gap narrower than the edge ask for the width of the gap. An edge with a factor, which came of a division, asks for
-/// factor times its length and is hardly divided again; `factors` holds one per border and edge, 0 for edges without,
-/// or is empty.
-/// Precondition: borders are simple and disjoint; they meet walls in vertices and whole edges of both only. The result
-/// is so too: an edge whose division would cross something by rounding stays whole.
-BorderDivision divide_borders(std::span<const std::vector<Point>> borders, std::span<const std::vector<Point>> walls,
-                              const BorderOptions& options, std::span<const std::vector<double>> factors = {});
+/// Divides the edges of fronts so that lengths vary gradually along and between the fronts. Corners stay, and no edges
+/// are merged. The target length at x is the minimum over all edges j of (the length that j requests + gradation x
+/// distance(x, j)) and likewise over options.sources. An edge requests its own length. Where parts of it face another
+/// edge across a gap narrower than the edge, they request the width of the gap. target_factors holds one number per
+/// front and edge, or is empty. A number above 0 is for an edge that comes of a division: the edge requests so many
+/// times its length and is hardly divided again.
+/// Precondition: the fronts are simple and disjoint; they meet walls only in vertices and whole edges of both. The
+/// result is so, too: an edge whose division would cross something by rounding stays whole.
+BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::span<const std::vector<Point>> walls,
+                              const BorderOptions& options, std::span<const std::vector<double>> target_factors = {});
 
 }  // namespace lamina::layers
