@@ -1,88 +1,101 @@
-// Layers on each ray, lowered locally until the layer is sound.
+// Numbers of layers, lowered where fronts or cells would overlap.
 //
-// The strip between wall and border is the image of a ring. Where every cell between neighbouring rays is positively
-// oriented, the image overlaps itself only if a boundary crosses itself or another one; so cells and boundaries are all
-// that need be tested, not all pairs of cells. Lowering only ever removes layers, and a layer of nothing is the wall
-// itself: the loop ends.
+// The strip between wall and front is the image of a ring. Where every cell between neighbouring rays is positively
+// oriented, the image overlaps itself only if one of its two boundaries crosses itself or the other one. So it is
+// enough to test cells and boundaries; pairs of cells need no test. Lowering only ever removes layers, and a layer
+// without any height is the wall itself, so the loop ends.
+#include "layers/counts.hpp"
+
 #include <algorithm>
+#include <utility>
 
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
-#include "layers/counts.hpp"
-#include "layers/rays.hpp"
+#include "layers/layered_rays.hpp"
+#include "layers/neighbours.hpp"
 
 namespace lamina::layers {
+
 namespace {
 
-/// Fronts must stay simple when raised by this factor, which leaves room for isotropic triangles between them.
-constexpr double raised = 1.25;
-/// Share of the layers that a ray loses at a time where borders meet.
-constexpr std::uint32_t lowering_share = 8;
+/// Fronts must stay simple with all heights multiplied by this factor, which leaves space for isotropic triangles
+/// between them.
+constexpr double raised_scale = 1.25;
+/// Where fronts meet, a ray loses one in this many of its layers at a time, and one more.
+constexpr std::uint32_t lowering_divisor = 8;
 
-/// A corner of a border: the tip of a ray, or of all rays of a fan without layers.
-struct Node {
+/// A corner of a front: the tip of one ray, or of several rays of a fan without layers.
+struct FrontTip {
     Point at;
     std::size_t first_ray, last_ray;
 };
 
-class Front {
-public:
-    Front(const RaySet& set, const LayerHeights& heights, std::vector<std::uint32_t> counts)
-        : set_(set), heights_(heights), counts_(std::move(counts)), next_(set.following()), previous_(next_.size()) {
-        for (std::size_t i = 0; i < next_.size(); ++i) previous_[next_[i]] = i;
-    }
+/// An edge of a front.
+struct TipEdge {
+    const FrontTip *a, *b;
+    std::size_t next;  ///< index of the edge that follows
+};
 
-    /// Until nothing is left to lower.
-    std::vector<std::uint32_t> settle() && {
-        for (double factor : {raised, 1.0}) {
+/// Lowers the numbers of layers of all rays until nothing overlaps.
+class CountLowering {
+public:
+    CountLowering(const RaySet& set, const LayerHeights& heights, std::vector<std::uint32_t> counts)
+        : set_(set), counts_(std::move(counts)), rays_{set, heights, counts_}, neighbours_(set) {}
+    CountLowering(const CountLowering&) = delete;
+    CountLowering& operator=(const CountLowering&) = delete;
+
+    std::vector<std::uint32_t> run() && {
+        for (double scale : {raised_scale, 1.0}) {
             do {
                 lower_locally();
-            } while (lower_where_borders_meet(factor) || lower_round_other_bodies());
+            } while (lower_where_fronts_meet(scale) || lower_round_other_elements());
         }
         return std::move(counts_);
     }
 
 private:
     const RaySet& set_;
-    const LayerHeights& heights_;
     std::vector<std::uint32_t> counts_;
-    std::vector<std::size_t> next_, previous_;
+    LayeredRays rays_;  ///< a view of counts_
+    RayNeighbours neighbours_;
 
-    Point point(std::size_t ray, std::uint32_t layer, double factor = 1) const {
-        const RayLine& line = set_.lines[ray];
-        return layer == 0 ? line.origin : line.origin + factor * heights_.of(ray)[layer] * line.direction;
-    }
-    Point tip(std::size_t ray, double factor = 1) const { return point(ray, counts_[ray], factor); }
-    bool is_wall_edge(std::size_t a, std::size_t b) const { return counts_[a] == 0 && counts_[b] == 0; }
+    std::size_t next(std::size_t ray) const { return neighbours_.next[ray]; }
+    std::size_t previous(std::size_t ray) const { return neighbours_.previous[ray]; }
+    Point origin(std::size_t ray) const { return set_.lines[ray].origin; }
 
+    /// Returns whether the number of layers changed.
     bool lower_to(std::size_t ray, std::uint32_t count) {
         if (counts_[ray] <= count) return false;
         counts_[ray] = count;
         return true;
     }
-    bool lower_by_share(const Node& node) {
+    bool lower_by_share(std::size_t ray) {
+        return lower_to(ray, counts_[ray] - std::min(counts_[ray], 1 + counts_[ray] / lowering_divisor));
+    }
+    bool lower_by_share(const FrontTip& tip) {
         bool changed = false;
-        for (std::size_t i = node.first_ray;; i = next_[i]) {
-            changed |= lower_to(i, counts_[i] - std::min(counts_[i], 1 + counts_[i] / lowering_share));
-            if (i == node.last_ray) return changed;
+        for (std::size_t i = tip.first_ray;; i = next(i)) {
+            changed |= lower_by_share(i);
+            if (i == tip.last_ray) return changed;
         }
     }
 
     void lower_locally() {
         do {
-            limit_steps(set_, counts_);
+            limit_count_differences(set_, counts_);
         } while (open_notches() || lower_bad_cells());
     }
 
-    /// A ray lower than a neighbour makes a notch in the border. Where the notch is sharper than 60 degrees the
-    /// neighbour comes down too, which widens it.
+    /// Widens notches of the front that are sharper than 60 degrees. A ray that is lower than a neighbour makes a
+    /// notch; lowering the neighbours widens it.
     bool open_notches() {
         const std::vector<std::uint32_t> before = counts_;
         bool changed = false;
         for (std::size_t i = 0; i < set_.lines.size(); ++i) {
-            const std::size_t left = previous_[i], right = next_[i];
+            const std::size_t left = previous(i), right = next(i);
             if (before[left] <= before[i] && before[right] <= before[i]) continue;
-            const Point at = point(i, before[i]), a = point(left, before[left]), b = point(right, before[right]);
+            const Point at = rays_.point(i, before[i]), a = rays_.point(left, before[left]),
+                        b = rays_.point(right, before[right]);
             if (orient2d(a, at, b) >= 0) continue;
             const Point u = a - at, v = b - at;
             const double projection = dot(u, v);
@@ -93,16 +106,16 @@ private:
         return changed;
     }
 
-    /// Both rays must leave each chord between points of one layer outward. That is linear in the height: it holds for
-    /// all layers if it holds for the wall and for the highest layer the two have in common.
+    /// Returns whether both rays leave each chord between points of one layer outwards. That is linear in the height:
+    /// it holds for all layers if it holds for the wall and for the highest layer that the two have in common.
     bool cell_is_sound(std::size_t i, std::size_t j) const {
         const std::uint32_t common = std::min(counts_[i], counts_[j]);
-        const Point a = set_.lines[i].origin, b = set_.lines[j].origin;
+        const Point a = origin(i), b = origin(j);
         if (common == 0) {
             if (counts_[i] == counts_[j] || a == b) return true;
-            return orient2d(a, counts_[i] > 0 ? tip(i) : tip(j), b) > 0;
+            return orient2d(a, counts_[i] > 0 ? rays_.tip(i) : rays_.tip(j), b) > 0;
         }
-        const Point a_top = point(i, common), b_top = point(j, common);
+        const Point a_top = rays_.point(i, common), b_top = rays_.point(j, common);
         if (orient2d(a, a_top, b_top) <= 0 || orient2d(b, b_top, a_top) >= 0) return false;
         return a == b || (orient2d(a, a_top, b) > 0 && orient2d(b, b_top, a) < 0);
     }
@@ -110,9 +123,10 @@ private:
     bool lower_bad_cells() {
         bool changed = false;
         for (std::size_t i = 0; i < set_.lines.size(); ++i) {
-            const std::size_t j = next_[i];
+            const std::size_t j = next(i);
             while (!cell_is_sound(i, j)) {
-                // The higher one, or both: each step brings the pair closer to no layers, which is always sound.
+                // The higher ray is lowered, or both are. Each time the pair comes closer to having no layers, which is
+                // always sound.
                 const std::uint32_t target = std::max(counts_[i], counts_[j]) - 1;
                 lower_to(i, target);
                 lower_to(j, target);
@@ -122,115 +136,126 @@ private:
         return changed;
     }
 
-    /// Corners of one body's border. Rays of one origin without layers share a corner.
-    std::vector<Node> border_of(std::size_t body, double factor) const {
-        std::vector<Node> nodes;
-        for (std::size_t i = set_.begin[body]; i < set_.begin[body + 1]; ++i) {
-            const Point at = tip(i, factor);
-            if (!nodes.empty() && nodes.back().at == at) {
-                nodes.back().last_ray = i;
+    /// Returns the corners of one element's front.
+    std::vector<FrontTip> front_of(std::size_t element, double scale) const {
+        std::vector<FrontTip> tips;
+        for (std::size_t i = set_.begin[element]; i < set_.begin[element + 1]; ++i) {
+            const Point at = rays_.tip(i, scale);
+            if (!tips.empty() && tips.back().at == at) {
+                tips.back().last_ray = i;
             } else {
-                nodes.push_back({at, i, i});
+                tips.push_back({at, i, i});
             }
         }
-        if (nodes.size() > 1 && nodes.back().at == nodes.front().at) {
-            nodes.front().first_ray = nodes.back().first_ray;
-            nodes.pop_back();
+        if (tips.size() > 1 && tips.back().at == tips.front().at) {
+            tips.front().first_ray = tips.back().first_ray;
+            tips.pop_back();
         }
-        return nodes;
+        return tips;
     }
 
-    /// True if the border, where it touches the wall at a ray without layers, stays outside of the wall there.
-    bool leaves_wall_outward(const Node& before, const Node& node, const Node& after) const {
-        std::size_t p = previous_[node.first_ray], q = next_[node.last_ray];
-        while (set_.lines[p].origin == node.at) p = previous_[p];  // other rays of a fan
-        while (set_.lines[q].origin == node.at) q = next_[q];
-        const Point wall_before = set_.lines[p].origin, wall_after = set_.lines[q].origin;
+    /// Returns whether the front, where it touches the wall at a ray without layers, stays outside of the wall there.
+    bool leaves_wall_outward(const FrontTip& before, const FrontTip& tip, const FrontTip& after) const {
+        std::size_t p = previous(tip.first_ray), q = next(tip.last_ray);
+        while (origin(p) == tip.at) p = previous(p);  // other rays of a fan
+        while (origin(q) == tip.at) q = next(q);
+        const Point wall_before = origin(p), wall_after = origin(q);
         const bool arrives_on_wall = before.at == wall_before, leaves_on_wall = after.at == wall_after;
-        if (!arrives_on_wall && !core::inside_wedge(node.at, wall_before, wall_after, before.at)) return false;
-        if (!leaves_on_wall && !core::inside_wedge(node.at, wall_before, wall_after, after.at)) return false;
+        if (!arrives_on_wall && !core::inside_wedge(tip.at, wall_before, wall_after, before.at)) return false;
+        if (!leaves_on_wall && !core::inside_wedge(tip.at, wall_before, wall_after, after.at)) return false;
         if (arrives_on_wall || leaves_on_wall) return true;
-        return core::inside_wedge(node.at, wall_before, after.at, before.at);
+        return core::inside_wedge(tip.at, wall_before, after.at, before.at);
     }
 
-    bool lower_where_borders_meet(double factor) {
-        struct Edge {
-            const Node *a, *b;
-            std::size_t next;  ///< index of the edge that follows
-        };
-        std::vector<std::vector<Node>> borders;
-        for (std::size_t e = 0; e < set_.elements(); ++e) borders.push_back(border_of(e, factor));
-
-        std::vector<Edge> edges;
-        std::vector<const Node*> meeting;
-        for (const std::vector<Node>& border : borders) {
-            const std::size_t first = edges.size(), n = border.size();
-            for (std::size_t k = 0; k < n; ++k) {
-                const Node &before = border[(k + n - 1) % n], &node = border[k], &after = border[(k + 1) % n];
-                edges.push_back({&node, &after, first + (k + 1) % n});
-                const bool on_wall = counts_[node.first_ray] == 0;
-                if (core::segments_fold(node.at, before.at, after.at) ||
-                    (on_wall && !leaves_wall_outward(before, node, after)))
-                    meeting.insert(meeting.end(), {&before, &node, &after});
-            }
+    /// Adds the edges of a front to `edges`, and to `meeting` the corners round which it folds back or enters the wall.
+    void add_edges(const std::vector<FrontTip>& front, std::vector<TipEdge>& edges,
+                   std::vector<const FrontTip*>& meeting) const {
+        const std::size_t first = edges.size(), n = front.size();
+        for (std::size_t k = 0; k < n; ++k) {
+            const FrontTip &before = front[(k + n - 1) % n], &tip = front[k], &after = front[(k + 1) % n];
+            edges.push_back({&tip, &after, first + (k + 1) % n});
+            const bool on_wall = counts_[tip.first_ray] == 0;
+            if (core::segments_fold(tip.at, before.at, after.at) ||
+                (on_wall && !leaves_wall_outward(before, tip, after)))
+                meeting.insert(meeting.end(), {&before, &tip, &after});
         }
+    }
 
-        std::vector<Box> boxes(edges.size()), wall_boxes(set_.lines.size());
-        for (std::size_t i = 0; i < edges.size(); ++i) boxes[i] = core::bounding_box(edges[i].a->at, edges[i].b->at);
+    /// Adds to `meeting` the ends of edges of fronts that meet other edges or a wall.
+    void add_meeting_edges(const std::vector<TipEdge>& edges, std::vector<const FrontTip*>& meeting) const {
+        std::vector<Box> edge_boxes(edges.size()), wall_boxes(set_.lines.size());
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            edge_boxes[i] = core::bounding_box(edges[i].a->at, edges[i].b->at);
         for (std::size_t i = 0; i < set_.lines.size(); ++i)
-            wall_boxes[i] = core::bounding_box(set_.lines[i].origin, set_.lines[next_[i]].origin);
-        const core::BoxTree tree(boxes), walls(std::move(wall_boxes));
+            wall_boxes[i] = core::bounding_box(origin(i), origin(next(i)));
+        const core::BoxTree edge_tree(edge_boxes), wall_tree(std::move(wall_boxes));
         for (std::size_t i = 0; i < edges.size(); ++i) {
-            const auto [a, b, next] = edges[i];
-            if (is_wall_edge(a->last_ray, b->first_ray)) continue;
-            tree.overlaps(boxes[i], [&, a = a, b = b, next = next](std::size_t j) {
-                const Edge& other = edges[j];
-                if (j == i || j == next || other.next == i) return;
-                if (core::segments_meet(a->at, b->at, other.a->at, other.b->at))
-                    meeting.insert(meeting.end(), {a, b, other.a, other.b});
+            const TipEdge& edge = edges[i];
+            const Point a = edge.a->at, b = edge.b->at;
+            const bool on_wall = counts_[edge.a->last_ray] == 0 && counts_[edge.b->first_ray] == 0;
+            if (on_wall) continue;
+            edge_tree.overlaps(edge_boxes[i], [&](std::size_t j) {
+                const TipEdge& other = edges[j];
+                if (j == i || j == edge.next || other.next == i) return;
+                if (core::segments_meet(a, b, other.a->at, other.b->at))
+                    meeting.insert(meeting.end(), {edge.a, edge.b, other.a, other.b});
             });
-            walls.overlaps(boxes[i], [&, a = a, b = b](std::size_t j) {
-                const Point p = set_.lines[j].origin, q = set_.lines[next_[j]].origin;
-                // What shares a wall vertex was judged by its wedge above.
-                if (p == q || p == a->at || p == b->at || q == a->at || q == b->at) return;
-                if (core::segments_meet(a->at, b->at, p, q)) meeting.insert(meeting.end(), {a, b});
+            wall_tree.overlaps(edge_boxes[i], [&](std::size_t j) {
+                const Point p = origin(j), q = origin(next(j));
+                // leaves_wall_outward() has tested the walls that share a vertex with the edge.
+                if (p == q || p == a || p == b || q == a || q == b) return;
+                if (core::segments_meet(a, b, p, q)) meeting.insert(meeting.end(), {edge.a, edge.b});
             });
         }
+    }
+
+    /// Lowers the rays at places where fronts, with all heights multiplied by `scale`, meet each other or a wall.
+    bool lower_where_fronts_meet(double scale) {
+        std::vector<std::vector<FrontTip>> fronts;
+        for (std::size_t e = 0; e < set_.elements(); ++e) fronts.push_back(front_of(e, scale));
+        std::vector<TipEdge> edges;
+        std::vector<const FrontTip*> meeting;
+        for (const std::vector<FrontTip>& front : fronts) add_edges(front, edges, meeting);
+        add_meeting_edges(edges, meeting);
         std::sort(meeting.begin(), meeting.end());
         meeting.erase(std::unique(meeting.begin(), meeting.end()), meeting.end());
         bool changed = false;
-        for (const Node* node : meeting) changed |= lower_by_share(*node);
+        for (const FrontTip* tip : meeting) changed |= lower_by_share(*tip);
         return changed;
     }
 
-    /// A body that lies between two rays of another one crosses no border: its vertices are sought in the cells.
-    bool lower_round_other_bodies() {
+    /// Lowers rays round other elements. An element that lies between two rays of another one crosses no front, so the
+    /// first vertex of each is sought in the cells.
+    bool lower_round_other_elements() {
         if (set_.elements() < 2) return false;
         bool changed = false;
         std::vector<Box> boxes(set_.lines.size());
         for (std::size_t i = 0; i < set_.lines.size(); ++i) {
-            boxes[i] = core::bounding_box(set_.lines[i].origin, tip(i));
-            boxes[i].include(set_.lines[next_[i]].origin);
-            boxes[i].include(tip(next_[i]));
+            boxes[i] = core::bounding_box(origin(i), rays_.tip(i));
+            boxes[i].include(origin(next(i)));
+            boxes[i].include(rays_.tip(next(i)));
         }
         const core::BoxTree tree(std::move(boxes));
         for (std::size_t e = 0; e < set_.elements(); ++e) {
-            const Point p = set_.lines[set_.begin[e]].origin;
+            const Point p = origin(set_.begin[e]);
             Box query;
             query.include(p);
             tree.overlaps(query, [&](std::size_t i) {
                 if (i >= set_.begin[e] && i < set_.begin[e + 1]) return;
-                const std::size_t j = next_[i];
-                const Point a = set_.lines[i].origin, b = set_.lines[j].origin;
-                // Both rays leave the wall and the border edge on their own sides: the cell is convex.
-                if (orient2d(a, tip(i), p) < 0 || orient2d(tip(i), tip(j), p) < 0 || orient2d(tip(j), b, p) < 0 ||
-                    orient2d(b, a, p) < 0)
-                    return;
-                changed |= lower_by_share({p, i, i});
-                changed |= lower_by_share({p, j, j});
+                if (!between_rays(i, next(i), p)) return;
+                changed |= lower_by_share(i);
+                changed |= lower_by_share(next(i));
             });
         }
         return changed;
+    }
+
+    /// Returns whether p lies between two neighbouring rays, below the front. Both rays leave the wall and the front on
+    /// their own sides, so that the strip between them is convex.
+    bool between_rays(std::size_t i, std::size_t j, Point p) const {
+        const Point a = origin(i), b = origin(j);
+        return orient2d(a, rays_.tip(i), p) >= 0 && orient2d(rays_.tip(i), rays_.tip(j), p) >= 0 &&
+               orient2d(rays_.tip(j), b, p) >= 0 && orient2d(b, a, p) >= 0;
     }
 };
 
@@ -240,11 +265,11 @@ std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const doubl
                                         const LayerHeights& heights) {
     std::vector<std::uint32_t> counts(set.lines.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        const std::span<const double> stack = heights.of(i);
-        const auto fits = std::upper_bound(stack.begin(), stack.end(), limits[i]);
-        counts[i] = static_cast<std::uint32_t>(fits - stack.begin()) - 1;
+        const std::span<const double> column = heights.of(i);
+        const auto above = std::upper_bound(column.begin(), column.end(), limits[i]);
+        counts[i] = static_cast<std::uint32_t>(above - column.begin()) - 1;
     }
-    return Front(set, heights, std::move(counts)).settle();
+    return CountLowering(set, heights, std::move(counts)).run();
 }
 
 }  // namespace lamina::layers

@@ -1,4 +1,4 @@
-// How many layers each ray carries.
+// The number of layers on each ray.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace lamina::layers {
 
 /// Returns the number of layers on each ray: as many as fit below its limit, lowered until neighbours differ by at most
 /// one, every cell between neighbouring rays is positively oriented, and the fronts are simple, disjoint from each
-/// other and from the walls (but for rays without layers).
+/// other and, except at rays without layers, from the walls.
 std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const double> limits, const LayerHeights& heights);
 
 }  // namespace lamina::layers

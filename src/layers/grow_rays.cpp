@@ -1,4 +1,4 @@
-// Stage "grow rays": directions, heights, room and counts. Source: J. K. Pardue, thesis (2015), chapter 3.
+// Stage "grow rays": directions, heights, limits and numbers of layers. Source: J. K. Pardue, thesis (2015), chapter 3.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,10 +7,8 @@
 
 #include <lamina/layers.hpp>
 
-#include "layers/counts.hpp"
-#include "layers/fit_heights.hpp"
-#include "layers/front.hpp"
 #include "layers/heights.hpp"
+#include "layers/insert_rays.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/rays.hpp"
 #include "layers/truncation.hpp"
@@ -19,25 +17,28 @@ namespace lamina::layers {
 
 namespace {
 
-/// A layer this many times as thick as the configuration is wide is a slip of the pen.
-constexpr double thickest_layer = 1e4;
-/// Heights below this many units of rounding of the coordinates cannot be represented.
-constexpr double least_roundings = 64;
-/// Rays added where counts of layers change find limits of their own, which may ask for more: once more at most.
-constexpr int rounds_of_steps = 2;
+/// Layers may be at most this many times as thick as the configuration is wide; more is taken for a mistyped option.
+constexpr double max_relative_thickness = 1e4;
+/// Heights must exceed this many units of rounding of the coordinates, or points on the rays would not be distinct.
+constexpr double min_roundings = 64;
+/// Rays are added at most this many times where numbers of layers change, since added rays find limits of their own,
+/// which may ask for more rays.
+constexpr int max_insertions = 2;
 
-void check_scale(const Box& box, const LayerGrowth& growth, const LayerHeights& heights) {
+/// Throws OptionError for heights below the resolution of the coordinates and for layers much thicker than the box of
+/// the configuration.
+void require_sensible_scale(const Box& box, const LayerGrowth& growth, const LayerHeights& heights) {
     const double extent = std::max(box.width(), box.height());
-    const double largest =
+    const double max_coordinate =
         std::max({std::abs(box.lower.x), std::abs(box.lower.y), std::abs(box.upper.x), std::abs(box.upper.y)});
-    if (!(growth.first_height > least_roundings * std::numeric_limits<double>::epsilon() * largest))
+    if (!(growth.first_height > min_roundings * std::numeric_limits<double>::epsilon() * max_coordinate))
         throw OptionError("first_height", fmt::format("{} is below the resolution of coordinates as large as {}",
-                                                      growth.first_height, largest));
+                                                      growth.first_height, max_coordinate));
     const double thickness = heights.max_height();
-    if (!(thickness <= thickest_layer * extent))
-        throw OptionError("layers", fmt::format("the layers asked for are {:.3g} thick, {:.3g} times the extent of the "
-                                                "input",
-                                                thickness, thickness / extent));
+    if (!(thickness <= max_relative_thickness * extent))
+        throw OptionError("layers",
+                          fmt::format("the requested layers are {:.3g} thick, {:.3g} times the extent of the input",
+                                      thickness, thickness / extent));
 }
 
 RaySet rays_of(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth) {
@@ -50,7 +51,7 @@ RaySet rays_of(const Geometry& geometry, const LayerOptions& options, const Laye
     return set;
 }
 
-/// Returns origins without layers or directions: what is left of an element where no layer is wanted.
+/// Returns one ray without a direction for each wall vertex: the rays where the layer is disabled.
 RaySet bare_walls(const Geometry& geometry) {
     RaySet set;
     for (const Element& element : geometry.elements) {
@@ -62,33 +63,6 @@ RaySet bare_walls(const Geometry& geometry) {
 
 }  // namespace
 
-bool take_rays(RaySet more, Rays& rays) {
-    if (more.lines.size() == rays.set.lines.size()) return false;
-    rays.set = std::move(more);
-    rays.heights = make_heights(rays.set, rays.growth);
-    rays.limits = height_limits(rays.set, rays.heights);
-    return true;
-}
-
-void count_layers(Rays& rays) {
-    rays.fitted = fit_heights(rays.heights, rays.limits);
-    rays.counts = layer_counts(rays.set, rays.limits, rays.fitted);
-}
-
-std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
-    const auto& [set, heights, counts] = rays;
-    std::vector<std::vector<FrontCorner>> fronts(set.elements());
-    for (std::size_t e = 0; e < set.elements(); ++e) {
-        const std::size_t begin = set.begin[e], end = set.begin[e + 1];
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::size_t next = i + 1 < end ? i + 1 : begin;
-            const bool same = counts[i] == 0 && counts[next] == 0 && set.lines[i].origin == set.lines[next].origin;
-            if (!same) fronts[e].push_back({i, counts[i]});
-        }
-    }
-    return fronts;
-}
-
 }  // namespace lamina::layers
 
 namespace lamina {
@@ -99,6 +73,7 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     validate(options);
     Rays rays;
     rays.enabled = options.enabled;
+    rays.resampled.reserve(geometry.elements.size());
     for (const Element& element : geometry.elements) rays.resampled.push_back(element.resampled);
     if (!options.enabled) {
         rays.set = bare_walls(geometry);
@@ -109,27 +84,17 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     rays.growth = growth;
     rays.set = rays_of(geometry, options, rays.growth);
     rays.heights = make_heights(rays.set, rays.growth);
-    check_scale(bounding_box(geometry), rays.growth, rays.heights);
+    require_sensible_scale(bounding_box(geometry), rays.growth, rays.heights);
     rays.limits = height_limits(rays.set, rays.heights);
-    for (int round = 0; round < rounds_of_steps; ++round)
-        if (!take_rays(add_rays_at_steps(rays.set, rays.heights, rays.limits), rays)) break;
-    count_layers(rays);
+    for (int insertion = 0; insertion < max_insertions; ++insertion)
+        if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.heights, rays.limits), rays)) break;
+    fit_and_count_layers(rays);
     return rays;
 }
 
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options) {
     validate(options);
     return grow_rays(geometry, options, layer_growth(options, bounding_box(geometry).width()));
-}
-
-std::vector<std::vector<Point>> fronts(const Rays& rays) {
-    const LayeredRays layered{rays.set, rays.fitted, rays.counts};
-    std::vector<std::vector<Point>> result;
-    for (const std::vector<FrontCorner>& corners : front_corners(layered)) {
-        std::vector<Point>& front = result.emplace_back();
-        for (const FrontCorner& corner : corners) front.push_back(layered.tip(corner.ray));
-    }
-    return result;
 }
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
 // The distance between rays decides where a layer is as high as wide. It is measured where the layer lies, as rays
-// spread round convex walls:
+// spread round convex walls (docs/decisions/0010):
 //
 //      \   s(H)  |  s(H)  /
 //       o--------o-------o        the layer at height H
@@ -7,117 +7,114 @@
 //         o------o-----o          the wall
 //            s(0)   s(0)
 //
-// Rays of a fan have no distance at the wall; they lead over from the one side of the corner to the other. Then what
-// was found ray by ray is smoothed along the wall, lest the outer border become a saw.
+// Rays of a fan have no distance at the wall; their values lead over from one side of the corner to the other. The
+// values of all rays are then smoothed along the wall, so that the front becomes no saw.
 #include "layers/isotropy.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "layers/rays.hpp"
+#include "layers/neighbours.hpp"
 
 namespace lamina::layers {
+
 namespace {
 
-/// A layer hands over to isotropic triangles where it is this many times as high as wide (docs/decisions/0010).
-constexpr double hand_over = 1;
+/// The transition to isotropic triangles lies where the spacing is this many times the distance of the rays
+/// (docs/decisions/0010).
+constexpr double transition_aspect = 1;
 /// Where rays spread, their distance counts up to this many times that at the wall: with slow growth, layers between
 /// spreading rays never become as high as wide.
-constexpr double largest_spread = 2;
-/// Rise of the layers' border per unit of distance along it.
-constexpr double steepest_border = 0.3;
-/// Ratio of the last spacings, hence more than that of the heights, of neighbouring rays.
-constexpr double neighbour_ratio = 1.25;
+constexpr double max_spread = 2;
+/// Largest rise of the front per unit of distance along it.
+constexpr double max_front_slope = 0.3;
+/// Largest ratio of the last spacings of neighbouring rays. The ratio of their heights is smaller still.
+constexpr double max_neighbour_ratio = 1.25;
 
-class Spacing {
+/// Distances between neighbouring rays.
+class RayDistances {
 public:
-    explicit Spacing(const RaySet& set) : set_(set), next_(set.lines.size()), previous_(set.lines.size()) {
-        for (std::size_t e = 0; e < set.elements(); ++e) {
-            for (std::size_t i = set.begin[e], last = set.begin[e + 1] - 1; i < set.begin[e + 1]; last = i++) {
-                next_[last] = i;
-                previous_[i] = last;
-            }
-        }
-    }
+    explicit RayDistances(const RaySet& set) : set_(set), neighbours_(set) {}
 
-    std::size_t next(std::size_t ray) const { return next_[ray]; }
-    std::size_t previous(std::size_t ray) const { return previous_[ray]; }
-    /// True if the two are rays of one fan.
+    std::size_t next(std::size_t ray) const { return neighbours_.next[ray]; }
+    std::size_t previous(std::size_t ray) const { return neighbours_.previous[ray]; }
+    /// Returns whether the two are rays of one fan.
     bool same_origin(std::size_t a, std::size_t b) const { return set_.lines[a].origin == set_.lines[b].origin; }
-    bool inside_fan(std::size_t ray) const { return same_origin(previous_[ray], ray) && same_origin(ray, next_[ray]); }
+    bool inside_fan(std::size_t ray) const { return same_origin(previous(ray), ray) && same_origin(ray, next(ray)); }
 
-    /// Distance from the neighbours' points at this height: the geometric mean of both sides, but for the side of a
-    /// fan.
-    double at(std::size_t ray, double height) const {
-        const bool left = !same_origin(previous_[ray], ray), right = !same_origin(ray, next_[ray]);
-        const double before = left ? between(previous_[ray], ray, height) : 0;
-        const double after = right ? between(ray, next_[ray], height) : 0;
+    /// Returns the distance of a ray's point at this height from those of the neighbours: the geometric mean of both
+    /// sides, or of one side alone where the other is a fan.
+    double to_neighbours(std::size_t ray, double height) const {
+        const bool left = !same_origin(previous(ray), ray), right = !same_origin(ray, next(ray));
+        const double before = left ? bounded_distance(previous(ray), ray, height) : 0;
+        const double after = right ? bounded_distance(ray, next(ray), height) : 0;
         return left && right ? std::sqrt(before * after) : before + after;
     }
 
-    /// Distance of the points of two rays at this height.
-    double tips(std::size_t a, std::size_t b, double height) const {
+    /// Returns the distance of the points of two rays at this height.
+    double between(std::size_t a, std::size_t b, double height) const {
         const RayLine &left = set_.lines[a], &right = set_.lines[b];
         return length(right.origin - left.origin + height * (right.direction - left.direction));
     }
 
 private:
     const RaySet& set_;
-    std::vector<std::size_t> next_, previous_;
+    RayNeighbours neighbours_;
 
-    /// Zero beyond the point where the two rays cross.
-    double between(std::size_t a, std::size_t b, double height) const {
+    /// Returns the distance of the points of two rays, at most max_spread times that at the wall; 0 beyond the point
+    /// where the two rays cross.
+    double bounded_distance(std::size_t a, std::size_t b, double height) const {
         const RayLine &left = set_.lines[a], &right = set_.lines[b];
         const Point at_wall = right.origin - left.origin;
-        const Point there = at_wall + height * (right.direction - left.direction);
-        if (dot(there, at_wall) <= 0) return 0;
-        return std::min(length(there), largest_spread * length(at_wall));
+        const Point at_height = at_wall + height * (right.direction - left.direction);
+        if (dot(at_height, at_wall) <= 0) return 0;
+        return std::min(length(at_height), max_spread * length(at_wall));
     }
 };
 
 /// Gives the rays inside each fan values between those of its first and last ray.
-void fill_fans(const RaySet& set, const Spacing& spacing, std::vector<double>& values) {
-    for (std::size_t i = 0; i < set.lines.size(); ++i) {
-        if (spacing.same_origin(spacing.previous(i), i) || !spacing.same_origin(i, spacing.next(i))) continue;
+void fill_fans(const RayDistances& rays, std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (rays.same_origin(rays.previous(i), i) || !rays.same_origin(i, rays.next(i))) continue;
         std::vector<std::size_t> fan{i};
-        while (spacing.same_origin(i, spacing.next(fan.back()))) fan.push_back(spacing.next(fan.back()));
-        const std::size_t steps = fan.size() - 1;
+        while (rays.same_origin(i, rays.next(fan.back()))) fan.push_back(rays.next(fan.back()));
+        const std::size_t last_index = fan.size() - 1;
         const double first = values[fan.front()], last = values[fan.back()];
-        const auto [least, most] = std::minmax(first, last);
-        for (std::size_t k = 1; k < steps; ++k) {
-            const double share = static_cast<double>(k), rest = static_cast<double>(steps - k);
+        const auto [min, max] = std::minmax(first, last);
+        for (std::size_t k = 1; k < last_index; ++k) {
+            const double share = static_cast<double>(k), rest = static_cast<double>(last_index - k);
             // Rounding must not lead out of the range that values may lie in.
-            values[fan[k]] = std::clamp((first * rest + last * share) / static_cast<double>(steps), least, most);
+            values[fan[k]] = std::clamp((first * rest + last * share) / static_cast<double>(last_index), min, max);
         }
     }
 }
 
 /// Replaces each value by the median of those of the five rays round it.
-void take_medians(const Spacing& spacing, std::vector<double>& values) {
+void take_medians(const RayDistances& rays, std::vector<double>& values) {
     const std::vector<double> before = values;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const std::size_t p = spacing.previous(i), n = spacing.next(i);
-        double five[] = {before[spacing.previous(p)], before[p], before[i], before[n], before[spacing.next(n)]};
+        const std::size_t p = rays.previous(i), n = rays.next(i);
+        double five[] = {before[rays.previous(p)], before[p], before[i], before[n], before[rays.next(n)]};
         std::nth_element(five, five + 2, five + 5);
         values[i] = five[2];
     }
 }
 
-/// Height at which a layer would be as high as wide, between the last one that is lower and the first that is not; that
-/// of the last of all where none is.
-double isotropic_height(const Spacing& spacing, std::size_t ray, std::span<const double> heights) {
-    double lacking = 0;  // of the layer below
+/// Returns the height at which the spacing would equal the distance of the rays. It lies between the last layer that is
+/// lower than wide and the first that is not; where all are lower it is the height of the last one.
+double isotropic_height(const RayDistances& rays, std::size_t ray, std::span<const double> heights) {
+    double lacking_below = 0;  // what the spacing of the layer below lacks of the distance of the rays
     for (std::size_t n = 1; n < heights.size(); ++n) {
-        const double step = heights[n] - heights[n - 1];
-        const double lacks = hand_over * spacing.at(ray, heights[n]) - step;
-        if (lacks <= 0) return n == 1 ? heights[1] : heights[n - 1] + step * (lacking / (lacking - lacks));
-        lacking = lacks;
+        const double spacing = heights[n] - heights[n - 1];
+        const double lacking = transition_aspect * rays.to_neighbours(ray, heights[n]) - spacing;
+        if (lacking <= 0)
+            return n == 1 ? heights[1] : heights[n - 1] + spacing * (lacking_below / (lacking_below - lacking));
+        lacking_below = lacking;
     }
     return heights.back();
 }
 
-/// base^exponent, by squaring.
+/// Returns base^exponent, by squaring.
 double whole_power(double base, std::uint32_t exponent) {
     double power = 1;
     for (; exponent > 0; exponent >>= 1, base *= base)
@@ -125,7 +122,7 @@ double whole_power(double base, std::uint32_t exponent) {
     return power;
 }
 
-/// The largest of the doubles found by halving [low, high] a fixed number of times for which `below` holds.
+/// Returns the largest number for which `below` holds among those that 50 halvings of [low, high] visit.
 template <class Below>
 double bisect(double low, double high, Below below) {
     if (below(high)) return high;
@@ -139,41 +136,42 @@ double bisect(double low, double high, Below below) {
 }  // namespace
 
 std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<const double> heights) {
-    const Spacing spacing(set);
-    std::vector<double> reached(set.lines.size());
-    for (std::size_t i = 0; i < reached.size(); ++i)
-        if (!spacing.inside_fan(i)) reached[i] = isotropic_height(spacing, i, heights);
-    fill_fans(set, spacing, reached);
-    for (int round = 0; round < 2; ++round) take_medians(spacing, reached);
-    lower_to_neighbours(set, reached, [&](std::size_t from, std::size_t to) {
-        return reached[from] + steepest_border * spacing.tips(from, to, reached[from]);
+    const RayDistances rays(set);
+    std::vector<double> front(set.lines.size());  // height of the front on each ray
+    for (std::size_t i = 0; i < front.size(); ++i)
+        if (!rays.inside_fan(i)) front[i] = isotropic_height(rays, i, heights);
+    fill_fans(rays, front);
+    for (int round = 0; round < 2; ++round) take_medians(rays, front);
+    lower_to_neighbours(set, front, [&](std::size_t from, std::size_t to) {
+        return front[from] + max_front_slope * rays.between(from, to, front[from]);
     });
     std::vector<std::uint32_t> layers(set.lines.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const auto above = std::upper_bound(heights.begin(), heights.end(), reached[i]);
+        const auto above = std::upper_bound(heights.begin(), heights.end(), front[i]);
         layers[i] = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(above - heights.begin()) - 1);
     }
-    limit_steps(set, layers);
+    limit_count_differences(set, layers);
     return layers;
 }
 
 std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, std::uint32_t layers) {
     if (layers < 2) return std::vector<double>(set.lines.size(), min_adaptive_ratio);
-    const Spacing spacing(set);
+    const RayDistances rays(set);
     std::vector<double> ratios(set.lines.size());
     for (std::size_t i = 0; i < ratios.size(); ++i) {
-        if (spacing.inside_fan(i)) continue;
+        if (rays.inside_fan(i)) continue;
         ratios[i] = bisect(min_adaptive_ratio, max_adaptive_ratio, [&](double ratio) {
             const double last = first_height * whole_power(ratio, layers - 1);
             const double height = (last * ratio - first_height) / (ratio - 1);
-            return last <= hand_over * spacing.at(i, height);
+            return last <= transition_aspect * rays.to_neighbours(i, height);
         });
     }
-    fill_fans(set, spacing, ratios);
-    // With spacings s = h r^(N - 1) of the last layers in the ratio q, heights (r s - h) / (r - 1) are in less than q.
-    const double most =
-        bisect(1, neighbour_ratio, [&](double ratio) { return whole_power(ratio, layers - 1) <= neighbour_ratio; });
-    lower_to_neighbours(set, ratios, [&](std::size_t from, std::size_t) { return most * ratios[from]; });
+    fill_fans(rays, ratios);
+    // The heights are (r s - h) / (r - 1), where s = h r^(N - 1) is the last spacing. So where the last spacings of
+    // neighbours are in a ratio q > 1, their heights are in a smaller one.
+    const double max_step = bisect(1, max_neighbour_ratio,
+                                   [&](double ratio) { return whole_power(ratio, layers - 1) <= max_neighbour_ratio; });
+    lower_to_neighbours(set, ratios, [&](std::size_t from, std::size_t) { return max_step * ratios[from]; });
     return ratios;
 }
 

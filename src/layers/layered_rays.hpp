@@ -1,15 +1,37 @@
-// Steps that rays go through again when further rays are added.
+// Rays with the layers on them: their points, and the steps by which layers are found when rays change.
 #pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include <lamina/layers.hpp>
 
 namespace lamina::layers {
 
-/// Replaces the rays by more of them and finds heights and limits anew. Returns false, and changes nothing, where there
-/// are no more rays than before.
-bool take_rays(RaySet more, Rays& rays);
+/// A view of rays, the heights of their layers, and the number of layers on each.
+struct LayeredRays {
+    const RaySet& set;
+    const LayerHeights& heights;
+    std::span<const std::uint32_t> counts;
+
+    /// Returns the point at the top of a layer, with all heights multiplied by `scale`; the ray's origin for layer 0.
+    Point point(std::size_t ray, std::uint32_t layer, double scale = 1) const {
+        const RayLine& line = set.lines[ray];
+        return layer == 0 ? line.origin : line.origin + scale * heights.of(ray)[layer] * line.direction;
+    }
+    /// Returns the end of a ray.
+    Point tip(std::size_t ray, double scale = 1) const { return point(ray, counts[ray], scale); }
+};
+
+/// Returns the rays with their fitted heights.
+LayeredRays layered_rays(const Rays& rays);
+
+/// Replaces the rays by a larger set and finds heights and limits anew. Returns false, and changes nothing, where the
+/// set is no larger.
+bool replace_rays(RaySet larger, Rays& rays);
 
 /// Fits the heights to the limits and counts the layers on each ray.
-void count_layers(Rays& rays);
+void fit_and_count_layers(Rays& rays);
 
 }  // namespace lamina::layers

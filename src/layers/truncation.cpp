@@ -1,36 +1,40 @@
 // Rays against rays and walls. Source: J. K. Pardue, thesis (2015), section 3.2.
 //
 // The thesis walks along concavities, as convex bodies have no crossing rays. Here every ray is tested against all
-// others and all walls; the walk survives as the shortcut for one convex body. Two rays that cross at heights a < b:
-// the one that arrives later, at b, ends at a fraction of b. In a corner between two walls this makes the layer thin
-// towards the corner in proportion to the distance from it.
+// others and all walls; of the walk, only the shortcut for a single convex body is left. Of two rays that cross at
+// heights a < b, the one that arrives later, at b, ends at a fraction of b. In a corner between two walls this makes
+// the layer thin towards the corner in proportion to the distance from it.
 //
-// Rays that are long against the spacing of the walls would make the search quadratic. It goes by scales: what is met
-// at heights in (h, 2 h] is sought with rays at distances of h / 5 only; the rays between get what lies between their
-// answers.
+// Rays that are long against the spacing of the walls would make the search quadratic. So it goes by scales: what rays
+// meet at heights in (h, 2 h] is sought with a sample of rays h / 5 apart only; rays between those of the sample get
+// limits between theirs.
+#include "layers/truncation.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
-#include "layers/rays.hpp"
-#include "layers/truncation.hpp"
+#include "layers/neighbours.hpp"
 
 namespace lamina::layers {
+
 namespace {
 
 /// Share of the way to a wall that a ray may go: opposing fronts leave a quarter of the gap free.
 constexpr double wall_fraction = 0.375;
-/// Share of the height at which it crosses another ray; neighbours keep more than half of their distance.
+/// Share of the height at which it crosses another ray that a ray may go: neighbours keep more than half of their
+/// distance.
 constexpr double ray_fraction = 0.45;
-/// Rise of the limit per unit of distance between neighbouring rays; two such slopes in a corner of 90 degrees leave
-/// 60 degrees to the outer region.
-constexpr double limit_slope = 0.25;
-/// Below this number of rays one scale does for all.
-constexpr std::size_t single_scale_rays = 600;
-/// Distance of the rays that stand for all others, in heights.
-constexpr double thinning = 0.1;
+/// Largest rise of the limit per unit of distance between neighbouring rays. Two such slopes in a corner of 90 degrees
+/// leave 60 degrees to the outer region.
+constexpr double max_limit_slope = 0.25;
+/// Up to this number of rays, one scale does for all heights.
+constexpr std::size_t max_single_scale_rays = 600;
+/// Distance of the rays of a sample, as a share of the largest height of the scale.
+constexpr double sample_spacing = 0.1;
 
 Point at_height(const RayLine& ray, double height) { return ray.origin + height * ray.direction; }
 
@@ -44,6 +48,7 @@ bool is_one_convex_body(const RaySet& set) {
     return true;
 }
 
+/// Returns the mean distance between the origins of neighbouring rays.
 double mean_spacing(const RaySet& set) {
     double perimeter = 0;
     for (std::size_t e = 0; e < set.elements(); ++e) {
@@ -53,15 +58,16 @@ double mean_spacing(const RaySet& set) {
     return perimeter / static_cast<double>(set.lines.size());
 }
 
-/// The rays looked at on one scale, and the wall drawn through their origins.
-struct Sample {
+/// The rays that are tested on one scale, and the wall drawn through their origins.
+struct RaySample {
     std::vector<std::size_t> rays;
-    std::vector<std::size_t> begin{0};                      ///< per body, into rays
+    std::vector<std::size_t> begin{0};                      ///< for each element, its first ray in `rays`; then the end
     std::vector<std::pair<std::size_t, std::size_t>> wall;  ///< edges between the origins of two rays
 };
 
-Sample thin_out(const RaySet& set, double height, double spacing) {
-    Sample sample;
+/// Returns a sample without the rays that are, at the wall and at `height`, less than `spacing` from the one before.
+RaySample sample_rays(const RaySet& set, double height, double spacing) {
+    RaySample sample;
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t first = sample.rays.size();
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
@@ -82,64 +88,113 @@ Sample thin_out(const RaySet& set, double height, double spacing) {
     return sample;
 }
 
-/// Heights at which two lines cross, along each of them.
-struct Crossing {
+/// The point where two lines cross: its coordinate along each of them.
+struct LineCrossing {
     bool exists;
     double first, second;
 };
 
-Crossing cross_lines(Point p, Point d, Point q, Point e) {
+LineCrossing cross_lines(Point p, Point d, Point q, Point e) {
     const double denominator = cross(d, e);
     if (denominator == 0) return {false, 0, 0};
     return {true, cross(q - p, e) / denominator, cross(q - p, d) / denominator};
 }
 
-/// Limits of the sampled rays for what they meet at heights in (low, high].
-std::vector<double> limits_on_scale(const RaySet& set, const LayerHeights& heights, const Sample& sample, double low,
-                                    double high, std::span<const double> before) {
-    // A ray that has ended is in nobody's way beyond its end.
-    const auto way = [&](std::size_t i) {
-        return std::min(before[i] / ray_fraction, heights.full_height(i) / wall_fraction);
-    };
-    std::vector<Box> ray_boxes, wall_boxes;
-    for (std::size_t i : sample.rays) {
-        const double reach = std::min(high, way(i));
-        ray_boxes.push_back(core::bounding_box(set.lines[i].origin, at_height(set.lines[i], reach)));
-    }
-    for (auto [a, b] : sample.wall) wall_boxes.push_back(core::bounding_box(set.lines[a].origin, set.lines[b].origin));
-    const core::BoxTree ray_tree(ray_boxes), wall_tree(std::move(wall_boxes));
-
-    std::vector<double> limits(sample.rays.size(), HUGE_VAL);
-    core::parallel_for(sample.rays.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            const std::size_t i = sample.rays[k];
-            const RayLine& ray = set.lines[i];
-            if (before[i] <= wall_fraction * low) continue;
-            ray_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
-                const std::size_t j = sample.rays[item];
-                const RayLine& other = set.lines[j];
-                if (other.origin == ray.origin) return;
-                const Crossing at = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
-                if (!at.exists || at.first <= low || at.first > high) return;
-                if (at.second < 0 || at.second > at.first * (1 + 1e-9) || at.second > way(j)) return;
-                limits[k] = std::min(limits[k], ray_fraction * at.first);
-            });
-            wall_tree.overlaps(ray_boxes[k], [&](std::size_t item) {
-                const Point a = set.lines[sample.wall[item].first].origin,
-                            b = set.lines[sample.wall[item].second].origin;
-                if (a == ray.origin || b == ray.origin) return;
-                const Crossing at = cross_lines(ray.origin, ray.direction, a, b - a);
-                if (!at.exists || at.first <= low || at.first > high || at.second < 0 || at.second > 1) return;
-                limits[k] = std::min(limits[k], wall_fraction * at.first);
-            });
+/// The search for what the rays of a sample meet at heights in (low, high].
+class ScaleSearch {
+public:
+    /// known: the limits found on lower scales.
+    ScaleSearch(const RaySet& set, const LayerHeights& heights, std::span<const double> known, const RaySample& sample,
+                double low, double high)
+        : set_(set), heights_(heights), known_(known), sample_(sample), low_(low), high_(high) {
+        ray_boxes_.reserve(sample.rays.size());
+        for (std::size_t i : sample.rays) {
+            const double height = std::min(high, reach(i));
+            ray_boxes_.push_back(core::bounding_box(set.lines[i].origin, at_height(set.lines[i], height)));
         }
-    });
-    return limits;
+        std::vector<Box> wall_boxes;
+        wall_boxes.reserve(sample.wall.size());
+        for (auto [a, b] : sample.wall)
+            wall_boxes.push_back(core::bounding_box(set.lines[a].origin, set.lines[b].origin));
+        ray_tree_ = core::BoxTree(ray_boxes_);
+        wall_tree_ = core::BoxTree(std::move(wall_boxes));
+    }
+
+    /// Returns the limits on this scale, one per ray of the sample.
+    std::vector<double> limits() const {
+        std::vector<double> limits(sample_.rays.size(), HUGE_VAL);
+        core::parallel_for(sample_.rays.size(), 64, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t k = begin; k < end; ++k) {
+                if (known_[sample_.rays[k]] <= wall_fraction * low_) continue;
+                limits[k] = std::min(limit_by_rays(k), limit_by_walls(k));
+            }
+        });
+        return limits;
+    }
+
+private:
+    const RaySet& set_;
+    const LayerHeights& heights_;
+    std::span<const double> known_;
+    const RaySample& sample_;
+    double low_, high_;
+    std::vector<Box> ray_boxes_;  ///< one per ray of the sample
+    core::BoxTree ray_tree_{{}}, wall_tree_{{}};
+
+    /// Returns how far a ray is in the way of others: a ray that has ended is not, beyond its end.
+    double reach(std::size_t ray) const {
+        return std::min(known_[ray] / ray_fraction, heights_.full_height(ray) / wall_fraction);
+    }
+
+    double limit_by_rays(std::size_t k) const {
+        const RayLine& ray = set_.lines[sample_.rays[k]];
+        double limit = HUGE_VAL;
+        ray_tree_.overlaps(ray_boxes_[k], [&](std::size_t item) {
+            const std::size_t j = sample_.rays[item];
+            const RayLine& other = set_.lines[j];
+            if (other.origin == ray.origin) return;
+            const LineCrossing at = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
+            if (!at.exists || at.first <= low_ || at.first > high_) return;
+            if (at.second < 0 || at.second > at.first * (1 + 1e-9) || at.second > reach(j)) return;
+            limit = std::min(limit, ray_fraction * at.first);
+        });
+        return limit;
+    }
+
+    double limit_by_walls(std::size_t k) const {
+        const RayLine& ray = set_.lines[sample_.rays[k]];
+        double limit = HUGE_VAL;
+        wall_tree_.overlaps(ray_boxes_[k], [&](std::size_t item) {
+            const Point a = set_.lines[sample_.wall[item].first].origin,
+                        b = set_.lines[sample_.wall[item].second].origin;
+            if (a == ray.origin || b == ray.origin) return;
+            const LineCrossing at = cross_lines(ray.origin, ray.direction, a, b - a);
+            if (!at.exists || at.first <= low_ || at.first > high_ || at.second < 0 || at.second > 1) return;
+            limit = std::min(limit, wall_fraction * at.first);
+        });
+        return limit;
+    }
+};
+
+/// Lowers the limits of the rays between two neighbours in the sample, linearly in the distance along the wall.
+void lower_between(const RaySet& set, const std::vector<std::size_t>& next, std::pair<std::size_t, std::size_t> rays,
+                   std::pair<double, double> found, std::vector<double>& limits) {
+    const auto [from, to] = rays;
+    double length = 0;
+    for (std::size_t i = from; i != to; i = next[i]) length += distance(set.lines[i].origin, set.lines[next[i]].origin);
+    if (length == 0) return;
+    double done = 0;
+    for (std::size_t i = from; next[i] != to; i = next[i]) {
+        done += distance(set.lines[i].origin, set.lines[next[i]].origin);
+        const double between = ((length - done) * found.first + done * found.second) / length;
+        limits[next[i]] = std::min(limits[next[i]], between);
+    }
 }
 
-/// Lowers the limits to those of the sample: on rays between two of the sample that both found something, to what lies
-/// between their limits, by distance along the wall.
-void carry_over(const RaySet& set, const Sample& sample, std::span<const double> found, std::vector<double>& limits) {
+/// Lowers the limits of all rays to those found for the sample. Rays between two of the sample that both found
+/// something get limits between theirs.
+void lower_to_sample(const RaySet& set, const RaySample& sample, std::span<const double> found,
+                     std::vector<double>& limits) {
     const std::vector<std::size_t> next = set.following();
     for (std::size_t k = 0; k < sample.rays.size(); ++k)
         limits[sample.rays[k]] = std::min(limits[sample.rays[k]], found[k]);
@@ -149,16 +204,7 @@ void carry_over(const RaySet& set, const Sample& sample, std::span<const double>
             const std::size_t after = k + 1 < last ? k + 1 : first;
             const std::size_t from = sample.rays[k], to = sample.rays[after];
             if (next[from] == to || std::isinf(found[k]) || std::isinf(found[after])) continue;
-            double length = 0;
-            for (std::size_t i = from; i != to; i = next[i])
-                length += distance(set.lines[i].origin, set.lines[next[i]].origin);
-            if (length == 0) continue;
-            double done = 0;
-            for (std::size_t i = from; next[i] != to; i = next[i]) {
-                done += distance(set.lines[i].origin, set.lines[next[i]].origin);
-                const double between = ((length - done) * found[k] + done * found[after]) / length;
-                limits[next[i]] = std::min(limits[next[i]], between);
-            }
+            lower_between(set, next, {from, to}, {found[k], found[after]}, limits);
         }
     }
 }
@@ -168,7 +214,7 @@ void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<d
     lower_to_neighbours(set, limits, [&](std::size_t from, std::size_t to) {
         const double height = std::min(limits[from], heights.full_height(from));
         return limits[from] +
-               limit_slope * distance(at_height(set.lines[from], height), at_height(set.lines[to], height));
+               max_limit_slope * distance(at_height(set.lines[from], height), at_height(set.lines[to], height));
     });
 }
 
@@ -179,10 +225,10 @@ std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights
     if (is_one_convex_body(set)) return limits;
     const double reach = heights.max_height() / wall_fraction;
     double low = 0;
-    double high = set.lines.size() <= single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
+    double high = set.lines.size() <= max_single_scale_rays ? reach : std::min(reach, 4 * mean_spacing(set));
     for (;;) {
-        const Sample sample = thin_out(set, high, low > 0 ? thinning * high : 0.0);
-        carry_over(set, sample, limits_on_scale(set, heights, sample, low, high, limits), limits);
+        const RaySample sample = sample_rays(set, high, low > 0 ? sample_spacing * high : 0.0);
+        lower_to_sample(set, sample, ScaleSearch(set, heights, limits, sample, low, high).limits(), limits);
         if (high >= reach) break;
         low = high;
         high = std::min(2 * high, reach);

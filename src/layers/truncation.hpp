@@ -1,4 +1,4 @@
-// How far each ray may go before it meets something.
+// Truncation: how far each ray may go before it meets something.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace lamina::layers {
 
-/// Returns the height up to which each ray is free; infinite where nothing is in the way up to the height of all its
-/// layers. Rays end at a fraction of the way to what they would meet, early enough that opposing fronts leave room
-/// between them, and limits vary smoothly along the walls.
-/// Source: thesis 3.2, generalised to all rays against all rays and walls (design 2).
+/// Returns the limit of each ray: the height up to which it is free, infinite where nothing is in its way up to the
+/// height of all its layers. A limit is a fraction of the way to what the ray would meet, small enough that opposing
+/// fronts leave space between them; limits vary smoothly along the walls.
+/// Source: thesis 3.2, generalised to all rays against all rays and walls.
 std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights);
 
 }  // namespace lamina::layers

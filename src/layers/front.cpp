@@ -1,0 +1,37 @@
+#include "layers/front.hpp"
+
+namespace lamina::layers {
+
+std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
+    const auto& [set, heights, counts] = rays;
+    std::vector<std::vector<FrontCorner>> fronts(set.elements());
+    for (std::size_t e = 0; e < set.elements(); ++e) {
+        const std::size_t begin = set.begin[e], end = set.begin[e + 1];
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::size_t next = i + 1 < end ? i + 1 : begin;
+            const bool one_corner =
+                counts[i] == 0 && counts[next] == 0 && set.lines[i].origin == set.lines[next].origin;
+            if (!one_corner) fronts[e].push_back({i, counts[i]});
+        }
+    }
+    return fronts;
+}
+
+}  // namespace lamina::layers
+
+namespace lamina {
+
+using namespace layers;
+
+std::vector<std::vector<Point>> fronts(const Rays& rays) {
+    const LayeredRays layered = layered_rays(rays);
+    std::vector<std::vector<Point>> result;
+    for (const std::vector<FrontCorner>& corners : front_corners(layered)) {
+        std::vector<Point>& front = result.emplace_back();
+        front.reserve(corners.size());
+        for (const FrontCorner& corner : corners) front.push_back(layered.tip(corner.ray));
+    }
+    return result;
+}
+
+}  // namespace lamina

@@ -1,0 +1,83 @@
+#include "layers/insert_rays.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "layers/intermediate_rays.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// The end of a ray under its limit.
+struct RayEnd {
+    double height;         ///< limit, or height of all layers if that is less
+    std::uint32_t layers;  ///< number of layers that fit below the limit
+};
+
+/// Returns where between two rays, of which the second has several layers more, a ray for each layer between should
+/// start, as shares of the way from the first. Each share is the mean of an even division and of the place where a
+/// straight line between the ends passes the layer.
+std::vector<double> shares_between(const RayEnd& low, const RayEnd& high, std::span<const double> heights) {
+    std::vector<double> shares;
+    const double layers = high.layers - low.layers;
+    for (std::uint32_t n = low.layers + 1; n < high.layers; ++n) {
+        const double even = (n - low.layers) / layers;
+        const double at_height = (heights[n] - low.height) / (high.height - low.height);
+        shares.push_back(0.5 * (even + std::clamp(at_height, 0.0, 1.0)));
+    }
+    return shares;
+}
+
+}  // namespace
+
+DividedRays insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares,
+                        const std::vector<std::vector<double>>& target_factors) {
+    const std::vector<std::size_t> next = set.following();
+    DividedRays result;
+    std::vector<RayLine>& lines = result.set.lines;
+    for (std::size_t e = 0; e < set.elements(); ++e) {
+        for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
+            const RayLine &ray = set.lines[i], &after = set.lines[next[i]];
+            const bool divided = !shares[i].empty() && ray.origin != after.origin;
+            const auto take_factor = [&](std::size_t k) {
+                // A ray that was not added, for want of space, takes no factor.
+                if (!target_factors.empty())
+                    result.target_factors.resize(lines.size(), divided ? target_factors[i][k] : 0);
+            };
+            lines.push_back(ray);
+            take_factor(0);
+            if (!divided) continue;
+            const IntermediateRays between(ray, after);
+            for (std::size_t k = 0; k < shares[i].size(); ++k) {
+                between.add(shares[i][k], 1, lines);
+                take_factor(k + 1);
+            }
+        }
+        result.set.begin.push_back(lines.size());
+    }
+    return result;
+}
+
+RaySet insert_rays_where_counts_change(const RaySet& set, const LayerHeights& heights, std::span<const double> limits) {
+    const std::vector<std::size_t> next = set.following();
+    const auto end_of = [&](std::size_t i) {
+        const std::span<const double> column = heights.of(i);
+        const auto above = std::upper_bound(column.begin(), column.end(), limits[i]);
+        return RayEnd{std::min(limits[i], column.back()), static_cast<std::uint32_t>(above - column.begin()) - 1};
+    };
+    std::vector<std::vector<double>> shares(set.lines.size());
+    for (std::size_t i = 0; i < set.lines.size(); ++i) {
+        const RayEnd end = end_of(i), next_end = end_of(next[i]);
+        if (end.layers < next_end.layers) {
+            shares[i] = shares_between(end, next_end, heights.of(next[i]));
+        } else {
+            shares[i] = shares_between(next_end, end, heights.of(i));
+            std::reverse(shares[i].begin(), shares[i].end());
+            for (double& share : shares[i]) share = 1 - share;
+        }
+    }
+    return insert_rays(set, shares).set;
+}
+
+}  // namespace lamina::layers

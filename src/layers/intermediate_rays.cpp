@@ -1,0 +1,21 @@
+#include "layers/intermediate_rays.hpp"
+
+#include "core/angles.hpp"
+
+namespace lamina::layers {
+
+IntermediateRays::IntermediateRays(const RayLine& first, const RayLine& last)
+    : from_(first.origin), to_(last.origin), normal_(-perpendicular(unit(to_ - from_))) {
+    // Rays stay within 90 degrees of the edge's normal, so that the difference of the two angles needs no wrapping.
+    first_angle_ = core::angle_between(normal_, first.direction);
+    last_angle_ = core::angle_between(normal_, last.direction);
+}
+
+void IntermediateRays::add(double part, double whole, std::vector<RayLine>& rays) const {
+    const double rest = whole - part;
+    const Point origin{(rest * from_.x + part * to_.x) / whole, (rest * from_.y + part * to_.y) / whole};
+    if (origin == rays.back().origin || origin == to_ || origin == from_) return;
+    rays.push_back({origin, unit(core::rotated(normal_, (rest * first_angle_ + part * last_angle_) / whole))});
+}
+
+}  // namespace lamina::layers

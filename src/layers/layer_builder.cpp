@@ -1,0 +1,139 @@
+#include "layers/layer_builder.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/parallel.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+class LayerBuilder {
+public:
+    LayerBuilder(const Rays& rays, const std::vector<std::vector<FrontCorner>>& corners, const BorderDivision& division)
+        : rays_(rays),
+          set_(rays.set),
+          corners_(corners),
+          division_(division),
+          wall_of_ray_(set_.lines.size()),
+          first_point_(set_.lines.size()),
+          wall_divisions_(set_.lines.size()) {}
+
+    Layer build() && {
+        place_walls();
+        place_ray_points();
+        place_borders();
+        if (rays_.enabled) {
+            describe_rays();
+        } else {
+            layer_.rays.resize(set_.elements());
+        }
+        return std::move(layer_);
+    }
+
+private:
+    const Rays& rays_;
+    const RaySet& set_;
+    const std::vector<std::vector<FrontCorner>>& corners_;
+    const BorderDivision& division_;
+    std::vector<VertexId> wall_of_ray_;     ///< the origin of each ray
+    std::vector<std::size_t> first_point_;  ///< Ray::first_point of each ray
+    std::vector<std::vector<VertexId>>
+        wall_divisions_;  ///< for each ray, the division points of the wall edge behind it
+    Layer layer_;
+
+    VertexId add_point(Point p, std::uint32_t layer) {
+        layer_.points.push_back(p);
+        layer_.layer_of_point.push_back(static_cast<std::uint16_t>(layer));
+        return VertexId(layer_.points.size() - 1);
+    }
+
+    const FrontCorner& corner_after(std::size_t element, std::size_t k) const {
+        return corners_[element][(k + 1) % corners_[element].size()];
+    }
+
+    /// Where the border runs along the wall, its division points divide the wall, too.
+    void place_walls() {
+        layer_.walls.resize(set_.elements());
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            std::vector<VertexId>& wall = layer_.walls[e];
+            std::size_t k = 0;  // the next corner of the front
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+                const Point origin = set_.lines[i].origin;
+                if (i == set_.begin[e] || origin != set_.lines[i - 1].origin) wall.push_back(add_point(origin, 0));
+                wall_of_ray_[i] = wall.back();
+                if (k == corners_[e].size() || corners_[e][k].ray != i) continue;
+                if (rays_.counts[i] == 0 && corner_after(e, k).layers == 0) {
+                    for (Point p : division_.points[e][k]) wall_divisions_[i].push_back(add_point(p, 0));
+                    wall.insert(wall.end(), wall_divisions_[i].begin(), wall_divisions_[i].end());
+                }
+                ++k;
+            }
+        }
+        layer_.wall_points = layer_.points.size();
+    }
+
+    void place_ray_points() {
+        std::size_t total = layer_.points.size();
+        for (std::size_t i = 0; i < set_.lines.size(); ++i) {
+            first_point_[i] = total;
+            total += rays_.counts[i];
+        }
+        layer_.points.resize(total);
+        layer_.layer_of_point.resize(total);
+        core::parallel_for(set_.lines.size(), 4096, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const RayLine& line = set_.lines[i];
+                const std::span<const double> heights = rays_.fitted.of(i);
+                for (std::uint32_t n = 1; n <= rays_.counts[i]; ++n) {
+                    layer_.points[first_point_[i] + n - 1] = line.origin + heights[n] * line.direction;
+                    layer_.layer_of_point[first_point_[i] + n - 1] = static_cast<std::uint16_t>(n);
+                }
+            }
+        });
+    }
+
+    void place_borders() {
+        layer_.borders.resize(set_.elements());
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            std::vector<VertexId>& border = layer_.borders[e];
+            for (std::size_t k = 0; k < corners_[e].size(); ++k) {
+                const auto [ray, layers] = corners_[e][k];
+                const std::uint32_t layers_after = corner_after(e, k).layers;
+                border.push_back(layers == 0 ? wall_of_ray_[ray] : VertexId(first_point_[ray] + layers - 1));
+                if (layers == 0 && layers_after == 0) {
+                    border.insert(border.end(), wall_divisions_[ray].begin(), wall_divisions_[ray].end());
+                } else {
+                    for (Point p : division_.points[e][k])
+                        border.push_back(add_point(p, std::min(layers, layers_after)));
+                }
+            }
+        }
+    }
+
+    void describe_rays() {
+        layer_.rays.resize(set_.elements());
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+                const std::span<const double> heights = rays_.fitted.of(i);
+                const auto [first, requested, growth, stretch] = rays_.fitted.column(i);
+                const std::uint32_t count = rays_.counts[i];
+                // A ray that was lowered for its neighbours' sake ends below the layer that it did not get.
+                const double limit =
+                    count < requested ? std::min(rays_.limits[i], heights[count + 1]) : rays_.limits[i];
+                layer_.rays[e].push_back({wall_of_ray_[i], set_.lines[i].direction, count, requested, growth,
+                                          first_point_[i], limit, stretch});
+            }
+        }
+    }
+};
+
+}  // namespace
+
+Layer build_layer(const Rays& rays, const std::vector<std::vector<FrontCorner>>& corners,
+                  const BorderDivision& division) {
+    return LayerBuilder(rays, corners, division).build();
+}
+
+}  // namespace lamina::layers

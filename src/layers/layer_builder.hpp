@@ -1,0 +1,18 @@
+// The points of the layer, placed.
+#pragma once
+
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+#include "layers/divide_borders.hpp"
+#include "layers/front.hpp"
+
+namespace lamina::layers {
+
+/// Returns the layer of these rays: the points of walls, rays and borders, in this order, and the rays. Leaves
+/// coverage, growth and edges empty. corners: of the fronts; division: of the same fronts.
+Layer build_layer(const Rays& rays, const std::vector<std::vector<FrontCorner>>& corners,
+                  const BorderDivision& division);
+
+}  // namespace lamina::layers

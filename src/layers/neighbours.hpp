@@ -1,0 +1,37 @@
+// Neighbouring rays: who they are, and numbers on rays that must not differ too much from those of the neighbours.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+namespace lamina::layers {
+
+/// The neighbours of each ray on its element.
+struct RayNeighbours {
+    std::vector<std::size_t> next, previous;  ///< indices of rays; next is counter-clockwise
+
+    explicit RayNeighbours(const RaySet& set);
+};
+
+/// Lowers values along each element until none exceeds bound(neighbour, ray). Goes twice round each element in both
+/// directions. Precondition: the bound is never below the neighbour's own value.
+template <class T, class Bound>
+void lower_to_neighbours(const RaySet& set, std::vector<T>& values, Bound bound) {
+    for (std::size_t e = 0; e < set.elements(); ++e) {
+        const std::size_t first = set.begin[e], n = set.begin[e + 1] - first;
+        const auto pass_on = [&](std::size_t from, std::size_t to) {
+            values[first + to % n] = std::min<T>(values[first + to % n], bound(first + from % n, first + to % n));
+        };
+        for (std::size_t k = 0; k < 2 * n; ++k) pass_on(k, k + 1);
+        for (std::size_t k = 2 * n; k-- > 0;) pass_on(k + 1, k);
+    }
+}
+
+/// Lowers numbers of layers until those of neighbouring rays differ by at most one.
+void limit_count_differences(const RaySet& set, std::vector<std::uint32_t>& counts);
+
+}  // namespace lamina::layers

@@ -1,0 +1,81 @@
+// Rays along the bisectors of a concave corner, or of a noisy stretch of wall, would meet close to the wall. They may
+// turn towards each other by no more than 1 in (clearance x height of the layers) along the wall. The turning beyond
+// that is spread over the rays on both sides, which are tilted out of the corner (docs/decisions/0011):
+#include "layers/normal_smoothing.hpp"
+
+#include <algorithm>
+
+#include "core/angles.hpp"
+#include "layers/heights.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// Rays may meet no nearer to the wall than at this many heights of the layers. A ray ends at 0.45 of the way to a ray
+/// that it meets (ray_fraction in truncation.cpp), so that all layers fit below.
+constexpr double clearance = 2.25;
+/// Layers thicker than this share of the outline's perimeter do not tilt its rays any further.
+constexpr double max_thickness_share = 0.05;
+/// Largest tilt of a ray to either side of the bisector, in degrees.
+constexpr double max_tilt_deg = 45;
+/// Largest angle between a tilted ray and the normals of the edges at its origin, in degrees.
+constexpr double max_angle_from_normal_deg = 65;
+
+/// Returns the height below which the rays of an outline should not meet.
+double height_to_keep_clear(std::span<const Point> outline, const LayerGrowth& growth) {
+    double perimeter = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        perimeter += distance(outline[i], outline[(i + 1) % outline.size()]);
+    const double spacing = perimeter / static_cast<double>(outline.size());
+    return std::min(expected_height(growth, spacing), max_thickness_share * perimeter);
+}
+
+/// The ray of a vertex, or the first or last one of a fan.
+struct TiltableRay {
+    double* tilt;     ///< the entry of WallVertex::tilt that is to be set
+    double max_tilt;  ///< to either side, in radians
+    double turning;   ///< angle to the next ray, in radians
+    double distance;  ///< to the origin of the next ray, along the wall
+};
+
+std::vector<TiltableRay> tiltable_rays(std::span<const Point> outline, std::vector<WallVertex>& vertices) {
+    std::vector<TiltableRay> rays;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const std::size_t next = (i + 1) % outline.size();
+        WallVertex &vertex = vertices[i], &after = vertices[next];
+        const double room = core::radians(max_angle_from_normal_deg) - 0.5 * std::abs(vertex.turning);
+        const double max_tilt = std::clamp(vertex.fan ? 0.25 * vertex.turning : room, 0.0, core::radians(max_tilt_deg));
+        if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, vertex.turning, 0});
+        const double turning = 0.5 * ((vertex.fan ? 0 : vertex.turning) + (after.fan ? 0 : after.turning));
+        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, turning, distance(outline[i], outline[next])});
+    }
+    return rays;
+}
+
+}  // namespace
+
+/// Let a(s) be the angle of the bisectors along the wall. `late` is how far the least function above a that falls no
+/// faster than allowed lies above a, `early` how far the greatest such function below a lies below it. The mean of the
+/// two functions falls no faster either, equals a where a itself is admissible, and treats both directions of the wall
+/// alike. The tilt is the difference between this mean and a.
+void smooth_normals(std::span<const Point> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
+    if (std::none_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; })) return;
+    const std::vector<TiltableRay> rays = tiltable_rays(outline, vertices);
+    const std::size_t n = rays.size();
+    const double max_fall = 1 / (clearance * height_to_keep_clear(outline, growth));  // radians per unit of length
+    const auto rise = [&](std::size_t i) { return rays[i].turning + max_fall * rays[i].distance; };
+    std::vector<double> late(n, 0.0), early(n, 0.0);
+    // Each loop goes round twice, since the first round must carry its end over to its start.
+    for (std::size_t k = 0; k < 2 * n; ++k) {
+        const std::size_t i = k % n, j = n - 1 - i;
+        late[(i + 1) % n] = std::max(0.0, late[i] - rise(i));
+        early[j] = std::max(0.0, early[(j + 1) % n] - rise(j));
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        *rays[i].tilt = std::clamp(0.5 * (late[i] - early[i]), -rays[i].max_tilt, rays[i].max_tilt);
+    for (WallVertex& vertex : vertices)
+        if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];
+}
+
+}  // namespace lamina::layers

@@ -1,0 +1,24 @@
+// Normal smoothing: rays are tilted from the bisectors so that they do not meet in concavities.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+namespace lamina::layers {
+
+/// A vertex of an outline with the outward normals round it.
+struct WallVertex {
+    double turning;       ///< angle between the two edges in radians; > 0 where the body is convex
+    Point normal_before;  ///< outward unit normal of the edge that ends here
+    Point normal_after;   ///< outward unit normal of the edge that begins here
+    Point bisector;       ///< outward unit vector
+    bool fan;             ///< several rays, from normal_before to normal_after; otherwise one, the bisector
+    double tilt[2]{};     ///< angles by which the first and the last ray are tilted, in radians, counter-clockwise
+};
+
+/// Sets the tilts of the vertices. Convex and gently turning walls get none.
+void smooth_normals(std::span<const Point> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices);
+
+}  // namespace lamina::layers
