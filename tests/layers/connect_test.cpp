@@ -1,4 +1,4 @@
-// The grid of rays and layers as cells: the region is covered exactly once, by positive cells, row by row.
+// The cells of the grid of rays and layers. They are positive, cover the layer exactly once, and lie row by row.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void for_each_cell(const LayerCells& cells, F&& f) {
         f(std::vector<VertexId>(cells.quads[q].v, cells.quads[q].v + 4), cells.quad_layer[q]);
 }
 
-/// Exactly: every corner turns to the left.
+/// Returns whether every corner of a cell turns to the left. Exact.
 bool strictly_convex(const Layer& layer, const std::vector<VertexId>& cell) {
     const std::size_t n = cell.size();
     for (std::size_t i = 0; i < n; ++i)
@@ -60,8 +60,9 @@ double doubled_area(const Layer& layer, const std::vector<VertexId>& cell) {
     return area;
 }
 
-/// Positive convex cells; every directed edge once; those without a twin are the edges that bound the layer; all points
-/// but bare wall vertices used; area and Euler characteristic.
+/// Expects cells that cover the layer once: they are convex and positive; each directed edge is used once, and those
+/// without a twin are the edges that bound the layer; all points are used, except wall vertices beside which there is
+/// no layer; area and Euler characteristic are right.
 void expect_cover(const Layer& layer, const LayerEdges& edges, const LayerCells& cells) {
     std::set<Segment> directed;
     std::set<VertexId> used;
@@ -92,14 +93,14 @@ void expect_cover(const Layer& layer, const LayerEdges& edges, const LayerCells&
         magnitude += std::abs(cross(layer.points[e.a.index()], layer.points[e.b.index()]));
     }
     EXPECT_NEAR(area, enclosed, 1e-13 * magnitude);
-    // V - E + F is that of the region, whatever fills it.
+    // V - E + F is that of the region, whatever the topology.
     const std::size_t undirected = (directed.size() + boundary.size()) / 2;
     const LayerCells delaunay = fill_layer(layer, LayerTopology::delaunay);
     const std::size_t delaunay_edges = (3 * delaunay.triangles.size() + boundary.size()) / 2;
     EXPECT_EQ(count + delaunay_edges, delaunay.triangles.size() + undirected);
 }
 
-/// All corners of a cell on layer n lie on layers n - 1 and n.
+/// Expects all corners of each cell of layer n to lie on layers n - 1 and n.
 void expect_rows(const Layer& layer, const LayerCells& cells) {
     for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t n) {
         EXPECT_GE(n, 1);
@@ -110,7 +111,7 @@ void expect_rows(const Layer& layer, const LayerCells& cells) {
     });
 }
 
-/// Edges between tips that the border's grading divided: its points come behind those of the rays.
+/// Returns the number of edges between tips that are divided. Division points come behind the points of the rays.
 std::size_t divided_tops(const Layer& layer) {
     std::size_t ray_points = layer.wall_points, count = 0;
     for (const auto& rays : layer.rays)
@@ -121,6 +122,7 @@ std::size_t divided_tops(const Layer& layer) {
     return count;
 }
 
+/// Expects each topology to cover the layer, and the grid to do so row by row.
 void expect_connected(const Geometry& geometry, const LayerOptions& options) {
     const Layer layer = test::make_layer(geometry, options);
     ASSERT_EQ(check_layer(layer, options), std::vector<std::string>{});
@@ -175,7 +177,7 @@ TEST(Connect, CoversTheLayersOfSeveralBodies) {
     }
 }
 
-TEST(Connect, NothingWithoutLayers) {
+TEST(Connect, MakesNothingWhereTheLayerIsDisabled) {
     LayerOptions options = thin();
     options.enabled = false;
     const Layer layer = test::make_layer(shapes::geometry({shapes::box()}), options);
@@ -221,15 +223,15 @@ TEST(Connect, GentleCurvatureHasTheRowsOfTheDelaunayTriangulation) {
     }
 }
 
-/// Largest angle of a triangle, in radians.
+/// Returns the largest angle of a triangle in radians.
 double largest_angle(const Layer& layer, VertexId a, VertexId b, VertexId c) {
     const Point p[] = {layer.points[a.index()], layer.points[b.index()], layer.points[c.index()]};
-    double largest = 0;
+    double max_angle = 0;
     for (int i = 0; i < 3; ++i) {
         const Point u = p[(i + 1) % 3] - p[i], v = p[(i + 2) % 3] - p[i];
-        largest = std::max(largest, std::atan2(cross(u, v), dot(u, v)));
+        max_angle = std::max(max_angle, std::atan2(cross(u, v), dot(u, v)));
     }
-    return largest;
+    return max_angle;
 }
 
 TEST(Connect, TheOtherDiagonalIsNoBetter) {
@@ -261,26 +263,26 @@ TEST(Connect, SymmetricSectionHasMirroredDiagonals) {
         mirrored.push_back({centers.back().x, -centers.back().y});
     }
     std::sort(mirrored.begin(), mirrored.end(), lexicographically_less);
-    std::size_t alone = 0;
+    std::size_t without_image = 0;
     for (Point p : centers) {
         auto at =
             std::lower_bound(mirrored.begin(), mirrored.end(), Point{p.x - 1e-10, -HUGE_VAL}, lexicographically_less);
         const auto near = [&](Point q) { return std::abs(q.y - p.y) < 1e-10; };
         while (at != mirrored.end() && at->x < p.x + 1e-10 && !near(*at)) ++at;
-        alone += at == mirrored.end() || !near(*at);
+        without_image += at == mirrored.end() || !near(*at);
     }
-    EXPECT_LE(alone, 60u);  // a column on the axis that is its own image may have either diagonal
+    EXPECT_LE(without_image, 60u);  // in a column on the axis, which is its own image, either diagonal may be taken
 }
 
 TEST(Connect, DoesNotDependOnThreads) {
     const Layer layer =
         test::make_layer(shapes::geometry({shapes::section(0.12, 0, 900), shapes::circle(0.1, 2000)}), thin());
-    for (layers::GridCells kind : {layers::GridCells::split, layers::GridCells::whole}) {
+    for (layers::GridCells form : {layers::GridCells::split, layers::GridCells::whole}) {
         LayerCells one;
-        with_threads(1, [&] { one = layers::connect_layer(layer, kind); });
+        with_threads(1, [&] { one = layers::connect_layer(layer, form); });
         for (unsigned threads : {2u, 4u}) {
             with_threads(threads, [&] {
-                const LayerCells many = layers::connect_layer(layer, kind);
+                const LayerCells many = layers::connect_layer(layer, form);
                 EXPECT_EQ(many.triangles, one.triangles);
                 EXPECT_TRUE(std::equal(many.quads.begin(), many.quads.end(), one.quads.begin(), one.quads.end(),
                                        [](const Quad& p, const Quad& q) { return std::equal(p.v, p.v + 4, q.v); }));
@@ -291,17 +293,18 @@ TEST(Connect, DoesNotDependOnThreads) {
     }
 }
 
-/// A square wall and one ray of one layer on the fan at its corner (1, 1), beside bare rays:
+/// A layer on two sides of a square wall. A ray of one layer stands on the fan at the corner (1, 1), beside bare rays:
 ///
-///    q--------p        q, p  tips of one layer; the border goes 0 - 1 - 2 - p - q - 0, divided here and there
+///    q--------p        q and p are tips of one layer; the border runs 0 - 1 - 2 - p - q - 0 and is divided by the
+///    tests
 ///     \       |
-///      3------2        the wall's corner 2 has two rays, the first of them bare
+///      3------2        corner 2 of the wall has two rays, the first of them bare
 ///      |      |
-///      0------1        bare corners
-struct Corner {
+///      0------1        corners 0 and 1 have bare rays
+struct LayerAtCorner {
     Layer layer;
     VertexId p, q;
-    Corner() {
+    LayerAtCorner() {
         layer.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         layer.wall_points = 4;
         layer.walls = {{VertexId(0), VertexId(1), VertexId(2), VertexId(3)}};
@@ -325,11 +328,12 @@ struct Corner {
         layer.layer_of_point.back() = n;
         return VertexId(layer.points.size() - 1);
     }
+    /// Adds a division point to the border behind a vertex.
     void divide(VertexId after, Point at) {
         auto& border = layer.borders[0];
         border.insert(std::find(border.begin(), border.end(), after) + 1, add(at, after == p ? 1 : 0));
     }
-    void expect_sound() const {
+    void expect_covered() const {
         Layer closed = layer;
         closed.edges = layer_edges(closed);
         const LayerEdges& edges = closed.edges;
@@ -342,21 +346,21 @@ struct Corner {
 };
 
 TEST(Connect, BorderAlongARay) {
-    Corner corner;
-    corner.expect_sound();
+    LayerAtCorner corner;
+    corner.expect_covered();
     corner.divide(VertexId(2), {1, 1.1});
-    corner.expect_sound();
+    corner.expect_covered();
     corner.divide(VertexId(2), {1, 1.05});
     corner.divide(corner.p, {0.55, 1.2});
-    corner.divide(corner.q, {-0.05, 0.6});  // the step down to the bare corner 0 is a triangle with a divided top
-    corner.expect_sound();
+    corner.divide(corner.q, {-0.05, 0.6});  // towards the bare corner 0, a triangle has a divided top
+    corner.expect_covered();
 }
 
 TEST(Connect, DividedStepsAreCutWithTheCellBelow) {
-    // One layer on the rays of wall corners 1 and 3, two on that of corner 2 between them, none on corner 0.
+    // The rays of wall corners 1 and 3 have one layer, that of corner 2 between them two, and that of corner 0 none.
     Layer layer;
     layer.points = {{0, 0},      {1, 0},     {1, 1},     {0, 1},        // wall
-                    {1.1, -0.1}, {1.1, 1.1}, {1.2, 1.2}, {-0.1, 1.1}};  // tip of 1, both layers of 2, tip of 3
+                    {1.1, -0.1}, {1.1, 1.1}, {1.2, 1.2}, {-0.1, 1.1}};  // tip of 1, both points of 2, tip of 3
     layer.layer_of_point = {0, 0, 0, 0, 1, 1, 2, 1};
     layer.wall_points = 4;
     layer.walls = {{VertexId(0), VertexId(1), VertexId(2), VertexId(3)}};
@@ -371,12 +375,12 @@ TEST(Connect, DividedStepsAreCutWithTheCellBelow) {
         ray.first_point = first[i];
     }
     layer.borders = {{VertexId(0)}};
-    const auto divide = [&](std::size_t from, std::size_t to, int pieces) {
+    const auto divide = [&](std::size_t from, std::size_t to, int parts) {
         const Point a = layer.points[from], b = layer.points[to];
         layer.borders[0].push_back(VertexId(from));
-        for (int k = 1; k < pieces; ++k) {
+        for (int k = 1; k < parts; ++k) {
             layer.borders[0].push_back(VertexId(layer.points.size()));
-            layer.points.push_back(a + (static_cast<double>(k) / pieces) * (b - a));
+            layer.points.push_back(a + (static_cast<double>(k) / parts) * (b - a));
             layer.layer_of_point.push_back(1);
         }
     };
@@ -385,26 +389,27 @@ TEST(Connect, DividedStepsAreCutWithTheCellBelow) {
     layer.borders[0].push_back(VertexId(7));
     layer.edges = layer_edges(layer);
 
-    // From one corner of the step alone, the flattest triangle is the last.
+    // In a fan from one corner of the step alone, the last triangle would be the flattest.
     const double fan = std::max(largest_angle(layer, VertexId(5), VertexId(layer.points.size() - 1), VertexId(7)),
                                 largest_angle(layer, VertexId(5), VertexId(4), VertexId(8)));
     for (LayerTopology topology : {LayerTopology::layered, LayerTopology::quads}) {
         const LayerCells cells = fill_layer(layer, topology);
         expect_cover(layer, layer.edges, cells);
         expect_rows(layer, cells);
-        double flattest = 0;
+        double max_angle = 0;
         for (const Triangle& t : cells.triangles)
-            flattest = std::max(flattest, largest_angle(layer, t.v[0], t.v[1], t.v[2]));
-        EXPECT_LT(flattest, fan - 0.05);
+            max_angle = std::max(max_angle, largest_angle(layer, t.v[0], t.v[1], t.v[2]));
+        EXPECT_LT(max_angle, fan - 0.05);
     }
 }
 
-TEST(Connect, TopsThatNoTwoFansFillAreTriangulated) {
-    Corner corner;  // border points far from any line, as rounding would put them in cells of a few roundings' height
+TEST(Connect, TopsThatNoFansFillAreTriangulated) {
+    // The division points lie far from any line, as rounding would put them in cells that are a few roundings high.
+    LayerAtCorner corner;
     corner.divide(corner.p, {0.2, 1.02});
     corner.divide(corner.p, {0.5, 1.19});
     corner.divide(corner.p, {0.8, 1.02});
-    corner.expect_sound();
+    corner.expect_covered();
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
-// What became of the layers asked for: everywhere, and where an empty circle of three full heights touches the wall.
+// The share of the requested layers that was made: everywhere, and where an empty circle three full heights in diameter
+// touches the wall.
 #include <gtest/gtest.h>
 
 #include <lamina/layers.hpp>
 
+#include "layers/checked_layer.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -18,9 +20,7 @@ LayerOptions ten_layers(double full_height) {
 }
 
 std::vector<ElementCoverage> coverage_of(std::initializer_list<shapes::Outline> bodies, const LayerOptions& options) {
-    const Layer layer = test::make_layer(shapes::geometry(bodies), options);
-    EXPECT_EQ(check_layer(layer, options), std::vector<std::string>{});
-    return layer.coverage;
+    return test::checked_layer(shapes::geometry(bodies), options).coverage;
 }
 
 TEST(Coverage, CountsRaysAndTheCellsBetween) {
@@ -57,19 +57,19 @@ TEST(Coverage, ASlotIsOpenFromThreeHeightsOn) {
     EXPECT_GE(open_rays(0.27), 41u);
 }
 
-TEST(Coverage, ConcaveCornersAreCovesAsFarAsTheirLayersMeet) {
+TEST(Coverage, ConcaveCornersAreNotOpenWhereTheirLayersMeet) {
     const double height = 0.05;
     LayerOptions options = ten_layers(height);
-    options.max_ray_angle_deg = 90;  // one ray a vertex
+    options.max_ray_angle_deg = 90;  // one ray per vertex
     const Layer layer = test::make_layer(shapes::geometry({shapes::refined(shapes::l_shape(), 40)}), options);
-    // Wall vertices stand 1 / 40 apart. A circle 3 heights across that touches one wall reaches the other one within
-    // its radius.
+    // Wall vertices are 1 / 40 apart. A circle 3 heights in diameter that touches one wall reaches the other one up to
+    // its radius away from the corner.
     const std::size_t closed = layer.coverage[0].all.rays - layer.coverage[0].open.rays;
     const double expected = 2 * 1.5 * height * 40;
     EXPECT_NEAR(double(closed), expected, 2.0);
 }
 
-TEST(Coverage, NothingIsAskedForWithoutLayers) {
+TEST(Coverage, IsEmptyWhereTheLayerIsDisabled) {
     LayerOptions options;
     options.enabled = false;
     EXPECT_TRUE(coverage_of({shapes::circle(1, 50)}, options).empty());

@@ -1,14 +1,16 @@
-// Heights by every growth law against its formula, and layers that end where they are as high as wide.
+// The heights of each growth law against its formula, and layers that end where they are as high as wide.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <set>
 
 #include <lamina/error.hpp>
 #include <lamina/layers.hpp>
 
-#include "layers/sound_layer.hpp"
+#include "layers/checked_layer.hpp"
+#include "layers/compare_points.hpp"
+#include "layers/growth_laws.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -17,17 +19,22 @@ namespace {
 
 using shapes::Outline;
 
-constexpr std::array every_law{GrowthLaw::geometric, GrowthLaw::polynomial, GrowthLaw::exponential, GrowthLaw::adaptive,
-                               GrowthLaw::aflr};
+using test::checked_layer;
 
-/// Options under which each law gives a layer of a few per cent of a chord.
+std::vector<GrowthLaw> every_law() {
+    std::vector<GrowthLaw> laws;
+    for (const layers::GrowthLawEntry& entry : layers::growth_law_table()) laws.push_back(entry.law);
+    return laws;
+}
+
+/// Returns options under which a law gives a layer of a few per cent of a chord.
 LayerOptions options_of(GrowthLaw law) {
     LayerOptions options;
     options.first_height = 2e-5;
     options.growth_law = law;
     options.layers = 30;
     if (law == GrowthLaw::polynomial) options.growth = 2.2;
-    if (law == GrowthLaw::exponential) options.thickness = 0.02;
+    if (layers::growth_law_entry(law).fills_thickness) options.thickness = 0.02;
     if (law == GrowthLaw::aflr) options.layers = 20;
     return options;
 }
@@ -47,7 +54,33 @@ std::vector<Outline> sections() {
 }
 
 double tip_distance(const Layer& layer, const Ray& a, const Ray& b) {
-    return distance(layer.points[a.first_point + a.layers - 1], layer.points[b.first_point + b.layers - 1]);
+    return distance(layer.points[a.tip().index()], layer.points[b.tip().index()]);
+}
+
+TEST(GrowthLaw, EachHasOneNameAndOneRow) {
+    std::set<std::string> names;
+    std::set<GrowthLaw> laws;
+    for (const layers::GrowthLawEntry& entry : layers::growth_law_table()) {
+        EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+        EXPECT_TRUE(laws.insert(entry.law).second) << entry.name;
+        EXPECT_EQ(&layers::growth_law_entry(entry.law), &entry);
+    }
+    EXPECT_THROW(layers::growth_law_entry(static_cast<GrowthLaw>(1000)), OptionError);
+}
+
+TEST(GrowthLaw, TellsTheHeightOfAllLayersWhereItIsOne) {
+    for (const GrowthLaw law : every_law()) {
+        LayerGrowth growth = test::growth_of(options_of(law));
+        const bool by_spacing = layers::growth_law_entry(law).by_spacing != nullptr;
+        ASSERT_EQ(requested_height(growth).has_value(), !by_spacing);
+        if (by_spacing) continue;
+        EXPECT_EQ(*requested_height(growth), layer_height(growth, *growth.layers));
+        if (layers::growth_law_entry(law).fills_thickness) continue;
+        growth.thickness = 1e-3;
+        EXPECT_EQ(*requested_height(growth), 1e-3);
+        growth.layers.reset();
+        EXPECT_FALSE(requested_height(growth).has_value());
+    }
 }
 
 TEST(GrowthLaw, FollowsItsFormula) {
@@ -97,63 +130,62 @@ TEST(GrowthLaw, ExponentialMeetsFirstHeightAndThickness) {
 }
 
 TEST(GrowthLaw, AflrAcceleratesUpToItsCap) {
-    LayerOptions options = options_of(GrowthLaw::aflr);
+    const LayerOptions options = options_of(GrowthLaw::aflr);
     double ratio = 1;
     for (std::uint32_t n = 1; n < 30; ++n) {
-        const double step = layer_height(test::growth_of(options), n) - layer_height(test::growth_of(options), n - 1);
-        const double above = layer_height(test::growth_of(options), n + 1) - layer_height(test::growth_of(options), n);
+        const LayerGrowth growth = test::growth_of(options);
+        const double spacing = layer_height(growth, n) - layer_height(growth, n - 1);
+        const double above = layer_height(growth, n + 1) - layer_height(growth, n);
         if (n >= 5) ratio *= 1.05;
-        EXPECT_NEAR(above / step, std::min(ratio, 1.5), 1e-9) << n;
+        EXPECT_NEAR(above / spacing, std::min(ratio, 1.5), 1e-9) << n;
     }
 }
 
 TEST(GrowthLaw, PlacesLayersAtTheirHeights) {
-    for (const GrowthLaw law : every_law) {
+    for (const GrowthLaw law : every_law()) {
         const LayerOptions options = options_of(law);
         for (const Outline& outline : sections()) {
             SCOPED_TRACE(static_cast<int>(law));
-            const Layer layer = sound_layer(outline, options);
+            const Layer layer = checked_layer(outline, options);
             for (const Ray& ray : layer.rays[0]) {
                 if (ray.layers < ray.requested || ray.stretch != 1) continue;
-                Point below = layer.points[ray.origin.index()];
                 double height = 0;
                 LayerOptions own = options;
-                if (law == GrowthLaw::adaptive) own.growth = ray.growth;
+                if (layers::growth_law_entry(law).by_spacing) own.growth = ray.growth;
                 for (std::uint32_t n = 1; n <= ray.layers; ++n) {
-                    const Point p = layer.points[ray.first_point + n - 1];
-                    const double step = distance(below, p);
-                    ASSERT_GT(step, 0.999 * test::first_height(options));
-                    height += step;
+                    const double spacing =
+                        distance(layer.points[ray.vertex(n - 1).index()], layer.points[ray.vertex(n).index()]);
+                    ASSERT_GT(spacing, 0.999 * test::first_height(options));
+                    height += spacing;
                     ASSERT_NEAR(height / layer_height(test::growth_of(own), n), 1, 1e-9);
-                    below = p;
                 }
             }
         }
     }
 }
 
-TEST(GrowthLaw, ExponentialLayersAreAsThickAsAskedFor) {
+TEST(GrowthLaw, ExponentialLayersHaveTheRequestedThickness) {
     const LayerOptions options = options_of(GrowthLaw::exponential);
-    const Layer layer = sound_layer(shapes::section(0.12, 0, 80), options);
+    const Layer layer = checked_layer(shapes::section(0.12, 0, 80), options);
     for (const Ray& ray : layer.rays[0]) {
         EXPECT_EQ(ray.layers, 30u);
-        EXPECT_NEAR(distance(layer.points[ray.origin.index()], layer.points[ray.first_point + 29]), 0.02, 1e-12);
+        EXPECT_NEAR(distance(layer.points[ray.origin.index()], layer.points[ray.tip().index()]), 0.02, 1e-12);
     }
 }
 
-/// Neighbouring stacks differ by less than 30 % in height where nothing cuts them short, or by one layer.
+/// Expects neighbouring columns that are not cut short to differ by less than 30 % in height, or by one layer.
 void expect_smooth_heights(const Layer& layer, double growth = 1) {
-    const double largest = std::max(1.3, 1.05 * growth);
+    const double max_ratio = std::max(1.3, 1.05 * growth);
     for (const auto& rays : layer.rays) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
             if (ray.layers < ray.requested || next.layers < next.requested) continue;
             if (ray.stretch != 1 || next.stretch != 1) continue;
             const auto height = [&](const Ray& r) {
-                return distance(layer.points[r.origin.index()], layer.points[r.first_point + r.layers - 1]);
+                return distance(layer.points[r.origin.index()], layer.points[r.tip().index()]);
             };
-            EXPECT_LT(height(ray), largest * height(next));
-            EXPECT_LT(height(next), largest * height(ray));
+            EXPECT_LT(height(ray), max_ratio * height(next));
+            EXPECT_LT(height(next), max_ratio * height(ray));
         }
     }
 }
@@ -163,7 +195,7 @@ TEST(AdaptiveGrowth, MeetsTheSpacingAlongTheWall) {
         LayerOptions options = options_of(GrowthLaw::adaptive);
         options.layers = layers;
         options.first_height = 0.02 / layers;
-        const Layer layer = sound_layer(shapes::circle(1, 90), options);
+        const Layer layer = checked_layer(shapes::circle(1, 90), options);
         const auto& rays = layer.rays[0];
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Point* points = &layer.points[rays[i].first_point];
@@ -172,7 +204,7 @@ TEST(AdaptiveGrowth, MeetsTheSpacingAlongTheWall) {
         }
     }
     for (const Outline& outline : sections()) {
-        const Layer layer = sound_layer(outline, options_of(GrowthLaw::adaptive));
+        const Layer layer = checked_layer(outline, options_of(GrowthLaw::adaptive));
         for (const Ray& ray : layer.rays[0]) {
             EXPECT_GE(ray.growth, 1.05);
             EXPECT_LE(ray.growth, 1.5);
@@ -181,7 +213,7 @@ TEST(AdaptiveGrowth, MeetsTheSpacingAlongTheWall) {
     }
 }
 
-/// Rays of a fan stand between those at its ends; rounding must not lead them out of the range of the ratio.
+/// Rays of a fan have ratios between those of its ends; rounding must not lead them out of the range of the law.
 TEST(AdaptiveGrowth, StaysInItsRangeAcrossFans) {
     const Outline outline = shapes::section(0.12, 0, 80);
     for (const double first_height : {1e-9, 1e-2}) {
@@ -190,14 +222,14 @@ TEST(AdaptiveGrowth, StaysInItsRangeAcrossFans) {
             options.first_height = first_height;
             options.layers = 8;
             options.max_ray_angle_deg = 2 + 0.2 * k;
-            sound_layer(outline, options);
+            checked_layer(outline, options);
         }
     }
 }
 
 TEST(AutomaticLayers, EndWhereTheyAreAsHighAsWide) {
     for (const double growth : {1.1, 1.2, 1.4}) {
-        const Layer layer = sound_layer(shapes::circle(1, 120), automatic(growth));
+        const Layer layer = checked_layer(shapes::circle(1, 120), automatic(growth));
         const auto& rays = layer.rays[0];
         for (std::size_t i = 0; i < rays.size(); ++i) {
             ASSERT_EQ(rays[i].layers, rays[0].layers);
@@ -215,10 +247,10 @@ TEST(AutomaticLayers, EndWhereTheyAreAsHighAsWide) {
 TEST(AutomaticLayers, VarySmoothlyOnAnySection) {
     for (const double growth : {1.05, 1.2, 1.35}) {
         for (const Outline& outline : sections()) {
-            const Layer layer = sound_layer(outline, automatic(growth));
+            const Layer layer = checked_layer(outline, automatic(growth));
             expect_smooth_heights(layer, growth);
             for (const auto& rays : layer.rays) {
-                // No saw: a ray that is higher, or lower, than both neighbours has its like beside it.
+                // The front is no saw: numbers of layers do not alternate from ray to ray.
                 for (std::size_t i = 0; i < rays.size(); ++i) {
                     const auto at = [&](std::size_t k) { return rays[(i + k) % rays.size()].requested; };
                     EXPECT_FALSE(at(1) != at(0) && at(1) != at(2) && at(0) == at(2) && at(3) == at(1)) << i;
@@ -231,14 +263,14 @@ TEST(AutomaticLayers, VarySmoothlyOnAnySection) {
 TEST(AutomaticLayers, EndAtTheThicknessIfThatIsLess) {
     LayerOptions options = automatic();
     const Outline outline = shapes::section(0.12, 0, 80);
-    const Layer free = sound_layer(outline, options);
+    const Layer free = checked_layer(outline, options);
     options.thickness = 0.01;
-    const Layer cut = sound_layer(outline, options);
+    const Layer cut = checked_layer(outline, options);
     ASSERT_EQ(free.rays[0].size(), cut.rays[0].size());
-    std::uint32_t most = 0;
-    for (const Ray& ray : cut.rays[0]) most = std::max(most, ray.layers);
-    EXPECT_LE(layer_height(test::growth_of(options), most), 0.01);
-    EXPECT_GT(layer_height(test::growth_of(options), most + 1), 0.01);
+    std::uint32_t max_layers = 0;
+    for (const Ray& ray : cut.rays[0]) max_layers = std::max(max_layers, ray.layers);
+    EXPECT_LE(layer_height(test::growth_of(options), max_layers), 0.01);
+    EXPECT_GT(layer_height(test::growth_of(options), max_layers + 1), 0.01);
     for (std::size_t i = 0; i < cut.rays[0].size(); ++i) EXPECT_LE(cut.rays[0][i].layers, free.rays[0][i].layers);
 }
 
@@ -246,31 +278,31 @@ TEST(AutomaticLayers, NeedAGrowthThatGetsThere) {
     EXPECT_THROW(test::make_layer(shapes::geometry({shapes::circle(1, 20)}), automatic(1.001)), UsageError);
     LayerOptions options = automatic(1.001);
     options.thickness = 1e-3;
-    sound_layer(shapes::circle(1, 20), options);
+    checked_layer(shapes::circle(1, 20), options);
 }
 
 TEST(LocalHeights, MirrorWithTheInput) {
     for (const LayerOptions& options : {automatic(), options_of(GrowthLaw::adaptive)}) {
         for (const Outline& outline : {shapes::section(0.12, 0.02, 60), shapes::joukowski(0.1, 0.1, 90)}) {
-            const Layer layer = sound_layer(outline, options);
-            const Layer mirror = sound_layer(shapes::mirrored(outline), options);
+            const Layer layer = checked_layer(outline, options);
+            const Layer mirror = checked_layer(shapes::mirrored(outline), options);
             ASSERT_EQ(layer.points.size(), mirror.points.size());
-            const auto a = sorted_points(layer.points, false), b = sorted_points(mirror.points, true);
-            EXPECT_LT(std::max(set_distance(a, b), set_distance(b, a)), 1e-11);
+            const auto a = test::sorted(layer.points), b = test::sorted_mirror(mirror.points);
+            EXPECT_LT(std::max(test::set_distance(a, b), test::set_distance(b, a)), 1e-11);
         }
-        const Layer layer = sound_layer(shapes::section(0.12, 0, 70), options);
-        EXPECT_LT(set_distance(sorted_points(layer.points, true), sorted_points(layer.points, false)), 1e-11);
+        const Layer layer = checked_layer(shapes::section(0.12, 0, 70), options);
+        EXPECT_LT(test::set_distance(test::sorted_mirror(layer.points), test::sorted(layer.points)), 1e-11);
     }
 }
 
 TEST(LocalHeights, DoNotDependOnTheStartOfTheLoop) {
     for (const LayerOptions& options : {automatic(), options_of(GrowthLaw::adaptive)}) {
         const Outline outline = shapes::joukowski(0.1, 0.1, 90);
-        const auto reference = sorted_points(sound_layer(outline, options).points, false);
+        const auto reference = test::sorted(checked_layer(outline, options).points);
         for (const std::size_t first : {1u, 7u, 41u}) {
-            const auto points = sorted_points(sound_layer(shapes::started_at(outline, first), options).points, false);
+            const auto points = test::sorted(checked_layer(shapes::started_at(outline, first), options).points);
             ASSERT_EQ(points.size(), reference.size());
-            EXPECT_LT(set_distance(points, reference), 1e-11);
+            EXPECT_LT(test::set_distance(points, reference), 1e-11);
         }
     }
 }
@@ -284,7 +316,7 @@ TEST(LocalHeights, StaySoundOnRandomStars) {
         options.first_height = std::pow(10, -5 + 3 * static_cast<double>(random() % 1000) / 1000);
         options.max_ray_angle_deg = 3 + random() % 20;
         options.corners = random() % 2 == 0 ? Corners::fan : Corners::refine;
-        sound_layer(outline, options);
+        checked_layer(outline, options);
         if (testing::Test::HasFailure()) break;
     }
 }
@@ -300,14 +332,14 @@ TEST(FirstHeight, FollowsTheFlatPlate) {
     EXPECT_THROW(first_height_for(1, 1e6, -1), UsageError);
 }
 
-TEST(GrowthLaw, RefusesWhatLacksWhatItNeeds) {
+TEST(GrowthLaw, RefusesOptionsThatLackWhatTheLawNeeds) {
     const Geometry circle = shapes::geometry({shapes::circle(1, 20)});
     const auto refused = [&](GrowthLaw law, auto change) {
         LayerOptions options = options_of(law);
         change(options);
         EXPECT_THROW(test::make_layer(circle, options), UsageError);
     };
-    for (const GrowthLaw law : every_law) {
+    for (const GrowthLaw law : every_law()) {
         refused(law, [](LayerOptions& o) { o.growth = 1; });
         refused(law, [](LayerOptions& o) { o.first_height = 0.0; });
         refused(law, [](LayerOptions& o) { o.layers = 0; });

@@ -1,4 +1,4 @@
-// Layers in pieces: the triangles of the layer in one piece, whatever the depth.
+// A layer triangulated in pieces has the triangles of the layer in one piece, whatever the depth of the decomposition.
 #include <initializer_list>
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ Element placed(Element element, double scale, double angle, Point at) {
     return element;
 }
 
-/// Slat, main element and flap, with narrow slots between them.
+/// Returns slat, main element and flap, with narrow slots between them.
 Geometry three_element(std::size_t points) {
     Geometry geometry;
     geometry.elements.push_back(placed(naca_airfoil("4412", points), 0.18, -0.5, {-0.15, -0.09}));
@@ -45,9 +45,10 @@ Geometry three_element(std::size_t points) {
     return geometry;
 }
 
-enum class Balance { demanded, whatever };
+enum class Balance { demanded, not_demanded };
 
-/// Balance: at depth 6 nearly all cuts are made, and the largest piece has at most twice the mean number of vertices.
+/// Where balance is demanded, nearly all cuts must be made at depth 6, and the largest piece may have at most twice the
+/// mean number of vertices.
 void expect_same_at_depths(const std::string& name, const Layer& layer, Balance balance,
                            std::initializer_list<unsigned> depths) {
     const LayerEdges edges = layer.edges;
@@ -58,7 +59,7 @@ void expect_same_at_depths(const std::string& name, const Layer& layer, Balance 
         ASSERT_EQ(canonical(t.triangles), expected) << name << ", depth " << depth;
         EXPECT_EQ(t.stats.fallbacks, 0u) << name << ", depth " << depth;
         EXPECT_GE(t.stats.pieces, (std::size_t{1} << depth) * 3 / 4) << name << ", depth " << depth;
-        if (depth != 6 || balance == Balance::whatever) continue;
+        if (depth != 6 || balance == Balance::not_demanded) continue;
         EXPECT_GE(t.stats.pieces, 60u) << name;
         EXPECT_LE(t.stats.largest_piece * t.stats.pieces, 2 * t.stats.piece_vertices) << name;
     }
@@ -92,28 +93,29 @@ TEST(LayerDecomposition, Shapes) {
     LayerOptions options = layers(20);
     options.first_height = 1e-4;
     using namespace shapes;
-    expect_same_at_every_depth("box", test::make_layer(geometry({refined(box(), 40)}), options), Balance::whatever);
-    expect_same_at_every_depth("circle", test::make_layer(geometry({circle(1, 200)}), options), Balance::whatever);
-    expect_same_at_every_depth("l", test::make_layer(geometry({refined(l_shape(), 40)}), options), Balance::whatever);
+    expect_same_at_every_depth("box", test::make_layer(geometry({refined(box(), 40)}), options), Balance::not_demanded);
+    expect_same_at_every_depth("circle", test::make_layer(geometry({circle(1, 200)}), options), Balance::not_demanded);
+    expect_same_at_every_depth("l", test::make_layer(geometry({refined(l_shape(), 40)}), options),
+                               Balance::not_demanded);
     expect_same_at_every_depth("c", test::make_layer(geometry({refined(c_shape(0.1), 40)}), options),
-                               Balance::whatever);
+                               Balance::not_demanded);
     expect_same_at_every_depth("notch", test::make_layer(geometry({refined(v_notch(0.4), 40)}), options),
-                               Balance::whatever);
+                               Balance::not_demanded);
     expect_same_at_every_depth("comb", test::make_layer(geometry({refined(comb(5, 0.1), 40)}), options),
-                               Balance::whatever);
+                               Balance::not_demanded);
     expect_same_at_every_depth("joukowski", test::make_layer(geometry({joukowski(0.1, 0.05, 400)}), options),
-                               Balance::whatever);
+                               Balance::not_demanded);
     expect_same_at_every_depth("plate", test::make_layer(geometry({refined(plate(0.02, 20), 4)}), options),
-                               Balance::whatever);
+                               Balance::not_demanded);
 }
 
 TEST(LayerDecomposition, LayersTruncatedToNothing) {
-    // Walls so close that nothing fits between them: wall vertices there are no part of the layer.
+    // Walls so close to each other that no layer fits between them: their vertices are no part of the layer.
     LayerOptions options = layers(20);
     options.first_height = 1e-2;
     using namespace shapes;
     expect_same_at_every_depth("comb", test::make_layer(geometry({refined(comb(4, 0.01), 20)}), options),
-                               Balance::whatever);
+                               Balance::not_demanded);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Properties of the boundary layer on parametric outlines; check_layer() judges every layer made here.
+// Properties of the layer on parametric outlines. check_layer() judges all layers that are made here.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 #include <lamina/layers.hpp>
 #include <lamina/predicates.hpp>
 
-#include "layers/sound_layer.hpp"
+#include "layers/checked_layer.hpp"
+#include "layers/compare_points.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -20,6 +21,7 @@ namespace lamina {
 namespace {
 
 using shapes::Outline;
+using test::checked_layer;
 
 LayerOptions thin() {
     LayerOptions options;
@@ -36,26 +38,23 @@ LayerOptions scaled(LayerOptions options, double scale) {
     return options;
 }
 
-/// Heights of the layers, measured between the points themselves.
+/// Compares the spacings between the points of each ray with the first height and the growth.
 void expect_heights(const Layer& layer, const LayerOptions& options) {
     double scale = 0;
     for (Point p : layer.points) scale = std::max({scale, std::abs(p.x), std::abs(p.y)});
     for (const auto& rays : layer.rays) {
         for (const Ray& ray : rays) {
-            if (ray.layers == 0) continue;
-            Point below = layer.points[ray.origin.index()];
-            double step_below = 0;
-            for (std::uint32_t n = 0; n < ray.layers; ++n) {
-                const Point p = layer.points[ray.first_point + n];
-                const double step = distance(below, p);
+            double spacing_below = 0;
+            for (std::uint32_t n = 1; n <= ray.layers; ++n) {
+                const double spacing =
+                    distance(layer.points[ray.vertex(n - 1).index()], layer.points[ray.vertex(n).index()]);
                 const double rounding = 1e-15 * scale / test::first_height(options);
-                if (n == 0) {
-                    ASSERT_NEAR(step / test::first_height(options), 1, 1e-9 + rounding);
+                if (n == 1) {
+                    ASSERT_NEAR(spacing / test::first_height(options), 1, 1e-9 + rounding);
                 } else {
-                    ASSERT_NEAR(step / step_below, options.growth * ray.stretch, 1e-9 + 4 * rounding);
+                    ASSERT_NEAR(spacing / spacing_below, options.growth * ray.stretch, 1e-9 + 4 * rounding);
                 }
-                below = p;
-                step_below = step;
+                spacing_below = spacing;
             }
         }
     }
@@ -69,23 +68,23 @@ std::size_t full_rays(const Layer& layer) {
 }
 
 TEST(LayerHeight, IsTheGeometricSum) {
-    LayerOptions options = thin();
-    EXPECT_EQ(layer_height(test::growth_of(options), 0), 0);
-    EXPECT_EQ(layer_height(test::growth_of(options), 1), test::first_height(options));
+    const LayerGrowth growth = test::growth_of(thin());
+    EXPECT_EQ(layer_height(growth, 0), 0);
+    EXPECT_EQ(layer_height(growth, 1), growth.first_height);
     for (std::uint32_t n = 1; n < 60; ++n) {
-        const double lower = layer_height(test::growth_of(options), n) - layer_height(test::growth_of(options), n - 1);
-        const double upper = layer_height(test::growth_of(options), n + 1) - layer_height(test::growth_of(options), n);
-        EXPECT_NEAR(upper / lower, options.growth, 1e-11);
-        const double closed = test::first_height(options) * (std::pow(options.growth, n) - 1) / (options.growth - 1);
-        EXPECT_NEAR(layer_height(test::growth_of(options), n) / closed, 1, 1e-12);
+        const double lower = layer_height(growth, n) - layer_height(growth, n - 1);
+        const double upper = layer_height(growth, n + 1) - layer_height(growth, n);
+        EXPECT_NEAR(upper / lower, growth.growth, 1e-11);
+        const double closed_form = growth.first_height * (std::pow(growth.growth, n) - 1) / (growth.growth - 1);
+        EXPECT_NEAR(layer_height(growth, n) / closed_form, 1, 1e-12);
     }
 }
 
-TEST(Layer, SmoothSectionsCarryTheFullStack) {
+TEST(Layer, SmoothSectionsCarryAllLayers) {
     for (const Outline& outline : {shapes::section(0.12, 0, 100), shapes::section(0.12, 0.01, 80),
                                    shapes::joukowski(0.1, 0, 200), shapes::joukowski(0.08, 0.15, 200),
                                    shapes::circle(0.5, 60), shapes::ellipse(1, 0.05, 150), shapes::plate(0.05, 16)}) {
-        const Layer layer = sound_layer(outline, thin());
+        const Layer layer = checked_layer(outline, thin());
         EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
         EXPECT_EQ(layer.coverage[0].all.made_cells, layer.coverage[0].all.requested_cells);
         EXPECT_EQ(full_rays(layer), layer.rays[0].size());
@@ -98,7 +97,7 @@ TEST(Layer, KeepsEveryVertexOfTheWallInOrder) {
         for (Corners corners : {Corners::fan, Corners::refine}) {
             LayerOptions options = thin();
             options.corners = corners;
-            const Layer layer = sound_layer(outline, options);
+            const Layer layer = checked_layer(outline, options);
             std::size_t found = 0;
             for (VertexId v : layer.walls[0]) {
                 ASSERT_LT(v.index(), layer.wall_points);
@@ -110,7 +109,7 @@ TEST(Layer, KeepsEveryVertexOfTheWallInOrder) {
 }
 
 TEST(Layer, FansStandAtSharpCornersOnly) {
-    const Layer fans = sound_layer(shapes::box(), thin());
+    const Layer fans = checked_layer(shapes::box(), thin());
     std::set<VertexId> origins;
     for (const Ray& ray : fans.rays[0]) origins.insert(ray.origin);
     EXPECT_EQ(origins.size(), 4u);
@@ -118,14 +117,14 @@ TEST(Layer, FansStandAtSharpCornersOnly) {
 
     LayerOptions refine = thin();
     refine.corners = Corners::refine;
-    const Layer refined = sound_layer(shapes::box(), refine);
+    const Layer refined = checked_layer(shapes::box(), refine);
     origins.clear();
     for (const Ray& ray : refined.rays[0]) origins.insert(ray.origin);
     EXPECT_EQ(origins.size(), refined.rays[0].size());
     EXPECT_GT(refined.wall_points, 4u * 20u);
 
-    // A polygon of 10 corners turns by 36 degrees at each: smooth, as far as fans go.
-    const Layer smooth = sound_layer(shapes::circle(1, 10), thin());
+    // A polygon of 10 corners turns by 36 degrees at each of them, which is too little for fans.
+    const Layer smooth = checked_layer(shapes::circle(1, 10), thin());
     origins.clear();
     for (const Ray& ray : smooth.rays[0]) origins.insert(ray.origin);
     EXPECT_EQ(origins.size(), smooth.rays[0].size());
@@ -137,19 +136,19 @@ TEST(Layer, AngleBetweenRaysKeepsItsLimitForAnyLimit) {
             LayerOptions options = thin();
             options.max_ray_angle_deg = limit;
             options.corners = corners;
-            sound_layer(shapes::section(0.12, 0, 30), options);  // check_layer() looks at the angles
-            sound_layer(shapes::l_shape(), options);
+            checked_layer(shapes::section(0.12, 0, 30), options);  // check_layer() looks at the angles
+            checked_layer(shapes::l_shape(), options);
         }
     }
 }
 
-TEST(Layer, ThicknessCutsTheStack) {
+TEST(Layer, ThicknessLimitsTheNumberOfLayers) {
     LayerOptions options = thin();
     options.thickness = layer_height(test::growth_of(options), 12);
-    Layer layer = sound_layer(shapes::circle(1, 50), options);
+    Layer layer = checked_layer(shapes::circle(1, 50), options);
     for (const Ray& ray : layer.rays[0]) EXPECT_EQ(ray.layers, 12u);
     options.thickness = 0.999 * layer_height(test::growth_of(options), 12);
-    layer = sound_layer(shapes::circle(1, 50), options);
+    layer = checked_layer(shapes::circle(1, 50), options);
     for (const Ray& ray : layer.rays[0]) EXPECT_EQ(ray.layers, 11u);
     EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
 }
@@ -159,19 +158,18 @@ TEST(Layer, MovesWithItsInput) {
     LayerOptions options = thin();
     options.first_height = 1e-3;
     options.layers = 15;
-    const Layer here = sound_layer(outline, options);
+    const Layer layer = checked_layer(outline, options);
     for (double scale : {1e-3, 1.0, 1e3}) {
         for (double angle : {0.3, 1.5, 4.0}) {
             const Point shift{3 * scale, -2 * scale};
-            const LayerOptions there_options = scaled(options, scale);
-            const Layer there = sound_layer(shapes::moved(outline, angle, scale, shift), there_options);
-            ASSERT_EQ(there.rays[0].size(), here.rays[0].size());
-            const Outline expected = shapes::moved(here.points, angle, scale, shift);
-            for (std::size_t i = 0; i < here.rays[0].size(); ++i)
+            const Layer image = checked_layer(shapes::moved(outline, angle, scale, shift), scaled(options, scale));
+            ASSERT_EQ(image.rays[0].size(), layer.rays[0].size());
+            const Outline expected = shapes::moved(layer.points, angle, scale, shift);
+            for (std::size_t i = 0; i < layer.rays[0].size(); ++i)
                 EXPECT_LE(
-                    std::abs(static_cast<int>(there.rays[0][i].layers) - static_cast<int>(here.rays[0][i].layers)), 1);
-            for (std::size_t i = 0; i < here.wall_points; ++i)
-                ASSERT_LT(distance(there.points[i], expected[i]), 1e-13 * scale);
+                    std::abs(static_cast<int>(image.rays[0][i].layers) - static_cast<int>(layer.rays[0][i].layers)), 1);
+            for (std::size_t i = 0; i < layer.wall_points; ++i)
+                ASSERT_LT(distance(image.points[i], expected[i]), 1e-13 * scale);
         }
     }
 }
@@ -182,35 +180,35 @@ TEST(Layer, MirroredInputGivesMirroredPoints) {
                                    shapes::joukowski(0.1, 0.1, 90), shapes::refined(shapes::star(9, 0.3, random), 5)}) {
         LayerOptions options = thin();
         options.layers = 45;
-        const Layer layer = sound_layer(outline, options);
-        const Layer mirror = sound_layer(shapes::mirrored(outline), options);
+        const Layer layer = checked_layer(outline, options);
+        const Layer mirror = checked_layer(shapes::mirrored(outline), options);
         ASSERT_EQ(layer.points.size(), mirror.points.size());
-        const auto a = sorted_points(layer.points, false), b = sorted_points(mirror.points, true);
-        EXPECT_LT(std::max(set_distance(a, b), set_distance(b, a)), 1e-11);
+        const auto a = test::sorted(layer.points), b = test::sorted_mirror(mirror.points);
+        EXPECT_LT(std::max(test::set_distance(a, b), test::set_distance(b, a)), 1e-11);
     }
 }
 
 TEST(Layer, SymmetricSectionHasSymmetricLayer) {
-    const Layer layer = sound_layer(shapes::section(0.12, 0, 70), thin());
-    EXPECT_LT(set_distance(sorted_points(layer.points, true), sorted_points(layer.points, false)), 1e-12);
+    const Layer layer = checked_layer(shapes::section(0.12, 0, 70), thin());
+    EXPECT_LT(test::set_distance(test::sorted_mirror(layer.points), test::sorted(layer.points)), 1e-12);
 }
 
 TEST(Layer, StartOfTheLoopDoesNotMatter) {
     const Outline outline = shapes::refined(shapes::l_shape(), 6);
     LayerOptions options = thin();
     options.first_height = 2e-3;
-    const auto reference = sorted_points(sound_layer(outline, options).points, false);
+    const auto reference = test::sorted(checked_layer(outline, options).points);
     for (std::size_t first : {1u, 7u, 20u, 35u}) {
-        const auto points = sorted_points(sound_layer(shapes::started_at(outline, first), options).points, false);
+        const auto points = test::sorted(checked_layer(shapes::started_at(outline, first), options).points);
         ASSERT_EQ(points.size(), reference.size());
-        EXPECT_LT(set_distance(points, reference), 1e-12);
+        EXPECT_LT(test::set_distance(points, reference), 1e-12);
     }
 }
 
 TEST(Layer, ThinsInAVNotchAndRecovers) {
     LayerOptions options = thin();
     options.first_height = 1e-3;
-    const Layer layer = sound_layer(shapes::refined(shapes::v_notch(0.4), 20), options);
+    const Layer layer = checked_layer(shapes::refined(shapes::v_notch(0.4), 20), options);
     EXPECT_GT(layer.coverage[0].all.incomplete_rays, 0u);
     EXPECT_GT(full_rays(layer), 20u);
     const auto bottom = std::find_if(layer.rays[0].begin(), layer.rays[0].end(), [&](const Ray& ray) {
@@ -222,12 +220,12 @@ TEST(Layer, ThinsInAVNotchAndRecovers) {
     expect_heights(layer, options);
 }
 
-TEST(Layer, LipsThatNearlyTouchKeepRoomBetweenTheirFronts) {
+TEST(Layer, LipsThatNearlyTouchKeepSpaceBetweenTheirFronts) {
     for (double lips : {0.2, 0.02, 1e-3}) {
         LayerOptions options = thin();
         options.first_height = 1e-4;
-        const Layer layer = sound_layer(shapes::refined(shapes::c_shape(lips), 20), options);
-        // The slot runs along y = 1; nothing comes nearer to its middle than an eighth of its width.
+        const Layer layer = checked_layer(shapes::refined(shapes::c_shape(lips), 20), options);
+        // The slot runs along y = 1; no point comes nearer to its middle than an eighth of its width.
         for (Point p : layer.points) {
             if (p.x > 1.85 && p.x < 1.95) {
                 EXPECT_GE(std::abs(p.y - 1), 0.12 * lips);
@@ -236,7 +234,7 @@ TEST(Layer, LipsThatNearlyTouchKeepRoomBetweenTheirFronts) {
     }
 }
 
-TEST(Layer, VeryThickLayersStaySound) {
+TEST(Layer, VeryThickLayersStayValid) {
     for (std::uint32_t layers : {40u, 60u}) {
         LayerOptions options = thin();
         options.layers = layers;
@@ -244,22 +242,22 @@ TEST(Layer, VeryThickLayersStaySound) {
         for (const Outline& outline :
              {shapes::l_shape(), shapes::c_shape(0.3), shapes::v_notch(1), shapes::comb(4, 0.1), shapes::wedge(),
               shapes::diamond(), shapes::joukowski(0.1, 0.3, 100)}) {
-            for (std::size_t pieces : {1u, 7u}) {
+            for (std::size_t parts : {1u, 7u}) {
                 for (Corners corners : {Corners::fan, Corners::refine}) {
                     options.corners = corners;
-                    sound_layer(shapes::refined(outline, pieces), options);
+                    checked_layer(shapes::refined(outline, parts), options);
                 }
             }
         }
     }
 }
 
-TEST(Layer, RandomStarsStaySound) {
+TEST(Layer, RandomStarsStayValid) {
     std::mt19937 random(20);
     for (int k = 0; k < 400; ++k) {
         const std::size_t corners = 3 + random() % 30;
-        const double least_radius = 0.05 + 0.9 * static_cast<double>(random() % 1000) / 1000;
-        Outline outline = shapes::refined(shapes::star(corners, least_radius, random), 1 + random() % 6);
+        const double min_radius = 0.05 + 0.9 * static_cast<double>(random() % 1000) / 1000;
+        Outline outline = shapes::refined(shapes::star(corners, min_radius, random), 1 + random() % 6);
         LayerOptions options;
         options.first_height = std::pow(10, -5 + 4 * static_cast<double>(random() % 1000) / 1000);
         options.growth = 1.05 + 0.5 * static_cast<double>(random() % 1000) / 1000;
@@ -270,7 +268,7 @@ TEST(Layer, RandomStarsStaySound) {
         BorderOptions border;
         border.max_ratio = random() % 2 == 0 ? 1.5 : 2;
         SCOPED_TRACE(k);
-        sound_layer(outline, options, border);
+        checked_layer(outline, options, border);
         if (HasFailure()) break;
     }
 }
@@ -281,20 +279,20 @@ TEST(Layer, SeveralBodiesKeepApart) {
     for (double gap : {1.0, 0.1, 0.01, 1e-4}) {
         const Outline main = shapes::section(0.12, 0, 40);
         const Outline flap = shapes::moved(shapes::section(0.12, 0.01, 30), -0.5, 0.3, {1 + gap, -0.01});
-        const Layer layer = sound_layer(shapes::geometry({main, flap}), options);
+        const Layer layer = checked_layer(shapes::geometry({main, flap}), options);
         ASSERT_EQ(layer.borders.size(), 2u);
         EXPECT_GT(full_rays(layer), 20u);
     }
-    // A body between two rays of another, smaller than their distance.
+    // A small body between two rays of another one.
     const Outline speck = shapes::moved(shapes::circle(0.002, 8), 0, 1, {0.43, 1.05});
-    sound_layer(shapes::geometry({shapes::box(), speck}), options);
+    checked_layer(shapes::geometry({shapes::box(), speck}), options);
 }
 
 TEST(Layer, WithoutLayersTheBorderIsTheWall) {
     LayerOptions options;
     options.enabled = false;
     const Outline outline = shapes::section(0.12, 0.01, 40);
-    const Layer layer = sound_layer(outline, options);
+    const Layer layer = checked_layer(outline, options);
     EXPECT_EQ(layer.borders, layer.walls);
     EXPECT_EQ(layer.wall_points, layer.points.size());
     EXPECT_TRUE(layer.rays[0].empty());
@@ -306,7 +304,7 @@ TEST(Layer, WithoutLayersTheBorderIsTheWall) {
 
 TEST(Layer, SourcesDivideTheBorder) {
     const Outline outline = shapes::section(0.12, 0.01, 40);
-    const std::size_t whole = sound_layer(outline, thin()).borders[0].size();
+    const std::size_t whole = checked_layer(outline, thin()).borders[0].size();
     BorderOptions options;
     const std::vector<SizeSource> sources{
         {.a = {0.3, 0}, .b = {0.4, 0.3}, .size = 1e-3, .shape = SizeSource::Shape::box},
@@ -314,7 +312,7 @@ TEST(Layer, SourcesDivideTheBorder) {
         {.a = {1, 0}, .b = {2, 0.1}, .size = 5e-4}};
     for (std::size_t n = 0; n <= sources.size(); ++n) {
         options.sources.assign(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(n));
-        const Layer layer = sound_layer(outline, thin(), options);
+        const Layer layer = checked_layer(outline, thin(), options);
         const auto& border = layer.borders[0];
         EXPECT_GE(border.size(), whole + 30 * n);
         for (std::size_t k = 0; k < border.size(); ++k) {
@@ -328,11 +326,11 @@ TEST(Layer, SourcesDivideTheBorder) {
 }
 
 TEST(Layer, BorderIsGradedBesideAFineFan) {
-    // Fan edges of a tenth of the box's side: along the side the pieces grow at the gradation asked for.
+    // The edges over fans are a tenth of the side of the box; along the side, edges grow by the requested gradation.
     BorderOptions options;
     for (double gradation : {0.05, 0.1, 0.2}) {
         options.gradation = gradation;
-        const Layer layer = sound_layer(shapes::box(), thin(), options);
+        const Layer layer = checked_layer(shapes::box(), thin(), options);
         const auto& border = layer.borders[0];
         double shortest = HUGE_VAL, longest = 0;
         for (std::size_t k = 0; k < border.size(); ++k) {
@@ -346,7 +344,7 @@ TEST(Layer, BorderIsGradedBesideAFineFan) {
     }
 }
 
-TEST(Layer, RefusesOptionsThatMakeNoSense) {
+TEST(Layer, RefusesOptionsOutOfRange) {
     const Geometry circle = shapes::geometry({shapes::circle(1, 20)});
     const auto refused = [&](auto change) {
         LayerOptions options = thin();
@@ -370,15 +368,15 @@ TEST(Layer, RefusesOptionsThatMakeNoSense) {
     EXPECT_THROW(test::make_layer(circle, thin(), {.max_edge = NAN}), OptionError);
 }
 
-TEST(Validate, SeesWhatIsWrong) {
+TEST(CheckLayer, FindsDefects) {
     const LayerOptions options = thin();
-    const Layer sound = sound_layer(shapes::circle(1, 40), options);
+    const Layer valid = checked_layer(shapes::circle(1, 40), options);
     const auto expect_finding = [&](auto spoil) {
-        Layer layer = sound;
+        Layer layer = valid;
         spoil(layer);
         EXPECT_FALSE(check_layer(layer, options).empty());
     };
-    const std::size_t ray_point = sound.rays[0][3].first_point + 4;
+    const std::size_t ray_point = valid.rays[0][3].first_point + 4;
     expect_finding([&](Layer& l) { l.points[ray_point] = {2, 0}; });
     expect_finding([&](Layer& l) { l.points[ray_point] = {0, 0}; });
     expect_finding([&](Layer& l) { l.points[ray_point] = l.points[ray_point + 1]; });
@@ -390,7 +388,7 @@ TEST(Validate, SeesWhatIsWrong) {
     expect_finding([&](Layer& l) { l.points[l.borders[0][2].index()] = {5, 5}; });
 }
 
-/// Real sections where the shared folder is at hand.
+/// Meshes measured sections where the shared folder is at hand.
 TEST(Layer, RealSections) {
     const char* shared = std::getenv("LAMINA_SHARED");
     const std::filesystem::path folder =
@@ -402,14 +400,14 @@ TEST(Layer, RealSections) {
         const std::vector<std::string> inputs{(folder / (std::string(name) + ".dat")).string()};
         const Geometry geometry = read_geometry(inputs);
         LayerOptions options = thin();
-        const Layer layer = sound_layer(geometry, options);
+        const Layer layer = checked_layer(geometry, options);
         expect_heights(layer, options);
         // The file of naca63a210 holds a step of 0.3 % chord at mid-chord; the others are smooth.
         if (std::string(name) != "naca63a210") {
             EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
         }
         options.layers = 60;
-        sound_layer(geometry, options);
+        checked_layer(geometry, options);
     }
 }
 

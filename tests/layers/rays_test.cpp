@@ -1,4 +1,5 @@
-// Directions of rays: bisectors where the wall is convex or turns gently, leaning out of concavities elsewhere.
+// The rays: bisectors where the wall is convex or turns gently, tilted out of concavities elsewhere; rays inserted
+// where numbers of layers change or where the border is divided.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +7,8 @@
 
 #include <lamina/layers.hpp>
 
-#include "core/reproducible_math.hpp"
+#include "core/angles.hpp"
+#include "layers/checked_layer.hpp"
 #include "layers/rays.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -24,13 +26,11 @@ LayerOptions layers_as_high_as(double height) {
 }
 
 double made_share(const Outline& outline, const LayerOptions& options) {
-    const Layer layer = test::make_layer(shapes::geometry({outline}), options);
-    EXPECT_EQ(check_layer(layer, options), std::vector<std::string>{});
-    const LayerCoverage& all = layer.coverage[0].all;
+    const LayerCoverage all = test::checked_layer(outline, options).coverage[0].all;
     return double(all.made_cells) / double(all.requested_cells);
 }
 
-/// Every vertex off its place at random by up to `noise`.
+/// Returns the outline with each coordinate of its vertices moved at random by up to `noise`.
 Outline noisy(Outline outline, double noise) {
     std::mt19937 random(7);
     const auto offset = [&] { return noise * (2.0 * double(random()) / 4294967295.0 - 1); };
@@ -60,14 +60,14 @@ TEST(Rays, AreBisectorsWhereTheWallIsConvexOrTurnsGently) {
     }
 }
 
-TEST(Rays, LeanOutOfConcaveCornersSoThatLayersGoThroughThem) {
-    for (std::size_t pieces : {4u, 15u, 60u}) {
-        EXPECT_GT(made_share(shapes::refined(shapes::l_shape(), pieces), layers_as_high_as(0.1)), 0.97) << pieces;
-        EXPECT_GT(made_share(shapes::refined(shapes::c_shape(1.2), pieces), layers_as_high_as(0.04)), 0.9) << pieces;
+TEST(Rays, TiltOutOfConcaveCornersSoThatLayersGoThroughThem) {
+    for (std::size_t parts : {4u, 15u, 60u}) {
+        EXPECT_GT(made_share(shapes::refined(shapes::l_shape(), parts), layers_as_high_as(0.1)), 0.97) << parts;
+        EXPECT_GT(made_share(shapes::refined(shapes::c_shape(1.2), parts), layers_as_high_as(0.04)), 0.9) << parts;
     }
 }
 
-TEST(Rays, LeanAcrossNoise) {
+TEST(Rays, TiltAcrossNoise) {
     const Outline smooth = shapes::circle(1, 300);
     for (double noise : {1e-4, 1e-3, 4e-3}) {
         EXPECT_GT(made_share(noisy(smooth, noise), layers_as_high_as(0.05)), 0.97) << noise;
@@ -75,7 +75,7 @@ TEST(Rays, LeanAcrossNoise) {
 }
 
 TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
-    const double farthest = std::cos(core::radians(66));
+    const double min_cosine = std::cos(core::radians(66));
     for (const Outline& outline :
          {noisy(shapes::circle(1, 300), 6e-3), shapes::refined(shapes::c_shape(0.05), 20), shapes::comb(4, 0.1),
           shapes::refined(shapes::v_notch(0.4), 20), noisy(shapes::joukowski(0.1, 0.4, 200), 1e-3)}) {
@@ -85,14 +85,12 @@ TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
             const std::vector<RayLine> rays = rays_of(outline, options);
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const RayLine &ray = rays[i], &next = rays[(i + 1) % rays.size()];
-                EXPECT_LE(std::abs(core::atan2_reproducible(cross(ray.direction, next.direction),
-                                                            dot(ray.direction, next.direction))),
-                          core::radians(4 + 1e-6));
+                EXPECT_LE(std::abs(core::angle_between(ray.direction, next.direction)), core::radians(4 + 1e-6));
                 if (ray.origin == next.origin) continue;
                 const Point normal = -perpendicular(unit(next.origin - ray.origin));
                 EXPECT_GT(std::min(dot(normal, ray.direction), dot(normal, next.direction)), 0.2);
             }
-            // Vertices of gentle turning: 65 degrees at most.
+            // At vertices that turn gently, rays are within 65 degrees of both normals.
             for (std::size_t i = 0; i < outline.size(); ++i) {
                 const std::size_t n = outline.size();
                 const Point before = unit(outline[i] - outline[(i + n - 1) % n]),
@@ -101,36 +99,37 @@ TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
                 const auto ray =
                     std::find_if(rays.begin(), rays.end(), [&](const RayLine& r) { return r.origin == outline[i]; });
                 ASSERT_NE(ray, rays.end());
-                EXPECT_GT(dot(-perpendicular(before), ray->direction), farthest);
-                EXPECT_GT(dot(-perpendicular(after), ray->direction), farthest);
+                EXPECT_GT(dot(-perpendicular(before), ray->direction), min_cosine);
+                EXPECT_GT(dot(-perpendicular(after), ray->direction), min_cosine);
             }
         }
     }
 }
 
-/// A small body near one vertex of a wall of few points: a layer a vertex would never recover.
-TEST(Rays, AreAddedWhereLayersChangeInNumberFasterThanTheWallHasVertices) {
+/// A small body lies near one vertex of a wall of few vertices. With one layer more per vertex, the layer would never
+/// recover.
+TEST(Rays, AreInsertedWhereNumbersOfLayersChangeFasterThanTheWallHasVertices) {
     const Outline plate = shapes::polygon({{0, -1}, {4, -1}, {4, 0}, {3, 0}, {2, 0}, {1, 0}, {0, 0}});
     const Outline small = shapes::moved(shapes::circle(0.05, 40), 0, 1, {2, 0.06});
     LayerOptions options = layers_as_high_as(0.1);
-    const Layer layer = test::make_layer(shapes::geometry({plate, small}), options);
-    EXPECT_EQ(check_layer(layer, options), std::vector<std::string>{});
+    const Layer layer = test::checked_layer(shapes::geometry({plate, small}), options);
     const LayerCoverage& all = layer.coverage[0].all;
     EXPECT_GT(double(all.made_cells), 0.75 * double(all.requested_cells));
-    double near = HUGE_VAL, far = 0;  // nearest ray with full layers on either side of the small body, farthest without
+    double nearest_full = HUGE_VAL,
+           farthest_cut = 0;  // distances of full rays, and of rays cut short, from the small body
     for (const Ray& ray : layer.rays[0]) {
         const Point origin = layer.points[ray.origin.index()];
         if (origin.y < 0 || ray.direction.y < 0.9) continue;
         const double off = std::abs(origin.x - 2);
-        if (ray.layers == ray.requested) near = std::min(near, off);
-        if (ray.layers < ray.requested) far = std::max(far, off);
+        if (ray.layers == ray.requested) nearest_full = std::min(nearest_full, off);
+        if (ray.layers < ray.requested) farthest_cut = std::max(farthest_cut, off);
     }
-    EXPECT_LT(near, 0.8);
-    EXPECT_LT(far, 1);
+    EXPECT_LT(nearest_full, 0.8);
+    EXPECT_LT(farthest_cut, 1);
     EXPECT_LT(layer.walls[0].size(), 100u);
 }
 
-/// Points that divide the border of an element between the tips of its rays.
+/// Returns the number of points that divide the border of an element between the tips of its rays.
 std::size_t division_points(const Layer& layer, std::size_t element) {
     std::size_t first = 0;
     for (const auto& rays : layer.rays)
@@ -140,8 +139,8 @@ std::size_t division_points(const Layer& layer, std::size_t element) {
         std::count_if(border.begin(), border.end(), [&](VertexId v) { return v.index() >= first; }));
 }
 
-/// A fine body above a coarse wall asks for short edges of the wall's border.
-TEST(Rays, StandWhereTheBorderOfAResampledElementWantsToBeDivided) {
+/// A fine body above a coarse wall requests short edges of the wall's border.
+TEST(Rays, AreInsertedWhereTheBorderOfAResampledElementWouldBeDivided) {
     const Outline wall = shapes::refined(shapes::polygon({{0, -1}, {4, -1}, {4, 0}, {0, 0}}), 20);
     const Outline fine = shapes::moved(shapes::circle(0.05, 200), 0, 1, {2, 0.3});
     LayerOptions options = layers_as_high_as(0.05);
@@ -152,14 +151,13 @@ TEST(Rays, StandWhereTheBorderOfAResampledElementWantsToBeDivided) {
         const Layer divided = test::make_layer(geometry, options, border);
         border.ray_gradation = border.gradation;
         const Layer kept = test::make_layer(geometry, options, border);
-        EXPECT_EQ(kept.points, divided.points);  // nobody resampled it
+        EXPECT_EQ(kept.points, divided.points);  // the elements are not resampled
 
         for (Element& element : geometry.elements) element.resampled = true;
-        const Layer layer = test::make_layer(geometry, options, border);
-        EXPECT_EQ(check_layer(layer, options, border), std::vector<std::string>{});
+        const Layer layer = test::checked_layer(geometry, options, border);
         EXPECT_GT(division_points(divided, 0), 20u);
         EXPECT_LT(division_points(layer, 0), division_points(divided, 0) / 4);
-        // As many edges as before, not more and more.
+        // The border has about as many edges as before.
         EXPECT_LT(double(layer.borders[0].size()), 1.15 * double(divided.borders[0].size()));
         for (const Point p : geometry.elements[0].points)
             EXPECT_TRUE(std::any_of(layer.walls[0].begin(), layer.walls[0].end(),

@@ -1,4 +1,4 @@
-// Layers in one call, and numbers of their options.
+// Layers made in one call, and the growth of their options.
 #pragma once
 
 #include <variant>
@@ -7,14 +7,15 @@
 
 namespace lamina::test {
 
+/// Grows rays and closes the border.
 inline Layer make_layer(const Geometry& geometry, const LayerOptions& options = {}, const BorderOptions& border = {}) {
     return close_border(grow_rays(geometry, options), border);
 }
 
-/// The first height of options that give it as a number.
+/// Returns the first height of options that give it as a length.
 inline double first_height(const LayerOptions& options) { return std::get<double>(options.first_height); }
 
-/// The growth of options that give the first height as a number.
+/// Returns the growth of options that give the first height as a length.
 inline LayerGrowth growth_of(const LayerOptions& options) { return layer_growth(options, 1); }
 
 }  // namespace lamina::test

@@ -1,4 +1,4 @@
-// Outlines for tests: counter-clockwise, simple, one call each.
+// Outlines for tests: each function returns one that is counter-clockwise and simple.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ inline Outline ellipse(double a, double b, std::size_t n) {
 
 inline Outline circle(double radius, std::size_t n) { return ellipse(radius, radius, n); }
 
-/// Joukowski section with a cusp at x = 2: `thickness` and `camber` move the centre of the circle.
+/// Returns a Joukowski section with a cusp at x = 2; `thickness` and `camber` move the centre of the circle.
 inline Outline joukowski(double thickness, double camber, std::size_t n) {
     const std::complex<double> center(-thickness, camber);
     const double radius = std::abs(std::complex<double>(1, 0) - center), start = std::arg(1.0 - center);
@@ -45,12 +45,12 @@ inline Outline joukowski(double thickness, double camber, std::size_t n) {
     return outline;
 }
 
-/// Symmetric section with parabolic-arc thickness, cosine spacing, closed by a base of the given height (0 = sharp).
+/// Returns a symmetric section of unit chord with cosine spacing, closed by a base of the given height (0: sharp).
 inline Outline section(double thickness, double base, std::size_t points_a_side) {
     const auto half = [&](double x) {
         return 1.4845 * thickness * std::sqrt(x) * (1 - x) * (1 - 0.2 * x) + 0.5 * base * x;
     };
-    Outline upper;  // from the tail to the nose
+    Outline upper;  // from the trailing edge to the nose
     for (std::size_t i = 0; i <= points_a_side; ++i) {
         const double x =
             0.5 * (1 + std::cos(0.5 * full_turn * static_cast<double>(i) / static_cast<double>(points_a_side)));
@@ -67,7 +67,7 @@ inline Outline wedge() { return polygon({{0, 0}, {1, -0.1}, {1, 0.1}}); }
 inline Outline diamond() { return polygon({{-1, 0}, {0, -0.3}, {1, 0}, {0, 0.3}}); }
 inline Outline box() { return polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}}); }
 inline Outline l_shape() { return polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}); }
-/// Opens to the right; the lips are `lips` apart.
+/// Returns a C that opens to the right; its lips are `lips` apart.
 inline Outline c_shape(double lips) {
     return polygon({{0, 0},
                     {2, 0},
@@ -82,11 +82,11 @@ inline Outline c_shape(double lips) {
                     {2, 2},
                     {0, 2}});
 }
-/// A plate with a V cut from above, `width` wide at the top.
+/// Returns a plate with a V cut from above, `width` wide at the top.
 inline Outline v_notch(double width) {
     return polygon({{0, 0}, {4, 0}, {4, 1}, {2 + 0.5 * width, 1}, {2, 0.2}, {2 - 0.5 * width, 1}, {0, 1}});
 }
-/// Teeth upward, slots between them as wide as `gap`.
+/// Returns a comb with its teeth upward and slots of width `gap` between them.
 inline Outline comb(std::size_t teeth, double gap) {
     Outline outline{{0, -0.2}};
     const double pitch = 0.2 + gap, width = static_cast<double>(teeth) * pitch - gap;
@@ -98,7 +98,7 @@ inline Outline comb(std::size_t teeth, double gap) {
     }
     return outline;
 }
-/// Plate with a half-circle for a nose and a square base.
+/// Returns a plate of unit length with a half-circle for a nose and a square base.
 inline Outline plate(double thickness, std::size_t nose_points) {
     Outline outline;
     const double r = 0.5 * thickness;
@@ -110,47 +110,50 @@ inline Outline plate(double thickness, std::size_t nose_points) {
     return outline;
 }
 
-/// Star-shaped about the origin, hence simple, with radii and angles at random.
-inline Outline star(std::size_t n, double least_radius, std::mt19937& random) {
+/// Returns a random polygon that is star-shaped about the origin, hence simple; its radii lie from min_radius to 1.
+inline Outline star(std::size_t n, double min_radius, std::mt19937& random) {
     const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
     Outline outline;
     for (std::size_t i = 0; i < n; ++i) {
         const double t = full_turn * (static_cast<double>(i) + 0.8 * uniform()) / static_cast<double>(n);
-        const double r = least_radius + (1 - least_radius) * uniform();
+        const double r = min_radius + (1 - min_radius) * uniform();
         outline.push_back({r * std::cos(t), r * std::sin(t)});
     }
     return outline;
 }
 
-/// Every edge in `pieces` equal parts.
-inline Outline refined(const Outline& outline, std::size_t pieces) {
+/// Returns the outline with each edge divided into equal parts.
+inline Outline refined(const Outline& outline, std::size_t parts) {
     Outline result;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const Point a = outline[i], b = outline[(i + 1) % outline.size()];
-        for (std::size_t k = 0; k < pieces; ++k)
-            result.push_back(a + (static_cast<double>(k) / static_cast<double>(pieces)) * (b - a));
+        for (std::size_t k = 0; k < parts; ++k)
+            result.push_back(a + (static_cast<double>(k) / static_cast<double>(parts)) * (b - a));
     }
     return result;
 }
 
+/// Returns the outline turned about the origin by an angle in radians, then scaled, then shifted.
 inline Outline moved(Outline outline, double angle, double scale, Point shift) {
     const double c = std::cos(angle), s = std::sin(angle);
     for (Point& p : outline) p = shift + scale * Point{c * p.x - s * p.y, s * p.x + c * p.y};
     return outline;
 }
 
-/// y -> -y, still counter-clockwise, starting at the same point.
+/// Returns the outline mirrored in the x axis, counter-clockwise again, starting at the same point.
 inline Outline mirrored(Outline outline) {
     for (Point& p : outline) p.y = -p.y;
     std::reverse(outline.begin() + 1, outline.end());
     return outline;
 }
 
+/// Returns the outline with point `first` at its start.
 inline Outline started_at(Outline outline, std::size_t first) {
     std::rotate(outline.begin(), outline.begin() + static_cast<std::ptrdiff_t>(first), outline.end());
     return outline;
 }
 
+/// Returns the outlines as elements named body0, body1 ...
 inline Geometry geometry(std::initializer_list<Outline> outlines) {
     Geometry result;
     for (const Outline& outline : outlines) {
