@@ -1,3 +1,5 @@
+// The balance between the parts on both sides of each corner. Divided edges first give way to their neighbours; where
+// that is not enough, the edge of the longer part gets one more.
 #include "layers/balance_divisions.hpp"
 
 #include <algorithm>

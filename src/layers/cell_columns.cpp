@@ -1,3 +1,4 @@
+// The outer border cut into the stretches between the tips of neighbouring rays.
 #include "layers/cell_columns.hpp"
 
 namespace lamina::layers {

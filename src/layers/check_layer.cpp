@@ -255,13 +255,14 @@ private:
         for (std::size_t i = 0; i < layer_.points.size(); ++i) {
             const Point p = layer_.points[i];
             if (i >= layer_.wall_points) {
-                const Sides of_walls = sides_of(p, element[i], walls_);
-                if (of_walls.on_edge || of_walls.in_own || of_walls.in_others) report("point not outside the walls", p);
+                const Sides wall_sides = sides_of(p, element[i], walls_);
+                if (wall_sides.on_edge || wall_sides.in_own || wall_sides.in_others)
+                    report("point not outside the walls", p);
             }
-            const Sides of_borders = sides_of(p, element[i], borders_);
-            if (of_borders.in_others) report("point inside another element's border", p);
+            const Sides border_sides = sides_of(p, element[i], borders_);
+            if (border_sides.in_others) report("point inside another element's border", p);
             if (on_border[i]) continue;
-            if (of_borders.on_edge || !of_borders.in_own) report("point not inside its border", p);
+            if (border_sides.on_edge || !border_sides.in_own) report("point not inside its border", p);
         }
     }
 

@@ -16,10 +16,10 @@ enum class GridCells {
 /// the two have one origin. A cell on the outer border, where division points lie on its top, is cut into triangles
 /// that fan from its lower corners; a divided triangle above a column is cut together with the cell below it.
 ///
-/// Of all such cuts, as of the two diagonals of a cell, the one is taken whose largest angle is smallest, and of these
-/// the one with the fewest large angles besides (StripCutter::cut()). Where cuts are equal, the lower corner on the ray
-/// of the lexicographically smaller origin gets the diagonal or the larger fan; if both rays have one origin, the
-/// smaller direction decides. Every cell is positive (exact), and its corners lie on two neighbouring layers.
+/// Between cuts, and between the two diagonals of a cell, the angles decide: the largest one must be as small as
+/// possible, and then the others (StripCutter::cut()). Where cuts are equal, the lower corner on the ray of the
+/// lexicographically smaller origin gets the diagonal or the larger fan; if both rays have one origin, the smaller
+/// direction decides. Every cell is positive (exact), and its corners lie on two neighbouring layers.
 ///
 /// Precondition: check_layer() finds nothing wrong with the layer. Parallel; the result does not depend on the number
 /// of threads. Cells are listed ray by ray, from the wall outwards. Criterion: I. Babuska, A. K. Aziz, On the angle

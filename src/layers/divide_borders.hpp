@@ -20,7 +20,7 @@ struct BorderDivision {
 /// are merged. The target length at x is the minimum over all edges j of (the length that j requests + gradation x
 /// distance(x, j)) and likewise over options.sources. An edge requests its own length. Where parts of it face another
 /// edge across a gap narrower than the edge, they request the width of the gap. target_factors holds one number per
-/// front and edge, or is empty. A number above 0 is for an edge that comes of a division: the edge requests so many
+/// front and edge, or is empty. A number above 0 is for an edge that comes of a division: the edge requests this many
 /// times its length and is hardly divided again.
 /// Precondition: the fronts are simple and disjoint; they meet walls only in vertices and whole edges of both. The
 /// result is so, too: an edge whose division would cross something by rounding stays whole.

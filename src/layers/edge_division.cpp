@@ -1,3 +1,4 @@
+// One edge divided by equal shares of the integral of ds / target, and the lengths of its parts.
 #include "layers/edge_division.hpp"
 
 #include <algorithm>

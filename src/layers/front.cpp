@@ -1,3 +1,4 @@
+// The corners of fronts, and the fronts as points.
 #include "layers/front.hpp"
 
 namespace lamina::layers {

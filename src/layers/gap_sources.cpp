@@ -1,3 +1,4 @@
+// The search for gaps between edges, and the sources along an edge that faces one.
 #include "layers/gap_sources.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Rays inserted at given places, and the places where numbers of layers change.
 #include "layers/insert_rays.hpp"
 
 #include <algorithm>

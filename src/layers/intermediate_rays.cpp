@@ -1,3 +1,4 @@
+// Origins on an edge, and directions at even angles from its normal.
 #include "layers/intermediate_rays.hpp"
 
 #include "core/angles.hpp"

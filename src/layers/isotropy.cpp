@@ -103,7 +103,7 @@ void take_medians(const RayDistances& rays, std::vector<double>& values) {
 /// Returns the height at which the spacing would equal the distance of the rays. It lies between the last layer that is
 /// lower than wide and the first that is not; where all are lower it is the height of the last one.
 double isotropic_height(const RayDistances& rays, std::size_t ray, std::span<const double> heights) {
-    double lacking_below = 0;  // what the spacing of the layer below lacks of the distance of the rays
+    double lacking_below = 0;  // distance of the rays minus spacing, in the layer below
     for (std::size_t n = 1; n < heights.size(); ++n) {
         const double spacing = heights[n] - heights[n - 1];
         const double lacking = transition_aspect * rays.to_neighbours(ray, heights[n]) - spacing;

@@ -1,3 +1,4 @@
+// The numbering and placing of the points of the layer: walls, rays, borders.
 #include "layers/layer_builder.hpp"
 
 #include <algorithm>
@@ -53,7 +54,7 @@ private:
         return corners_[element][(k + 1) % corners_[element].size()];
     }
 
-    /// Where the border runs along the wall, its division points divide the wall, too.
+    /// Places the walls. Division points of the border divide the wall, too, where the border runs along it.
     void place_walls() {
         layer_.walls.resize(set_.elements());
         for (std::size_t e = 0; e < set_.elements(); ++e) {

@@ -1,3 +1,4 @@
+// Heights, limits and numbers of layers found anew for a set of rays.
 #include "layers/layered_rays.hpp"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// The neighbours of rays, and limits on how much they differ.
 #include "layers/neighbours.hpp"
 
 namespace lamina::layers {

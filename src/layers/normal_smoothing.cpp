@@ -1,6 +1,6 @@
 // Rays along the bisectors of a concave corner, or of a noisy stretch of wall, would meet close to the wall. They may
 // turn towards each other by no more than 1 in (clearance x height of the layers) along the wall. The turning beyond
-// that is spread over the rays on both sides, which are tilted out of the corner (docs/decisions/0011):
+// that is spread over the rays on both sides, which are tilted out of the corner (docs/decisions/0011).
 #include "layers/normal_smoothing.hpp"
 
 #include <algorithm>

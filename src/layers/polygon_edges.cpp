@@ -1,3 +1,4 @@
+// The edges of closed polygons in one list, with the indices of their neighbours.
 #include "layers/polygon_edges.hpp"
 
 namespace lamina::layers {

@@ -1,3 +1,5 @@
+// The search for the best cut of a strip: dynamic programming over pairs of one corner of each chain. A first pass
+// finds the smallest largest angle, a second one the least sum among the cuts with that angle.
 #include "layers/strip.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Target lengths as the minimum over cones, one round each source, of a slope of the gradation. A tree over the
+// sources finds the minimum at a point; along an edge the target is assembled from rises and plateaus.
 #include "layers/target_length.hpp"
 
 #include <algorithm>
@@ -70,7 +72,7 @@ std::vector<TargetInterval> TargetLength::along(std::size_t edge) const {
     return intervals;
 }
 
-/// Returns the target at p. Precondition: it is at most `upper_bound`.
+/// Returns the target at p, or `upper_bound` if that is less.
 double TargetLength::at(Point p, double upper_bound) const {
     return tree_.minimum(p, gradation_, upper_bound, targets_,
                          [&](std::size_t i) { return distance_to(sources_[i], p); });

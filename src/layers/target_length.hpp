@@ -20,11 +20,11 @@ struct TargetInterval {
     double length, target;
 };
 
-/// The target length at x: the minimum over all edges j of (the length that j requests + gradation x distance(x, j)),
-/// over BorderOptions::sources likewise, and of BorderOptions::max_edge. Targets are lower than the options say by
-/// target_slack, so that no part of an edge exceeds what the options ask for and lengths grow by no more than their
-/// gradation. Nor do successive parts of one edge, which grow by a factor of about exp(target_slack x gradation),
-/// exceed max_ratio.
+/// Finds target lengths. The target at x is the minimum over all edges j of (the length that j requests + gradation x
+/// distance(x, j)), likewise over BorderOptions::sources, and is at most BorderOptions::max_edge. Targets are lower
+/// than the options say by target_slack, so that no part of an edge is longer than the options allow and lengths grow
+/// by no more than their gradation. Nor do successive parts of one edge, which grow by a factor of about
+/// exp(target_slack x gradation), exceed max_ratio.
 class TargetLength {
 public:
     /// Keeps a reference to the edges.

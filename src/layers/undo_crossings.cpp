@@ -1,3 +1,4 @@
+// Exact tests of the parts of divided edges against each other and against the walls.
 #include "layers/undo_crossings.hpp"
 
 #include "core/box_tree.hpp"
