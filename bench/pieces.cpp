@@ -1,5 +1,6 @@
-// Triangulation in pieces beside one kernel on the same points in the same run: what a depth costs, how decomposition
-// and leaves grow with the number of points, what threads gain. As Figs. 23 and 31 of J. K. Pardue, thesis (2015).
+// Measures triangulation in pieces against one triangulation of all points, both in the same run: the cost of each
+// depth, how the times of decomposition and leaves grow with the number of points, and the gain by threads. Compare
+// Figs. 23 and 31 of J. K. Pardue, thesis (2015).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,7 +16,7 @@
 
 #include "core/busy_times.hpp"
 #include "core/parallel.hpp"
-#include "delaunay/pieces/border.hpp"
+#include "delaunay/pieces/convex_hull.hpp"
 #include "delaunay/pieces/pieces.hpp"
 #include "delaunay/triangulator.hpp"
 #include "paired.hpp"
@@ -24,7 +25,7 @@
 namespace lamina::bench {
 namespace {
 
-/// Points and the edges that bound them all round, the region on their left.
+/// Points and the edges that bound them all round, with the region on their left.
 struct Region {
     std::vector<Point> points;
     std::vector<Segment> border;
@@ -33,14 +34,14 @@ struct Region {
 Region in_convex_hull(std::vector<Point> points) {
     const auto sorted = delaunay::pieces::sort_points(points).value();
     Region region{std::move(points), {}};
-    for (const delaunay::pieces::Edge& e : delaunay::pieces::convex_hull(sorted))
+    for (const delaunay::pieces::BorderEdge& e : delaunay::pieces::convex_hull(sorted))
         region.border.push_back({VertexId{sorted.original[e.a]}, VertexId{sorted.original[e.b]}});
     return region;
 }
 Region uniform(std::size_t n) { return in_convex_hull(test::random_points(n, 3)); }
 Region naca_points(std::size_t n) { return in_convex_hull(test::naca_layer_points(n)); }
 
-/// The layer of NACA 0012 itself, 30 layers, between wall and outer border: about n points.
+/// Returns the boundary layer of NACA 0012, 30 layers between wall and outer border, of about n points.
 Region naca_layer(std::size_t n) {
     LayerOptions options;
     options.first_height = 1e-5;
@@ -52,13 +53,13 @@ Region naca_layer(std::size_t n) {
     return {std::move(layer.points), std::move(layer.edges.region)};
 }
 
-/// The depth alone decides where the decomposition ends.
+/// Returns a decomposition that ends at this depth, whatever the number of points.
 DecompositionOptions to_depth(unsigned depth) { return {.depth = depth, .leaf_vertices = 10}; }
 
-std::size_t sequential(const std::vector<Point>& points) {
+std::size_t triangulate_at_once(const std::vector<Point>& points) {
     return delaunay::without_ghosts(delaunay::triangulate_points(points)).triangles.size();
 }
-std::size_t sequential(const Region& region) {
+std::size_t triangulate_at_once(const Region& region) {
     return triangulate(region.points, region.border, {.keep = Keep::left_of_segments}).triangles.size();
 }
 
@@ -70,33 +71,33 @@ Work on_one_thread(Work work) {
     };
 }
 
-/// Counters `ratio_to_depth_D`: time in pieces over that of one kernel.
-template <class Sequential, class InPieces>
-void measure_depths(benchmark::State& state, Sequential&& sequential, InPieces&& in_pieces) {
+/// Measures depths 3 to 7. Counter `ratio_to_depth_D`: time in pieces of depth D over the time at once.
+template <class AtOnce, class InPieces>
+void measure_depths(benchmark::State& state, AtOnce&& at_once, InPieces&& in_pieces) {
     std::vector<Reference> references;
     for (unsigned depth = 3; depth <= 7; ++depth)
         references.push_back({"depth_" + std::to_string(depth),
                               on_one_thread([&, depth] { return in_pieces(to_depth(depth)).triangles.size(); })});
-    measure(state, "triangles", sequential, references);
+    measure(state, "triangles", at_once, references);
 }
 
 void depths_of_points(benchmark::State& state, Region (*make)(std::size_t)) {
     const std::vector<Point> points = make(static_cast<std::size_t>(state.range(0))).points;
     measure_depths(
-        state, [&] { return sequential(points); },
+        state, [&] { return triangulate_at_once(points); },
         [&](const DecompositionOptions& options) { return delaunay::pieces::triangulate_in_pieces(points, options); });
 }
 
 void depths_of_region(benchmark::State& state, Region (*make)(std::size_t)) {
     const Region region = make(static_cast<std::size_t>(state.range(0)));
     measure_depths(
-        state, [&] { return sequential(region); },
+        state, [&] { return triangulate_at_once(region); },
         [&](const DecompositionOptions& options) {
             return delaunay::pieces::triangulate_in_pieces(region.points, region.border, options);
         });
 }
 
-/// Medians of five up to a million points, one run beyond.
+/// Sets of up to a million points are measured five times, larger ones once.
 void usual(benchmark::internal::Benchmark* b) {
     b->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
 }
@@ -109,7 +110,7 @@ BENCHMARK_CAPTURE(depths_of_points, uniform, uniform)->Apply(usual);
 BENCHMARK_CAPTURE(depths_of_points, naca_points, naca_points)->Apply(large);
 BENCHMARK_CAPTURE(depths_of_points, uniform, uniform)->Apply(large);
 
-/// Slope of the straight line that fits log y over log x best.
+/// Returns the slope of the straight line that fits log y over log x best.
 double fitted_exponent(const std::vector<double>& x, const std::vector<double>& y) {
     double sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -120,8 +121,9 @@ double fitted_exponent(const std::vector<double>& x, const std::vector<double>& 
     return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-/// Processor seconds at depth 6 over 1e4, 1e5 ... points up to the argument: exponents of decomposition and leaves.
-/// Processor time is split as the wall clock's is.
+/// Measures processor time at depth 6 for 1e4, 1e5 ... points up to the argument. Counters: nanoseconds per point, and
+/// the exponents with which the times of decomposition and leaves grow. Processor time is divided between both in
+/// proportion to wall-clock time.
 void growth(benchmark::State& state, Region (*make)(std::size_t)) {
     std::vector<double> points, decomposition_s, leaves_s;
     for (auto _ : state) {
@@ -161,8 +163,8 @@ void up_to_ten_million(benchmark::internal::Benchmark* b) {
 BENCHMARK_CAPTURE(growth, naca_layer, naca_layer)->Apply(up_to_ten_million);
 BENCHMARK_CAPTURE(growth, uniform, uniform)->Apply(up_to_ten_million);
 
-/// Seconds of the wall clock for 2e6 layer points: one thread and several in turn. Counter `speed_up`: ratio of
-/// medians.
+/// Measures wall-clock time for 2e6 layer points, on one thread and on several in turn. Counter `speed_up`: ratio of
+/// the medians.
 void threads(benchmark::State& state) {
     const Region region = naca_layer(2'000'000);
     const auto seconds = [&](unsigned count) {

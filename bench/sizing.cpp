@@ -1,5 +1,6 @@
-// The size field by number of sources: what building it takes by threads, and what an evaluation takes as refinement
-// asks, piece by piece and each point within an edge length or two of the last, and all over the region.
+// Measures the size field by its number of sources: the time to build it by threads, and the time of an evaluation. The
+// points of evaluation are those of refinement, subdomain by subdomain with each point within an edge length or two of
+// the last one, or points in no order.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -15,7 +16,7 @@ namespace {
 
 const Box domain{{-50, -50}, {51, 50}};
 
-/// The outer border of a layer: a thin closed curve, edges finest at its ends.
+/// Returns the outer border of a layer: a thin closed curve whose edges are finest at its ends.
 std::vector<SizeSource> border(std::size_t edges) {
     std::vector<SizeSource> sources;
     const auto at = [&](std::size_t i) {
@@ -26,7 +27,8 @@ std::vector<SizeSource> border(std::size_t edges) {
     return sources;
 }
 
-/// The same field by any number of sources: edges of a border of 100, each in parts that ask for the size of the whole.
+/// Returns any number of sources for one and the same field: the parts of the edges of a border of 100 edges, which
+/// request the size of the whole edge.
 std::vector<SizeSource> same_border(std::size_t count) {
     std::vector<SizeSource> sources;
     for (const SizeSource& edge : border(100))
@@ -37,7 +39,7 @@ std::vector<SizeSource> same_border(std::size_t count) {
     return sources;
 }
 
-/// The vertices of a background mesh, with sizes that grow from the middle.
+/// Returns the vertices of a background mesh whose sizes grow from the middle.
 std::vector<SizeSource> background(std::size_t count) {
     test::Random random(1);
     std::vector<SizeSource> sources;
@@ -49,33 +51,34 @@ std::vector<SizeSource> background(std::size_t count) {
     return sources;
 }
 
-/// A piece's part of the field, and points in the order of a walk by steps of an edge length.
-struct Piece {
+/// The field in a subdomain, and points along a random walk with steps of an edge length or two.
+struct SubdomainWalk {
     SizeField size;
     std::vector<Point> points;
 };
 
-/// Pieces here and there, as many near the border as far from it, each some 200 edges wide.
-std::vector<Piece> pieces(const SizeField& size, std::size_t count, std::size_t points_each) {
+/// Returns walks in subdomains some 200 edges wide, as many of them near the border as far from it.
+std::vector<SubdomainWalk> subdomain_walks(const SizeField& size, std::size_t count, std::size_t points_each) {
     test::Random random(2);
-    std::vector<Piece> result;
+    std::vector<SubdomainWalk> result;
     while (result.size() < count) {
         const double reach = 40 * std::pow(1e-3, random.real());
         Point p{0.5 + random.real(-reach, reach), random.real(-reach, reach)};
         const double half = 100 * size(p);
         const Box box{p - Point{half, half}, p + Point{half, half}};
-        Piece piece{size.restricted_to(box), {}};
-        while (piece.points.size() < points_each) {
-            piece.points.push_back(p);
+        SubdomainWalk walk{size.restricted_to(box), {}};
+        while (walk.points.size() < points_each) {
+            walk.points.push_back(p);
             const double h = 2 * size(p);
             const Point q = p + Point{random.real(-h, h), random.real(-h, h)};
             if (box.contains(q) && domain.contains(q)) p = q;
         }
-        result.push_back(std::move(piece));
+        result.push_back(std::move(walk));
     }
     return result;
 }
 
+/// Returns points in no order, as many near the border as far from it.
 std::vector<Point> scattered(std::size_t count) {
     test::Random random(3);
     std::vector<Point> points;
@@ -88,10 +91,10 @@ std::vector<Point> scattered(std::size_t count) {
 
 template <auto sources>
 void build(benchmark::State& state) {
-    const std::vector<SizeSource> of_field = sources(static_cast<std::size_t>(state.range(0)));
+    const std::vector<SizeSource> field_sources = sources(static_cast<std::size_t>(state.range(0)));
     std::size_t cells = 0;
     with_threads(static_cast<unsigned>(state.range(1)), [&] {
-        for (auto _ : state) cells = SizeField(of_field, {.gradation = 0.1}, domain).cells();
+        for (auto _ : state) cells = SizeField(field_sources, {.gradation = 0.1}, domain).cells();
     });
     state.counters["cells"] = double(cells);
 }
@@ -102,16 +105,16 @@ void count_evaluations(benchmark::State& state, std::size_t evaluations) {
 }
 
 template <auto sources>
-void in_pieces(benchmark::State& state) {
+void in_subdomains(benchmark::State& state) {
     const SizeField size(sources(static_cast<std::size_t>(state.range(0))), {.gradation = 0.1}, domain);
-    const std::vector<Piece> some = pieces(size, 16, 20'000);
+    const std::vector<SubdomainWalk> walks = subdomain_walks(size, 16, 20'000);
     for (auto _ : state) {
         double sum = 0;
-        for (const Piece& piece : some)
-            for (Point p : piece.points) sum += piece.size(p);
+        for (const SubdomainWalk& walk : walks)
+            for (const Point p : walk.points) sum += walk.size(p);
         benchmark::DoNotOptimize(sum);
     }
-    count_evaluations(state, some.size() * some.front().points.size());
+    count_evaluations(state, walks.size() * walks.front().points.size());
 }
 
 template <auto sources>
@@ -137,11 +140,11 @@ void with_sources_and_threads(benchmark::internal::Benchmark* b) {
     b->ArgNames({"sources", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
-BENCHMARK(in_pieces<border>)->Name("border, in pieces")->Apply(with_sources);
+BENCHMARK(in_subdomains<border>)->Name("border, in subdomains")->Apply(with_sources);
 BENCHMARK(all_over<border>)->Name("border, all over")->Apply(with_sources);
-BENCHMARK(in_pieces<same_border>)->Name("same border, in pieces")->Apply(with_sources);
+BENCHMARK(in_subdomains<same_border>)->Name("same border, in subdomains")->Apply(with_sources);
 BENCHMARK(all_over<same_border>)->Name("same border, all over")->Apply(with_sources);
-BENCHMARK(in_pieces<background>)->Name("background, in pieces")->Apply(with_sources);
+BENCHMARK(in_subdomains<background>)->Name("background, in subdomains")->Apply(with_sources);
 BENCHMARK(all_over<background>)->Name("background, all over")->Apply(with_sources);
 BENCHMARK(build<border>)->Name("build, border")->Apply(with_sources_and_threads);
 BENCHMARK(build<background>)->Name("build, background")->Apply(with_sources_and_threads);

@@ -1,6 +1,6 @@
-// Stages "decouple" and "refine": the region between layers and far field, cut into pieces with frozen, graded borders
-// that are refined independently. Source: J. K. Pardue, thesis (2015), chapter 5; L. Linardakis, N. Chrisochoides, SIAM
-// J. Sci. Comput. 27 (2006).
+// Stages "decouple" and "refine": the outer region, between layers and far field, is cut into subdomains with frozen,
+// graded borders, which are refined independently. Source: J. K. Pardue, thesis (2015), chapter 5; L. Linardakis, N.
+// Chrisochoides, SIAM J. Sci. Comput. 27 (2006).
 #pragma once
 
 #include <cstddef>
@@ -16,84 +16,91 @@
 
 namespace lamina {
 
+/// The shape of the outer boundary of the domain.
 enum class FarFieldShape {
-    box,
-    circle,
+    box,      ///< a square
+    circle,   ///< a circle
     outline,  ///< any convex polygon
 };
 
+/// Options of the far field.
 struct FarFieldOptions {
-    FarFieldShape shape = FarFieldShape::box;
-    double size = 100;             ///< half-width of the box or radius of the circle, in chords
-    std::vector<Point> outline{};  ///< corners of the polygon, counter-clockwise, in units of the input
+    FarFieldShape shape = FarFieldShape::box;  ///< which of the other members count
+    double size = 100;                         ///< half-width of the box or radius of the circle, in chords
+    std::vector<Point> outline{};              ///< corners of the polygon, counter-clockwise, in units of the input
 };
 
+/// Returns the table of the options.
 LAMINA_EXPORT const OptionTable<FarFieldOptions>& far_field_option_table();
 
 /// Throws OptionError where an option is out of range, and where the outline is no convex polygon.
 LAMINA_EXPORT void validate(const FarFieldOptions& options);
 
-/// Reads "X0,Y0,X1,Y1,...", three corners or more. Throws UsageError with the bare reason.
+/// Reads an outline "X0,Y0,X1,Y1,..." of three corners or more. Throws UsageError with the bare reason.
 LAMINA_EXPORT std::vector<Point> parse_outline(const std::string& text);
 /// Returns the text that parse_outline() reads back.
 LAMINA_EXPORT std::string outline_text(std::span<const Point> corners);
 
 /// The far field round a configuration, in units of the input.
 struct FarField {
-    FarFieldShape shape = FarFieldShape::box;
-    Point center;                  ///< middle of the configuration
-    double radius = 0;             ///< half-width of the box or radius of the circle
-    std::vector<Point> outline{};  ///< corners of the polygon
+    FarFieldShape shape = FarFieldShape::box;  ///< which of the other members count
+    Point center;                              ///< middle of the configuration
+    double radius = 0;                         ///< half-width of the box or radius of the circle
+    std::vector<Point> outline{};              ///< corners of the polygon
 
+    /// Returns the box round the far field.
     LAMINA_EXPORT Box box() const;
 };
 
 /// Places the far field round the box of all bodies. Throws OptionError where an outline does not enclose its middle.
 LAMINA_EXPORT FarField place_far_field(const Box& bodies, const FarFieldOptions& options = {});
 
-/// How separators between pieces are divided.
+/// How separators between subdomains are divided into segments.
 enum class SeparatorRule {
-    equidistributed,  ///< equal shares of the integral of ds / h: no visible seam
-    k_rule,           ///< thesis, chapter 5, equation 1: k = 1/2 sqrt(A / sqrt 2)
+    equidistributed,  ///< into equal shares of the integral of ds / h, which leaves no visible seam
+    k_rule,           ///< thesis, chapter 5, equation 1: k = 1/2 sqrt(A / sqrt 2), A being the area bound
 };
 
+/// Options of the stage "decouple".
 struct DecouplingOptions {
-    SeparatorRule separators = SeparatorRule::equidistributed;
-    double pieces_target = 50'000;  ///< triangles per piece, about
+    SeparatorRule separators = SeparatorRule::equidistributed;  ///< how separators are divided
+    double pieces_target = 50'000;                              ///< target number of triangles per subdomain
 };
 
+/// Returns the table of the options.
 LAMINA_EXPORT const OptionTable<DecouplingOptions>& decoupling_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const DecouplingOptions& options);
 
-/// A self-contained piece of work: refine(subdomain) needs nothing else, on a thread, on a rank or from a file.
+/// A part of the outer region that is refined by itself: refine(subdomain) needs nothing else, whether on a thread, on
+/// a rank or from a file.
 struct Subdomain {
-    std::vector<Point> points;      ///< border vertices
-    std::vector<VertexId> global;   ///< their ids in Decoupling::points
-    std::vector<Segment> segments;  ///< into points; the region lies on their left
-    SizeField size{1.0};
-    RefineOptions refine;
-    double estimated_triangles = 0;
+    std::vector<Point> points;       ///< border vertices
+    std::vector<VertexId> global;    ///< their ids in Decoupling::points, ascending
+    std::vector<Segment> segments;   ///< border edges between indices into points; the subdomain lies on their left
+    SizeField size{1.0};             ///< the size field, restricted to the box round the subdomain
+    RefineOptions refine;            ///< the options given, with the estimate and whether a lattice may pay
+    double estimated_triangles = 0;  ///< number of triangles that refinement will make, by estimate
 };
 
+/// The outer region, cut into subdomains.
 struct Decoupling {
-    /// The points handed in, then the vertices of separators and far field.
-    std::vector<Point> points;
-    std::vector<Segment> far_field;  ///< the region lies on their left
-    std::vector<Subdomain> subdomains;
-    std::size_t separator_vertices = 0;
+    std::vector<Point> points;           ///< the points handed in, then the vertices of separators and far field
+    std::vector<Segment> far_field;      ///< edges of the far field; the region lies on their left
+    std::vector<Subdomain> subdomains;   ///< in an order that does not depend on the number of threads
+    std::size_t separator_vertices = 0;  ///< number of vertices of separators and far field
 };
 
-/// Cuts the region between the borders of the layers and the far field into subdomains of about equal work. `borders`
-/// are closed loops of indices into `points`, counter-clockwise round each body and its layer. The subdomains depend on
-/// the arguments alone, never on the number of threads. Throws OptionError where the far field does not enclose the
-/// borders with some room.
+/// Cuts the outer region, between the borders of the layers and the far field, into subdomains of about equal work.
+/// `borders` are closed loops of indices into `points`, counter-clockwise round each body and its layer. The subdomains
+/// depend on the arguments alone, never on the number of threads. Throws OptionError for options out of range, and
+/// where the far field does not enclose the borders with some room.
 LAMINA_EXPORT Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                                   const SizeField& size, const FarField& far_field,
                                   const DecouplingOptions& options = {}, const RefineOptions& refine = {});
 
-/// Refines one subdomain.
+/// Refines one subdomain. Throws as refine(points, segments, size, options) does.
 LAMINA_EXPORT Refinement refine(const Subdomain& subdomain);
 
 /// Refines all subdomains in parallel, the largest first. The results stand in the order of the subdomains.

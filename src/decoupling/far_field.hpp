@@ -1,4 +1,4 @@
-// The far field as the decoupling needs it.
+// Boxes inside the far field, for the rings of the decoupling.
 #pragma once
 
 #include <optional>
@@ -7,12 +7,13 @@
 
 namespace lamina::decoupling {
 
-/// Returns the largest box about the centre that all but touches the far field; the far field itself where it is a box.
+/// Returns the outermost box of the rings: the far field itself where it is a box, otherwise a square about the centre
+/// of 0.8 times the size of the largest one that fits in.
 Box inscribed_box(const FarField& far_field);
 
-/// Returns the near-body box, which stands half the extent of `bodies` away from it, inside the outermost box. Empty
-/// where the far field leaves little room: rings between boxes so near would have sharp corners. Throws OptionError
-/// where the far field does not enclose the bodies with some room.
+/// Returns the near-body box, which stands half the extent of `bodies` away from them, inside the outermost box.
+/// Returns nothing where the far field leaves little room, because rings between boxes so near to each other would have
+/// sharp corners. Throws OptionError where the far field does not enclose the bodies with some room.
 std::optional<Box> near_body_box(const Box& bodies, const Box& outermost, const FarField& far_field);
 
 }  // namespace lamina::decoupling

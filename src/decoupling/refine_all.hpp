@@ -11,8 +11,8 @@
 
 namespace lamina::decoupling {
 
-/// Refines all subdomains in parallel, the largest first, each on whichever thread is free. The threads' times count as
-/// this kind of work.
+/// Refines all subdomains in parallel, the largest first, each on the next free thread. The times of the threads count
+/// as work of this kind. The results stand in the order of the subdomains.
 LAMINA_EXPORT std::vector<Refinement> refine_all(std::span<const Subdomain> subdomains, core::BusyTimes* times,
                                                  std::size_t kind);
 

@@ -1,7 +1,6 @@
-// Straight lines cut into segments that follow the size field.
+// Lines between subdomains, divided into segments that follow the size field.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
@@ -10,22 +9,24 @@
 
 namespace lamina::decoupling {
 
-/// What lines between pieces are divided by.
-struct Separation {
+/// The size field and the rule that decide the lengths of the segments of separators.
+struct SeparatorSpacing {
     const SizeField& size;
     SeparatorRule rule;
 };
 
-/// Interior points of the line from u to v, in that order; at least `fewest` - 1 of them.
+/// Divides the line from u to v into at least `min_segments` segments, and returns the points between them, in the
+/// order from u to v. Both directions of a line give the same points.
 ///
-/// equidistributed: every segment gets the same share of the integral of ds / h, at most frozen_share: segments have
-/// the length of the edges that refinement makes on either side, and grow as the field does.
-/// k_rule: thesis ch. 5: with k = 1/2 sqrt(A / sqrt 2), from the finer end u the farthest v with an integer number of
-/// equal segments in [|uv| / (2 k_u), sqrt 3 |uv| / (2 k_v)], then on from v.
-/// Both directions of a line give the same points.
-std::vector<Point> separate(Point u, Point v, const Separation& separation, std::size_t fewest = 1);
+/// equidistributed: every segment has the same share of the integral of ds / h, at most frozen_share. Segments then
+/// have the length of the edges that refinement makes on either side, and grow as the field does.
+///
+/// k_rule (thesis, chapter 5): with k = 1/2 sqrt(A / sqrt 2), the line is divided from the finer end u to the farthest
+/// v for which some whole number of equal segments lies in [|uv| / (2 k_u), sqrt 3 |uv| / (2 k_v)], then on from v.
+std::vector<Point> divide_separator(Point u, Point v, const SeparatorSpacing& spacing, std::size_t min_segments = 1);
 
-/// Vertices of a closed circle, counter-clockwise, equidistributed in the same way; at least `fewest` of them.
-std::vector<Point> divide_circle(Point center, double radius, const SizeField& size, std::size_t fewest);
+/// Divides a circle into at least `min_segments` segments with equal shares of the integral of ds / h, as a separator
+/// is divided, and returns the vertices counter-clockwise.
+std::vector<Point> divide_circle(Point center, double radius, const SizeField& size, std::size_t min_segments);
 
 }  // namespace lamina::decoupling

@@ -9,7 +9,7 @@
 namespace lamina::layers {
 
 /// Does what fill_layer() does and adds the times of the threads to `times`, unless that is null. The kinds of work are
-/// those of delaunay::pieces::Work.
+/// those of delaunay::pieces::PieceWork.
 LAMINA_EXPORT LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionOptions& options,
                               core::BusyTimes* times);
 

@@ -1,8 +1,9 @@
-// Why points are enough. In a triangle with corners v_i and barycentric coordinates w_i at x
+// Points alone are enough. In a triangle with corners v_i of sizes s_i and barycentric coordinates w_i at x
 //     min_i (s_i + g |x - v_i|)  <=  sum_i w_i (s_i + g |x - v_i|)  =  interpolated size + g sum_i w_i |x - v_i|,
 // and by Cauchy and Lagrange's identity (sum w_i |x - v_i|)^2 <= sum_(i<j) w_i w_j |v_i - v_j|^2 <= L^2 / 3, L being
-// the longest edge. So a triangle with g L / sqrt 3 within a tenth of its smallest size needs no more points; others
-// are halved at their longest edge. Points carry interpolated sizes: none asks for less than the mesh does.
+// the longest edge. So a triangle with g L / sqrt 3 within a tenth of its smallest size needs no further points. Other
+// triangles are halved at their longest edge. Points carry interpolated sizes, so none requests less than the mesh
+// does.
 #include "sizing/background.hpp"
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 
 #include <lamina/error.hpp>
 
-#include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 
@@ -21,48 +21,51 @@ namespace lamina::sizing {
 
 namespace {
 
-/// What the field may exceed the interpolated size by.
+/// The share of the interpolated size by which the field may exceed it.
 constexpr double tolerance = 0.1;
 
-struct Corner {
+/// A point with a size.
+struct SizedPoint {
     Point at;
     double size;
 };
 
-SizeSource source_at(const Corner& c) { return {.a = c.at, .b = c.at, .size = c.size}; }
+SizeSource source_at(const SizedPoint& p) { return {.a = p.at, .b = p.at, .size = p.size}; }
 
-double squared_edge(const Corner& a, const Corner& b) { return squared_length(b.at - a.at); }
+double squared_distance(const SizedPoint& a, const SizedPoint& b) { return squared_length(b.at - a.at); }
 
-Box triangle_box(const Corner& a, const Corner& b, const Corner& c) {
+Box triangle_box(const SizedPoint& a, const SizedPoint& b, const SizedPoint& c) {
     Box box;
-    for (Point p : {a.at, b.at, c.at}) box.include(p);
+    for (const Point p : {a.at, b.at, c.at}) box.include(p);
     return box;
 }
 
+/// Samples the triangles of a background mesh.
 class Sampler {
 public:
     Sampler(double gradation, const Box& domain)
         : squared_reach_(3 * tolerance * tolerance / (gradation * gradation)), domain_(domain) {}
 
-    /// Adds points inside the triangle and on its edges.
-    void sample(Corner a, Corner b, Corner c, std::vector<SizeSource>& points) const {
-        const double least = std::min({a.size, b.size, c.size});
-        const double ab = squared_edge(a, b), bc = squared_edge(b, c), ca = squared_edge(c, a);
-        if (std::max({ab, bc, ca}) <= squared_reach_ * least * least) return;
+    /// Adds the points that a triangle needs inside and on its edges. It is halved until each part is small enough or
+    /// lies outside the domain.
+    void sample(SizedPoint a, SizedPoint b, SizedPoint c, std::vector<SizeSource>& points) const {
+        const double min_size = std::min({a.size, b.size, c.size});
+        const double ab = squared_distance(a, b), bc = squared_distance(b, c), ca = squared_distance(c, a);
+        if (std::max({ab, bc, ca}) <= squared_reach_ * min_size * min_size) return;
         if (!triangle_box(a, b, c).overlaps(domain_)) return;
         // c-a becomes the longest edge.
         if (ab >= bc && ab >= ca)
             std::swap(b, c);
         else if (bc >= ca)
             std::swap(a, b);
-        const Corner between{midpoint(a.at, c.at), 0.5 * (a.size + c.size)};
-        points.push_back(source_at(between));
-        sample(a, b, between, points);
-        sample(between, b, c, points);
+        const SizedPoint middle{midpoint(a.at, c.at), 0.5 * (a.size + c.size)};
+        points.push_back(source_at(middle));
+        sample(a, b, middle, points);
+        sample(middle, b, c, points);
     }
 
-    /// A lower bound of the number of points that sample() would add, but for a factor of about two.
-    double least_count(const Corner& a, const Corner& b, const Corner& c) const {
+    /// Returns a lower bound of the number of points that sample() adds, up to a factor of about two.
+    double min_count(const SizedPoint& a, const SizedPoint& b, const SizedPoint& c) const {
         const Box box = triangle_box(a, b, c);
         if (!box.overlaps(domain_)) return 0;
         const double width = std::min(box.upper.x, domain_.upper.x) - std::max(box.lower.x, domain_.lower.x);
@@ -70,27 +73,27 @@ public:
         const double area = 0.5 * std::abs(cross(b.at - a.at, c.at - a.at));
         const double share = std::min(1.0, width * height / std::max(area, std::numeric_limits<double>::min()));
         const double reach = std::sqrt(squared_reach_);
-        const double across = reach * std::max({a.size, b.size, c.size});
-        double count = share * area / (across * across);
+        const double max_edge = reach * std::max({a.size, b.size, c.size});
+        double count = share * area / (max_edge * max_edge);
         for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-            const double within = std::min(std::sqrt(squared_edge(p, q)), width + height);
-            count = std::max(count, within / (reach * std::max(p.size, q.size)));
+            const double length_inside = std::min(std::sqrt(squared_distance(p, q)), width + height);
+            count = std::max(count, length_inside / (reach * std::max(p.size, q.size)));
         }
         return count;
     }
 
 private:
-    double squared_reach_;  ///< the longest edge of a triangle that needs no points, over its smallest size
+    double squared_reach_;  ///< square of (longest edge of a triangle that needs no points / its smallest size)
     Box domain_;
 };
 
 void require_well_formed(const SizedMesh& mesh) {
-    if (mesh.sizes.size() != mesh.points.size()) throw OptionError("background", "one size a point is needed");
-    for (double size : mesh.sizes)
+    if (mesh.sizes.size() != mesh.points.size()) throw OptionError("background", "needs one size per point");
+    for (const double size : mesh.sizes)
         if (!(size > 0 && size < HUGE_VAL)) throw OptionError("background", "a size is not positive");
     for (const Triangle& t : mesh.triangles)
-        for (VertexId v : t.v)
-            if (v.index() >= mesh.points.size()) throw OptionError("background", "a triangle without its points");
+        for (const VertexId v : t.v)
+            if (v.index() >= mesh.points.size()) throw OptionError("background", "a triangle has no such point");
 }
 
 }  // namespace
@@ -98,7 +101,7 @@ void require_well_formed(const SizedMesh& mesh) {
 std::vector<SizeSource> background_sources(const SizedMesh& mesh, double gradation, const Box& domain) {
     require_well_formed(mesh);
     const Sampler sampler(gradation, domain);
-    const auto corner = [&](VertexId v) { return Corner{mesh.points[v.index()], mesh.sizes[v.index()]}; };
+    const auto corner = [&](VertexId v) { return SizedPoint{mesh.points[v.index()], mesh.sizes[v.index()]}; };
     constexpr std::size_t grain = 4096;
 
     const std::vector<double> counts =
@@ -106,17 +109,17 @@ std::vector<SizeSource> background_sources(const SizedMesh& mesh, double gradati
             double count = 0;
             for (std::size_t i = begin; i < end; ++i) {
                 const auto& v = mesh.triangles[i].v;
-                count += sampler.least_count(corner(v[0]), corner(v[1]), corner(v[2]));
+                count += sampler.min_count(corner(v[0]), corner(v[1]), corner(v[2]));
             }
             return count;
         });
     double count = 0;
-    for (double part : counts) count += part;
+    for (const double c : counts) count += c;
     if (count > std::numeric_limits<std::uint32_t>::max())
         throw OptionError("background", core::concat("its sizes ask for more than ", core::rounded_text(count),
                                                      " vertices, which 32-bit numbers cannot count"));
 
-    auto parts = core::parallel_blocks(mesh.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+    const auto parts = core::parallel_blocks(mesh.triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
         std::vector<SizeSource> points;
         for (std::size_t i = begin; i < end; ++i) {
             const auto& v = mesh.triangles[i].v;
@@ -125,57 +128,10 @@ std::vector<SizeSource> background_sources(const SizedMesh& mesh, double gradati
         return points;
     });
     std::vector<SizeSource> sources;
+    sources.reserve(mesh.points.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) sources.push_back(source_at(corner(VertexId(i))));
     for (const auto& points : parts) sources.insert(sources.end(), points.begin(), points.end());
     return sources;
-}
-
-std::vector<SizeSource> binding_sources(std::span<const SizeSource> sources, Loops loops, double gradation,
-                                        double share) {
-    // Edges shift and vary a little when others are divided.
-    constexpr double margin = 1.25;
-    std::vector<SizeSource> edges;
-    std::vector<Box> boxes;
-    std::vector<double> negative_lengths;
-    for (const std::vector<Point>& loop : loops)
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Point a = loop[i], b = loop[i + 1 < loop.size() ? i + 1 : 0];
-            edges.push_back({.a = a, .b = b, .size = 1});
-            boxes.push_back(bounding_box(edges.back()));
-            negative_lengths.push_back(-margin * distance(a, b));
-        }
-    const core::BoxTree tree(std::move(boxes));
-    const auto values = tree.group_minima(std::move(negative_lengths));
-
-    struct Binding {
-        std::size_t edge, source;
-    };
-    const auto parts = core::parallel_blocks(sources.size(), 4096, [&](std::size_t begin, std::size_t end) {
-        std::vector<Binding> binding;
-        for (std::size_t i = begin; i < end; ++i) {
-            const Point p = sources[i].a;
-            // length - gradation x distance exceeds the length asked for.
-            const double asked = -share * sources[i].size;
-            double worst = asked;
-            std::size_t edge = 0;
-            tree.minimum(p, gradation, asked, values, [&](std::size_t e) {
-                const double apart = distance_to(edges[e], p);
-                if (values[0][e] + gradation * apart < worst) {
-                    worst = values[0][e] + gradation * apart;
-                    edge = e;
-                }
-                return apart;
-            });
-            if (worst < asked) binding.push_back({edge, i});
-        }
-        return binding;
-    });
-    std::vector<Binding> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    std::stable_sort(all.begin(), all.end(), [](const Binding& a, const Binding& b) { return a.edge < b.edge; });
-    std::vector<SizeSource> result;
-    for (const Binding& b : all) result.push_back(sources[b.source]);
-    return result;
 }
 
 }  // namespace lamina::sizing

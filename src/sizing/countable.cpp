@@ -1,7 +1,8 @@
-// Triangles round a source, in units of the largest allowed, are the integral of 1 / h^2: the area at its size s, and
-// beside a border of length L, where h = s + g d at a distance d, L times the integral up to the reach D:
+// Estimates of the number of triangles that sources request. In units of the area of a triangle this is the integral of
+// 1 / h^2. Inside a source of size s it is the area divided by s^2. Beside a border of length L, where h = s + g d at
+// the distance d, the integral up to the reach D is
 //
-//     L D / (s (s + g D))
+//     L D / (s (s + g D)).
 #include <lamina/sizing.hpp>
 
 #include <algorithm>
@@ -16,10 +17,11 @@ namespace lamina::sizing {
 
 namespace {
 
-/// Vertices have 32-bit numbers, and there are twice as many triangles; half of them leaves room for what is not
-/// foreseen.
+/// Vertices have 32-bit numbers, and there are twice as many triangles as vertices. The bound is half of
+/// their number, which leaves room for triangles that the estimate does not foresee.
 constexpr double max_triangles = 4294967296.0;
 
+/// Throws OptionError where this integral of 1 / h^2 is that of more triangles than can be numbered.
 void require_countable_integral(double inverse_square_integral, const std::string& option, const std::string& value) {
     const double triangles = inverse_square_integral / core::equilateral_area;
     if (triangles <= max_triangles) return;
@@ -28,19 +30,20 @@ void require_countable_integral(double inverse_square_integral, const std::strin
                              core::rounded_text(max_triangles), " can be numbered"));
 }
 
-double beside(double length, double size, double gradation, double reach) {
+/// Returns the integral of 1 / h^2 beside a border.
+double integral_beside(double length, double size, double gradation, double reach) {
     return length * reach / (size * (size + gradation * reach));
 }
 
-/// The length of a segment within a box.
+/// Returns the length of the part of a segment that lies in a box.
 double length_inside(const Box& box, Point a, Point b) {
     double from = 0, to = 1;
-    const auto clip = [&](double start, double along, double low, double high) {
+    const auto clip = [&](double start, double along, double lower, double upper) {
         if (along == 0) {
-            if (start < low || start > high) to = -1;
+            if (start < lower || start > upper) to = -1;
             return;
         }
-        const double enter = (low - start) / along, leave = (high - start) / along;
+        const double enter = (lower - start) / along, leave = (upper - start) / along;
         from = std::max(from, std::min(enter, leave));
         to = std::min(to, std::max(enter, leave));
     };
@@ -49,7 +52,8 @@ double length_inside(const Box& box, Point a, Point b) {
     return std::max(to - from, 0.0) * distance(a, b);
 }
 
-double asked_by(const SizeSource& source, double gradation, double reach, const Box& domain) {
+/// Returns the integral of 1 / h^2 in and beside a source, as far as it lies in the domain.
+double integral_round(const SizeSource& source, double gradation, double reach, const Box& domain) {
     const Box inside = bounding_box(source).intersection(domain);
     const double width = std::max(inside.width(), 0.0), height = std::max(inside.height(), 0.0);
     double area = 0, border = 0;
@@ -62,7 +66,14 @@ double asked_by(const SizeSource& source, double gradation, double reach, const 
     } else {
         border = 2 * length_inside(domain, source.a, source.b);
     }
-    return area / (source.size * source.size) + beside(border, source.size, gradation, reach);
+    return area / (source.size * source.size) + integral_beside(border, source.size, gradation, reach);
+}
+
+double total_length(const std::vector<std::vector<Point>>& loops) {
+    double length = 0;
+    for (const std::vector<Point>& loop : loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) length += distance(loop[i], loop[(i + 1) % loop.size()]);
+    return length;
 }
 
 }  // namespace
@@ -74,22 +85,20 @@ namespace lamina {
 using namespace sizing;
 
 void require_countable(const SizingOptions& options, const SizedBodies& bodies, const Box& domain) {
-    const double g = options.field.gradation, reach = 0.1 * std::min(domain.width(), domain.height());
+    const double gradation = options.field.gradation, reach = 0.1 * std::min(domain.width(), domain.height());
     if (const double size = options.field.max_size; size < HUGE_VAL)
         require_countable_integral(domain.width() * domain.height() / (size * size), "far_size", core::to_text(size));
     for (const SizeSource& source : options.sources)
-        require_countable_integral(asked_by(source, g, reach, domain), "refine", size_source_text(source));
-    if (const auto& size = options.wall_size) {
-        double length = 0;
-        for (const std::vector<Point>& wall : bodies.walls)
-            for (std::size_t i = 0; i < wall.size(); ++i) length += distance(wall[i], wall[(i + 1) % wall.size()]);
-        require_countable_integral(beside(length, *size, g, reach), "wall_size", core::to_text(*size));
-    }
+        require_countable_integral(integral_round(source, gradation, reach, domain), "refine",
+                                   size_source_text(source));
+    if (const auto& size = options.wall_size)
+        require_countable_integral(integral_beside(total_length(bodies.walls), *size, gradation, reach), "wall_size",
+                                   core::to_text(*size));
     if (options.wake && options.wake->size) {
-        double wakes = 0;
+        double integral = 0;
         for (const SizeSource& source : given_wake_sources(options, bodies))
-            wakes += asked_by(source, g, reach, domain);
-        require_countable_integral(wakes, "wake", wake_text(*options.wake));
+            integral += integral_round(source, gradation, reach, domain);
+        require_countable_integral(integral, "wake", wake_text(*options.wake));
     }
 }
 

@@ -1,4 +1,4 @@
-// The table of the options of sizes.
+// The table of the options of the size field.
 #include <lamina/sizing.hpp>
 
 #include <lamina/option_builders.hpp>
@@ -15,7 +15,7 @@ OptionTable<SizingOptions> make_table() {
                  "largest edge length at the outer border of the layer, in units of the input; else the edges of the "
                  "border decide",
                  positive_numbers, member_at(&SizingOptions::wall_size));
-    // Infinity stands for no bound.
+    // An infinite max_size stands for an option that is not given.
     Option<SizingOptions>& far_size =
         table.number("far-size", "H", "largest edge length, in units of the input; else unbounded", positive_numbers,
                      member_at(&SizingOptions::field, &SizeFieldOptions::max_size));

@@ -1,4 +1,5 @@
-// What asks for sizes: the borders of the layers, wakes, background meshes and the user's own shapes.
+// Collects the sources of the size field: the borders of the layers, wakes, background meshes and the user's own
+// shapes.
 #include <lamina/sizing.hpp>
 
 #include <algorithm>
@@ -7,22 +8,26 @@
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "sizing/background.hpp"
+#include "sizing/binding_sources.hpp"
 #include "sizing/wake.hpp"
 
 namespace lamina::sizing {
 
 namespace {
 
-/// An edge of a border asks for at most this many times the size of which it is a fit share. Without a bound a long
-/// edge's excess of a few per cent would be a multiple of the size at a fine edge far away.
-constexpr double largest_raise = 2.5;
+/// An edge of a border requests at most this multiple of its length / frozen_share. Without a bound a long edge's
+/// excess of a few per cent would be a multiple of the size at a fine edge far away.
+constexpr double max_raise = 2.5;
 
-/// Returns the size that each edge asks for: that of which it is a fit share, or more beside a longer edge, on the same
-/// border or across a slot, so that none is too long for the field that the others make: the largest of (size -
-/// gradation x distance between the middles), within the bound.
+/// Returns the size that each edge of a border requests. Edges come with their own sizes, length / frozen_share. An
+/// edge beside a longer one, on the same border or across a slot, requests more, so that none is too long for the field
+/// that the others make: the largest of (size of an edge - gradation x distance between the middles), at most max_raise
+/// times its own size.
 std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradation) {
     std::vector<Box> boxes;
     std::vector<double> negative_sizes;
+    boxes.reserve(edges.size());
+    negative_sizes.reserve(edges.size());
     for (const SizeSource& edge : edges) {
         boxes.push_back(bounding_box(edge));
         negative_sizes.push_back(-edge.size);
@@ -33,17 +38,18 @@ std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradati
     core::parallel_for(edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Point p = midpoint(edges[i].a, edges[i].b);
-            const double passed_on = -tree.minimum(p, gradation, -edges[i].size, values, [&](std::size_t other) {
+            const double raised = -tree.minimum(p, gradation, -edges[i].size, values, [&](std::size_t other) {
                 return distance(p, midpoint(edges[other].a, edges[other].b));
             });
-            sizes[i] = std::min(passed_on, largest_raise * edges[i].size);
+            sizes[i] = std::min(raised, max_raise * edges[i].size);
         }
     });
     return sizes;
 }
 
-/// Returns a source for each edge of closed borders: it asks for the size of which the edge is a fit share, or for
-/// wall_size where that is less. More than its own would be a jump from frozen edges to triangles many times as large.
+/// Returns a source for each edge of closed borders. It requests the edge's length / frozen_share, raised by
+/// edge_sizes(), or wall_size where that is less. With a larger size triangles many times as large would stand beside
+/// frozen edges.
 std::vector<SizeSource> border_sources(Loops borders, const SizingOptions& options) {
     std::vector<SizeSource> sources;
     for (const std::vector<Point>& border : borders)
@@ -57,7 +63,7 @@ std::vector<SizeSource> border_sources(Loops borders, const SizingOptions& optio
     return sources;
 }
 
-/// Returns what sources ask for at a point, without any cap.
+/// Returns the size that sources request at a point, without a cap.
 double size_at(Point p, std::span<const SizeSource> sources, double gradation) {
     double size = HUGE_VAL;
     for (const SizeSource& source : sources) size = std::min(size, source.size + gradation * distance_to(source, p));
@@ -77,9 +83,9 @@ namespace lamina {
 using namespace sizing;
 
 double border_gradation(const SizeFieldOptions& field) {
-    // Edges are divided into whole numbers of pieces: graded as steeply as the field, some would be too long for it.
-    constexpr double rounding_of_pieces = 1.15;
-    return frozen_share * field.gradation / rounding_of_pieces;
+    // Edges are divided into whole numbers of parts. Graded as steeply as the field, some would be too long for it.
+    constexpr double rounding_of_parts = 1.15;
+    return frozen_share * field.gradation / rounding_of_parts;
 }
 
 SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodies& bodies, Loops fronts,
@@ -90,19 +96,20 @@ SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodie
     append(given_wake_sources(options, bodies), requests.sources);
     requests.at_borders = requests.sources;
     if (options.background) {
-        const std::vector<SizeSource> all = background_sources(*options.background, gradation, domain);
-        append(all, requests.sources);
-        // Of a background mesh only few points bind at the borders.
-        append(binding_sources(all, fronts, border_gradation(options.field), frozen_share), requests.at_borders);
+        const std::vector<SizeSource> points = background_sources(*options.background, gradation, domain);
+        append(points, requests.sources);
+        // Only few points of a background mesh bind at the borders.
+        append(binding_sources(points, fronts, border_gradation(options.field), frozen_share), requests.at_borders);
     }
     if (!options.wake || options.wake->size) return requests;
 
     std::vector<SizeSource> without_wakes = border_sources(fronts, options);
     append(requests.sources, without_wakes);
     for (const Wake& wake : find_wakes(bodies, *options.wake)) {
-        const auto along = wake_sources(wake, size_at(wake.from, without_wakes, gradation), gradation);
-        append(along, requests.sources);
-        append(along, requests.at_borders);
+        const double size = size_at(wake.from, without_wakes, gradation);
+        const std::vector<SizeSource> along_wake = wake_sources(wake, size, gradation);
+        append(along_wake, requests.sources);
+        append(along_wake, requests.at_borders);
     }
     return requests;
 }

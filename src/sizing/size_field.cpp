@@ -1,4 +1,4 @@
-// Evaluation of a size field: a walk down the tree that size_tree.cpp builds.
+// Evaluation of a size field: walks down the tree that size_tree.cpp builds.
 #include <lamina/sizing.hpp>
 
 #include <algorithm>
@@ -15,6 +15,7 @@ namespace lamina::sizing {
 
 namespace {
 
+/// Throws OptionError where no field can be made of these arguments.
 void require_valid(std::span<const SizeSource> sources, const SizeFieldOptions& options, const Box& domain) {
     if (!(options.gradation >= 0 && options.gradation < HUGE_VAL))
         throw OptionError("gradation", "must be finite and not negative");
@@ -42,26 +43,28 @@ namespace lamina {
 using namespace sizing;
 
 struct SizeField::Tree {
+    /// Fixed-point coordinates within the square of the root.
     struct Key {
         std::uint64_t x, y;
     };
 
     Box domain;
-    double side = 0;
-    double keys_per_length = 0;
+    double side = 0;             ///< of the root's square, whose lower left corner is that of the domain
+    double keys_per_length = 0;  ///< number of keys per unit of length
     std::vector<Slots> nodes;
     std::vector<Leaf> leaves;
 
+    /// Returns the key of a point, moved to the nearest point of the domain.
     Key key(Point p) const {
         constexpr std::uint64_t last = (std::uint64_t{1} << key_bits) - 1;
         const double x = (std::clamp(p.x, domain.lower.x, domain.upper.x) - domain.lower.x) * keys_per_length;
         const double y = (std::clamp(p.y, domain.lower.y, domain.upper.y) - domain.lower.y) * keys_per_length;
-        // By way of the signed type, which is what the hardware converts.
+        // The hardware converts to signed integers only.
         return {std::min(static_cast<std::uint64_t>(static_cast<std::int64_t>(x)), last),
                 std::min(static_cast<std::uint64_t>(static_cast<std::int64_t>(y)), last)};
     }
 
-    /// The field at a point of a leaf, found in a slot of side 2^shift.
+    /// Returns the field at a point of the leaf that `entry`, in a slot of side 2^shift, leads to.
     double value(std::uint32_t entry, int shift, Key key) const {
         const int bits = shift + ((entry & half_bit) != 0);
         const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
@@ -74,6 +77,7 @@ struct SizeField::Tree {
         return side * (south + v * (north - south));
     }
 
+    /// Returns the slot that holds a point, in a node whose slots have the side 2^shift.
     static std::size_t slot(Key k, int shift) { return ((k.y >> shift) & 3) * 4 + ((k.x >> shift) & 3); }
 };
 
@@ -101,7 +105,8 @@ double SizeField::operator()(Point p) const {
     const Tree::Key key = tree.key(p);
     std::uint32_t node = start_.node;
     int shift = start_.shift;
-    if (((key.x ^ start_.x) | (key.y ^ start_.y)) >> (shift + 2) != 0) {  // outside the cell of start_
+    const bool outside_start = ((key.x ^ start_.x) | (key.y ^ start_.y)) >> (shift + 2) != 0;
+    if (outside_start) {
         node = 0;
         shift = root_shift;
     }
@@ -129,33 +134,33 @@ SizeField SizeField::restricted_to(const Box& box) const {
     return result;
 }
 
-SizeField::Range SizeField::range(const Box& box, double enough) const {
+SizeField::Range SizeField::range(const Box& box, double max_ratio) const {
     if (!tree_) return {uniform_, uniform_};
     const Tree& tree = *tree_;
     const Tree::Key lower = tree.key(box.lower), upper = tree.key(box.upper);
-    struct Place {
+    struct KeyedNode {
         std::uint32_t node;
-        int shift;
-        std::uint64_t x, y;
+        int shift;           ///< a slot has the side 2^shift
+        std::uint64_t x, y;  ///< key of the lower left corner
     };
-    std::vector<Place> open{{0, root_shift, 0, 0}};
+    std::vector<KeyedNode> open{{0, root_shift, 0, 0}};
     Range range{HUGE_VAL, 0};
-    while (!open.empty() && !(range.high > enough * range.low)) {
-        const Place place = open.back();
+    while (!open.empty() && !(range.high > max_ratio * range.low)) {
+        const KeyedNode from = open.back();
         open.pop_back();
         for (std::uint64_t slot = 0; slot < 16; ++slot) {
-            const std::uint64_t x = place.x + ((slot & 3) << place.shift), y = place.y + ((slot >> 2) << place.shift);
-            const std::uint64_t last = (std::uint64_t{1} << place.shift) - 1;
+            const std::uint64_t x = from.x + ((slot & 3) << from.shift), y = from.y + ((slot >> 2) << from.shift);
+            const std::uint64_t last = (std::uint64_t{1} << from.shift) - 1;
             if (x > upper.x || x + last < lower.x || y > upper.y || y + last < lower.y) continue;
-            const std::uint32_t entry = tree.nodes[place.node][slot];
+            const std::uint32_t entry = tree.nodes[from.node][slot];
             if ((entry & leaf_bit) == 0) {
-                open.push_back({entry, place.shift - 2, x, y});
+                open.push_back({entry, from.shift - 2, x, y});
                 continue;
             }
-            // Bilinear: the extremes over a rectangle are at its corners.
-            for (std::uint64_t at_x : {std::max(x, lower.x), std::min(x + last, upper.x)})
-                for (std::uint64_t at_y : {std::max(y, lower.y), std::min(y + last, upper.y)}) {
-                    const double h = tree.value(entry, place.shift, {at_x, at_y});
+            // The extremes of a bilinear function over a rectangle are at its corners.
+            for (const std::uint64_t at_x : {std::max(x, lower.x), std::min(x + last, upper.x)})
+                for (const std::uint64_t at_y : {std::max(y, lower.y), std::min(y + last, upper.y)}) {
+                    const double h = tree.value(entry, from.shift, {at_x, at_y});
                     range = {std::min(range.low, h), std::max(range.high, h)};
                 }
         }
@@ -166,31 +171,31 @@ SizeField::Range SizeField::range(const Box& box, double enough) const {
 double SizeField::inverse_square_integral() const {
     assert(tree_);
     const Tree& tree = *tree_;
-    struct Place {
+    struct PlacedNode {
         std::uint32_t node;
-        Point lower;
-        double side;  ///< of a slot
+        Point lower;       ///< lower left corner
+        double slot_side;  ///< in units of length
     };
-    const auto overlap = [&](Point lower, double side) {
+    const auto area_in_domain = [&](Point lower, double side) {
         const Box inside = Box{lower, lower + Point{side, side}}.intersection(tree.domain);
         return std::max(inside.width(), 0.0) * std::max(inside.height(), 0.0);
     };
-    std::vector<Place> open{{0, tree.domain.lower, 0.25 * tree.side}};
+    std::vector<PlacedNode> open{{0, tree.domain.lower, 0.25 * tree.side}};
     double sum = 0;
     while (!open.empty()) {
-        const Place place = open.back();
+        const PlacedNode from = open.back();
         open.pop_back();
         for (unsigned slot = 0; slot < 16; ++slot) {
-            const Point lower = place.lower + place.side * Point{double(slot & 3), double(slot >> 2)};
-            const std::uint32_t entry = tree.nodes[place.node][slot];
+            const Point lower = from.lower + from.slot_side * Point{double(slot & 3), double(slot >> 2)};
+            const std::uint32_t entry = tree.nodes[from.node][slot];
             if ((entry & leaf_bit) == 0) {
-                open.push_back({entry, lower, 0.25 * place.side});
+                open.push_back({entry, lower, 0.25 * from.slot_side});
                 continue;
             }
-            // A leaf of half the node's side counts at its corners for each of its four slots.
+            // A leaf that fills four slots counts in each of them with the mean over its own corners.
             double mean = 0;
-            for (double h : tree.leaves[entry & index_mask]) mean += 0.25 / (tree.side * h * tree.side * h);
-            sum += overlap(lower, place.side) * mean;
+            for (const double h : tree.leaves[entry & index_mask]) mean += 0.25 / (tree.side * h * tree.side * h);
+            sum += area_in_domain(lower, from.slot_side) * mean;
         }
     }
     return sum;

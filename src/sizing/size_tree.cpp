@@ -1,14 +1,10 @@
-// Background size field: the lower envelope of graded cones over segments, sampled on a graded quadtree.
-// Source: P.-O. Persson, Mesh size functions for implicit geometries and PDE-based gradient limiting, Engineering with
-// Computers 22 (2006): in a convex domain the gradient-limited size is h(x) = min_i (h_i + gradation |x - x_i|).
-// Sources that cannot matter in a cell are dropped on the way down (branch and bound).
+// The exact size field (lower_envelope.hpp) sampled on a graded quadtree.
 //
 // Why the error is bounded. The envelope f is Lipschitz with constant g (the gradation), so in a cell of side s the
 // bilinear interpolant of its corners is off by at most g s / sqrt 2. Where a cell keeps half a side's distance from
 // every source that counts in it, f is a minimum of smooth functions: it bends upwards by at most g s^2 / (8 distance)
 // and otherwise has concave ridges only, whose error anywhere is a small multiple of that at the five sample points.
-// Inside a box or a disc that nothing undercuts f is constant.
-
+// Inside a box or a disc that no other source undercuts f is constant.
 #include "sizing/size_tree.hpp"
 
 #include <algorithm>
@@ -17,8 +13,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/box_tree.hpp"
 #include "core/parallel.hpp"
+#include "sizing/lower_envelope.hpp"
 #include "sizing/source_groups.hpp"
 
 namespace lamina::sizing {
@@ -26,187 +22,102 @@ namespace lamina::sizing {
 namespace {
 
 constexpr double sqrt_half = 0.70710678118654752;
-// Share of h that the Lipschitz bound may take; and relative error at the sample points of smooth cells.
+/// The share of h that the Lipschitz bound of the error may take.
 constexpr double lipschitz_tolerance = 0.047;
+/// The largest relative error at the sample points of smooth cells.
 constexpr double sample_tolerance = 0.01;
-// Bounds are loosened by this share, so that rounding never makes them wrong.
+/// Upper bounds are raised by this share, so that rounding never makes them wrong.
 constexpr double rounding = 1e-9;
-// The smallest cell's side is that of the root / 2^max_level.
+/// The side of the smallest cell is that of the root / 2^max_level.
 constexpr int max_level = 40;
 
-double distance(const Box& a, const Box& b) {
-    const double x = std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, 0.0});
-    const double y = std::max({a.lower.y - b.upper.y, b.lower.y - a.upper.y, 0.0});
-    return std::sqrt(x * x + y * y);
-}
-
-// A square of the quadtree under construction.
-struct Cell {
-    Point lower;
+/// A square of the quadtree.
+struct TreeCell {
+    Point lower;  ///< lower left corner
     double side;
-    int level;
-    std::array<double, 4> h;  // exact, in the order of Leaf
+    int level;                ///< 0 for the root
+    std::array<double, 4> h;  ///< exact field at the corners, in the order of Leaf
 
     Box box() const { return {lower, {lower.x + side, lower.y + side}}; }
-    double smallest() const { return std::min({h[0], h[1], h[2], h[3]}); }
-    double largest() const { return std::max({h[0], h[1], h[2], h[3]}); }
+    double min_h() const { return std::min({h[0], h[1], h[2], h[3]}); }
+    double max_h() const { return std::max({h[0], h[1], h[2], h[3]}); }
 };
 
-// Exact h at the middles of a cell's edges and at its centre.
-struct Samples {
+/// The exact field at the middles of a cell's edges and at its centre.
+struct CellSamples {
     double south, west, center, east, north;
 };
 
-// The groups that may decide h somewhere in a cell: a range of Builder::candidates_; a lower bound of their distance
-// from the cell; and whether one of them covers the cell and is undercut by none.
-struct Candidates {
-    std::size_t begin, end;
-    double nearest;
-    bool constant = false;
-};
-
-class Builder {
+/// Builds a part of the tree.
+class TreeBuilder {
 public:
-    Builder(const sizing::SourceTree& sources, const SizeFieldOptions& options, double unit)
-        : gradation_(options.gradation),
-          inverse_gradation_(1 / std::max(options.gradation, 1e-300)),
-          max_size_(options.max_size),
-          unit_(unit),
-          groups_(sources.groups),
-          cones_(sources.cones) {}
+    TreeBuilder(const SourceTree& sources, const SizeFieldOptions& options, double root_side)
+        : envelope_(sources, options), gradation_(options.gradation), root_side_(root_side) {}
 
-    // A cell whose node is still to be made, and where the node is entered.
+    /// A cell whose node is still to be made, and the slot that will lead to the node.
     struct Task {
-        Cell cell;
-        std::vector<std::uint32_t> candidates;
-        Samples samples;
+        TreeCell cell;
+        std::vector<std::uint32_t> candidates;  ///< as LowerEnvelope::copy() returns them
+        CellSamples samples;
         std::uint32_t parent, slot;
     };
 
+    /// Returns the task of the root.
     Task root(Point lower, double side) {
-        if (!groups_.empty()) candidates_.push_back(0);
-        const Candidates all{0, candidates_.size(), 0};
-        Cell root{lower, side, 0, {}};
+        const Candidates all = envelope_.push_all();
+        TreeCell root{lower, side, 0, {}};
         for (int i = 0; i < 4; ++i)
-            root.h[i] = evaluate({lower.x + (i & 1) * side, lower.y + (i >> 1) * side}, all, max_size_);
-        const Samples samples = sample(root, all);
-        return {root, std::move(candidates_), samples, 0, 0};
+            root.h[i] =
+                envelope_.evaluate({lower.x + (i & 1) * side, lower.y + (i >> 1) * side}, all, envelope_.max_size());
+        const CellSamples samples = sample(root, all);
+        return {root, envelope_.copy(all), samples, 0, 0};
     }
 
-    // Makes the node of one cell; its quarters that need nodes of their own become tasks.
+    /// Makes the node of one cell. Its quarters that need nodes of their own become tasks.
     void expand(const Task& task, std::vector<Task>& tasks) {
-        candidates_ = task.candidates;
-        make_node(task.cell, {0, candidates_.size(), 0}, task.samples,
-                  [&](std::uint32_t node, int slot, const Cell& quarter, const Candidates& in, const Samples& s) {
-                      const auto from = candidates_.begin() + static_cast<std::ptrdiff_t>(in.begin);
-                      const auto to = candidates_.begin() + static_cast<std::ptrdiff_t>(in.end);
-                      tasks.push_back({quarter, {from, to}, s, node, static_cast<std::uint32_t>(slot)});
-                  });
+        make_node(
+            task.cell, envelope_.push_copy(task.candidates), task.samples,
+            [&](std::uint32_t node, int slot, const TreeCell& quarter, const Candidates& in, const CellSamples& s) {
+                tasks.push_back({quarter, envelope_.copy(in), s, node, static_cast<std::uint32_t>(slot)});
+            });
     }
 
-    // Makes all nodes below a cell; its own is the first.
-    void finish(const Task& task) {
-        candidates_ = task.candidates;
-        split_twice(task.cell, {0, candidates_.size(), 0}, task.samples);
-    }
+    /// Makes all nodes below a cell. The cell's own node is the first.
+    void finish(const Task& task) { make_nodes(task.cell, envelope_.push_copy(task.candidates), task.samples); }
 
     SizeTree part;
 
 private:
-    // The exact field at p, given an upper bound.
-    double evaluate(Point p, const Candidates& in, double bound) {
-        double best = std::min(bound, max_size_);
-        for (std::size_t i = in.begin; i < in.end; ++i) {
-            std::uint32_t index = candidates_[i];
-            for (;;) {
-                const sizing::SourceGroup& group = groups_[index];
-                // Only what is nearer than this can lower the best value so far.
-                const double reach = std::max((best - group.smallest) * inverse_gradation_, 0.0);
-                if (group.single()) {
-                    const sizing::Cone& cone = cones_[group.cone];
-                    const double squared = cone.squared_distance_to(p), far = reach + cone.radius;
-                    if (squared < far * far)
-                        best = std::min(best,
-                                        group.smallest + gradation_ * std::max(std::sqrt(squared) - cone.radius, 0.0));
-                } else if (core::squared_distance(group.box, p) < reach * reach) {
-                    std::uint32_t near = index + 1, far = group.right;
-                    if (core::squared_distance(groups_[far].box, p) < core::squared_distance(groups_[near].box, p))
-                        std::swap(near, far);
-                    pending_.push_back(far);
-                    index = near;
-                    continue;
-                }
-                if (pending_.empty()) break;
-                index = pending_.back();
-                pending_.pop_back();
-            }
-        }
-        return best;
-    }
-
-    Samples sample(const Cell& c, const Candidates& in) {
+    CellSamples sample(const TreeCell& c, const Candidates& in) {
         const double x0 = c.lower.x, x1 = x0 + 0.5 * c.side, x2 = x0 + c.side;
         const double y0 = c.lower.y, y1 = y0 + 0.5 * c.side, y2 = y0 + c.side;
-        // The field cannot exceed a neighbour's by more than this.
+        // Over half a side the field grows by no more than this.
         const auto bound = [&](double a, double b) {
             return (std::min(a, b) + 0.5 * gradation_ * c.side) * (1 + rounding);
         };
-        Samples s;
-        s.south = evaluate({x1, y0}, in, bound(c.h[0], c.h[1]));
-        s.west = evaluate({x0, y1}, in, bound(c.h[0], c.h[2]));
-        s.center = evaluate({x1, y1}, in, bound(s.south, s.west));
-        s.east = evaluate({x2, y1}, in, bound(c.h[1], c.h[3]));
-        s.north = evaluate({x1, y2}, in, bound(c.h[2], c.h[3]));
+        CellSamples s;
+        s.south = envelope_.evaluate({x1, y0}, in, bound(c.h[0], c.h[1]));
+        s.west = envelope_.evaluate({x0, y1}, in, bound(c.h[0], c.h[2]));
+        s.center = envelope_.evaluate({x1, y1}, in, bound(s.south, s.west));
+        s.east = envelope_.evaluate({x2, y1}, in, bound(c.h[1], c.h[3]));
+        s.north = envelope_.evaluate({x1, y2}, in, bound(c.h[2], c.h[3]));
         return s;
     }
 
-    // The parent's candidates without those that another source undercuts all over the cell. Appended to candidates_.
-    Candidates prune(const Cell& c, const Candidates& parent) {
+    Candidates push_candidates(const TreeCell& c, const Candidates& parent) {
         const double radius = sqrt_half * c.side;
-        const double highest = std::min(c.largest() + gradation_ * radius, c.smallest() + 2 * gradation_ * radius);
-        const Box box = c.box();
-        Candidates result{candidates_.size(), 0, HUGE_VAL};
-        double lowest = HUGE_VAL, covering = HUGE_VAL;
-        for (std::size_t i = parent.begin; i < parent.end; ++i) {
-            std::uint32_t index = candidates_[i];
-            for (;;) {
-                const sizing::SourceGroup& group = groups_[index];
-                double apart = distance(group.box, box);
-                if (group.single()) apart = std::max(apart, cones_[group.cone].distance_to(box.center()) - radius);
-                const double low = group.smallest + gradation_ * apart;
-                if (low <= highest && !group.single() && group.extent() > 0.5 * c.side) {
-                    pending_.push_back(group.right);
-                    ++index;
-                    continue;
-                }
-                if (low <= highest) {
-                    if (group.single() && group.smallest < covering && cones_[group.cone].covers(box))
-                        covering = group.smallest;
-                    candidates_.push_back(index);
-                    result.nearest = std::min(result.nearest, apart);
-                    if (low < lowest) {  // the likeliest first: evaluation then skips most others
-                        lowest = low;
-                        std::swap(candidates_[result.begin], candidates_.back());
-                    }
-                }
-                if (pending_.empty()) break;
-                index = pending_.back();
-                pending_.pop_back();
-            }
-        }
-        result.end = candidates_.size();
-        result.constant = covering <= lowest;
-        return result;
+        const double max_in_cell = std::min(c.max_h() + gradation_ * radius, c.min_h() + 2 * gradation_ * radius);
+        return envelope_.push(c.box(), c.side, max_in_cell, parent);
     }
 
-    bool needs_no_samples(const Cell& c, const Candidates& in) const {
-        return in.begin == in.end || in.constant || c.level == max_level ||
-               sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.smallest();
+    bool needs_no_samples(const TreeCell& c, const Candidates& in) const {
+        return in.empty() || in.constant || c.level == max_level ||
+               sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.min_h();
     }
 
-    // Whether the samples say that bilinear interpolation will do. Their word is taken only away from the sources;
-    // where ridges and bends might cancel out at the five samples, four more are asked.
-    bool smooth(const Cell& c, const Candidates& in, const Samples& s) {
+    /// Returns whether the samples show that bilinear interpolation is close enough. Samples count only away from the
+    /// sources. Where ridges and bends might cancel out at the five samples, four more are taken.
+    bool is_smooth(const TreeCell& c, const Candidates& in, const CellSamples& s) {
         const auto close = [](double interpolated, double exact) {
             return std::abs(interpolated - exact) <= sample_tolerance * exact;
         };
@@ -215,20 +126,19 @@ private:
         if (!(in.nearest >= 0.5 * c.side && close(mean(c.h[0], c.h[1]), s.south) && close(west, s.west) &&
               close(east, s.east) && close(mean(c.h[2], c.h[3]), s.north) && close(mean(west, east), s.center)))
             return false;
-        const bool one_cone = in.end - in.begin == 1 && groups_[candidates_[in.begin]].single();
         const double bend = gradation_ * c.side * c.side / (8 * in.nearest);
-        if (one_cone || bend <= sample_tolerance * c.smallest()) return true;
+        if (envelope_.is_one_source(in) || bend <= sample_tolerance * c.min_h()) return true;
         for (int q = 0; q < 4; ++q) {
             const double u = (q & 1) != 0 ? 0.75 : 0.25, v = (q >> 1) != 0 ? 0.75 : 0.25;
             const double low = c.h[0] + u * (c.h[1] - c.h[0]), high = c.h[2] + u * (c.h[3] - c.h[2]);
             const Point p{c.lower.x + u * c.side, c.lower.y + v * c.side};
             const double bound = (c.h[q] + 0.5 * sqrt_half * gradation_ * c.side) * (1 + rounding);
-            if (!close(low + v * (high - low), evaluate(p, in, bound))) return false;
+            if (!close(low + v * (high - low), envelope_.evaluate(p, in, bound))) return false;
         }
         return true;
     }
 
-    static Cell quadrant(const Cell& c, const Samples& s, int q) {
+    static TreeCell quadrant(const TreeCell& c, const CellSamples& s, int q) {
         const std::array<double, 9> h{c.h[0], s.south, c.h[1], s.west, s.center, s.east, c.h[2], s.north, c.h[3]};
         const int i = q & 1, j = q >> 1, corner = 3 * j + i;
         const double half = 0.5 * c.side;
@@ -238,71 +148,78 @@ private:
                 {h[corner], h[corner + 1], h[corner + 3], h[corner + 4]}};
     }
 
-    std::uint32_t add_leaf(const Cell& c) {
+    /// Adds a leaf and returns the entry that leads to it.
+    std::uint32_t add_leaf(const TreeCell& c) {
         Leaf leaf;
-        for (int i = 0; i < 4; ++i) leaf[i] = static_cast<float>(c.h[i] / unit_);
+        for (int i = 0; i < 4; ++i) leaf[i] = static_cast<float>(c.h[i] / root_side_);
         part.leaves.push_back(leaf);
         return leaf_bit | static_cast<std::uint32_t>(part.leaves.size() - 1);
     }
 
-    // Calls leaf(quadrant, its cell) or inner(quadrant, its cell, candidates, samples) for the four quadrants.
+    /// Calls on_leaf(quadrant, its cell) or on_inner(quadrant, its cell, candidates, samples) for the four quadrants.
     template <class OnLeaf, class OnInner>
-    void split(const Cell& parent, const Candidates& candidates, const Samples& samples, OnLeaf leaf, OnInner inner) {
+    void split(const TreeCell& parent, const Candidates& candidates, const CellSamples& samples, OnLeaf on_leaf,
+               OnInner on_inner) {
         for (int q = 0; q < 4; ++q) {
-            const Cell c = quadrant(parent, samples, q);
-            const Candidates in = prune(c, candidates);
+            const TreeCell c = quadrant(parent, samples, q);
+            const Candidates in = push_candidates(c, candidates);
             if (needs_no_samples(c, in)) {
-                leaf(q, c);
+                on_leaf(q, c);
             } else {
-                const Samples s = sample(c, in);
-                if (smooth(c, in, s))
-                    leaf(q, c);
+                const CellSamples s = sample(c, in);
+                if (is_smooth(c, in, s))
+                    on_leaf(q, c);
                 else
-                    inner(q, c, in, s);
+                    on_inner(q, c, in, s);
             }
-            candidates_.resize(in.begin);
+            envelope_.pop(in);
         }
     }
 
-    // Makes the wide node of a cell that needs one; inner(node, slot, quarter, candidates, samples) for its quarters
-    // that need one, too.
+    /// Makes the wide node of a cell that needs one and returns its index. Calls on_inner(node, slot, quarter,
+    /// candidates, samples) for the cell's quarters that need nodes, too.
     template <class OnInner>
-    std::uint32_t make_node(const Cell& cell, const Candidates& candidates, const Samples& samples, OnInner inner) {
+    std::uint32_t make_node(const TreeCell& cell, const Candidates& candidates, const CellSamples& samples,
+                            OnInner on_inner) {
         const auto node = static_cast<std::uint32_t>(part.nodes.size());
         part.nodes.emplace_back();
         const auto slot = [](int q, int r) { return 8 * (q >> 1) + 4 * (r >> 1) + 2 * (q & 1) + (r & 1); };
         split(
             cell, candidates, samples,
-            [&](int q, const Cell& half) {
+            [&](int q, const TreeCell& half) {
                 const std::uint32_t leaf = add_leaf(half) | half_bit;
                 for (int r = 0; r < 4; ++r) part.nodes[node][slot(q, r)] = leaf;
             },
-            [&](int q, const Cell& half, const Candidates& half_candidates, const Samples& half_samples) {
+            [&](int q, const TreeCell& half, const Candidates& half_candidates, const CellSamples& half_samples) {
                 split(
                     half, half_candidates, half_samples,
-                    [&](int r, const Cell& quarter) { part.nodes[node][slot(q, r)] = add_leaf(quarter); },
-                    [&](int r, const Cell& quarter, const Candidates& in, const Samples& s) {
-                        inner(node, slot(q, r), quarter, in, s);
+                    [&](int r, const TreeCell& quarter) { part.nodes[node][slot(q, r)] = add_leaf(quarter); },
+                    [&](int r, const TreeCell& quarter, const Candidates& in, const CellSamples& s) {
+                        on_inner(node, slot(q, r), quarter, in, s);
                     });
             });
         return node;
     }
 
-    // The recursion is at most max_level deep.
-    std::uint32_t split_twice(const Cell& cell, const Candidates& candidates, const Samples& samples) {
+    /// Makes the wide node of a cell and all nodes below it, and returns its index. The recursion is at most max_level
+    /// deep.
+    std::uint32_t make_nodes(const TreeCell& cell, const Candidates& candidates, const CellSamples& samples) {
         return make_node(
             cell, candidates, samples,
-            [&](std::uint32_t node, int slot, const Cell& quarter, const Candidates& in, const Samples& s) {
-                const std::uint32_t next = split_twice(quarter, in, s);
-                part.nodes[node][slot] = next;
+            [&](std::uint32_t node, int slot, const TreeCell& quarter, const Candidates& in, const CellSamples& s) {
+                const std::uint32_t below = make_nodes(quarter, in, s);
+                part.nodes[node][slot] = below;
             });
     }
 
-    double gradation_, inverse_gradation_, max_size_, unit_;
-    const std::vector<sizing::SourceGroup>& groups_;
-    const std::vector<sizing::Cone>& cones_;
-    std::vector<std::uint32_t> candidates_;  // of the cells on the way from the root to the present one
-    std::vector<std::uint32_t> pending_;     // scratch
+    LowerEnvelope envelope_;
+    double gradation_, root_side_;
+};
+
+/// A part of the tree that a task made, and the tasks that it left.
+struct BuiltPart {
+    SizeTree part;
+    std::vector<TreeBuilder::Task> below;
 };
 
 }  // namespace
@@ -318,35 +235,34 @@ std::uint32_t SizeTree::append(const SizeTree& other) {
     return first_node;
 }
 
-// Level by level until there are enough cells for all threads, then the whole of what is below each: side by side.
-SizeTree build_size_tree(std::span<const SizeSource> given, const SizeFieldOptions& options, Point lower, double side) {
+SizeTree build_size_tree(std::span<const SizeSource> sources, const SizeFieldOptions& options, Point lower,
+                         double side) {
+    // The tree is built level by level until there are enough cells for all threads, then cell by cell: the part below
+    // each cell at once.
     constexpr std::size_t enough_tasks = 64;
-    const sizing::SourceTree sources = sizing::group_sources(given);
-    struct Made {
-        SizeTree part;
-        std::vector<Builder::Task> below;
-    };
-    const auto make = [&](const std::vector<Builder::Task>& tasks, bool finish) {
+    const SourceTree groups = group_sources(sources);
+    const auto build_parts = [&](const std::vector<TreeBuilder::Task>& tasks, bool finish) {
         return core::parallel_blocks(tasks.size(), 1, [&](std::size_t i, std::size_t) {
-            Builder builder(sources, options, side);
-            Made made;
+            TreeBuilder builder(groups, options, side);
+            BuiltPart built;
             if (finish)
                 builder.finish(tasks[i]);
             else
-                builder.expand(tasks[i], made.below);
-            made.part = std::move(builder.part);
-            return made;
+                builder.expand(tasks[i], built.below);
+            built.part = std::move(builder.part);
+            return built;
         });
     };
-    std::vector<Builder::Task> tasks{Builder(sources, options, side).root(lower, side)};
+    std::vector<TreeBuilder::Task> tasks{TreeBuilder(groups, options, side).root(lower, side)};
     SizeTree tree;
     for (bool finish = false; !tasks.empty();) {
-        std::vector<Builder::Task> next;
-        std::vector<Made> made = make(tasks, finish);
+        std::vector<TreeBuilder::Task> next;
+        std::vector<BuiltPart> parts = build_parts(tasks, finish);
         for (std::size_t i = 0; i < tasks.size(); ++i) {
-            const std::uint32_t node = tree.append(made[i].part);
-            if (node > 0) tree.nodes[tasks[i].parent][tasks[i].slot] = node;
-            for (Builder::Task& task : made[i].below) {
+            const std::uint32_t node = tree.append(parts[i].part);
+            const bool is_root = node == 0;
+            if (!is_root) tree.nodes[tasks[i].parent][tasks[i].slot] = node;
+            for (TreeBuilder::Task& task : parts[i].below) {
                 task.parent += node;
                 next.push_back(std::move(task));
             }

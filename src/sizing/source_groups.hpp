@@ -1,4 +1,4 @@
-// Sources of the size field, made ready for distances and grouped by place.
+// Sources of the size field, prepared for distances and grouped by place.
 #pragma once
 
 #include <algorithm>
@@ -13,43 +13,47 @@
 
 namespace lamina::sizing {
 
-/// Size + gradation x distance from the shape, but for the size.
-struct Cone {
-    Point a, along;
-    double inverse_squared_length;  ///< 0 for a point
+/// The shape of a source, prepared for distances.
+struct SourceShape {
+    Point a, along;                 ///< along = b - a of SizeSource
+    double inverse_squared_length;  ///< 1 / |along|^2; 0 for a point
     double radius;
     SizeSource::Shape shape;
 
-    /// From the shape without its radius.
+    /// Returns the squared distance from p to the shape without its radius.
     double squared_distance_to(Point p) const {
         if (shape == SizeSource::Shape::box) return core::squared_distance(Box{a, a + along}, p);
         const Point ap = p - a;
         const double t = std::clamp(dot(ap, along) * inverse_squared_length, 0.0, 1.0);
         return squared_length(ap - t * along);
     }
+    /// Returns the distance from p to the shape; 0 inside it.
     double distance_to(Point p) const { return std::max(std::sqrt(squared_distance_to(p)) - radius, 0.0); }
-    /// The shape is convex: it holds a box if it holds its corners.
+    /// Returns whether the box lies inside the shape.
     bool covers(const Box& box) const;
 };
-Cone make_cone(const SizeSource& source);
+SourceShape prepare_shape(const SizeSource& source);
 
-/// Node of a binary tree of sources: a group of several, or one source.
+/// A node of a binary tree of sources: a group of several sources, or a single one.
 struct SourceGroup {
     Box box;
-    double smallest = HUGE_VAL;  ///< size in the group
-    std::uint32_t right = 0;     ///< the right child; the left one follows its parent
-    std::uint32_t cone = 0;      ///< of a group of one
-    bool single() const { return right == 0; }
+    double min_size = HUGE_VAL;  ///< of the sources in the group
+    std::uint32_t right = 0;     ///< the right child; the left child follows its parent
+    std::uint32_t shape = 0;     ///< of a single source: its index in SourceTree::shapes
+
+    bool is_single() const { return right == 0; }
+    /// Returns the longer side of the box.
     double extent() const { return std::max(box.width(), box.height()); }
 };
 
-/// The root is the first group.
+/// The first group is the root.
 struct SourceTree {
     std::vector<SourceGroup> groups;
-    std::vector<Cone> cones;
+    std::vector<SourceShape> shapes;
 };
 
-/// Depends on the set of sources alone: neither on their order nor on the number of threads. O(n log n).
+/// Groups sources. The tree depends on the set of sources alone, neither on their order nor on the number of threads.
+/// O(n log n).
 SourceTree group_sources(std::span<const SizeSource> sources);
 
 }  // namespace lamina::sizing

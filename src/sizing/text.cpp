@@ -1,10 +1,10 @@
-// The words for size sources and wakes: "box:0,-1,3,1,0.05", "10:2:0.01".
+// Reads and writes the texts of size sources and wakes: "box:0,-1,3,1,0.05", "10:2:0.01".
+#include <lamina/sizing.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
-
-#include <lamina/sizing.hpp>
 
 #include "core/text.hpp"
 
@@ -12,6 +12,7 @@ namespace lamina::sizing {
 
 namespace {
 
+/// Throws UsageError with this reason unless the condition holds.
 void require(bool condition, const std::string& text, const std::string& reason) {
     if (!condition) throw UsageError("'" + text + "': " + reason);
 }
@@ -22,16 +23,18 @@ void require(bool condition, const std::string& text, const std::string& reason)
 
 namespace lamina {
 
+using namespace sizing;
+
 WakeOptions parse_wake(const std::string& text) {
     const std::vector<double> numbers = core::parse_numbers(text, ':');
-    sizing::require(numbers.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
+    require(numbers.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
     WakeOptions wake;
     wake.angle_deg = numbers[0];
-    sizing::require(std::abs(wake.angle_deg) <= 360, text, "the angle must be from -360 to 360 degrees");
+    require(std::abs(wake.angle_deg) <= 360, text, "the angle must be from -360 to 360 degrees");
     if (numbers.size() > 1) wake.length = numbers[1];
-    sizing::require(wake.length > 0, text, "the length must be > 0");
+    require(wake.length > 0, text, "the length must be > 0");
     if (numbers.size() > 2) wake.size = numbers[2];
-    sizing::require(wake.size.value_or(1) > 0, text, "the size must be > 0");
+    require(wake.size.value_or(1) > 0, text, "the size must be > 0");
     return wake;
 }
 
@@ -43,14 +46,14 @@ std::string wake_text(const WakeOptions& wake) {
 SizeSource parse_size_source(const std::string& text) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string shape = text.substr(0, colon);
-    const std::size_t wanted = shape == "box" || shape == "line" ? 5 : shape == "circle" ? 4 : 0;
-    sizing::require(wanted > 0 && colon < text.size(), text,
-                    "a shape is box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H");
+    const std::size_t count = shape == "box" || shape == "line" ? 5 : shape == "circle" ? 4 : 0;
+    require(count > 0 && colon < text.size(), text,
+            "a shape is box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H");
     const std::vector<double> n = core::parse_numbers(text.substr(colon + 1), ',');
-    sizing::require(n.size() == wanted, text, core::concat("a ", shape, " takes ", wanted, " numbers, not ", n.size()));
-    sizing::require(n.back() > 0, text, "the edge length must be > 0");
+    require(n.size() == count, text, core::concat("a ", shape, " takes ", count, " numbers, not ", n.size()));
+    require(n.back() > 0, text, "the edge length must be > 0");
     if (shape == "circle") {
-        sizing::require(n[2] > 0, text, "the radius must be > 0");
+        require(n[2] > 0, text, "the radius must be > 0");
         return {.a = {n[0], n[1]}, .b = {n[0], n[1]}, .size = n[3], .radius = n[2]};
     }
     const Point a{n[0], n[1]}, b{n[2], n[3]};

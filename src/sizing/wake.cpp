@@ -1,3 +1,4 @@
+// Wakes are cut off at walls and divided into segments of growing size.
 #include "sizing/wake.hpp"
 
 #include <algorithm>
@@ -8,12 +9,13 @@ namespace lamina::sizing {
 
 namespace {
 
-/// Sizes along a wake grow by this share of the gradation: slowly, or the line would be no better than its first point.
-constexpr double wake_growth = 0.1;
-/// A wake is a chain of segments of one size each; the size of the next one is larger by this factor.
-constexpr double wake_step = 1.05;
+/// Sizes along a wake grow by this share of the gradation. With the gradation itself the line would have no more effect
+/// than its first point.
+constexpr double growth_share = 0.1;
+/// A wake is a chain of segments of one size each. This is the ratio of successive sizes.
+constexpr double size_ratio = 1.05;
 
-/// Returns how far the ray from p gets before it enters a wall that p does not lie on.
+/// Returns the length, at most `length`, up to which the ray from p meets no wall that p does not lie on.
 double free_length(Loops walls, Point p, Point direction, double length) {
     const double touching = 1e-9 * length;
     for (const std::vector<Point>& wall : walls) {
@@ -34,18 +36,19 @@ std::vector<Wake> find_wakes(const SizedBodies& bodies, const WakeOptions& optio
     const double angle = core::radians(options.angle_deg), length = options.length * bodies.chord;
     const Point direction{core::cos_reproducible(angle), core::sin_reproducible(angle)};
     std::vector<Wake> wakes;
+    wakes.reserve(bodies.trailing_edges.size());
     for (const Point from : bodies.trailing_edges)
         wakes.push_back({from, direction, free_length(bodies.walls, from, direction, length)});
     return wakes;
 }
 
 std::vector<SizeSource> wake_sources(const Wake& wake, double size, double gradation) {
-    const double growth = wake_growth * gradation;
+    const double growth = growth_share * gradation;
     std::vector<SizeSource> sources;
     for (double at = 0; at < wake.length;) {
-        const double next = std::min(at + (wake_step - 1) * size / growth, wake.length);
+        const double next = std::min(at + (size_ratio - 1) * size / growth, wake.length);
         sources.push_back({wake.from + at * wake.direction, wake.from + next * wake.direction, size});
-        size *= wake_step;
+        size *= size_ratio;
         at = next;
     }
     return sources;
@@ -55,8 +58,8 @@ std::vector<SizeSource> given_wake_sources(const SizingOptions& options, const S
     std::vector<SizeSource> sources;
     if (!options.wake || !options.wake->size) return sources;
     for (const Wake& wake : find_wakes(bodies, *options.wake)) {
-        const std::vector<SizeSource> along = wake_sources(wake, *options.wake->size, options.field.gradation);
-        sources.insert(sources.end(), along.begin(), along.end());
+        const std::vector<SizeSource> one = wake_sources(wake, *options.wake->size, options.field.gradation);
+        sources.insert(sources.end(), one.begin(), one.end());
     }
     return sources;
 }

@@ -9,17 +9,17 @@ namespace lamina::sizing {
 
 /// A straight line from a trailing edge.
 struct Wake {
-    Point from, direction;  ///< unit vector
-    double length;
+    Point from, direction;  ///< the direction is a unit vector
+    double length;          ///< in units of the input
 };
 
-/// Returns one wake from each trailing edge, as long as asked for or up to the first wall.
+/// Returns one wake from each trailing edge. Its length is the requested one, or that up to the first wall in its way.
 std::vector<Wake> find_wakes(const SizedBodies& bodies, const WakeOptions& options);
 
 /// Returns the sources along a wake whose size is `size` at the trailing edge.
 std::vector<SizeSource> wake_sources(const Wake& wake, double size, double gradation);
 
-/// Returns the sources along all wakes whose size at the trailing edge is given; none where it is not.
+/// Returns the sources along all wakes if the options give the size at the trailing edge, and none otherwise.
 std::vector<SizeSource> given_wake_sources(const SizingOptions& options, const SizedBodies& bodies);
 
 }  // namespace lamina::sizing

@@ -1,3 +1,4 @@
+// The decoupling: separators, borders of subdomains, and the union of all refined subdomains.
 #include <lamina/decoupling.hpp>
 
 #include <algorithm>
@@ -9,37 +10,37 @@
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
-#include "decoupling/piece.hpp"
 #include "decoupling/separators.hpp"
-#include "decoupling/skeleton.hpp"
+#include "decoupling/subdomain_border.hpp"
 #include "support/point_sets.hpp"
 
 namespace lamina::test {
 namespace {
 
-/// A body border: n points on an ellipse of unit length whose spacing shrinks by `ratio`, evenly, from the middle to
-/// the two ends.
+/// Returns the border of a body: n points on an ellipse of unit length, whose spacing shrinks evenly by `ratio` from
+/// the middle to the two ends.
 std::vector<Point> ellipse(std::size_t n, double thickness, Point center = {0.5, 0}, double ratio = 1.0) {
-    // Fine polyline of the upper half, weighted by 1 / wanted spacing, then equal shares of the weight.
+    // A fine polyline of the upper half is weighted by 1 / spacing and divided into equal shares of the weight.
     constexpr int fine = 20000;
     const auto at = [&](double t) { return center + Point{0.5 * std::cos(t), 0.5 * thickness * std::sin(t)}; };
     std::vector<double> weight{0};
     for (int i = 0; i < fine; ++i) {
         const Point a = at(M_PI * i / fine), b = at(M_PI * (i + 1) / fine);
-        const double off = std::abs(midpoint(a, b).x - center.x) / 0.5;
-        weight.push_back(weight.back() + distance(a, b) / (1 + (1 / ratio - 1) * off));
+        const double off_middle = std::abs(midpoint(a, b).x - center.x) / 0.5;
+        weight.push_back(weight.back() + distance(a, b) / (1 + (1 / ratio - 1) * off_middle));
     }
     std::vector<Point> points;
     for (int half = 0; half < 2; ++half)
         for (std::size_t k = 0; k < n / 2; ++k) {
-            const double wanted = weight.back() * double(k) / double(n / 2);
-            const auto i = std::upper_bound(weight.begin(), weight.end(), wanted) - weight.begin() - 1;
+            const double target = weight.back() * double(k) / double(n / 2);
+            const auto i = std::upper_bound(weight.begin(), weight.end(), target) - weight.begin() - 1;
             const Point p = at(M_PI * double(i) / fine);
             points.push_back(half == 0 ? p : 2.0 * center - p);
         }
     return points;
 }
 
+/// Bodies with borders whose edges request the sizes of which they are the share frozen_share.
 struct Bodies {
     std::vector<Point> points;
     std::vector<std::vector<VertexId>> borders;
@@ -56,20 +57,21 @@ struct Bodies {
             area += 0.5 * cross(a, b);
         }
     }
+    /// Returns the size field in a square about the middle of a unit chord.
     SizeField size(double gradation, double half) const {
         return SizeField(sources, {.gradation = gradation}, {{0.5 - half, -half}, {0.5 + half, half}});
     }
 };
 
-/// Cuts the region between the bodies and a box round a unit chord.
+/// Decouples the region between the bodies and a box round a unit chord.
 Decoupling decouple_to(const Bodies& bodies, const SizeField& size, double far_field, double pieces_target,
                        SeparatorRule rule = SeparatorRule::equidistributed) {
     return decouple(bodies.points, bodies.borders, size, {FarFieldShape::box, {0.5, 0}, far_field},
                     {rule, pieces_target});
 }
 
-/// Refines every piece and checks the union from scratch: valid, of the right area, globally Delaunay.
-/// Returns the number of triangles.
+/// Refines every subdomain and checks the union from scratch: it must be valid, of the right area and globally
+/// Delaunay. Returns the number of triangles.
 std::size_t expect_global_delaunay(const Bodies& bodies, const Decoupling& d, double far_field) {
     std::vector<Point> points = d.points;
     std::vector<Triangle> triangles;
@@ -94,7 +96,7 @@ std::size_t expect_global_delaunay(const Bodies& bodies, const Decoupling& d, do
         }
     }
     EXPECT_EQ(below, 0u);
-    // Ties across separators are not in the pieces' hands: demand the Delaunay property without the tie rule.
+    // No subdomain can decide ties across separators, so the Delaunay property is demanded without the tie rule.
     for (const std::string& defect : check_triangulation(points, triangles, {}, {.require_delaunay = false}))
         ADD_FAILURE() << defect;
     std::map<std::pair<VertexId, VertexId>, VertexId> apex;
@@ -121,7 +123,7 @@ TEST(Separators, EquidistributedSegmentsFollowTheField) {
     const std::vector<SizeSource> sources{{{0, 0}, {0, 0}, 0.01}};
     const SizeField size(sources, {.gradation = 0.2}, {{-20, -20}, {20, 20}});
     const Point u{0.3, 0}, v{17, 11};
-    auto points = decoupling::separate(u, v, {size, SeparatorRule::equidistributed});
+    auto points = decoupling::divide_separator(u, v, {size, SeparatorRule::equidistributed});
     points.insert(points.begin(), u);
     points.push_back(v);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
@@ -132,7 +134,7 @@ TEST(Separators, EquidistributedSegmentsFollowTheField) {
             EXPECT_LT(l / distance(points[i - 1], points[i]), 1.25);
         }
     }
-    auto back = decoupling::separate(v, u, {size, SeparatorRule::equidistributed});
+    auto back = decoupling::divide_separator(v, u, {size, SeparatorRule::equidistributed});
     std::reverse(back.begin(), back.end());
     EXPECT_TRUE(std::equal(back.begin(), back.end(), points.begin() + 1));
 }
@@ -141,7 +143,7 @@ TEST(Separators, KRuleKeepsItsBoundsAtBothEndsOfEverySegment) {
     const std::vector<SizeSource> sources{{{0, 0}, {0, 0}, 0.01}};
     const SizeField size(sources, {.gradation = 0.1}, {{-20, -20}, {20, 20}});
     const Point u{0.3, 0}, v{9, 4};
-    auto points = decoupling::separate(u, v, {size, SeparatorRule::k_rule});
+    auto points = decoupling::divide_separator(u, v, {size, SeparatorRule::k_rule});
     points.insert(points.begin(), u);
     points.push_back(v);
     ASSERT_GT(points.size(), 10u);
@@ -153,7 +155,7 @@ TEST(Separators, KRuleKeepsItsBoundsAtBothEndsOfEverySegment) {
     }
 }
 
-TEST(Pieces, SquareWithHoleCutAndIslands) {
+TEST(SubdomainBorders, SquareWithHoleCutAndIslands) {
     // A square cut in two by a diagonal chain, with a triangular hole in one half and a diamond loop in the other.
     std::vector<Point> points{{0, 0},     {4, 0},     {4, 4}, {0, 4},     {2.5, 0.5}, {3.5, 0.5},
                               {3.5, 1.5}, {0.5, 2.5}, {1, 3}, {0.5, 3.5}, {0.2, 3}};
@@ -163,15 +165,15 @@ TEST(Pieces, SquareWithHoleCutAndIslands) {
         if (both) edges.push_back({VertexId{b}, VertexId{a}});
     };
     add(0, 1, false), add(1, 2, false), add(2, 3, false), add(3, 0, false), add(0, 2, true);
-    add(4, 6, false), add(6, 5, false), add(5, 4, false);                  // hole: clockwise
-    add(7, 8, true), add(8, 9, true), add(9, 10, true), add(10, 7, true);  // meshed on both sides
-    const auto pieces = decoupling::trace_pieces(points, edges);
-    ASSERT_EQ(pieces.size(), 3u);
+    add(4, 6, false), add(6, 5, false), add(5, 4, false);                  // a hole, clockwise
+    add(7, 8, true), add(8, 9, true), add(9, 10, true), add(10, 7, true);  // an island, meshed on both sides
+    const auto borders = decoupling::trace_borders(points, edges);
+    ASSERT_EQ(borders.size(), 3u);
     std::multiset<std::size_t> sizes;
     std::size_t used = 0;
-    for (const auto& piece : pieces) {
+    for (const auto& border : borders) {
         std::size_t count = 0;
-        for (const auto& loop : piece.loops) count += loop.size();
+        for (const auto& loop : border.loops) count += loop.size();
         sizes.insert(count);
         used += count;
     }
@@ -179,23 +181,23 @@ TEST(Pieces, SquareWithHoleCutAndIslands) {
     EXPECT_EQ(sizes, (std::multiset<std::size_t>{4, 6, 7}));
 }
 
-TEST(Pieces, SlitKeepsOneFaceAndTwoSlitsMakeTwo) {
+TEST(SubdomainBorders, OneSlitCutsNothingAndTwoSlitsCutInTwo) {
     std::vector<Point> points{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 1}, {3, 1}, {3, 3}, {1, 3}};
     std::vector<Segment> edges;
     for (std::size_t i = 0; i < 4; ++i) {
         edges.push_back({VertexId{i}, VertexId{(i + 1) % 4}});
         edges.push_back({VertexId{4 + (i + 1) % 4}, VertexId{4 + i}});
     }
-    EXPECT_EQ(decoupling::trace_pieces(points, edges).size(), 1u);
+    EXPECT_EQ(decoupling::trace_borders(points, edges).size(), 1u);
     edges.push_back({VertexId{0}, VertexId{4}});
     edges.push_back({VertexId{4}, VertexId{0}});
-    EXPECT_EQ(decoupling::trace_pieces(points, edges).size(), 1u);
+    EXPECT_EQ(decoupling::trace_borders(points, edges).size(), 1u);
     edges.push_back({VertexId{2}, VertexId{6}});
     edges.push_back({VertexId{6}, VertexId{2}});
-    EXPECT_EQ(decoupling::trace_pieces(points, edges).size(), 2u);
+    EXPECT_EQ(decoupling::trace_borders(points, edges).size(), 2u);
 }
 
-TEST(Decouple, UnionOfPiecesIsGloballyDelaunay) {
+TEST(Decouple, UnionOfSubdomainsIsGloballyDelaunay) {
     Bodies bodies;
     bodies.add(ellipse(400, 0.15, {0.5, 0}, 10));
     std::map<double, std::size_t> count;
@@ -225,7 +227,7 @@ TEST(Decouple, SeveralBodies) {
     expect_global_delaunay(bodies, d, 20);
 }
 
-TEST(Decouple, PiecesStayNearTheirTargetAndEstimatesNearTheOutcome) {
+TEST(Decouple, SubdomainsStayNearTheirTargetAndEstimatesNearTheOutcome) {
     Bodies bodies;
     bodies.add(ellipse(400, 0.12));
     const SizeField size = bodies.size(0.03, 50);
@@ -239,9 +241,8 @@ TEST(Decouple, PiecesStayNearTheirTargetAndEstimatesNearTheOutcome) {
     }
 }
 
-/// Three borders a thousand times as fine as the space between them: triangles with fine corners and a wide middle.
-/// No piece above twice the target, estimates within 15 % of the outcome for most pieces, few triangles more than
-/// uncut, frozen borders kept.
+/// Expects that no subdomain holds more than twice the target, that the estimates of most subdomains are within 15 % of
+/// the outcome, that decoupling costs few triangles, and that frozen borders are kept.
 void expect_cut_to_size(const Bodies& bodies, const SizeField& size, double far_field, double target) {
     SCOPED_TRACE(target);
     const Decoupling whole = decouple_to(bodies, size, far_field, 1e9);
@@ -249,13 +250,13 @@ void expect_cut_to_size(const Bodies& bodies, const SizeField& size, double far_
     const Decoupling d = decouple_to(bodies, size, far_field, target);
     const auto divided = double(expect_global_delaunay(bodies, d, far_field));
     EXPECT_LT(divided, (target < 1000 ? 1.03 : 1.015) * undivided);
-    std::size_t foreseen = 0;
+    std::size_t well_estimated = 0;
     for (const Subdomain& s : d.subdomains) {
         const auto made = double(refine(s).triangles.size());
         EXPECT_LT(made, 2 * target);
-        foreseen += std::abs(s.estimated_triangles - made) <= 0.15 * made;
+        well_estimated += std::abs(s.estimated_triangles - made) <= 0.15 * made;
     }
-    EXPECT_GE(double(foreseen), 0.95 * double(d.subdomains.size()));
+    EXPECT_GE(double(well_estimated), 0.95 * double(d.subdomains.size()));
 }
 
 TEST(Decouple, OneBodyIsCutToAnySize) {
@@ -281,7 +282,7 @@ TEST(Decouple, SourcesOfSizesAreCutToSizeWhereverTheyLie) {
     for (double target : {10'000.0, 2'000.0}) expect_cut_to_size(bodies, bodies.size(0.1, 20), 20, target);
 }
 
-// What is a ring of many edges where h is small may be one or two edges wide on the other side.
+// A ring that is many edges wide where h is small may be one or two edges wide on the other side.
 TEST(Decouple, RingsKeepTheirWidthWhereTheyAreCoarsest) {
     Bodies bodies;
     bodies.add(ellipse(400, 0.12, {0.5, 0}, 4));
@@ -297,30 +298,30 @@ TEST(Decouple, NarrowGapsAreLeftAlone) {
     const SizeField size = bodies.size(0.1, 10);
     const Decoupling d = decouple_to(bodies, size, 10, 500);
     expect_global_delaunay(bodies, d, 10);
-    // No vertex of a line in the gap, which is about five edges wide at its narrowest.
+    // The gap, which is about five edges wide at its narrowest, holds no vertex of a separator.
     for (std::size_t v = bodies.points.size(); v < d.points.size(); ++v) {
         const Point p = d.points[v];
         EXPECT_FALSE(p.x > 0.5 && p.x < 0.6 && p.y > 0.08 && p.y < 0.135) << p.x << ' ' << p.y;
     }
 }
 
-TEST(Pieces, SplitAndJoinKeepEveryEdge) {
+TEST(SubdomainBorders, SplitAndJoinKeepEveryEdge) {
     const auto ids = [](std::initializer_list<int> values) {
         std::vector<VertexId> result;
         for (int v : values) result.push_back(VertexId{static_cast<std::size_t>(v)});
         return result;
     };
-    const decoupling::Piece ring{{ids({0, 1, 2, 3}), ids({4, 5, 6})}};
-    const decoupling::Piece slit = decoupling::join(ring, {1, 2}, {0, 1}, ids({8, 9}));
+    const decoupling::SubdomainBorder ring{{ids({0, 1, 2, 3}), ids({4, 5, 6})}};
+    const decoupling::SubdomainBorder slit = decoupling::join(ring, {1, 2}, {0, 1}, ids({8, 9}));
     ASSERT_EQ(slit.loops.size(), 1u);
     EXPECT_EQ(slit.loops[0], ids({6, 4, 5, 6, 8, 9, 1, 2, 3, 0, 1, 9, 8}));
-    const decoupling::Halves halves = decoupling::split(slit, 1, 8, ids({7}));
+    const decoupling::BorderHalves halves = decoupling::split(slit, 1, 8, ids({7}));
     EXPECT_EQ(halves.first.loops[0], ids({4, 7, 3, 0, 1, 9, 8, 6}));
     EXPECT_EQ(halves.second.loops[0], ids({3, 7, 4, 5, 6, 8, 9, 1, 2}));
 }
 
-/// A line that dangles in a piece, as between a body and the border it was joined to.
-TEST(Pieces, DanglingLinesAreRefinedFromBothSides) {
+// A line dangles in a subdomain, for instance between a body and the border to which it was joined.
+TEST(Decouple, DanglingLinesAreRefinedFromBothSides) {
     Bodies bodies;
     bodies.add(ellipse(60, 0.4));
     const SizeField size = bodies.size(0.1, 3);
@@ -336,8 +337,8 @@ TEST(Pieces, DanglingLinesAreRefinedFromBothSides) {
         if (s.points[e.a.index()].x > 1.6 && (s.points[corner.index()].x < 1.6 ||
                                               std::abs(s.points[e.a.index()].y) < std::abs(s.points[corner.index()].y)))
             corner = e.a;
-    const auto line = decoupling::separate(s.points[nose.index()], s.points[corner.index()],
-                                           {size, SeparatorRule::equidistributed}, 3);
+    const auto line = decoupling::divide_separator(s.points[nose.index()], s.points[corner.index()],
+                                                   {size, SeparatorRule::equidistributed}, 3);
     ASSERT_GT(line.size(), 2u);
     VertexId before = nose;
     const auto add = [&](VertexId v) {
@@ -355,6 +356,8 @@ TEST(Pieces, DanglingLinesAreRefinedFromBothSides) {
     expect_global_delaunay(bodies, d, 1.2);
 }
 
+// Three borders are a thousand times as fine as the space between them, so triangles of the border have fine corners
+// and a wide middle.
 TEST(Decouple, EstimatesSeeWideSpacesBetweenFineBorders) {
     Bodies bodies;
     const auto small = [](Point center) {

@@ -1,4 +1,4 @@
-// Triangulation in pieces against brute force and against one kernel, on points full of ties.
+// Compares triangulation in pieces with brute force and with one triangulation of all points, on points full of ties.
 #include "delaunay/pieces/pieces.hpp"
 
 #include <algorithm>
@@ -20,7 +20,8 @@ namespace {
 using delaunay::pieces::PiecewiseTriangulation;
 using delaunay::pieces::triangulate_in_pieces;
 
-std::vector<Triangle> sequential(const std::vector<Point>& points) {
+/// Returns the triangles of one triangulation of all points.
+std::vector<Triangle> triangulated_at_once(const std::vector<Point>& points) {
     return canonical(delaunay::without_ghosts(delaunay::triangulate_points(points)).triangles);
 }
 
@@ -32,7 +33,7 @@ void expect_pieces_of_whole(const PiecewiseTriangulation& t) {
     EXPECT_LE(t.stats.largest_piece, t.stats.piece_vertices);
 }
 
-/// Points on concentric circles round a lattice point: rings of points with one circle each, and mirror images.
+/// Returns points on concentric circles round a lattice point: many cocircular points and mirror images.
 std::vector<Point> concentric_circles() {
     std::vector<Point> points;
     for (int k = 1; k <= 8; ++k) {
@@ -43,7 +44,7 @@ std::vector<Point> concentric_circles() {
     return points;
 }
 
-/// Exactly symmetric about y = 0, x = 0 and x = y.
+/// Returns points that are exactly symmetric about y = 0, x = 0 and x = y.
 std::vector<Point> symmetric_points(std::size_t n) {
     std::vector<Point> points;
     for (const Point p : random_points(n / 8, 5))
@@ -71,12 +72,12 @@ TEST(Decomposition, EqualsBruteForceOnSmallSets) {
                   brute_force_delaunay(points));
 }
 
-TEST(Decomposition, EqualsSequentialAtEveryDepth) {
+TEST(Decomposition, EqualsOneTriangulationAtEveryDepth) {
     for (const auto& points :
          {random_points(20'000, 3), square_lattice(120, 100), hexagonal_lattice(120, 100), concentric_circles(),
           symmetric_points(4000), random_grid_points(4000, 80, 1), layer_points(300, 30), naca_layer_points(20'000),
           flat_plate_points(10'000, 1, 0), flat_plate_points(10'000, 0.8, 0.6)}) {
-        const auto expected = sequential(points);
+        const auto expected = triangulated_at_once(points);
         for (unsigned depth = 0; depth <= 7; ++depth) {
             const PiecewiseTriangulation t = triangulate_in_pieces(points, {.depth = depth, .leaf_vertices = 10});
             ASSERT_EQ(canonical(t.triangles), expected) << "depth " << depth;
@@ -86,18 +87,18 @@ TEST(Decomposition, EqualsSequentialAtEveryDepth) {
     }
 }
 
-TEST(Decomposition, EqualsSequentialOnManyPoints) {
+TEST(Decomposition, EqualsOneTriangulationOnManyPoints) {
     for (const auto& points : {random_points(200'000, 4), naca_layer_points(200'000), square_lattice(400, 400)})
-        EXPECT_EQ(canonical(triangulate(points).triangles), sequential(points));
+        EXPECT_EQ(canonical(triangulate(points).triangles), triangulated_at_once(points));
     const auto million = random_points(1'000'000, 4);
     const PiecewiseTriangulation t = triangulate_in_pieces(million, {.depth = 6, .leaf_vertices = 10});
-    EXPECT_EQ(canonical(t.triangles), sequential(million));
+    EXPECT_EQ(canonical(t.triangles), triangulated_at_once(million));
     EXPECT_EQ(t.stats.pieces, 64u);
     EXPECT_LE(t.stats.largest_piece * t.stats.pieces, 2 * t.stats.piece_vertices);
 }
 
-TEST(Decomposition, PointsTooCloseForTheKeysOfTheSorts) {
-    // Nearly all in a spot 1e-12 of the extent wide, on a few lines.
+TEST(Decomposition, PointsTooCloseForSortKeys) {
+    // Nearly all points lie on a few lines in a spot that is 1e-12 of the extent wide.
     auto points = random_grid_points(20'000, 300, 7);
     for (Point& p : points) p = {0.3 + 1e-12 * p.x, -0.2 + 1e-12 * p.y};
     std::sort(points.begin(), points.end(), [](Point p, Point q) { return lexicographically_less(p, q); });
@@ -106,19 +107,19 @@ TEST(Decomposition, PointsTooCloseForTheKeysOfTheSorts) {
     for (const Point p : random_points(100, 8)) std::swap(points[i += 50], points.emplace_back(Point{2 * p.x, p.y}));
     const DecompositionOptions deep{.depth = 6, .leaf_vertices = 10};
     ASSERT_GT(points.size(), 10'000u);
-    EXPECT_EQ(canonical(triangulate_in_pieces(points, deep).triangles), sequential(points));
+    EXPECT_EQ(canonical(triangulate_in_pieces(points, deep).triangles), triangulated_at_once(points));
     points.push_back(points[points.size() / 2]);
     EXPECT_THROW(triangulate_in_pieces(points, deep), InputError);
 }
 
-TEST(Decomposition, TurnedPointsToo) {
+TEST(Decomposition, TurnedAndScaledPoints) {
     auto points = square_lattice(90, 90);
     for (Point& p : points) p = {0.6 * p.x - 0.8 * p.y, 0.8 * p.x + 0.6 * p.y};
     EXPECT_EQ(canonical(triangulate_in_pieces(points, {.depth = 6, .leaf_vertices = 10}).triangles),
-              sequential(points));
+              triangulated_at_once(points));
     for (Point& p : points) p = {1e50 * p.x, 1e50 * p.y};
     EXPECT_EQ(canonical(triangulate_in_pieces(points, {.depth = 6, .leaf_vertices = 10}).triangles),
-              sequential(points));
+              triangulated_at_once(points));
 }
 
 TEST(Decomposition, DoesNotDependOnTheNumberOfThreads) {
@@ -144,10 +145,10 @@ TEST(Decomposition, FewPointsOrOneLineGiveNoTriangles) {
     for (int i = 0; i < 100; ++i) line.push_back({double(i * 37 % 101), 2.0 * (i * 37 % 101)});
     EXPECT_TRUE(triangulate(line, deep).triangles.empty());
     line.push_back({5, 5});
-    EXPECT_EQ(canonical(triangulate(line, deep).triangles), sequential(line));
+    EXPECT_EQ(canonical(triangulate(line, deep).triangles), triangulated_at_once(line));
 }
 
-TEST(Decomposition, RefusesWhatOneKernelRefuses) {
+TEST(Decomposition, RefusesDuplicatesAndNaN) {
     auto points = random_points(20'000, 11);
     points[17'123] = points[17];
     try {
@@ -160,11 +161,13 @@ TEST(Decomposition, RefusesWhatOneKernelRefuses) {
     EXPECT_THROW(triangulate(points), InputError);
 }
 
-/// A polygon that winds, with points inside: most of its edges are no Delaunay edges of the points.
+/// Points and the border round them.
 struct Region {
     std::vector<Point> points;
     std::vector<Segment> border;
 };
+
+/// Returns a winding polygon with points inside. Most of its edges are no Delaunay edges of the points.
 Region winding_region(std::size_t corners, std::size_t inside, std::uint64_t seed) {
     Random random(seed);
     Region region;
@@ -174,14 +177,14 @@ Region winding_region(std::size_t corners, std::size_t inside, std::uint64_t see
         region.points.push_back({r * std::cos(t), r * std::sin(t)});
         region.border.push_back({VertexId{i}, VertexId{(i + 1) % corners}});
     }
-    while (region.points.size() < corners + inside) {  // a disc that lies in every star
+    while (region.points.size() < corners + inside) {  // the points lie in a disc inside the polygon
         const Point p{random.real(-1, 1), random.real(-1, 1)};
         if (squared_length(p) < 0.04) region.points.push_back(p);
     }
     return region;
 }
 
-TEST(Decomposition, EqualsSequentialInRegions) {
+TEST(Decomposition, EqualsOneTriangulationInRegions) {
     DecompositionStats sum;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         const Region region = winding_region(20 + 5 * seed, 20 * seed, seed);
@@ -198,7 +201,7 @@ TEST(Decomposition, EqualsSequentialInRegions) {
         }
     }
     EXPECT_GT(sum.pieces, 500u);
-    EXPECT_GT(sum.crossing_cuts, 500u);  // this is what such regions are for
+    EXPECT_GT(sum.crossing_cuts, 500u);  // winding borders provoke them
 }
 
 TEST(Decomposition, NamesCrossingSegmentsByTheirNumbers) {

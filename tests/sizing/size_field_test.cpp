@@ -1,4 +1,4 @@
-// The size field against the exact minimum over its sources.
+// Compares the size field with the exact minimum over its sources.
 #include <lamina/sizing.hpp>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ public:
     }
     std::size_t index(std::size_t size) { return engine_() % size; }
     Point in(const Box& box) { return {real(box.lower.x, box.upper.x), real(box.lower.y, box.upper.y)}; }
-    // Any direction, distances of all magnitudes.
+    /// Returns a vector of any direction and of any magnitude.
     Point offset() {
         const double reach = std::pow(10.0, real(-7, 1.5));
         return {real(-reach, reach), real(-reach, reach)};
@@ -36,6 +36,7 @@ private:
 
 const Box domain{{-20, -15}, {21, 17}};
 
+/// Returns the exact minimum over the sources.
 double exact(const std::vector<SizeSource>& sources, const SizeFieldOptions& options, Point p) {
     double smallest = options.max_size;
     for (const SizeSource& s : sources) {
@@ -48,12 +49,12 @@ double exact(const std::vector<SizeSource>& sources, const SizeFieldOptions& opt
     return smallest;
 }
 
-// Edges of a closed curve with sizes of their own length: what the outer border of a layer looks like.
+/// Returns the edges of a closed curve like the outer border of a layer, with their own lengths for sizes.
 std::vector<SizeSource> closed_curve(int edges) {
     std::vector<Point> points;
     for (int i = 0; i < edges; ++i) {
         const double t = 2 * M_PI * i / edges;
-        // Clustered at both ends, hollow below.
+        // The points are clustered at both ends, and the lower side is hollow.
         points.push_back({0.5 + 0.5 * std::cos(t), 0.06 * std::sin(t) * (t < M_PI ? 1 : std::cos(2 * t))});
     }
     std::vector<SizeSource> sources;
@@ -64,6 +65,7 @@ std::vector<SizeSource> closed_curve(int edges) {
     return sources;
 }
 
+/// Returns points and short segments with sizes of all magnitudes.
 std::vector<SizeSource> scattered(int count, Random& random) {
     std::vector<SizeSource> sources;
     for (int i = 0; i < count; ++i) {
@@ -74,7 +76,7 @@ std::vector<SizeSource> scattered(int count, Random& random) {
     return sources;
 }
 
-// Points of all distances from the sources, and the corners of the domain.
+/// Returns points at all distances from the sources, two corners of the domain, and its centre.
 std::vector<Point> probes(const std::vector<SizeSource>& sources, std::size_t count, Random& random) {
     std::vector<Point> points{domain.lower, domain.upper, domain.center()};
     while (points.size() < count) {
@@ -156,16 +158,16 @@ TEST(SizeField, CloseToExactForAreas) {
     expect_close_to_exact(sources, {.gradation = 0.1}, random);
 }
 
-// An area costs cells along its rim, not inside.
+// An area costs cells along its boundary, not inside.
 TEST(SizeField, AreasAreConstantInside) {
     const std::vector<SizeSource> box{{.a = {-3, -2}, .b = {3, 2}, .size = 0.01, .shape = SizeSource::Shape::box}};
     const SizeField field(box, {.gradation = 0.1}, domain);
-    EXPECT_LT(field.cells(), 60'000u);  // of 0.005, where 1,000,000 would be needed to fill it
+    EXPECT_LT(field.cells(), 60'000u);  // cells of 0.005 would have to be 1,000,000 to fill the box
     Random random(10);
     for (int i = 0; i < 1000; ++i) EXPECT_NEAR(field(random.in({{-2.98, -1.98}, {2.98, 1.98}})), 0.01, 1e-8);
 }
 
-// The field may jump between cells, but by no more than its error; otherwise it grows by the gradation.
+// The field may jump between cells by no more than its error. Otherwise it grows by the gradation.
 TEST(SizeField, NeighbouringValuesDifferLittle) {
     Random random(5);
     const std::vector<SizeSource> sources = closed_curve(600);
@@ -218,7 +220,7 @@ TEST(SizeField, RestrictionChangesNoValue) {
     }
 }
 
-// Many sources stand at one place or have one middle, and some are there twice.
+// Many sources lie at the same place or have the same middle, and some are given twice.
 TEST(SizeField, DependsNeitherOnTheOrderOfSourcesNorOnThreads) {
     Random random(8);
     std::vector<SizeSource> sources = closed_curve(3000);
@@ -255,7 +257,7 @@ TEST(SizeField, IntegralOfItsInverseSquare) {
     const SizeField capped({}, {.gradation = 0.1, .max_size = 0.5}, domain);
     const double area = domain.width() * domain.height();
     EXPECT_NEAR(capped.inverse_square_integral(), 4 * area, 1e-5 * area);
-    // Against the mean over points everywhere.
+    // The reference is the mean over points everywhere.
     Random random(12);
     const std::vector<SizeSource> sources{{{-3, -2}, {9, 5}, 1}, {{0, 8}, {1, -12}, 2}};
     const SizeField field(sources, {.gradation = 0.3}, domain);
@@ -269,7 +271,7 @@ TEST(SizeField, IntegralOfItsInverseSquare) {
     EXPECT_NEAR(field.inverse_square_integral(), expected, 0.02 * expected);
 }
 
-// Few cells where the field is nearly flat, and no more than a few dozen a source elsewhere.
+// The tree has few cells where the field is nearly flat, and no more than a few dozen per source elsewhere.
 TEST(SizeField, CellsAreFew) {
     const std::vector<SizeSource> sources = closed_curve(1000);
     const Box far{{-100, -100}, {101, 100}};
@@ -277,7 +279,7 @@ TEST(SizeField, CellsAreFew) {
     EXPECT_LT(SizeField(sources, {.gradation = 0.1}, far).cells(), 40'000u);
 }
 
-TEST(SizeField, RefusesWhatMakesNoField) {
+TEST(SizeField, RefusesInvalidArguments) {
     const std::vector<SizeSource> one{{{0, 0}, {1, 0}, 0.1}};
     const std::vector<SizeSource> zero{{{0, 0}, {1, 0}, 0.0}};
     EXPECT_THROW(SizeField(0.0), UsageError);

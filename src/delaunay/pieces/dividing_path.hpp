@@ -3,14 +3,17 @@
 
 #include <vector>
 
-#include "delaunay/pieces/subdomain.hpp"
+#include "delaunay/pieces/cut_line.hpp"
+#include "delaunay/pieces/piece.hpp"
+#include "delaunay/pieces/sorted_points.hpp"
 
 namespace lamina::delaunay::pieces {
 
-/// The path of edges of the points' Delaunay triangulation (by the one tie rule) between the triangles whose centres
-/// lie on the two sides of a cut, low points on its left; from the lowest to the highest coordinate along the cut. The
-/// cut holds the coordinate `axis` of the point at this place in that coordinate's order. A point that is not on the
-/// path lies on the side of the path that it has by the cut. O(points), and O(sqrt(points) log(points)).
-std::vector<Index> dividing_path(const SortedPoints& sorted, const Subdomain& points, Axis axis, std::size_t place);
+/// Returns the dividing path of a cut: the path of edges of the points' Delaunay triangulation (by the one tie rule)
+/// between the triangles whose centres lie on the two sides of the cut line. The line runs through the point that
+/// stands at `place` in the piece's order by `axis`. The path goes from the lowest to the highest coordinate along the
+/// line, with low points on its left. A point off the path lies on the side of the path on which it lies of the cut.
+/// O(points), of which O(sqrt(points)) are sorted.
+std::vector<Index> dividing_path(const SortedPoints& sorted, const Piece& piece, Axis axis, std::size_t place);
 
 }  // namespace lamina::delaunay::pieces

@@ -1,5 +1,6 @@
-// The steps of a triangulation in pieces: sort, cut, triangulate the leaves, put their triangles one behind the other.
-// Borders of leaves are edges of the triangulation of the whole, so every leaf finds its triangles of it by itself.
+// The steps of a triangulation in pieces: sort the points, cut them into leaves, triangulate the leaves, and put their
+// triangles one behind the other. Borders of leaves are edges of the triangulation of the whole, so the triangles
+// inside every leaf are triangles of the whole.
 #include "delaunay/pieces/pieces.hpp"
 
 #include <algorithm>
@@ -13,22 +14,22 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
-#include "delaunay/pieces/border.hpp"
-#include "delaunay/pieces/decompose.hpp"
-#include "delaunay/pieces/leaf_order.hpp"
-#include "delaunay/pieces/places.hpp"
+#include "delaunay/pieces/convex_hull.hpp"
+#include "delaunay/pieces/cut_piece.hpp"
+#include "delaunay/pieces/leaf_brio.hpp"
+#include "delaunay/pieces/vertex_index_map.hpp"
 #include "delaunay/triangulator.hpp"
 
 namespace lamina::delaunay::pieces {
 
 namespace {
 
-/// Vertices as numbers of the input.
-using PieceTriangles = core::UninitializedArray<std::array<Index, 3>>;
+/// The triangles of a leaf; their vertices are indices into the input.
+using LeafTriangles = core::UninitializedArray<std::array<Index, 3>>;
 
-/// Leaves in the order of the decomposition.
-struct Pieces {
-    std::vector<PieceTriangles> triangles;
+/// The leaves of a piece, in the order of the decomposition.
+struct Leaves {
+    std::vector<LeafTriangles> triangles;
     DecompositionStats stats;
 };
 
@@ -42,88 +43,91 @@ void add(DecompositionStats& sum, const DecompositionStats& stats) {
     sum.fallbacks += stats.fallbacks;
 }
 
-/// The border between vertices as kernel::triangulate_in_order() numbers them.
-std::vector<Segment> in_order_of_insertion(std::span<const Edge> border, std::span<const Index> order) {
+/// Returns a closed border between vertices as triangulate_in_order() numbers them: point order[i] is vertex i + 1.
+std::vector<Segment> in_insertion_numbers(std::span<const BorderEdge> border, std::span<const Index> order) {
     std::vector<Index> vertices;
     vertices.reserve(border.size());
-    for (const Edge& e : border) vertices.push_back(e.a);
-    const Places places(vertices);
+    for (const BorderEdge& e : border) vertices.push_back(e.a);
+    const VertexIndexMap map(vertices);
+    // From here on `vertices` holds the new numbers.
     for (std::size_t i = 0; i < order.size(); ++i)
-        if (const std::size_t at = places.of(order[i]); at != nowhere) vertices[at] = static_cast<Index>(i + 1);
-    const auto inserted = [&](Index i) { return VertexId{vertices[places.of(i)]}; };
+        if (const std::size_t at = map.find(order[i]); at != not_found) vertices[at] = static_cast<Index>(i + 1);
+    const auto inserted = [&](Index i) { return VertexId{vertices[map.find(i)]}; };
     std::vector<Segment> segments;
     segments.reserve(border.size());
-    for (const Edge& e : border) segments.push_back({inserted(e.a), inserted(e.b)});
+    for (const BorderEdge& e : border) segments.push_back({inserted(e.a), inserted(e.b)});
     return segments;
 }
 
-/// The triangles inside a leaf's border, in the numbers of the input.
-PieceTriangles triangulate_leaf(const SortedPoints& sorted, Subdomain leaf) {
-    std::vector<Index> numbers = leaf_order(sorted, leaf);
+/// Returns the triangles inside the border of a leaf.
+LeafTriangles triangulate_leaf(const SortedPoints& sorted, Piece leaf) {
+    std::vector<Index> order = leaf_brio(sorted, leaf);
     leaf.by_x = {};
     leaf.by_y = {};
-    delaunay::OrderedTriangulation triangulation = delaunay::triangulate_in_order(sorted.points.all(), numbers);
-    const delaunay::Marks inside =
-        delaunay::mark_region(triangulation, in_order_of_insertion(std::exchange(leaf.border, {}), numbers));
-    // From here on each vertex's number in the input.
-    for (Index& i : numbers) i = sorted.original[i];
-    PieceTriangles triangles(static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1)));
+    OrderedTriangulation triangulation = triangulate_in_order(sorted.points.all(), order);
+    const Marks inside = mark_region(triangulation, in_insertion_numbers(std::exchange(leaf.border, {}), order));
+    // From here on `order` holds for each vertex its index in the input.
+    for (Index& i : order) i = sorted.original[i];
+    LeafTriangles triangles(static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1)));
     auto* to = triangles.begin();
     for (std::size_t t = 0; t < inside.size(); ++t) {
         if (!inside[t]) continue;
         const auto& v = triangulation.tris[t].v;
-        *to++ = {numbers[v[0] - 1], numbers[v[1] - 1], numbers[v[2] - 1]};
+        *to++ = {order[v[0] - 1], order[v[1] - 1], order[v[2] - 1]};
     }
     return triangles;
 }
 
-Pieces triangulate(const SortedPoints& sorted, Subdomain subdomain, const DecompositionOptions& options,
-                   core::BusyTimes* times) {
-    Pieces pieces;
-    if (!is_leaf(subdomain, options)) {
-        std::optional<Halves> halves;
+/// Triangulates a piece: cuts it and triangulates both parts, at the same time where a thread is free, or triangulates
+/// the whole if it is a leaf or no cut is good.
+Leaves triangulate_piece(const SortedPoints& sorted, Piece piece, const DecompositionOptions& options,
+                         core::BusyTimes* times) {
+    Leaves leaves;
+    if (!is_leaf(piece, options)) {
+        std::optional<PieceHalves> halves;
         {
             const core::BusyTimes::Scope busy(times, cutting);
-            halves = cut_subdomain(sorted, subdomain, pieces.stats);
+            halves = cut_piece(sorted, piece, leaves.stats);
         }
         if (halves) {
-            Pieces low, high;
-            core::parallel_invoke([&] { low = triangulate(sorted, std::move(halves->low), options, times); },
-                                  [&] { high = triangulate(sorted, std::move(halves->high), options, times); });
-            pieces.triangles = std::move(low.triangles);
-            std::move(high.triangles.begin(), high.triangles.end(), std::back_inserter(pieces.triangles));
-            add(pieces.stats, low.stats);
-            add(pieces.stats, high.stats);
-            return pieces;
+            Leaves low, high;
+            core::parallel_invoke([&] { low = triangulate_piece(sorted, std::move(halves->low), options, times); },
+                                  [&] { high = triangulate_piece(sorted, std::move(halves->high), options, times); });
+            leaves.triangles = std::move(low.triangles);
+            std::move(high.triangles.begin(), high.triangles.end(), std::back_inserter(leaves.triangles));
+            add(leaves.stats, low.stats);
+            add(leaves.stats, high.stats);
+            return leaves;
         }
-        ++pieces.stats.uncut;
+        ++leaves.stats.uncut;
     }
-    pieces.stats.pieces = 1;
-    pieces.stats.piece_vertices = pieces.stats.largest_piece = subdomain.size();
+    leaves.stats.pieces = 1;
+    leaves.stats.piece_vertices = leaves.stats.largest_piece = piece.size();
     const core::BusyTimes::Scope busy(times, triangulating);
-    pieces.triangles.push_back(triangulate_leaf(sorted, std::move(subdomain)));
-    return pieces;
+    leaves.triangles.push_back(triangulate_leaf(sorted, std::move(piece)));
+    return leaves;
 }
 
-/// The pieces' triangles one behind the other; every piece is freed once it is copied.
-PiecewiseTriangulation triangulate_and_join(const SortedPoints& sorted, Subdomain root,
+/// Triangulates a region and puts the triangles of all leaves one behind the other. Every leaf is freed once its
+/// triangles are copied.
+PiecewiseTriangulation triangulate_and_join(const SortedPoints& sorted, Piece region,
                                             const DecompositionOptions& options, core::BusyTimes* times) {
     PiecewiseTriangulation result;
-    Pieces pieces;
+    Leaves leaves;
     // Room for all triangles is made while the first cut keeps one thread busy.
-    core::parallel_invoke([&] { pieces = triangulate(sorted, std::move(root), options, times); },
-                          [&, vertices = root.size()] {
+    core::parallel_invoke([&] { leaves = triangulate_piece(sorted, std::move(region), options, times); },
+                          [&, vertices = region.size()] {
                               const core::BusyTimes::Scope busy(times, triangulating);
                               result.triangles.resize(2 * vertices);
                           });
-    result.stats = pieces.stats;
+    result.stats = leaves.stats;
     result.first.push_back(0);
-    for (const auto& piece : pieces.triangles) result.first.push_back(result.first.back() + piece.size());
+    for (const LeafTriangles& leaf : leaves.triangles) result.first.push_back(result.first.back() + leaf.size());
     result.triangles.resize(result.first.back());
-    core::parallel_for(pieces.triangles.size(), 1, [&](std::size_t begin, std::size_t) {
+    core::parallel_for(leaves.triangles.size(), 1, [&](std::size_t begin, std::size_t) {
         const core::BusyTimes::Scope busy(times, triangulating);
-        const PieceTriangles piece = std::move(pieces.triangles[begin]);
-        std::transform(piece.begin(), piece.end(), result.triangles.begin() + std::ptrdiff_t(result.first[begin]),
+        const LeafTriangles leaf = std::move(leaves.triangles[begin]);
+        std::transform(leaf.begin(), leaf.end(), result.triangles.begin() + std::ptrdiff_t(result.first[begin]),
                        [](const std::array<Index, 3>& v) {
                            return Triangle{{VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}}};
                        });
@@ -139,31 +143,41 @@ PiecewiseTriangulation one_piece(std::vector<Triangle> triangles, std::size_t ve
     return result;
 }
 
-/// Whole sets in the two orders; nothing where the triangulation of all points by one kernel is called for: because
-/// they are few, or because it names what is wrong with them.
+/// Returns the points in both orders. Returns nothing where all points are to be triangulated at once: because they are
+/// few, or because that triangulation names the defects of the input.
 std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const DecompositionOptions& options,
                                           core::BusyTimes* times) {
     if (points.size() <= options.leaf_vertices || points.size() < 4 || options.depth == 0) return {};
     return sort_points(points, times);
 }
 
-std::vector<Edge> in_sorted_numbers(const SortedPoints& sorted, std::span<const Segment> border) {
-    core::UninitializedArray<Index> place(sorted.original.size());
-    for (std::size_t i = 0; i < place.size(); ++i) place[sorted.original[i]] = static_cast<Index>(i);
-    std::vector<Edge> edges;
+/// Returns the border with the numbers of SortedPoints in the place of indices into the input.
+std::vector<BorderEdge> in_sorted_numbers(const SortedPoints& sorted, std::span<const Segment> border) {
+    core::UninitializedArray<Index> numbers(sorted.original.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[sorted.original[i]] = static_cast<Index>(i);
+    std::vector<BorderEdge> edges;
     edges.reserve(border.size());
-    for (const Segment& s : border) edges.push_back({place[s.a.index()], place[s.b.index()]});
+    for (const Segment& s : border) edges.push_back({numbers[s.a.index()], numbers[s.b.index()]});
     return edges;
 }
 
-/// The whole region as a subdomain.
-Subdomain whole(SortedPoints& sorted, std::vector<Edge> border) {
-    Subdomain root;
-    root.by_x = Order(sorted.points.size());
-    std::iota(root.by_x.begin(), root.by_x.end(), Index{0});
-    root.by_y = std::move(sorted.by_y);
-    root.border = std::move(border);
-    return root;
+/// Returns the piece of all points inside a border. Takes sorted.by_y.
+Piece whole_region(SortedPoints& sorted, std::vector<BorderEdge> border) {
+    Piece whole;
+    whole.by_x = PointOrder(sorted.points.size());
+    std::iota(whole.by_x.begin(), whole.by_x.end(), Index{0});
+    whole.by_y = std::move(sorted.by_y);
+    whole.border = std::move(border);
+    return whole;
+}
+
+/// Returns the decomposition that triangulate() chooses for this number of points: small sets stay in one piece.
+DecompositionOptions default_decomposition(std::size_t points) {
+    // On one thread pieces cost up to a third more. From this number on, at 10 ms, a second thread saves milliseconds
+    // (docs/decisions/0013).
+    constexpr std::size_t min_points_to_cut = 50'000;
+    if (points < min_points_to_cut) return {.depth = 0};
+    return {};
 }
 
 }  // namespace
@@ -171,40 +185,33 @@ Subdomain whole(SortedPoints& sorted, std::vector<Edge> border) {
 PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, const DecompositionOptions& options,
                                              core::BusyTimes* times) {
     std::optional<SortedPoints> sorted;
-    Subdomain root;
+    Piece whole;
     {
         const core::BusyTimes::Scope busy(times, cutting);
         sorted = sort_for_cuts(points, options, times);
-        if (sorted) root = whole(*sorted, convex_hull(*sorted));
+        if (sorted) whole = whole_region(*sorted, convex_hull(*sorted));
     }
-    if (!root.border.empty()) return triangulate_and_join(*sorted, std::move(root), options, times);
+    if (!whole.border.empty()) return triangulate_and_join(*sorted, std::move(whole), options, times);
     const core::BusyTimes::Scope busy(times, triangulating);
-    return one_piece(delaunay::without_ghosts(delaunay::triangulate_points(points)).triangles, points.size());
-}
-
-DecompositionOptions usual_decomposition(std::size_t points) {
-    // On one thread pieces cost up to a third more; from here on, 10 ms, a second one saves milliseconds
-    // (docs/decisions/0013).
-    constexpr std::size_t worth_cutting = 50'000;
-    if (points < worth_cutting) return {.depth = 0};
-    return {};
+    return one_piece(without_ghosts(triangulate_points(points)).triangles, points.size());
 }
 
 PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std::span<const Segment> border,
                                              const DecompositionOptions& options, core::BusyTimes* times) {
     std::size_t fallbacks = 0;
     std::optional<SortedPoints> sorted;
-    Subdomain root;
+    Piece whole;
     {
         const core::BusyTimes::Scope busy(times, cutting);
         sorted = sort_for_cuts(points, options, times);
-        if (sorted) root = whole(*sorted, in_sorted_numbers(*sorted, border));
+        if (sorted) whole = whole_region(*sorted, in_sorted_numbers(*sorted, border));
     }
     if (sorted) {
         try {
-            return triangulate_and_join(*sorted, std::move(root), options, times);
+            return triangulate_and_join(*sorted, std::move(whole), options, times);
         } catch (const InputError&) {
-            // Segments that cross are named by their numbers in a piece. The whole set names them right.
+            // The error names crossing segments by their numbers in a piece. The triangulation of all points at once
+            // names them by their indices in the input.
             fallbacks = 1;
         }
     }
@@ -221,7 +228,7 @@ namespace lamina {
 using namespace delaunay::pieces;
 
 Triangulation triangulate(std::span<const Point> points) {
-    return triangulate(points, usual_decomposition(points.size()));
+    return triangulate(points, default_decomposition(points.size()));
 }
 
 Triangulation triangulate(std::span<const Point> points, const DecompositionOptions& options) {

@@ -1,4 +1,4 @@
-// Triangulation of a region in pieces.
+// Delaunay triangulation of points or of a region in pieces.
 #pragma once
 
 #include <span>
@@ -12,24 +12,22 @@
 
 namespace lamina::delaunay::pieces {
 
-/// Triangles of all pieces, piece by piece in the order of the decomposition.
+/// The triangles of all pieces, piece by piece in the order of the decomposition.
 struct PiecewiseTriangulation {
     std::vector<Triangle> triangles;
-    std::vector<std::size_t> first;  ///< of each piece, and the end
+    std::vector<std::size_t> first;  ///< the first triangle of each piece, and the number of triangles
     DecompositionStats stats;
 };
 
-/// The Delaunay triangulation of the points, piece by piece. Throws as triangulate() does.
+/// Returns the Delaunay triangulation of the points, piece by piece. The times of the threads count as PieceWork.
+/// Throws as triangulate() does.
 LAMINA_EXPORT PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points,
                                                            const DecompositionOptions& options,
                                                            core::BusyTimes* times = nullptr);
 
-/// That of triangulate(): small sets stay in one piece.
-DecompositionOptions usual_decomposition(std::size_t points);
-
-/// The constrained Delaunay triangulation of the region on the left of its border: what triangulate() keeps
-/// with Keep::left_of_segments, piece by piece. Throws as it does.
-/// Precondition: the border bounds the region all round, and every point lies in the region or on its border.
+/// Returns the constrained Delaunay triangulation of the region on the left of its border, piece by piece: the
+/// triangles that triangulate() keeps with Keep::left_of_segments. Throws as triangulate() does. Precondition: the
+/// border bounds the region all round, and every point lies in the region or on its border.
 LAMINA_EXPORT PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points,
                                                            std::span<const Segment> border,
                                                            const DecompositionOptions& options,

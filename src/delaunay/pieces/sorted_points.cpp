@@ -1,12 +1,13 @@
-// Radix sort: a coordinate is mapped to 24 bits, ascending, and points are dealt by 12 of them at a time, the lower
-// ones first; block by block on all threads. What the bits leave undecided is sorted by the coordinates themselves, so
-// no spread of the points costs more than a comparison sort.
+// A radix sort, block by block on all threads: a coordinate is mapped to a key of 24 bits, which ascends with it, and
+// the points are distributed by 12 bits at a time, the lower ones first. Points with equal keys are then sorted by the
+// coordinates themselves, so no input costs more than a comparison sort.
 #include "delaunay/pieces/sorted_points.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <lamina/predicates.hpp>
 
@@ -20,11 +21,12 @@ constexpr unsigned digit_bits = 12;
 constexpr std::size_t digit_values = std::size_t{1} << digit_bits;
 constexpr std::uint32_t key_values = 1u << 2 * digit_bits;
 
-/// What is done block by block, on all threads.
+/// Runs work on blocks of [0, n), on all threads, and counts it as `cutting`.
 class Blocks {
 public:
     Blocks(std::size_t n, core::BusyTimes* times) : n_(n), times_(times) {}
 
+    /// Calls f(begin, end) for every block.
     template <class F>
     void for_each(F&& f) const {
         core::parallel_for(n_, size, [&](std::size_t begin, std::size_t end) {
@@ -32,6 +34,7 @@ public:
             f(begin, end);
         });
     }
+    /// Calls f(begin, end) for every block and returns the results in the order of the blocks.
     template <class F>
     auto results(F&& f) const {
         return core::parallel_blocks(n_, size, [&](std::size_t begin, std::size_t end) {
@@ -39,6 +42,7 @@ public:
             return f(begin, end);
         });
     }
+    /// Returns the number of the block that begins at `begin`.
     static std::size_t number(std::size_t begin) { return begin / size; }
 
 private:
@@ -47,51 +51,49 @@ private:
     core::BusyTimes* times_;
 };
 
-/// The key above, the point's number below.
-using Item = std::uint64_t;
-constexpr Index number_of(Item item) { return static_cast<Index>(item); }
-constexpr std::uint32_t key_of(Item item) { return static_cast<std::uint32_t>(item >> 32); }
+/// A point to sort: its key in the upper half, its number in the lower half.
+using KeyedPoint = std::uint64_t;
+constexpr Index number_of(KeyedPoint p) { return static_cast<Index>(p); }
+constexpr std::uint32_t key_of(KeyedPoint p) { return static_cast<std::uint32_t>(p >> 32); }
 template <unsigned digit>
-constexpr std::size_t digit_of(Item item) {
-    return item >> (32 + digit * digit_bits) & (digit_values - 1);
+constexpr std::size_t digit_of(KeyedPoint p) {
+    return p >> (32 + digit * digit_bits) & (digit_values - 1);
 }
 
-/// How often each value of a digit stands in a block; later where the next item of that value goes.
-using Counts = std::array<std::uint32_t, digit_values>;
+/// For each value of a digit the number of points with it in a block.
+using DigitCounts = std::array<std::uint32_t, digit_values>;
 
-/// One pass, stable: items with equal digits keep their order. `counts` are those of the blocks.
+/// Sorts the points by one digit, stably: points with equal digits keep their order. `counts` holds the counts of the
+/// digit for every block.
 template <unsigned digit>
-void deal_by_digit(const Blocks& blocks, const core::UninitializedArray<Item>& items,
-                   core::UninitializedArray<Item>& dealt, std::vector<Counts> counts) {
+void distribute_by_digit(const Blocks& blocks, const core::UninitializedArray<KeyedPoint>& points,
+                         core::UninitializedArray<KeyedPoint>& distributed, std::vector<DigitCounts> counts) {
+    // The counts become the places of the next point with each value.
     std::uint32_t sum = 0;
     for (std::size_t v = 0; v < digit_values; ++v)
-        for (Counts& p : counts) sum += std::exchange(p[v], sum);
+        for (DigitCounts& c : counts) sum += std::exchange(c[v], sum);
     blocks.for_each([&](std::size_t begin, std::size_t end) {
-        std::uint32_t* const at = counts[Blocks::number(begin)].data();
-        const Item* const from = items.begin();
-        Item* const to = dealt.data();
-        for (std::size_t i = begin; i < end; ++i) to[at[digit_of<digit>(from[i])]++] = from[i];
+        std::uint32_t* const places = counts[Blocks::number(begin)].data();
+        const KeyedPoint* const from = points.begin();
+        KeyedPoint* const to = distributed.data();
+        for (std::size_t i = begin; i < end; ++i) to[places[digit_of<digit>(from[i])]++] = from[i];
     });
 }
 
-struct Sorted {
-    core::UninitializedArray<Index> order;
-    bool distinct = true;  ///< no two in it are equal
-};
-
-/// Copies the numbers of items sorted by their keys, and sorts those of one key. False where two of them are equal.
+/// Copies the numbers of points that are sorted by their keys to `order`, and sorts runs of equal keys by `less`.
+/// Returns false where two points are equal.
 template <class Less>
-bool sort_runs(const Item* items, std::size_t begin, std::size_t end, Index* order, Less&& less) {
+bool sort_runs(const KeyedPoint* points, std::size_t begin, std::size_t end, Index* order, Less&& less) {
     bool distinct = true;
     std::uint32_t previous = key_values;
     for (std::size_t i = begin; i < end; ++i) {
-        const std::uint32_t key = key_of(items[i]);
-        order[i] = number_of(items[i]);
+        const std::uint32_t key = key_of(points[i]);
+        order[i] = number_of(points[i]);
         if (std::exchange(previous, key) != key) continue;
         Index* const first = order + i - 1;
-        while (i + 1 < end && key_of(items[i + 1]) == key) {
+        while (i + 1 < end && key_of(points[i + 1]) == key) {
             ++i;
-            order[i] = number_of(items[i]);
+            order[i] = number_of(points[i]);
         }
         Index* const last = order + i;
         // Most runs are pairs.
@@ -105,54 +107,60 @@ bool sort_runs(const Item* items, std::size_t begin, std::size_t end, Index* ord
     return distinct;
 }
 
-/// Numbers 0 to n - 1 by their coordinate, which lies between low and high; `before` orders numbers whose coordinates
-/// are the same.
+struct SortedNumbers {
+    core::UninitializedArray<Index> order;
+    bool distinct = true;  ///< no two numbers compare equal
+};
+
+/// Sorts the numbers 0 to n - 1 by their coordinates, which lie between `lower` and `upper`. `before` orders numbers
+/// that have the same coordinate.
 template <class Coordinate, class Before>
-Sorted order_by(const Blocks& blocks, std::size_t n, double low, double high, Coordinate coordinate, Before before) {
-    const double scale = high > low ? (key_values - 1) / (high - low) : 0.0;
-    core::UninitializedArray<Item> items(n), dealt(n);
-    std::vector<Counts> counts = blocks.results([&, low, coordinate](std::size_t begin, std::size_t end) {
-        Counts count{};
-        Item* const to = items.data();
+SortedNumbers sort_numbers(const Blocks& blocks, std::size_t n, double lower, double upper, Coordinate coordinate,
+                           Before before) {
+    const double scale = upper > lower ? (key_values - 1) / (upper - lower) : 0.0;
+    core::UninitializedArray<KeyedPoint> points(n), distributed(n);
+    std::vector<DigitCounts> counts = blocks.results([&, lower, coordinate](std::size_t begin, std::size_t end) {
+        DigitCounts count{};
+        KeyedPoint* const to = points.data();
         for (std::size_t i = begin; i < end; ++i) {
-            to[i] = std::uint64_t{static_cast<std::uint32_t>((coordinate(i) - low) * scale)} << 32 | i;
+            to[i] = std::uint64_t{static_cast<std::uint32_t>((coordinate(i) - lower) * scale)} << 32 | i;
             ++count[digit_of<0>(to[i])];
         }
         return count;
     });
-    deal_by_digit<0>(blocks, items, dealt, std::move(counts));
-    counts = blocks.results([from = dealt.data()](std::size_t begin, std::size_t end) {
-        Counts count{};
+    distribute_by_digit<0>(blocks, points, distributed, std::move(counts));
+    counts = blocks.results([from = distributed.data()](std::size_t begin, std::size_t end) {
+        DigitCounts count{};
         for (std::size_t i = begin; i < end; ++i) ++count[digit_of<1>(from[i])];
         return count;
     });
-    deal_by_digit<1>(blocks, dealt, items, std::move(counts));
+    distribute_by_digit<1>(blocks, distributed, points, std::move(counts));
 
-    Sorted sorted{core::UninitializedArray<Index>(n)};
+    SortedNumbers sorted{core::UninitializedArray<Index>(n)};
     const auto less = [coordinate, before](Index a, Index b) {
         const double at_a = coordinate(a), at_b = coordinate(b);
         return at_a != at_b ? at_a < at_b : before(a, b);
     };
-    const auto same_key = [&](std::size_t i) { return key_of(items[i]) == key_of(items[i - 1]); };
+    const auto continues_run = [&](std::size_t i) { return key_of(points[i]) == key_of(points[i - 1]); };
     const std::vector<char> distinct = blocks.results([&](std::size_t begin, std::size_t end) -> char {
-        // Runs of one key belong to the block they begin in.
-        while (begin > 0 && begin < end && same_key(begin)) ++begin;
-        while (begin < end && end < n && same_key(end)) ++end;
-        return sort_runs(items.data(), begin, end, sorted.order.data(), less);
+        // A run of equal keys belongs to the block in which it begins.
+        while (begin > 0 && begin < end && continues_run(begin)) ++begin;
+        while (begin < end && end < n && continues_run(end)) ++end;
+        return sort_runs(points.data(), begin, end, sorted.order.data(), less);
     });
     sorted.distinct = std::find(distinct.begin(), distinct.end(), 0) == distinct.end();
     return sorted;
 }
 
-/// Nothing where a point lies outside the exact range.
+/// Returns the box round the points, or nothing where a point lies outside the exact range.
 std::optional<Box> checked_box(const Blocks& blocks, std::span<const Point> points) {
-    struct Checked {
+    struct CheckedBox {
         Box box;
         bool in_range = true;
     };
-    Checked whole;
-    for (const Checked& part : blocks.results([&](std::size_t begin, std::size_t end) {
-             Checked checked;
+    CheckedBox whole;
+    for (const CheckedBox& part : blocks.results([&](std::size_t begin, std::size_t end) {
+             CheckedBox checked;
              for (const Point p : points.subspan(begin, end - begin)) {
                  checked.box.include(p);
                  checked.in_range &= in_exact_range(p);
@@ -175,7 +183,7 @@ std::optional<SortedPoints> sort_points(std::span<const Point> points, core::Bus
     const std::optional<Box> box = checked_box(blocks, points);
     if (!box) return {};
     SortedPoints sorted;
-    Sorted by_x = order_by(
+    SortedNumbers by_x = sort_numbers(
         blocks, n, box->lower.x, box->upper.x, [points](std::size_t i) { return points[i].x; },
         [points](Index a, Index b) { return points[a].y < points[b].y; });
     if (!by_x.distinct) return {};
@@ -185,7 +193,7 @@ std::optional<SortedPoints> sort_points(std::span<const Point> points, core::Bus
         for (std::size_t i = begin; i < end; ++i) to[i] = points[sorted.original[i]];
     });
     sorted.by_y =
-        order_by(
+        sort_numbers(
             blocks, n, box->lower.y, box->upper.y, [from = sorted.points.data()](std::size_t i) { return from[i].y; },
             [](Index a, Index b) { return a < b; })
             .order;

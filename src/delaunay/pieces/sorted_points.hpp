@@ -1,4 +1,4 @@
-// Points in the two orders that a decomposition cuts in.
+// Points in the two orders that a decomposition cuts.
 #pragma once
 
 #include <optional>
@@ -12,23 +12,20 @@
 
 namespace lamina::delaunay::pieces {
 
-using delaunay::Index;
-using delaunay::no_index;
-
 /// Kinds of work that core::BusyTimes tells apart.
-enum Work : std::size_t { cutting, triangulating };
+enum PieceWork : std::size_t { cutting, triangulating };
 
-/// Points by x, then y. Everything in the decomposition knows a point by its place in this order: a smaller number is a
-/// lexicographically smaller point, and ties go to the smallest (docs/decisions/0001).
+/// Points sorted by x, then by y. The decomposition knows every point by its number, the place in this order: the
+/// smaller number belongs to the lexicographically smaller point, and ties go to the smallest (docs/decisions/0001).
 struct SortedPoints {
     core::UninitializedArray<Point> points;
-    core::UninitializedArray<Index> original;  ///< for each its index in the input
-    core::UninitializedArray<Index> by_y;      ///< all of them by y, then x
-    core::UninitializedArray<Index> y_rank;    ///< for each its place in by_y
+    core::UninitializedArray<Index> original;  ///< for each point its index in the input
+    core::UninitializedArray<Index> by_y;      ///< the numbers of all points sorted by y, then by x
+    core::UninitializedArray<Index> y_rank;    ///< for each point its place in by_y
 };
 
-/// Nothing where two points coincide or one lies outside the exact range. O(n log n), linear for points that are spread
-/// evenly; on all threads.
+/// Sorts the points on all threads. Returns nothing where two points coincide or one lies outside the exact range.
+/// O(n log n), linear for points that are spread evenly.
 std::optional<SortedPoints> sort_points(std::span<const Point> points, core::BusyTimes* times = nullptr);
 
 }  // namespace lamina::delaunay::pieces

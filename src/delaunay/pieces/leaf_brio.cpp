@@ -1,18 +1,16 @@
-// Rounds: N. Amenta, S. Choi, G. Rote, SoCG 2003. Strips in the place of a space-filling curve: J. Beardwood, J. H.
-// Halton, J. M. Hammersley, Math. Proc. Camb. Phil. Soc. 55 (1959), as short as a Hilbert curve on even points.
+// Rounds: N. Amenta, S. Choi, G. Rote, SoCG 2003. Strips replace the space-filling curve: J. Beardwood, J. H. Halton,
+// J. M. Hammersley, Math. Proc. Camb. Phil. Soc. 55 (1959); on even points they are as short as a Hilbert curve.
 //
-//      +--.--+--.--+--.--+     A strip holds a range of the order by x. The order by y is dealt to the strips, upwards
-//      |  |  :  |  :  |  |     to one and downwards to the next, which leaves each strip sorted. Earlier rounds have
-//      |  |  :  |  :  |  |     fewer points and wider strips.
+//      +--.--+--.--+--.--+     A strip holds a range of the order by x. The order by y is distributed to the strips,
+//      |  |  :  |  :  |  |     upwards in one and downwards in the next, which leaves each strip sorted. Earlier rounds
+//      |  |  :  |  :  |  |     have fewer points and wider strips.
 //      |  |  :  |  :  |  |
 //      +--|--'--|--'--|--+
-#include "delaunay/pieces/leaf_order.hpp"
+#include "delaunay/pieces/leaf_brio.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include "delaunay/brio.hpp"
 
@@ -20,8 +18,8 @@ namespace lamina::delaunay::pieces {
 
 namespace {
 
-/// For the last round; measured (docs/decisions/0013).
-std::size_t strip_count(const SortedPoints& sorted, const Subdomain& leaf) {
+/// Returns the number of strips of the last round; measured (docs/decisions/0013).
+std::size_t strip_count(const SortedPoints& sorted, const Piece& leaf) {
     const double width = sorted.points[leaf.by_x.all().back()].x - sorted.points[leaf.by_x.all().front()].x;
     const double height = sorted.points[leaf.by_y.all().back()].y - sorted.points[leaf.by_y.all().front()].y;
     const double points = static_cast<double>(leaf.size());
@@ -29,7 +27,7 @@ std::size_t strip_count(const SortedPoints& sorted, const Subdomain& leaf) {
     return 1 + static_cast<std::size_t>(std::min(std::sqrt(points * aspect), points / 16));
 }
 
-/// The strip of each point by its place in the order by x, to a fraction of a strip.
+/// Finds the strip of each point from its number, up to a fraction of a strip.
 class Strips {
 public:
     Strips(std::span<const Index> by_x, std::size_t count) : first_(by_x.front()) {
@@ -46,19 +44,18 @@ public:
     Index operator[](Index point) const { return strip_[(point - first_) >> shift_]; }
 
 private:
-    Index first_;
-    unsigned shift_ = 0;
-    std::vector<Index> strip_;
+    Index first_;               ///< the smallest number of a point
+    unsigned shift_ = 0;        ///< 2^shift_ successive numbers share a cell
+    std::vector<Index> strip_;  ///< for each cell its strip
 };
 
 }  // namespace
 
-std::vector<Index> leaf_order(const SortedPoints& sorted, const Subdomain& leaf) {
-    using delaunay::insertion_rounds;
+std::vector<Index> leaf_brio(const SortedPoints& sorted, const Piece& leaf) {
     const std::size_t count = strip_count(sorted, leaf);
     const Strips strips(leaf.by_x.all(), count);
 
-    // A bucket for every strip of every round; those of a round are half as many as in the one after it.
+    // Every strip of every round has a bucket. A round has half as many strips as the round after it.
     std::array<Index, insertion_rounds> first{};
     std::array<unsigned, insertion_rounds> shift{};
     Index buckets = 0;
@@ -71,12 +68,12 @@ std::vector<Index> leaf_order(const SortedPoints& sorted, const Subdomain& leaf)
     std::vector<Index> place(buckets + 1, 0);
     for (std::size_t i = 0; i < leaf.size(); ++i) {
         const Index point = leaf.by_y[i];
-        const unsigned round = delaunay::insertion_round(point);
+        const unsigned round = insertion_round(point);
         bucket[i] = first[round] + (strips[point] >> shift[round]);
         ++place[bucket[i] + 1];
     }
     for (Index b = 0; b < buckets; ++b) place[b + 1] += place[b];
-    // Every other one is filled from its end.
+    // Every other bucket is filled from its end.
     std::vector<Index> step(buckets, 1);
     for (Index b = buckets; b-- > 0;) {
         if (b % 2 == 0) continue;

@@ -1,0 +1,83 @@
+// The constrained Delaunay triangulation of a subdomain's border. It answers how many triangles the subdomain will hold
+// and where lines across it end.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <lamina/point.hpp>
+#include <lamina/sizing.hpp>
+
+#include "decoupling/subdomain_border.hpp"
+#include "delaunay/estimate.hpp"
+#include "delaunay/triangles.hpp"
+
+namespace lamina::decoupling {
+
+/// The work of refining a subdomain, before it is refined.
+struct WorkEstimate {
+    double triangles = 0;  ///< number of triangles that refinement will make
+    bool lattice = true;   ///< whether a lattice may pay (RefineOptions::lattice)
+};
+
+/// A constrained Delaunay triangulation of the vertices of a border, kept inside the border.
+class BorderTriangulation {
+public:
+    /// Triangulates a border. `points` holds its vertices by their ids.
+    BorderTriangulation(std::span<const Point> points, const SubdomainBorder& border, const SizeField& size);
+
+    WorkEstimate estimate() const { return {loads_.total, loads_.lattice}; }
+
+    Point point(LoopVertex v) const { return points_[local_index(v)]; }
+    LoopVertex next(LoopVertex v) const { return {v.loop, v.index + 1 < loops_[v.loop].size() ? v.index + 1 : 0}; }
+    LoopVertex previous(LoopVertex v) const { return {v.loop, v.index > 0 ? v.index - 1 : loops_[v.loop].size() - 1}; }
+    /// Returns the number of loops.
+    std::size_t loops() const { return loops_.size(); }
+    /// Returns the number of vertices of a loop.
+    std::size_t vertices(std::size_t loop) const { return loops_[loop].size(); }
+
+    /// The border edge that a ray meets first.
+    struct RayHit {
+        LoopVertex edge;            ///< the edge runs from here to the next vertex
+        double triangles_left = 0;  ///< estimated on the left of the ray; for borders of one loop only
+    };
+    /// Follows a ray from a vertex of the border. Returns nothing where the ray does not leave the vertex into the
+    /// subdomain, or meets another vertex.
+    std::optional<RayHit> shoot(LoopVertex from, Point direction) const;
+
+    /// Returns whether the straight line between two vertices leaves both into the subdomain and touches nothing in
+    /// between.
+    bool sees(LoopVertex from, LoopVertex to) const;
+
+private:
+    /// A directed border edge and the triangle on its left.
+    struct LoopEdge {
+        delaunay::Index a, b;
+        delaunay::Link inside;
+        LoopVertex from;  ///< where a stands in the border
+        friend bool operator<(const LoopEdge& l, const LoopEdge& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; }
+    };
+
+    delaunay::Index local_index(LoopVertex v) const { return loops_[v.loop][v.index]; }
+    void collect_loop_edges();
+    void sum_up_subtrees();
+    double triangles_in(delaunay::Index t) const;
+    double triangles_beyond(delaunay::Index t, unsigned edge) const;
+    const LoopEdge& loop_edge(delaunay::Index a, delaunay::Index b) const;
+    delaunay::Index first_triangle(LoopVertex from, Point toward) const;
+    delaunay::Link link_out_of(delaunay::Index first, LoopVertex from) const;
+
+    std::vector<std::vector<delaunay::Index>> loops_;  ///< indices into points_
+    std::vector<Point> points_;
+    delaunay::Tris tris_;
+    delaunay::Loads loads_;
+    std::vector<LoopEdge> loop_edges_;  ///< sorted
+    // The triangles inside a border of one loop form a tree, whose root is triangle 0. Without it both arrays are
+    // empty.
+    std::vector<unsigned char> to_root_;  ///< for each triangle its edge towards the root
+    std::vector<double> subtree_;         ///< estimated triangles in each triangle and all triangles below it
+};
+
+}  // namespace lamina::decoupling

@@ -1,0 +1,88 @@
+// Recursive bisection, level by level: the search for separators, which takes the time, runs on all subdomains of a
+// level at once. Then they are cut in order, so that the numbers of new vertices do not depend on threads.
+#include "decoupling/cut_to_size.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+
+#include "core/parallel.hpp"
+#include "decoupling/separator_search.hpp"
+
+namespace lamina::decoupling {
+
+namespace {
+
+class Bisection {
+public:
+    Bisection(const SeparatorSpacing& spacing, double pieces_target)
+        : spacing_(spacing), pieces_target_(pieces_target) {}
+
+    /// Searches separators for all borders. May run at the same time as the other functions.
+    std::vector<SearchResult> search(std::span<const Point> points, std::span<const SubdomainBorder> borders) const {
+        return core::parallel_blocks(borders.size(), 1, [&](std::size_t i, std::size_t) {
+            return search_separator(points, borders[i], spacing_, pieces_target_);
+        });
+    }
+
+    /// Cuts the borders for which a separator was found, and returns their parts. The other borders are done.
+    std::vector<SubdomainBorder> cut(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
+                                     std::span<const SearchResult> results) {
+        std::vector<SubdomainBorder> parts;
+        for (std::size_t i = 0; i < borders.size(); ++i) {
+            const auto& separator = results[i].separator;
+            if (!separator) {
+                done_.push_back({std::move(borders[i]), results[i].estimate});
+                continue;
+            }
+            const auto& [from, to, interior] = *separator;
+            std::vector<VertexId> line;
+            line.reserve(interior.size());
+            for (const Point p : interior) line.push_back(skeleton.add_point(p));
+            if (from.loop != to.loop) {
+                parts.push_back(join(borders[i], from, to, line));
+            } else {
+                auto [first, second] = split(borders[i], from.index, to.index, line);
+                parts.push_back(std::move(first));
+                parts.push_back(std::move(second));
+            }
+        }
+        return parts;
+    }
+
+    /// Cuts the borders and their parts until all are done.
+    void cut_all(Skeleton& skeleton, std::vector<SubdomainBorder> borders) {
+        while (!borders.empty()) {
+            const std::vector<SearchResult> results = search(skeleton.points, borders);
+            borders = cut(skeleton, std::move(borders), results);
+        }
+    }
+
+    std::vector<EstimatedBorder> take_done() { return std::move(done_); }
+
+private:
+    const SeparatorSpacing& spacing_;
+    double pieces_target_;
+    std::vector<EstimatedBorder> done_;
+};
+
+}  // namespace
+
+std::vector<EstimatedBorder> cut_to_size(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
+                                         const SeparatorSpacing& spacing, double pieces_target) {
+    // The subdomain round the bodies is cut many times over and would occupy one thread at first. The other threads
+    // search the remaining subdomains meanwhile, none of which has to wait for a vertex that is still to come.
+    const auto rest = std::stable_partition(borders.begin(), borders.end(),
+                                            [](const SubdomainBorder& border) { return border.loops.size() > 1; });
+    std::vector<SubdomainBorder> others(std::make_move_iterator(rest), std::make_move_iterator(borders.end()));
+    borders.erase(rest, borders.end());
+    const std::vector<Point> points = skeleton.points;  // a copy, because cutting appends to the skeleton's points
+    Bisection bisection(spacing, pieces_target);
+    std::vector<SearchResult> results;
+    core::parallel_invoke([&] { bisection.cut_all(skeleton, std::move(borders)); },
+                          [&] { results = bisection.search(points, others); });
+    bisection.cut_all(skeleton, bisection.cut(skeleton, std::move(others), results));
+    return bisection.take_done();
+}
+
+}  // namespace lamina::decoupling

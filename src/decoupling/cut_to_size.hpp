@@ -1,0 +1,27 @@
+// Bisection of subdomains until each holds about the target number of triangles.
+#pragma once
+
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+
+#include "decoupling/border_triangulation.hpp"
+#include "decoupling/separators.hpp"
+#include "decoupling/skeleton.hpp"
+#include "decoupling/subdomain_border.hpp"
+
+namespace lamina::decoupling {
+
+/// The border of a subdomain with its estimated work.
+struct EstimatedBorder {
+    SubdomainBorder border;
+    WorkEstimate estimate;
+};
+
+/// Cuts every subdomain of more than about 1.5 x `pieces_target` triangles in two, and the halves again, along the good
+/// separators that search_separator() finds. A subdomain without one stays whole. Holes are joined to the outer loop
+/// first. Adds the new vertices to skeleton.points. The result does not depend on the number of threads.
+std::vector<EstimatedBorder> cut_to_size(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
+                                         const SeparatorSpacing& spacing, double pieces_target);
+
+}  // namespace lamina::decoupling

@@ -1,0 +1,101 @@
+// The tables of the options of the far field and of the decoupling, and the text of outlines.
+#include <lamina/decoupling.hpp>
+
+#include <fmt/format.h>
+
+#include <lamina/option_builders.hpp>
+#include <lamina/predicates.hpp>
+
+#include "core/text.hpp"
+
+namespace lamina {
+
+namespace {
+
+OptionTable<FarFieldOptions> make_far_field_table() {
+    OptionTableBuilder<FarFieldOptions> table("Outer region");
+    table.number("far-field", "CHORDS",
+                 "half-width of the far-field box or radius of the circle, in chords (extents in x of the "
+                 "configuration)",
+                 positive_numbers, member_at(&FarFieldOptions::size));
+    table
+        .choice("far-field-shape", "shape of the far field round the middle of the configuration",
+                Choices<FarFieldShape>{{"box", FarFieldShape::box}, {"circle", FarFieldShape::circle}},
+                member_at(&FarFieldOptions::shape))
+        .excludes = {"far-field-outline"};
+    const auto set = [](FarFieldOptions& options, const OptionValue& value) {
+        const std::string text = word_of(value, "far_field_outline");
+        try {
+            options.outline = parse_outline(text);
+        } catch (const UsageError& error) {
+            throw OptionError("far_field_outline", error.what());
+        }
+        options.shape = FarFieldShape::outline;
+    };
+    const auto get = [](const FarFieldOptions& options) {
+        return options.outline.empty() ? std::nullopt : std::optional<OptionValue>(outline_text(options.outline));
+    };
+    table.add({"far-field-outline", OptionKind::word, "X0,Y0,X1,Y1,...",
+               "instead: corners of a convex far field, counter-clockwise, in units of the input", "", set, get});
+    return table.take();
+}
+
+OptionTable<DecouplingOptions> make_decoupling_table() {
+    OptionTableBuilder<DecouplingOptions> table("Outer region");
+    table.choice(
+        "separators", "how borders between pieces are divided",
+        Choices<SeparatorRule>{{"equidistributed", SeparatorRule::equidistributed}, {"k-rule", SeparatorRule::k_rule}},
+        member_at(&DecouplingOptions::separators));
+    table.number("pieces-target", "TRIANGLES", "triangles per piece, about", numbers_from_to(100, 1e9),
+                 member_at(&DecouplingOptions::pieces_target));
+    return table.take();
+}
+
+/// Throws OptionError unless the outline is a convex polygon, counter-clockwise.
+void require_convex(std::span<const Point> outline) {
+    const std::size_t n = outline.size();
+    if (n < 3) throw OptionError("far_field_outline", "an outline has three corners or more");
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point a = outline[i], b = outline[(i + 1) % n], c = outline[(i + 2) % n];
+        if (!(orient2d(a, b, c) > 0))
+            throw OptionError("far_field_outline",
+                              fmt::format("not convex and counter-clockwise at ({}, {})", b.x, b.y));
+    }
+}
+
+}  // namespace
+
+const OptionTable<FarFieldOptions>& far_field_option_table() {
+    static const OptionTable<FarFieldOptions> table = make_far_field_table();
+    return table;
+}
+
+const OptionTable<DecouplingOptions>& decoupling_option_table() {
+    static const OptionTable<DecouplingOptions> table = make_decoupling_table();
+    return table;
+}
+
+void validate(const FarFieldOptions& options) {
+    require_in_range(far_field_option_table(), options);
+    if (options.shape == FarFieldShape::outline) require_convex(options.outline);
+}
+
+void validate(const DecouplingOptions& options) { require_in_range(decoupling_option_table(), options); }
+
+std::vector<Point> parse_outline(const std::string& text) {
+    const std::vector<double> n = core::parse_numbers(text, ',');
+    if (n.size() < 6 || n.size() % 2 != 0)
+        throw UsageError("'" + text + "': an outline is X0,Y0,X1,Y1,..., three corners or more");
+    std::vector<Point> corners;
+    corners.reserve(n.size() / 2);
+    for (std::size_t i = 0; i < n.size(); i += 2) corners.push_back({n[i], n[i + 1]});
+    return corners;
+}
+
+std::string outline_text(std::span<const Point> corners) {
+    std::string text;
+    for (const Point p : corners) text += core::concat(text.empty() ? "" : ",", p.x, ",", p.y);
+    return text;
+}
+
+}  // namespace lamina
