@@ -1,5 +1,5 @@
-// The Delaunay kernel: predicates stage by stage, plain triangulation, constraints, refinement; beside CGAL and
-// Triangle where the builder has them.
+// Benchmarks of predicates stage by stage, of plain and constrained triangulation and of refinement; beside CGAL and
+// Triangle if these were there at build time.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 using Quadruple = std::array<Point, 4>;
 constexpr std::size_t quadruple_count = 1024;
 
-/// The filter decides.
+/// Returns quadruples that the filter decides.
 std::vector<Quadruple> random_quadruples() {
     const std::vector<Point> p = test::random_points(4 * quadruple_count, 1);
     std::vector<Quadruple> result(quadruple_count);
@@ -28,7 +28,8 @@ std::vector<Quadruple> random_quadruples() {
     return result;
 }
 
-/// Corners of a lattice's cells, as incircle sees them or, first three on one line, as orient2d does: integers decide.
+/// Returns quadruples that integers decide: the corners of cells of a lattice, as ties of incircle(), or with the first
+/// three on one line, as ties of orient2d().
 std::vector<Quadruple> lattice_quadruples(bool on_line) {
     test::Random random(2);
     std::vector<Quadruple> result;
@@ -39,7 +40,7 @@ std::vector<Quadruple> lattice_quadruples(bool on_line) {
         else
             result.push_back({Point{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}});
         for (Point& p : result.back()) p = 0.001 * p;
-        if (!on_line) {  // rounding must not break the tie
+        if (!on_line) {  // or rounding would break the tie
             Quadruple& q = result.back();
             q[1] = {q[1].x, q[0].y};
             q[2] = {q[1].x, q[3].y};
@@ -49,7 +50,8 @@ std::vector<Quadruple> lattice_quadruples(bool on_line) {
     return result;
 }
 
-/// Rectangles and lines with one end near the origin: differences beyond the reach of integers, expansions decide.
+/// Returns quadruples that expansions decide: rectangles, or lines, with one end near the origin, so that differences
+/// are beyond the reach of integers.
 std::vector<Quadruple> wide_quadruples(bool on_line) {
     test::Random random(3);
     std::vector<Quadruple> result;
@@ -113,10 +115,11 @@ void triangulate(benchmark::State& state, std::vector<Point> (*make)(std::size_t
     state.counters["points/s"] = static_cast<double>(points.size()) / state.counters["median_s"].value;
 }
 
-/// Medians of five; of three where one takes many seconds.
+/// Takes medians of five runs.
 void usual(benchmark::internal::Benchmark* b) {
     b->Arg(100'000)->Arg(1'000'000)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
 }
+/// Takes medians of three runs, since each takes many seconds.
 void large(benchmark::internal::Benchmark* b) {
     b->Arg(10'000'000)->Iterations(3)->UseManualTime()->Unit(benchmark::kMillisecond);
 }
@@ -129,7 +132,7 @@ BENCHMARK_CAPTURE(triangulate, flat_plate_at_10_degrees, flat_plate_at_10_degree
 BENCHMARK_CAPTURE(triangulate, uniform, uniform)->Apply(large);
 BENCHMARK_CAPTURE(triangulate, layer, test::naca_layer_points)->Apply(large);
 
-/// One edge in `one_edge_in` of a triangulation that is not Delaunay, together with the points.
+/// Constrains one edge in `one_edge_in` of a triangulation that is not Delaunay.
 void constrain(benchmark::State& state, std::size_t one_edge_in) {
     const test::ConstrainedCase c = test::stretched_edges_case(static_cast<std::size_t>(state.range(0)), one_edge_in);
     std::vector<Reference> references;
@@ -146,24 +149,24 @@ void constrain(benchmark::State& state, std::size_t one_edge_in) {
 BENCHMARK_CAPTURE(constrain, some, 30)->Apply(usual);
 BENCHMARK_CAPTURE(constrain, every_third, 3)->Apply(usual);
 
-/// The unit square, border frozen. With patches as the library does it; without for the refinement itself.
-void refine_square(benchmark::State& state, double area_ratio, double min_angle_deg, bool patches) {
+/// Refines the unit square: with lattice patches, as the library does by default, or without.
+void refine_square(benchmark::State& state, double area_ratio, double min_angle_deg, bool lattice) {
     const test::RefinementCase c = test::unit_square_case(static_cast<double>(state.range(0)), area_ratio);
     RefineOptions options;
     options.min_angle_deg = min_angle_deg;
-    options.lattice = patches;
+    options.lattice = lattice;
     std::vector<Reference> references;
 #ifdef LAMINA_BENCH_TRIANGLE
     references.push_back(
         {"triangle", triangle_refine(c.border.points, c.border.segments, c.size, c.gradation, min_angle_deg)});
 #endif
-    std::vector<Point> added;
+    std::vector<Point> steiner_points;
     std::vector<Triangle> triangles;
     measure(
         state, "triangles",
         [&] {
             Refinement r = refine(c.border.points, c.border.segments, c.field, options);
-            added = std::move(r.steiner_points);
+            steiner_points = std::move(r.steiner_points);
             triangles = std::move(r.triangles);
             state.counters["below_bound"] = static_cast<double>(r.stats.below_bound);
             state.counters["oversized"] = static_cast<double>(r.stats.oversized);
@@ -172,7 +175,7 @@ void refine_square(benchmark::State& state, double area_ratio, double min_angle_
         references);
 
     std::vector<Point> points = c.border.points;
-    points.insert(points.end(), added.begin(), added.end());
+    points.insert(points.end(), steiner_points.begin(), steiner_points.end());
     double smallest = 180, sum = 0;
     for (const Triangle& t : triangles) {
         const double angle = test::smallest_angle_deg(points, t);

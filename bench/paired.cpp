@@ -26,7 +26,8 @@ double median(std::vector<double> values) {
 
 namespace {
 
-/// Kilobytes from /proc/self/status: VmRSS is what is resident now, VmHWM the most since reset_peak_memory().
+/// Returns a field of /proc/self/status in bytes: VmRSS is the memory that is resident now, VmHWM its peak since
+/// reset_peak_memory().
 double memory(const std::string& field) {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;) {
@@ -51,7 +52,7 @@ void measure(benchmark::State& state, const std::string& made_name, const Work& 
     double bytes = 0;
     for (auto _ : state) {
         const bool first = our_seconds.empty();
-        if (first) malloc_trim(0);  // or the call would be served from what earlier ones left
+        if (first) malloc_trim(0);  // or the call would get memory that earlier ones have freed, which does not count
         const double resident = memory("VmRSS");
         if (first) reset_peak_memory();
         with_threads(1, [&] { our_seconds.push_back(cpu_seconds(ours, our_made)); });

@@ -18,7 +18,7 @@
 #include "core/parallel.hpp"
 #include "delaunay/pieces/convex_hull.hpp"
 #include "delaunay/pieces/pieces.hpp"
-#include "delaunay/triangulator.hpp"
+#include "delaunay/triangulate_points.hpp"
 #include "paired.hpp"
 #include "support/triangulation_families.hpp"
 
@@ -60,7 +60,7 @@ std::size_t triangulate_at_once(const std::vector<Point>& points) {
     return delaunay::without_ghosts(delaunay::triangulate_points(points)).triangles.size();
 }
 std::size_t triangulate_at_once(const Region& region) {
-    return triangulate(region.points, region.border, {.keep = Keep::left_of_segments}).triangles.size();
+    return triangulate(region.points, region.border, {.keep = KeptRegion::left_of_segments}).triangles.size();
 }
 
 Work on_one_thread(Work work) {

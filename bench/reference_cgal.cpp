@@ -1,3 +1,4 @@
+// The work of references.hpp done by CGAL.
 #include <utility>
 #include <vector>
 

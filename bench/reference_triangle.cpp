@@ -1,3 +1,4 @@
+// The work of references.hpp done by Triangle.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -19,19 +20,19 @@ namespace lamina::bench {
 
 namespace {
 
-/// The size function in force: Triangle's hook has no other way to it.
+/// The size bound in force. It is global because Triangle's hook, triunsuitable(), gets no other argument.
 struct {
-    double size, gradation;
-    const SizeField* field;  // where there is one it counts
-    double factor;
+    double size, gradation;  ///< h(x) = size + gradation x
+    const SizeField* field;  ///< if there is one, it is h instead
+    double factor;           ///< the area bound of this pass over the final one
 } sizing;
 
-/// Input as Triangle wants it.
-struct Input {
+/// Points and segments in the arrays that Triangle reads.
+struct TriangleProgramInput {
     std::vector<REAL> points;
     std::vector<int> segments;
 
-    explicit Input(std::span<const Point> from, std::span<const Segment> edges = {}) {
+    explicit TriangleProgramInput(std::span<const Point> from, std::span<const Segment> edges = {}) {
         for (const Point p : from) points.insert(points.end(), {p.x, p.y});
         for (const Segment s : edges)
             segments.insert(segments.end(), {static_cast<int>(s.a.index()), static_cast<int>(s.b.index())});
@@ -45,12 +46,13 @@ void free_output(triangulateio& io) {
 
 triangulateio call(const std::string& switches, triangulateio& in) {
     triangulateio out{};
-    std::string text = switches;  // it is not const there
+    std::string text = switches;  // triangulate() takes a pointer to non-const
     triangulate(text.data(), &in, &out, nullptr);
     return out;
 }
 
-triangulateio view(Input& input) {
+/// Returns Triangle's view of the arrays, which stay where they are.
+triangulateio view(TriangleProgramInput& input) {
     triangulateio in{};
     in.pointlist = input.points.data();
     in.numberofpoints = static_cast<int>(input.points.size() / 2);
@@ -59,7 +61,7 @@ triangulateio view(Input& input) {
     return in;
 }
 
-Work single_call(Input input, std::string switches) {
+Work single_call(TriangleProgramInput input, std::string switches) {
     return [input = std::move(input), switches]() mutable {
         triangulateio in = view(input);
         triangulateio out = call(switches, in);
@@ -71,15 +73,16 @@ Work single_call(Input input, std::string switches) {
 
 }  // namespace
 
-Work triangle_delaunay(std::span<const Point> points) { return single_call(Input(points), "zQBN"); }
+Work triangle_delaunay(std::span<const Point> points) { return single_call(TriangleProgramInput(points), "zQBN"); }
 
 Work triangle_constrained(std::span<const Point> points, std::span<const Segment> segments) {
-    return single_call(Input(points, segments), "pczQBPN");
+    return single_call(TriangleProgramInput(points, segments), "pczQBPN");
 }
 
 namespace {
 
-/// With `sizing` but for its factor set by the caller. `area`: sqrt(3)/4 h^2 where h is the same everywhere, else 0.
+/// Refines with the bound in `sizing`, whose factor it sets for each pass. `area` is sqrt(3)/4 h^2 if h is the same
+/// everywhere, else 0. Returns the number of triangles.
 std::size_t refine_in_passes(triangulateio io, double area, double min_angle_deg) {
     char angle[32];
     std::snprintf(angle, sizeof angle, "%.4f", min_angle_deg);
@@ -87,7 +90,7 @@ std::size_t refine_in_passes(triangulateio io, double area, double min_angle_deg
     for (const double factor : {4096.0, 256.0, 16.0, 1.0}) {
         sizing.factor = factor;
         std::string switches = std::string(first ? "p" : "rp") + "YYzQBq" + angle;
-        if (area > 0) {  // its own test, without a call for each triangle
+        if (area > 0) {  // Triangle tests this by itself, without a call of triunsuitable() for each triangle
             char bound[64];
             std::snprintf(bound, sizeof bound, "a%.24f", area * factor);
             switches += bound;
@@ -108,7 +111,7 @@ std::size_t refine_in_passes(triangulateio io, double area, double min_angle_deg
 
 Work triangle_refine(std::span<const Point> points, std::span<const Segment> segments, double size, double gradation,
                      double min_angle_deg) {
-    return [input = Input(points, segments), size, gradation, min_angle_deg]() mutable {
+    return [input = TriangleProgramInput(points, segments), size, gradation, min_angle_deg]() mutable {
         sizing = {size, gradation, nullptr, 1};
         return refine_in_passes(view(input), gradation == 0 ? core::equilateral_area * size * size : 0, min_angle_deg);
     };
@@ -116,7 +119,7 @@ Work triangle_refine(std::span<const Point> points, std::span<const Segment> seg
 
 Work triangle_refine(std::span<const Point> points, std::span<const Segment> segments, Point hole,
                      const SizeField& field, double min_angle_deg) {
-    return [input = Input(points, segments), hole, field, min_angle_deg]() mutable {
+    return [input = TriangleProgramInput(points, segments), hole, field, min_angle_deg]() mutable {
         sizing = {0, 0, &field, 1};
         triangulateio in = view(input);
         REAL holes[] = {hole.x, hole.y};
@@ -132,5 +135,5 @@ int triunsuitable(REAL* a, REAL* b, REAL* c, REAL area) {
     const auto& s = lamina::bench::sizing;
     const lamina::Point center{(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3};
     const double h = s.field != nullptr ? (*s.field)(center) : s.size + s.gradation * center.x;
-    return area > s.factor * lamina::equilateral_area * h * h;
+    return area > s.factor * lamina::core::equilateral_area * h * h;
 }

@@ -16,7 +16,7 @@ int main() try {
         for (std::size_t i = 0; i < 4; ++i) segments.push_back({VertexId{loop + i}, VertexId{loop + (i + 1) % 4}});
 
     const ConstrainedTriangulation coarse =
-        triangulate(points, segments, {.keep = Keep::inside_segments, .holes = {{1.5, 1.5}}});
+        triangulate(points, segments, {.keep = KeptRegion::inside_segments, .holes = {{1.5, 1.5}}});
     const ConstrainedRefinement fine = refine(points, coarse, SizeField(0.2), {.refine = {.min_angle_deg = 28}});
 
     std::vector<Point> all = points;

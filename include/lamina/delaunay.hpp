@@ -1,5 +1,5 @@
-// Delaunay triangulation, constrained triangulation and refinement. This header needs nothing else of the program and
-// knows no airfoils (docs/library.md).
+// Delaunay triangulation, constrained triangulation and refinement. This part of the library can be built and used by
+// itself; it knows no airfoils (docs/library.md).
 #pragma once
 
 #include <cmath>
@@ -20,11 +20,11 @@ namespace lamina {
 
 // ---- plain triangulation ----
 
-/// Where a decomposition into pieces ends. The pieces depend on these numbers and on the points alone, never on the
+/// The limits of a decomposition into pieces. The pieces depend on these numbers and on the points alone, never on the
 /// number of threads.
 struct DecompositionOptions {
     unsigned depth = 6;                 ///< largest number of cuts on the way to a piece
-    std::size_t leaf_vertices = 5'000;  ///< pieces of so few vertices are not cut further
+    std::size_t leaf_vertices = 5'000;  ///< pieces with at most this many vertices are not cut further
 };
 
 LAMINA_EXPORT const OptionTable<DecompositionOptions>& decomposition_option_table();
@@ -34,20 +34,21 @@ LAMINA_EXPORT void validate(const DecompositionOptions& options);
 
 struct DecompositionStats {
     std::size_t pieces = 0;
-    std::size_t piece_vertices = 0;  ///< summed over pieces: a vertex on a dividing path counts in every piece it is in
-    std::size_t largest_piece = 0;   ///< in vertices
-    std::size_t crossing_cuts = 0;   ///< cuts rejected because their path crossed a segment
+    /// Number of vertices, summed over pieces: a vertex on a dividing path counts in every piece that it belongs to.
+    std::size_t piece_vertices = 0;
+    std::size_t largest_piece = 0;    ///< in vertices
+    std::size_t crossing_cuts = 0;    ///< cuts rejected because their path crossed a segment
     std::size_t unbalanced_cuts = 0;  ///< cuts rejected because one part was larger than 0.75 of the whole
     std::size_t uncut = 0;            ///< pieces that should have been cut further, but that no cut suited
     std::size_t fallbacks = 0;        ///< regions triangulated in one piece because a piece could not be
 };
 
-/// What one thread did while points were triangulated in pieces, in seconds.
+/// The time that one thread spent while points were triangulated in pieces, in seconds.
 struct TriangulationThread {
     double cutting = 0, triangulating = 0, idle = 0;
 };
 
-/// A triangulation of the points handed in; triangles hold their indices.
+/// A triangulation. The triangles hold indices into the points of the input.
 struct Triangulation {
     std::vector<Triangle> triangles;  ///< counter-clockwise
     DecompositionStats decomposition{};
@@ -70,59 +71,61 @@ LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points, const Dec
 
 // ---- constrained triangulation ----
 
-/// What is kept of a constrained triangulation, before holes are cut.
-enum class Keep {
-    convex_hull,       ///< everything
-    inside_segments,   ///< what cannot be reached from outside the hull without crossing a segment
-    left_of_segments,  ///< what can be reached from the left side of a segment without crossing one: segments bound the
-                       ///< region counter-clockwise outside and clockwise round holes
+/// The triangles that are kept of a constrained triangulation, before holes are cut.
+enum class KeptRegion {
+    convex_hull,       ///< all triangles
+    inside_segments,   ///< those that cannot be reached from outside the hull without crossing a segment
+    left_of_segments,  ///< those that can be reached from the left side of a segment without crossing one: segments run
+                       ///< counter-clockwise round the region and clockwise round its holes
 };
 
-/// What happens where segments cross in their interiors.
+/// How triangulate() treats segments that cross in their interiors.
 enum class Crossings {
-    refuse,  ///< InputError that names both segments
-    insert,  ///< a Steiner point at each crossing, rounded to doubles; segments bend by a rounding error and stay
-             ///< planar
+    refuse,  ///< throws an InputError that names both segments
+    insert,  ///< inserts a Steiner point at each crossing, rounded to doubles; segments bend by a rounding error and
+             ///< stay planar
 };
 
 struct ConstrainedOptions {
-    Keep keep = Keep::convex_hull;
+    KeptRegion keep = KeptRegion::convex_hull;
     Crossings crossings = Crossings::refuse;
-    /// A point in each hole: what can be reached from it without crossing a segment is removed. Points outside the hull
-    /// have no effect; a point on a vertex or segment is an InputError.
+    /// One point in each hole. Triangles that can be reached from it without crossing a segment are removed. Points
+    /// outside the hull have no effect; a point on a vertex or a segment is an InputError.
     std::vector<Point> holes{};
 };
 
-/// A constrained triangulation. Triangles and segments index the points handed in, followed by `steiner_points`.
+/// A constrained triangulation. Triangles and segments index the points of the input, followed by `steiner_points`.
 struct ConstrainedTriangulation {
     std::vector<Point> steiner_points;  ///< crossings of segments
     std::vector<Triangle> triangles;    ///< counter-clockwise
-    /// The edges of the triangles that are parts of segments, each once and directed as its segment is; in the order of
+    /// The edges of the triangles that are parts of segments: each once, directed as its segment is, in the order of
     /// the segments, each chain from a to b.
     std::vector<Segment> segments;
-    std::vector<std::uint32_t> parents;  ///< for each of them the segment it is a part of; the first if several are
+    std::vector<std::uint32_t> parents;  ///< for each edge the segment that it is a part of; the first of several
 };
 
 /// Returns the constrained Delaunay triangulation: every segment is an edge or, where it runs through points, a chain
 /// of edges; the other edges are locally Delaunay by the tie rule. Segments may overlap and repeat. The set of
 /// triangles is unique: it depends on the order of neither points nor segments (except for the numbers of crossing
-/// points). Throws InputError for duplicate points, for segments that cross unless a point is to be inserted there
-/// (place().segments), and for segments where all points lie on one line. Source: M. V. Anglada, Computers & Graphics
-/// 21 (1997).
+/// points). Throws InputError for duplicate points, for segments that cross unless Steiner points are inserted there
+/// (place().segments), and for segments between points that all lie on one line.
+/// Source: M. V. Anglada, Computers & Graphics 21 (1997).
 LAMINA_EXPORT ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
                                                    const ConstrainedOptions& options = {});
 
 // ---- refinement ----
 
 struct RefineOptions {
-    /// Smallest angle of a triangle; 0: no bound. Refinement ends provably up to the default, and in all trials up to
-    /// largest_min_angle_deg.
+    /// Smallest angle of a triangle; 0: no bound. Refinement is proved to end up to the default, and has ended in all
+    /// trials up to largest_min_angle_deg.
     double min_angle_deg = proved_min_angle_deg;
-    std::size_t max_points = 200'000'000;  ///< Steiner points beyond which refinement gives up with MeshError
-    /// Fills large, evenly sized parts with patches of an equilateral lattice and refines only the seams between them:
-    /// the same guarantees, several times faster, fewer triangles. Changes nothing where it does not pay.
+    std::size_t max_points = 200'000'000;  ///< number of Steiner points beyond which refine() throws MeshError
+    /// Whether large, evenly sized parts are filled with patches of an equilateral lattice, so that only the seams
+    /// between them are refined. The guarantees are the same, refinement is several times faster, and there are fewer
+    /// triangles. It changes nothing where it does not pay.
     bool lattice = true;
-    std::size_t expected_triangles = 0;  ///< memory is reserved for so many; a guess never changes the result
+    /// Number of triangles that memory is reserved for; 0: an estimate. It never changes the result.
+    std::size_t expected_triangles = 0;
 };
 
 LAMINA_EXPORT const OptionTable<RefineOptions>& refine_option_table();
@@ -131,15 +134,15 @@ LAMINA_EXPORT const OptionTable<RefineOptions>& refine_option_table();
 LAMINA_EXPORT void validate(const RefineOptions& options);
 
 struct RefineStats {
-    std::size_t refused = 0;      ///< points not placed because they would encroach upon the frozen border
+    std::size_t refused = 0;      ///< points that were not placed because they would encroach upon the frozen border
     std::size_t below_bound = 0;  ///< triangles that stayed below the angle bound
-    std::size_t exempt = 0;       ///< of those, at a corner below 60 degrees between two border edges
+    std::size_t exempt = 0;       ///< those of them at a corner below 60 degrees between two border edges
     std::size_t oversized = 0;    ///< triangles that stayed above the size bound
 
     LAMINA_EXPORT RefineStats& operator+=(const RefineStats& other);
 };
 
-/// A refined region. A vertex below the number of border points is a border point; the others are steiner_points.
+/// A refined region. Triangles index the points of the input, followed by `steiner_points`.
 struct Refinement {
     std::vector<Point> steiner_points;
     std::vector<Triangle> triangles;
@@ -163,46 +166,46 @@ struct RegionSize {
 
 struct ConstrainedRefineOptions {
     RefineOptions refine{};
-    /// Splits segments and the boundary where the angle or size bound asks for it. Otherwise they stay as they are, and
-    /// triangles beside coarse ones may stay below the bounds.
+    /// Whether segments and the boundary are split where the angle or size bound demands it. If not, triangles beside
+    /// long segments may stay beyond the bounds.
     bool split_segments = true;
     std::vector<RegionSize> regions{};  ///< where several seeds lie in one region, the first counts
 };
 
-/// A refined constrained triangulation. Triangles index the points handed in, followed by `steiner_points`.
+/// A refined constrained triangulation. Triangles index the points of the input, followed by `steiner_points`.
 struct ConstrainedRefinement {
     /// The Steiner points of the triangulation, then those on segments and the boundary, then the rest.
     std::vector<Point> steiner_points;
-    std::size_t on_segments = 0;  ///< how many of them lie on segments and the boundary
+    std::size_t on_segments = 0;  ///< number of Steiner points on segments and the boundary
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> regions;  ///< for each triangle the index of its RegionSize, or no_region
-    std::vector<Segment> segments;       ///< as in ConstrainedTriangulation, split
-    std::vector<std::uint32_t> parents;
+    std::vector<Segment> segments;       ///< the segments of the triangulation, split
+    std::vector<std::uint32_t> parents;  ///< as in ConstrainedTriangulation
     RefineStats stats;
 
     static constexpr std::uint32_t no_region = 0xffffffffu;
 };
 
 /// Refines a constrained triangulation of the points, with its inner segments and holes. Each part that segments
-/// separate is refined by itself, in parallel, against borders that were split before: until none exceeds the size
-/// field, none has a vertex it sees in its diametral circle, and no triangle is kept below the bounds by one. Segments
-/// that meet at less than 90 degrees are split on common circles of powers of two round their vertex. Triangles in a
-/// corner where segments meet at less than 60 degrees, and those whose shortest edge joins two such segments, are
-/// exempt from the angle bound (stats.exempt). Throws as refine() does. Source: J. Ruppert, J. Algorithms 18 (1995),
-/// section 3 and "corner lopping"; G. Miller, S. Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15 (2005) for what is
-/// exempt.
+/// separate is refined by itself, in parallel, against borders that are split first: until none is too long for the
+/// size field, none has a vertex in its diametral circle that sees it, and none keeps a triangle beyond the bounds.
+/// Segments that meet at less than 90 degrees are split on common circles round their vertex, whose radii are powers of
+/// two. Triangles in a corner where segments meet at less than 60 degrees, and those whose shortest edge joins two such
+/// segments, are exempt from the angle bound (stats.exempt). Throws as the other refine() does.
+/// Source: J. Ruppert, J. Algorithms 18 (1995), section 3 and "corner lopping"; exempt triangles: G. Miller, S. Pav, N.
+/// Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
 LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                                            const SizeField& size, const ConstrainedRefineOptions& options = {});
 
 // ---- checks ----
 
 struct TriangulationCheckOptions {
-    bool require_delaunay = true;  ///< every edge that is no constraint must be locally Delaunay by the tie rule
+    bool require_delaunay = true;  ///< whether edges that are no constraints must be locally Delaunay by the tie rule
 };
 
-/// Returns what is wrong with a triangulation of these points, one line each: indices out of range, clockwise or flat
-/// triangles, edges used twice in one direction, triangles that overlap round a vertex, constraints that are no edges,
-/// edges that are not Delaunay. Empty: valid. Exact.
+/// Returns the first 20 defects of a triangulation of these points, one line each; none if it is valid. Defects are
+/// indices out of range, clockwise or flat triangles, edges used twice in one direction, triangles that overlap round a
+/// vertex, constraints that are no edges, and edges that are not Delaunay. Exact.
 LAMINA_EXPORT std::vector<std::string> check_triangulation(std::span<const Point> points,
                                                            std::span<const Triangle> triangles,
                                                            std::span<const Segment> constraints = {},

@@ -137,7 +137,7 @@ ConstrainedTriangulation triangulate_input(const DelaunayArguments& arguments, c
     ConstrainedOptions options;
     options.holes = input.holes;
     options.crossings = arguments.insert_crossings ? Crossings::insert : Crossings::refuse;
-    if (!input.segments.empty() && !arguments.keep_hull) options.keep = Keep::inside_segments;
+    if (!input.segments.empty() && !arguments.keep_hull) options.keep = KeptRegion::inside_segments;
     return lamina::triangulate(input.points, input.segments, options);
 }
 

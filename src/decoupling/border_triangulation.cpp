@@ -16,7 +16,9 @@
 
 #include "core/predicates.hpp"
 #include "core/segments.hpp"
-#include "delaunay/triangulator.hpp"
+#include "delaunay/insert_segments.hpp"
+#include "delaunay/regions.hpp"
+#include "delaunay/triangulate_points.hpp"
 
 namespace lamina::decoupling {
 

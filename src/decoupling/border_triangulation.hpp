@@ -72,7 +72,7 @@ private:
     std::vector<std::vector<delaunay::Index>> loops_;  ///< indices into points_
     std::vector<Point> points_;
     delaunay::Tris tris_;
-    delaunay::Loads loads_;
+    delaunay::LoadEstimate loads_;
     std::vector<LoopEdge> loop_edges_;  ///< sorted
     // The triangles inside a border of one loop form a tree, whose root is triangle 0. Without it both arrays are
     // empty.

@@ -1,4 +1,5 @@
-// In which order points are inserted into a triangulation.
+// BRIO, the biased randomised insertion order: random rounds of points, each sorted along a space-filling curve.
+// Source: N. Amenta, S. Choi, G. Rote, Incremental constructions con BRIO, SoCG 2003.
 #pragma once
 
 #include <bit>
@@ -13,18 +14,18 @@
 
 namespace lamina::delaunay {
 
-inline constexpr unsigned insertion_rounds = 16;
+inline constexpr unsigned brio_rounds = 16;
 
-/// The random round in which the point of this number is inserted: three quarters of all points are in the last one,
-/// three sixteenths in the one before, ...
-inline unsigned insertion_round(Index point) {
+/// Returns the random round that the point of this number is inserted in. The last round holds three quarters of all
+/// points, the one before it three sixteenths, and so on.
+inline unsigned brio_round(Index point) {
     const std::uint64_t z = core::splitmix64(point);
-    constexpr unsigned last = insertion_rounds - 1;
+    constexpr unsigned last = brio_rounds - 1;
     return last - static_cast<unsigned>(std::countr_zero(z | 1ull << 2 * last)) / 2;
 }
 
-/// Biased randomised insertion order: rounds that grow by a factor of four, each sorted along a Hilbert curve.
-/// A permutation of the indices of `points`, whose box is given; depends on the points alone.
-std::vector<Index> insertion_order(std::span<const Point> points, const Box& box);
+/// Returns the indices of the points in BRIO: rounds that grow by a factor of four, each sorted along a Hilbert curve.
+/// The order depends on the points alone. Precondition: `box` is the bounding box of the points.
+std::vector<Index> brio_order(std::span<const Point> points, const Box& box);
 
 }  // namespace lamina::delaunay

@@ -1,20 +1,25 @@
-// Insertion of a point by cavity: the step that plain triangulation and refinement share.
-// Source: A. Bowyer, The Computer Journal 24 (1981); D. F. Watson, ibid.; depth-first form: docs/decisions/0002.
+// Insertion of a point by its cavity: the step that plain triangulation and refinement share. The cavity of a point p
+// is the set of triangles whose circles hold p. They are removed, and every edge a -> b of the cavity's boundary gets
+// one new triangle (p, a, b).
 //
-//        before                                        after
-//     o---------o          triangles whose          o---------o
-//     |\       /|          circle holds p           |\       /|      one new triangle (p, a, b) for
-//     | \  .p / |          (the cavity) form        | \     / |      every rim edge a -> b
-//     |  \   /  |          a tree in the dual:      |  '-p-'  |
-//     |   \ /   |          no visited marks,        |  / | \  |      rim of k edges: k - 2 triangles are reused,
-//     o----o----o          rim comes out            o----o----o      two appended
-//                          counter-clockwise
+//        before                    after
+//     o---------o               o---------o
+//     |\       /|               |\       /|      The boundary runs counter-clockwise round the cavity. A boundary of
+//     | \  .p / |               | \     / |      k edges surrounds k - 2 triangles, whose places in the array are
+//     |  \   /  |               |  '-p-'  |      used again; two new triangles are appended.
+//     |   \ /   |               |  / | \  |
+//     o----o----o               o----o----o
 //
-// Nothing is written before the whole cavity is known, so giving up costs nothing. Handles of triangles in the cavity
-// and of rim links into it are dead afterwards; all others survive.
+// The triangles of a cavity form a tree in the dual graph. A depth-first search therefore needs no visited marks and
+// meets the boundary edges in counter-clockwise order (docs/decisions/0002).
+//
+// Nothing is written before the whole cavity is known, so giving up costs nothing. Afterwards the indices of triangles
+// of the cavity, and links into it, are invalid; all others stay valid.
+//
+// Source: A. Bowyer, The Computer Journal 24 (1981); D. F. Watson, ibid.
 #pragma once
 
-#include <span>
+#include <cstddef>
 #include <vector>
 
 #include "core/predicates.hpp"
@@ -22,75 +27,76 @@
 
 namespace lamina::delaunay {
 
-/// Rim edge a -> b (b is the next entry's a) with coordinates relative to the new point.
-struct RimEdge {
+/// The edge a -> b of a cavity's boundary; b is the a of the next edge. Coordinates are relative to the new point p.
+struct CavityEdge {
     Index a;
-    Link outer;         ///< what lies across; fixed where the cavity was stopped by a constraint
+    Link outer;         ///< the triangle outside; constrained where a constrained edge has stopped the cavity
     double ax, ay, aa;  ///< a - p and its squared length
     double area2;       ///< (a - p) x (b - p): twice the area of the triangle that will stand on this edge
 };
 
-/// An array that is written through data() up to its room; only the first size() entries mean something.
+/// An array that is written through data() up to its capacity. Only the first size() entries have a meaning.
 template <class T>
 class Scratch {
 public:
-    const T& operator[](std::size_t i) const { return room_[i]; }
+    const T& operator[](std::size_t i) const { return entries_[i]; }
     std::size_t size() const { return size_; }
-    std::size_t room() const { return room_.size(); }
-    T* data() { return room_.data(); }
-    void make_room(std::size_t room) { room_.resize(room); }
+    std::size_t capacity() const { return entries_.size(); }
+    T* data() { return entries_.data(); }
+    void set_capacity(std::size_t capacity) { entries_.resize(capacity); }
     void set_size(std::size_t size) { size_ = size; }
 
 private:
-    std::vector<T> room_;
+    std::vector<T> entries_;
     std::size_t size_ = 0;
 };
 
-/// Scratch space of one kernel, reused from point to point.
+/// A cavity, and scratch space to find it. The same object serves for one point after another.
 struct Cavity {
-    /// An edge a -> b still to be looked across, relative to the new point.
-    struct Frame {
+    /// An edge a -> b that find_cavity() has yet to look across, with coordinates relative to the new point p.
+    struct PendingEdge {
         Link outer;
         Index a;
-        double ax, ay, aa, bx, by, bb, area2;
+        double ax, ay, aa;  ///< a - p and its squared length
+        double bx, by, bb;  ///< b - p and its squared length
+        double area2;       ///< (a - p) x (b - p)
     };
-    Scratch<Index> triangles;
-    Scratch<RimEdge> rim;
-    Scratch<Frame> stack;
+    Scratch<Index> triangles;      ///< the triangles whose circles hold p
+    Scratch<CavityEdge> boundary;  ///< the edges round them, counter-clockwise
+    Scratch<PendingEdge> stack;
 
     Cavity() { grow(); }
     void grow() {
-        const std::size_t room = 2 * triangles.room() + 64;
-        triangles.make_room(room);
-        rim.make_room(room);
-        stack.make_room(room);
+        const std::size_t capacity = 2 * triangles.capacity() + 64;
+        triangles.set_capacity(capacity);
+        boundary.set_capacity(capacity);
+        stack.set_capacity(capacity);
     }
-    /// The i-th of the triangles that fill_cavity() makes, `appended` being the number of triangles before it.
-    Index created(std::size_t i, std::size_t appended) const {
-        return i < triangles.size() ? triangles[i] : static_cast<Index>(appended + (i - triangles.size()));
+    /// Returns the index of the i-th triangle that fill_cavity() makes. `old_count` is the number of triangles before.
+    Index created(std::size_t i, std::size_t old_count) const {
+        return i < triangles.size() ? triangles[i] : static_cast<Index>(old_count + (i - triangles.size()));
     }
 };
 
-/// A triangle as a new point sees it: its vertices relative to the point, and twice the (signed) areas of the triangles
-/// that the point makes with its edges.
-struct SeenTriangle {
-    Point r[3];
-    double area2[3];
+/// A triangle relative to a point p.
+struct RelativeTriangle {
+    Point r[3];       ///< vertex i minus p
+    double area2[3];  ///< twice the signed area of the triangle that p makes with edge e
 };
 
-inline SeenTriangle see(const Point* points, const Tri& t, Point p) {
-    SeenTriangle s;
-    for (unsigned i = 0; i < 3; ++i) s.r[i] = points[t.v[i]] - p;
-    for (unsigned e = 0; e < 3; ++e) s.area2[e] = cross(s.r[next(e)], s.r[previous(e)]);
-    return s;
+inline RelativeTriangle relative_to(const Point* points, const Tri& t, Point p) {
+    RelativeTriangle relative;
+    for (unsigned i = 0; i < 3; ++i) relative.r[i] = points[t.v[i]] - p;
+    for (unsigned e = 0; e < 3; ++e) relative.area2[e] = cross(relative.r[next(e)], relative.r[previous(e)]);
+    return relative;
 }
 
-/// Plain triangulation closes its hull by ghost triangles, whose vertex at infinity is number 0 with NaN for
-/// coordinates: then no filter is ever certain about them, and only what comes behind the filters knows ghosts.
-inline constexpr Index ghost = 0;
+/// The vertex at infinity while a plain triangulation grows. Its coordinates are NaN, so no filter is ever certain
+/// about a ghost triangle, and only the code behind the filters has to know ghosts.
+inline constexpr Index growing_ghost_vertex = 0;
 
-/// Does p lie in the (perturbed) circle of the ghost triangle t with the ghost at g: strictly outside its hull edge, or
-/// on the edge itself?
+/// Returns whether p lies in the (perturbed) circle of the ghost triangle t, whose vertex at infinity is t.v[g]:
+/// strictly outside its hull edge, or on that edge.
 inline bool in_ghost_circle(const Point* points, const Tri& t, unsigned g, Point p) {
     const Point a = points[t.v[next(g)]];
     const Point b = points[t.v[previous(g)]];
@@ -99,108 +105,111 @@ inline bool in_ghost_circle(const Point* points, const Tri& t, unsigned g, Point
     return a.x != b.x ? (a.x < p.x) == (p.x < b.x) : (a.y < p.y) == (p.y < b.y);
 }
 
-/// Whether p lies in the circle of t, where the filter of find_cavity() could not tell.
+/// The error of a rounded incircle determinant is at most this times s^2, where s is the sum of the squared distances
+/// of the triangle's vertices from the point: it is at most (10 + 96 eps) eps times the permanent, which is at most s^2
+/// / 3.
+inline constexpr double incircle_error = 4e-16;
+
+/// Returns whether p lies in the circle of t, where the filter of find_cavity() could not tell.
 template <bool Ghosts>
 [[gnu::noinline]] bool in_circle_after_filter(const Point* points, const Tri& t, Point p) {
     if constexpr (Ghosts) {
         for (unsigned g = 0; g < 3; ++g)
-            if (t.v[g] == ghost) return in_ghost_circle(points, t, g, p);
+            if (t.v[g] == growing_ghost_vertex) return in_ghost_circle(points, t, g, p);
     }
     return core::incircle_after_filter(points[t.v[0]], points[t.v[1]], points[t.v[2]], p) > 0;
 }
 
-/// Finds the cavity of p. Precondition: `start` is in conflict with p (p in its perturbed circle), p is no vertex, and
-/// `seen` is `start` as seen from p. With `Ghosts` the triangulation is closed by ghosts, without it by borders.
+/// Finds the cavity of p. With `Ghosts` the triangulation is closed by ghosts, without it by borders.
+/// Precondition: p lies in the perturbed circle of triangle `start` and is no vertex; `relative` is `start` relative to
+/// p.
 template <bool Ghosts>
-void find_cavity(const Point* points, const Tri* tris, Index start, const SeenTriangle& seen, Point p, Cavity& cavity) {
+// NOLINTNEXTLINE(readability-function-size): the hottest loop of the program; its state has to stay in registers
+void find_cavity(const Point* points, const Tri* tris, Index start, const RelativeTriangle& relative, Point p,
+                 Cavity& cavity) {
     Index* triangles = cavity.triangles.data();
-    RimEdge* rim = cavity.rim.data();
-    Cavity::Frame* stack = cavity.stack.data();
-    std::size_t triangle_count = 0, rim_count = 0, stacked = 0;
+    CavityEdge* boundary = cavity.boundary.data();
+    Cavity::PendingEdge* stack = cavity.stack.data();
+    std::size_t triangle_count = 0, boundary_count = 0, stacked = 0;
 
     const Tri& first = tris[start];
     double rr[3];
-    for (unsigned i = 0; i < 3; ++i) rr[i] = squared_length(seen.r[i]);
-    const auto frame = [&](unsigned e) -> Cavity::Frame {
+    for (unsigned i = 0; i < 3; ++i) rr[i] = squared_length(relative.r[i]);
+    const auto pending = [&](unsigned e) -> Cavity::PendingEdge {
         const unsigned a = next(e), b = previous(e);
-        const Point ra = seen.r[a], rb = seen.r[b];
-        return {first.n[e], first.v[a], ra.x, ra.y, rr[a], rb.x, rb.y, rr[b], seen.area2[e]};
+        const Point ra = relative.r[a], rb = relative.r[b];
+        return {first.n[e], first.v[a], ra.x, ra.y, rr[a], rb.x, rb.y, rr[b], relative.area2[e]};
     };
     triangles[triangle_count++] = start;
-    stack[stacked++] = frame(2);
-    stack[stacked++] = frame(1);
-    for (Cavity::Frame f = frame(0);;) {
-        if (!f.outer.is_constrained()) {
-            // The neighbour is (b, a, w), entered through its edge k:
+    stack[stacked++] = pending(2);
+    stack[stacked++] = pending(1);
+    for (Cavity::PendingEdge edge = pending(0);;) {
+        if (!edge.outer.is_constrained()) {
+            // The neighbour is (b, a, w), entered through its edge k.
             //        a
-            //      / | \      inside lies on the left of a -> b
+            //      / | \      The cavity is on the left of a -> b.
             //     o  |  w
             //      \ | /
             //        b
-            const Index n = f.outer.triangle();
+            const Index n = edge.outer.triangle();
             const Tri& t = tris[n];
-            const unsigned k = f.outer.edge();
+            const unsigned k = edge.outer.edge();
             const Index w = t.v[k];
             const double wx = points[w].x - p.x;
             const double wy = points[w].y - p.y;
             const double ww = wx * wx + wy * wy;
-            const double aw = f.ax * wy - f.ay * wx;
-            const double wb = wx * f.by - wy * f.bx;
-            const double det = f.bb * aw + f.aa * wb - ww * f.area2;
-            // |det| is right to (10 + 96 eps) eps times the permanent, which is at most s^2 / 3.
-            const double s = f.aa + f.bb + ww;
-            const double error = 4e-16 * (s * s);
+            const double aw = edge.ax * wy - edge.ay * wx;
+            const double wb = wx * edge.by - wy * edge.bx;
+            const double det = edge.bb * aw + edge.aa * wb - ww * edge.area2;
+            const double sum = edge.aa + edge.bb + ww;
+            const double error = incircle_error * (sum * sum);
             if (det > error || (!(det < -error) && in_circle_after_filter<Ghosts>(points, t, p))) {
                 triangles[triangle_count++] = n;
-                // The rim and the stack of a cavity of t triangles hold t + 2 edges together.
-                if (triangle_count + 2 == cavity.triangles.room()) [[unlikely]] {
+                // The boundary and the stack of a cavity of t triangles hold t + 2 edges together.
+                if (triangle_count + 2 == cavity.triangles.capacity()) [[unlikely]] {
                     cavity.grow();
                     triangles = cavity.triangles.data();
-                    rim = cavity.rim.data();
+                    boundary = cavity.boundary.data();
                     stack = cavity.stack.data();
                 }
-                // First across a -> w, later across w -> b.
-                stack[stacked++] = {t.n[previous(k)], w, wx, wy, ww, f.bx, f.by, f.bb, wb};
-                f.outer = t.n[next(k)];
-                f.bx = wx;
-                f.by = wy;
-                f.bb = ww;
-                f.area2 = aw;
+                // The search goes on across a -> w at once, across w -> b later.
+                stack[stacked++] = {t.n[previous(k)], w, wx, wy, ww, edge.bx, edge.by, edge.bb, wb};
+                edge.outer = t.n[next(k)];
+                edge.bx = wx;
+                edge.by = wy;
+                edge.bb = ww;
+                edge.area2 = aw;
                 continue;
             }
         }
-        rim[rim_count++] = {f.a, f.outer, f.ax, f.ay, f.aa, f.area2};
+        boundary[boundary_count++] = {edge.a, edge.outer, edge.ax, edge.ay, edge.aa, edge.area2};
         if (stacked == 0) break;
-        f = stack[--stacked];
+        edge = stack[--stacked];
     }
     cavity.triangles.set_size(triangle_count);
-    cavity.rim.set_size(rim_count);
+    cavity.boundary.set_size(boundary_count);
 }
 
-template <bool Ghosts>
-void find_cavity(const Point* points, const Tris& tris, Index start, Point p, Cavity& cavity) {
-    find_cavity<Ghosts>(points, tris.data(), start, see(points, tris[start], p), p, cavity);
-}
-
-/// Replaces the cavity by the fan of triangles (p, a, b) over its rim: edge 0 of each is its rim edge.
+/// Replaces the triangles of the cavity by the fan of triangles (p, a, b) over its boundary. Edge 0 of each new
+/// triangle is its edge of the boundary.
 inline void fill_cavity(Tris& tris, Cavity& cavity, Index p) {
-    const std::size_t before = tris.size();
-    const std::size_t k = cavity.rim.size();
-    tris.resize(before + 2);
+    const std::size_t old_count = tris.size();
+    const std::size_t k = cavity.boundary.size();
+    tris.resize(old_count + 2);
     Tri* const triangles = tris.data();
-    const RimEdge* const rim = cavity.rim.data();
+    const CavityEdge* const boundary = cavity.boundary.data();
     Index* const created = cavity.triangles.data();
-    created[k - 2] = static_cast<Index>(before);
-    created[k - 1] = static_cast<Index>(before + 1);
+    created[k - 2] = static_cast<Index>(old_count);
+    created[k - 1] = static_cast<Index>(old_count + 1);
     Index last = created[k - 1];
     Index current = created[0];
     for (std::size_t i = 0; i < k; ++i) {
         const std::size_t after = i + 1 < k ? i + 1 : 0;
-        const Link outer = rim[i].outer;
+        const Link outer = boundary[i].outer;
         Tri& t = triangles[current];
         t.v[0] = p;
-        t.v[1] = rim[i].a;
-        t.v[2] = rim[after].a;
+        t.v[1] = boundary[i].a;
+        t.v[2] = boundary[after].a;
         t.n[0] = outer;
         t.n[1] = Link(created[after], 2);
         t.n[2] = Link(last, 1);

@@ -1,4 +1,4 @@
-// An independent look at a triangulation: knows nothing of links, cavities or orders of insertion.
+// An independent check of triangulations: it shares nothing with the code that makes them but the predicates.
 #include <algorithm>
 #include <unordered_map>
 
@@ -12,39 +12,46 @@ namespace lamina::delaunay {
 
 namespace {
 
-constexpr std::size_t reported_defects = 20;
+constexpr std::size_t max_defects = 20;
 
-struct DirectedEdge {
+/// The edge a -> b of a triangle, which lies on its left.
+struct TriangleEdge {
     std::uint32_t a, b;
-    std::uint32_t triangle, apex;
+    std::uint32_t triangle;
+    std::uint32_t apex;  ///< the third vertex of the triangle
 };
 
 std::uint64_t key(std::uint32_t a, std::uint32_t b) { return std::uint64_t{a} << 32 | b; }
 
-struct Report {
-    std::vector<std::string> defects;
-    void add(std::string text) {
-        if (defects.size() < reported_defects) defects.push_back(std::move(text));
+/// The first defects that were found, one line each.
+struct TriangulationDefects {
+    std::vector<std::string> lines;
+    void add(std::string line) {
+        if (lines.size() < max_defects) lines.push_back(std::move(line));
     }
 };
 
-bool check_triangles(std::span<const Point> points, std::span<const Triangle> triangles, Report& report) {
+/// Reports indices out of range and triangles that are not counter-clockwise. Returns false for indices out of range:
+/// then nothing else can be checked.
+bool check_triangles(std::span<const Point> points, std::span<const Triangle> triangles,
+                     TriangulationDefects& defects) {
     bool usable = true;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& v = triangles[t].v;
         if (std::any_of(v, v + 3, [&](VertexId i) { return i.index() >= points.size(); })) {
-            report.add(core::concat("triangle ", t, ": vertex index out of range"));
+            defects.add(core::concat("triangle ", t, ": vertex index out of range"));
             usable = false;
         } else if (!(orient2d(points[v[0].index()], points[v[1].index()], points[v[2].index()]) > 0)) {
-            report.add(core::concat("triangle ", t, " (", v[0].value, ", ", v[1].value, ", ", v[2].value,
-                                    ") is not counter-clockwise"));
+            defects.add(core::concat("triangle ", t, " (", v[0].value, ", ", v[1].value, ", ", v[2].value,
+                                     ") is not counter-clockwise"));
         }
     }
     return usable;
 }
 
-std::vector<DirectedEdge> sorted_edges(std::span<const Triangle> triangles) {
-    std::vector<DirectedEdge> edges;
+/// Returns the edges of all triangles, sorted by a and b.
+std::vector<TriangleEdge> sorted_edges(std::span<const Triangle> triangles) {
+    std::vector<TriangleEdge> edges;
     edges.reserve(3 * triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& v = triangles[t].v;
@@ -52,26 +59,29 @@ std::vector<DirectedEdge> sorted_edges(std::span<const Triangle> triangles) {
             edges.push_back({v[(e + 1) % 3].value, v[(e + 2) % 3].value, static_cast<std::uint32_t>(t), v[e].value});
     }
     std::sort(edges.begin(), edges.end(),
-              [](const DirectedEdge& l, const DirectedEdge& r) { return key(l.a, l.b) < key(r.a, r.b); });
+              [](const TriangleEdge& l, const TriangleEdge& r) { return key(l.a, l.b) < key(r.a, r.b); });
     return edges;
 }
 
-const DirectedEdge* find(const std::vector<DirectedEdge>& edges, std::uint32_t a, std::uint32_t b) {
+/// Returns the first of the sorted edges from a to b, or nullptr if there is none.
+const TriangleEdge* find(const std::vector<TriangleEdge>& edges, std::uint32_t a, std::uint32_t b) {
     const auto at = std::lower_bound(edges.begin(), edges.end(), key(a, b),
-                                     [](const DirectedEdge& e, std::uint64_t k) { return key(e.a, e.b) < k; });
+                                     [](const TriangleEdge& e, std::uint64_t k) { return key(e.a, e.b) < k; });
     return at != edges.end() && at->a == a && at->b == b ? &*at : nullptr;
 }
 
-/// Round a vertex, inside or on the rim, no direction is covered twice. Between counter-clockwise triangles that use
-/// each edge once in each direction the direction of +x tells for all of them at an inner vertex: the exact test is the
-/// count of triangles whose angular range there holds it.
-void check_turning(std::span<const Point> points, std::span<const Triangle> triangles, Report& report) {
+/// Reports vertices round which triangles overlap: no direction from a vertex, inside or on the boundary, may be
+/// covered twice. Counter-clockwise triangles that use each edge once in each direction cover all directions from an
+/// inner vertex equally often, so one direction speaks for all. The test counts, exactly, the triangles whose sector at
+/// the vertex holds the direction of +x.
+void check_overlaps(std::span<const Point> points, std::span<const Triangle> triangles, TriangulationDefects& defects) {
     std::vector<std::uint32_t> covering(points.size(), 0);
     for (const Triangle& t : triangles) {
         for (int i = 0; i < 3; ++i) {
             const Point p = points[t.v[i].index()], a = points[t.v[(i + 1) % 3].index()],
                         b = points[t.v[(i + 2) % 3].index()];
-            // Half-open sector [a, b) seen from p: a is at or below the ray, b strictly above it, turning through it.
+            // The sector from a to b, seen from p, is half-open: it holds the ray from p in the direction of +x if a
+            // lies on the ray or below it and b strictly above it.
             const bool a_below = a.y < p.y || (a.y == p.y && a.x > p.x);
             const bool b_above = b.y > p.y || (b.y == p.y && b.x < p.x);
             if (a_below && b_above) ++covering[t.v[i].index()];
@@ -79,18 +89,20 @@ void check_turning(std::span<const Point> points, std::span<const Triangle> tria
     }
     for (std::size_t v = 0; v < points.size(); ++v)
         if (covering[v] > 1)
-            report.add(core::concat("the triangles round vertex ", v, " overlap (", covering[v], " turns)"));
+            defects.add(core::concat("the triangles round vertex ", v, " overlap (", covering[v], " turns)"));
 }
 
-void check_delaunay(std::span<const Point> points, const std::vector<DirectedEdge>& edges,
-                    const std::vector<std::uint64_t>& constraints, Report& report) {
-    for (const DirectedEdge& e : edges) {
+/// Reports edges that are neither locally Delaunay nor among the constraints, which are sorted keys of (smaller vertex,
+/// larger vertex).
+void check_delaunay(std::span<const Point> points, const std::vector<TriangleEdge>& edges,
+                    const std::vector<std::uint64_t>& constraints, TriangulationDefects& defects) {
+    for (const TriangleEdge& e : edges) {
         if (e.a > e.b) continue;
-        const DirectedEdge* other = find(edges, e.b, e.a);
+        const TriangleEdge* other = find(edges, e.b, e.a);
         if (!other || std::binary_search(constraints.begin(), constraints.end(), key(e.a, e.b))) continue;
         if (incircle_perturbed(points[e.a], points[e.b], points[e.apex], points[other->apex]) > 0)
-            report.add(core::concat("edge ", e.a, "-", e.b, " is not Delaunay: vertex ", other->apex,
-                                    " lies in the circle of triangle ", e.triangle));
+            defects.add(core::concat("edge ", e.a, "-", e.b, " is not Delaunay: vertex ", other->apex,
+                                     " lies in the circle of triangle ", e.triangle));
     }
 }
 
@@ -105,25 +117,26 @@ using namespace delaunay;
 std::vector<std::string> check_triangulation(std::span<const Point> points, std::span<const Triangle> triangles,
                                              std::span<const Segment> constraints,
                                              const TriangulationCheckOptions& options) {
-    Report report;
-    if (!check_triangles(points, triangles, report)) return report.defects;
-    const std::vector<DirectedEdge> edges = sorted_edges(triangles);
+    TriangulationDefects defects;
+    if (!check_triangles(points, triangles, defects)) return defects.lines;
+    const std::vector<TriangleEdge> edges = sorted_edges(triangles);
     for (std::size_t i = 1; i < edges.size(); ++i)
         if (edges[i].a == edges[i - 1].a && edges[i].b == edges[i - 1].b)
-            report.add(core::concat("edge ", edges[i].a, " -> ", edges[i].b, " belongs to triangles ",
-                                    edges[i - 1].triangle, " and ", edges[i].triangle));
-    if (!report.defects.empty()) return report.defects;
+            defects.add(core::concat("edge ", edges[i].a, " -> ", edges[i].b, " belongs to triangles ",
+                                     edges[i - 1].triangle, " and ", edges[i].triangle));
+    if (!defects.lines.empty()) return defects.lines;
 
-    check_turning(points, triangles, report);
-    std::vector<std::uint64_t> fixed;
+    check_overlaps(points, triangles, defects);
+    std::vector<std::uint64_t> constrained;
+    constrained.reserve(constraints.size());
     for (const Segment& s : constraints) {
-        fixed.push_back(key(std::min(s.a, s.b).value, std::max(s.a, s.b).value));
+        constrained.push_back(key(std::min(s.a, s.b).value, std::max(s.a, s.b).value));
         if (!find(edges, s.a.value, s.b.value) && !find(edges, s.b.value, s.a.value))
-            report.add(core::concat("constraint ", s.a.value, "-", s.b.value, " is no edge"));
+            defects.add(core::concat("constraint ", s.a.value, "-", s.b.value, " is no edge"));
     }
-    std::sort(fixed.begin(), fixed.end());
-    if (options.require_delaunay) check_delaunay(points, edges, fixed, report);
-    return report.defects;
+    std::sort(constrained.begin(), constrained.end());
+    if (options.require_delaunay) check_delaunay(points, edges, constrained, defects);
+    return defects.lines;
 }
 
 double smallest_angle_deg(std::span<const Point> points, std::span<const Triangle> triangles) {

@@ -1,67 +1,75 @@
-// Constrained Delaunay triangulation: the steps of triangulate().
+// The constrained triangulate(): insert segments, select triangles, list the segments that are left.
 #include <algorithm>
 #include <utility>
 
 #include <lamina/delaunay.hpp>
 
+#include "delaunay/insert_segments.hpp"
 #include "delaunay/planarize.hpp"
-#include "delaunay/triangulator.hpp"
+#include "delaunay/regions.hpp"
+#include "delaunay/triangulate_points.hpp"
 
 namespace lamina::delaunay {
 
 namespace {
 
-struct Constraints {
+/// A triangulation of the convex hull with the pieces of segments that it holds as constrained edges.
+struct TriangulatedPieces {
     Tris tris;
     std::vector<SegmentPiece> pieces;
 };
 
-Constraints insert_pieces(std::span<const Point> points, std::span<const Segment> segments, Tris tris) {
+std::vector<Segment> segments_of(const std::vector<SegmentPiece>& pieces) {
+    std::vector<Segment> segments;
+    segments.reserve(pieces.size());
+    for (const SegmentPiece& piece : pieces) segments.push_back(piece.segment);
+    return segments;
+}
+
+/// Triangulates points and segments that do not cross.
+TriangulatedPieces insert_disjoint(std::span<const Point> points, std::span<const Segment> segments) {
+    Tris tris = triangulate_points(points);
     std::vector<SegmentPiece> pieces = insert_and_split_segments(points, segments, tris);
     return {std::move(tris), std::move(pieces)};
 }
 
-/// The same where segments may cross; `added` receives the crossing points.
-Constraints insert_crossing(std::span<const Point> points, std::span<const Segment> segments,
-                            std::vector<Point>& added) {
-    // Duplicate points and bad segments are refused before anything is made of them.
+/// Triangulates points and segments that may cross. `steiner_points` receives the crossing points.
+TriangulatedPieces insert_crossing(std::span<const Point> points, std::span<const Segment> segments,
+                                   std::vector<Point>& steiner_points) {
+    // Refuses duplicate points and bad segments before it looks for crossings.
     Tris tris = triangulate_points(points);
     check_segments(points, segments, tris);
     PlanarSegments planar = planarize(points, segments);
-    added = std::move(planar.steiner_points);
+    steiner_points = std::move(planar.steiner_points);
     std::vector<Point> all(points.begin(), points.end());
-    all.insert(all.end(), added.begin(), added.end());
-    if (!added.empty()) tris = triangulate_points(all);
-    std::vector<Segment> pieces;
-    for (const SegmentPiece& piece : planar.pieces) pieces.push_back(piece.segment);
-    insert_segments(all, pieces, tris);
+    all.insert(all.end(), steiner_points.begin(), steiner_points.end());
+    if (!steiner_points.empty()) tris = triangulate_points(all);
+    insert_segments(all, segments_of(planar.pieces), tris);
     return {std::move(tris), std::move(planar.pieces)};
 }
 
-Marks mark_kept(const Constraints& constraints, Keep keep, std::size_t point_count) {
-    if (keep == Keep::convex_hull) return mark_all(constraints.tris);
-    if (keep == Keep::inside_segments) return mark_inside_segments(constraints.tris);
-    std::vector<Segment> pieces;
-    for (const SegmentPiece& piece : constraints.pieces) pieces.push_back(piece.segment);
-    return mark_left_of_segments(pieces, constraints.tris, point_count);
+TriangleSelection select_kept(const TriangulatedPieces& triangulated, KeptRegion keep, std::size_t point_count) {
+    if (keep == KeptRegion::convex_hull) return select_all(triangulated.tris);
+    if (keep == KeptRegion::inside_segments) return select_inside_segments(triangulated.tris);
+    return select_left_of_segments(segments_of(triangulated.pieces), triangulated.tris, point_count);
 }
 
-std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
-
-/// Each edge of the triangles kept that is a piece, once.
+/// Fills ConstrainedTriangulation::segments and ::parents with the edges of the kept triangles that are pieces of
+/// segments, each edge once.
 void list_segments(const Tris& kept, const std::vector<SegmentPiece>& pieces, ConstrainedTriangulation& result) {
-    std::vector<std::uint64_t> edges;  // borders, too: a segment on the rim of what is kept has lost its mark
+    // Constrained edges and borders, since constrained edges on the boundary of the kept triangles became borders.
+    std::vector<std::uint64_t> edges;
     for (const Tri& t : kept)
         for (unsigned e = 0; e < 3; ++e)
-            if (t.n[e].is_constrained()) edges.push_back(key(t.v[next(e)], t.v[previous(e)]));
+            if (t.n[e].is_constrained()) edges.push_back(undirected_key(t.v[next(e)], t.v[previous(e)]));
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     std::vector<char> listed(edges.size(), 0);
     for (const SegmentPiece& piece : pieces) {
-        const auto at = std::lower_bound(edges.begin(), edges.end(), key(piece.segment.a.value, piece.segment.b.value));
-        if (at == edges.end() || *at != key(piece.segment.a.value, piece.segment.b.value)) continue;
-        char& done = listed[static_cast<std::size_t>(at - edges.begin())];
-        if (std::exchange(done, 1)) continue;
+        const std::uint64_t key = undirected_key(piece.segment.a.value, piece.segment.b.value);
+        const auto found = std::lower_bound(edges.begin(), edges.end(), key);
+        if (found == edges.end() || *found != key) continue;
+        if (std::exchange(listed[static_cast<std::size_t>(found - edges.begin())], 1)) continue;
         result.segments.push_back(piece.segment);
         result.parents.push_back(piece.parent);
     }
@@ -78,20 +86,20 @@ using namespace delaunay;
 ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
                                      const ConstrainedOptions& options) {
     ConstrainedTriangulation result;
-    const Constraints constraints = options.crossings == Crossings::insert
-                                        ? insert_crossing(points, segments, result.steiner_points)
-                                        : insert_pieces(points, segments, triangulate_points(points));
+    const TriangulatedPieces triangulated = options.crossings == Crossings::insert
+                                                ? insert_crossing(points, segments, result.steiner_points)
+                                                : insert_disjoint(points, segments);
     std::vector<Point> all;
     if (!result.steiner_points.empty()) {
         all.assign(points.begin(), points.end());
         all.insert(all.end(), result.steiner_points.begin(), result.steiner_points.end());
         points = all;
     }
-    Marks marks = mark_kept(constraints, options.keep, points.size());
-    carve_holes(points, options.holes, constraints.tris, marks);
-    const Tris kept = keep_marked(constraints.tris, marks);
+    TriangleSelection selection = select_kept(triangulated, options.keep, points.size());
+    deselect_holes(points, options.holes, triangulated.tris, selection);
+    const Tris kept = keep_selected(triangulated.tris, selection);
     result.triangles = without_ghosts(kept).triangles;
-    list_segments(kept, constraints.pieces, result);
+    list_segments(kept, triangulated.pieces, result);
     return result;
 }
 

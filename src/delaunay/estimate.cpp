@@ -1,17 +1,19 @@
-// Triangles are counted in units of the largest that is allowed, as the integral of 1 / h^2. How much smaller than that
-// the mean triangle is depends on who makes it (measured: docs/decisions/0015):
+// A region holds at least min_triangles, the number of triangles if all had the largest area allowed, sqrt(3)/4 h^2: an
+// integral of 1 / h^2. How many more are made depends on who makes them (measured: docs/decisions/0015):
 //
-//   refinement    0.69 of the bound, whatever the gradation, and a little less along frozen edges
-//   a lattice     its level's share, 0.71 to 0.94, less a seam along frozen edges; there is one where h is even over
-//                 the width of a block, and where enough lies inside the seams
+//   refinement    makes triangles of 0.69 of the largest area on average, whatever the gradation, and a few more along
+//                 frozen edges.
+//   a lattice     has triangles of 0.71 to 0.94 of the largest area, by its level, but for a seam along frozen edges. A
+//                 lattice is made where h is even over the width of a block, and where enough lies inside the seams.
 #include "delaunay/estimate.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/equilateral.hpp"
 #include "core/parallel.hpp"
-#include "delaunay/lattice.hpp"
+#include "delaunay/lattice_levels.hpp"
 
 namespace lamina::delaunay {
 
@@ -19,39 +21,46 @@ namespace {
 
 // ---- measured ----
 
-/// Triangles of refinement for each of the bound's, and as many more with the growth of h; and a frozen edge's own.
+/// Triangles that refinement makes for each of min_triangles where h is constant, how many more it makes in proportion
+/// to the growth of h, and how many more for each frozen edge.
 constexpr double refined_where_even = 1.435, refined_by_growth = 0.28, refined_along_border = 0.184;
 constexpr double refined(double gradient) { return refined_where_even + refined_by_growth * gradient; }
-/// Triangles for each of the lattice's own; and a frozen edge's own, for the seam.
+/// Triangles of the mesh for each triangle of a lattice that covers the region, and how many more for each frozen edge,
+/// in the seam.
 constexpr double latticed = 1.02, latticed_along_border = 0.63;
-/// Mean share of the bound of lattice triangles where h passes through the levels.
+/// Mean area of lattice triangles, as a share of the largest allowed, where h passes through the levels.
 constexpr double mean_level_share = 0.812;
 /// Growth of h beyond which no block keeps to one level.
-constexpr double even_gradient = (level_ratio - 1) / (2 * smallest_block);
-/// A lattice is made where its triangles are more than so many for each frozen edge and each change of level.
-constexpr double least_lattice_per_border_edge = 7, least_lattice_per_crossing = 60;
-constexpr double least_even_share = 0.5;
-/// Within this factor of that it may be made or not, and half of each is foreseen.
-constexpr double uncertain = 1.25;
+constexpr double even_gradient = (level_ratio - 1) / (2 * min_block_edges);
+/// A lattice is made where it has more triangles than this for each frozen edge and for each change of level.
+constexpr double min_lattice_per_border_edge = 7, min_lattice_per_crossing = 60;
+/// A lattice is made where h is even for at least this share of min_triangles.
+constexpr double min_even_share = 0.5;
+/// Within this factor of the smallest number of triangles that a lattice needs, it may be made or not: then the
+/// estimate is the mean of both.
+constexpr double uncertain_factor = 1.25;
 
 // ---- integral ----
 
-struct Corner {
+/// A point with the size there.
+struct SizedPoint {
     Point at;
     double size;
 };
 
-double squared_edge(const Corner& a, const Corner& b) { return squared_length(b.at - a.at); }
+double squared_edge(const SizedPoint& a, const SizedPoint& b) { return squared_length(b.at - a.at); }
 
-/// Part of a triangle, in which h is nearly linear.
-struct Part {
-    Point at;
-    double bound;              ///< triangles of the bound's area
-    double gradient;           ///< of h
-    double low, high, inside;  ///< h at the corners and in the middle
+/// A part of a triangle, in which h is nearly linear.
+struct TrianglePart {
+    Point at;              ///< its middle
+    double min_triangles;  ///< number of triangles if all had the largest area allowed
+    double gradient;       ///< growth of h per unit of distance
+    double low, high;      ///< smallest and largest h at the corners and in the middle
+    double inside;         ///< h in the middle
 };
 
-Part make_part(const Corner& a, const Corner& b, const Corner& c, double inside, double steepest) {
+TrianglePart make_part(const SizedPoint& a, const SizedPoint& b, const SizedPoint& c, double inside,
+                       double max_gradient) {
     const Point ab = b.at - a.at, ac = c.at - a.at;
     const double area2 = std::abs(cross(ab, ac));
     const double climb = length((b.size - a.size) * ac - (c.size - a.size) * ab);
@@ -60,158 +69,194 @@ Part make_part(const Corner& a, const Corner& b, const Corner& c, double inside,
         0.75 * inverse_square(inside) + (inverse_square(a.size) + inverse_square(b.size) + inverse_square(c.size)) / 12;
     return {(1.0 / 3) * (a.at + b.at + c.at),
             0.5 * area2 * mean / core::equilateral_area,
-            climb < steepest * area2 ? climb / area2 : steepest,
+            climb < max_gradient * area2 ? climb / area2 : max_gradient,
             std::min({a.size, b.size, c.size, inside}),
             std::max({a.size, b.size, c.size, inside}),
             inside};
 }
 
-/// When a triangle is a part as it stands, in lengths of the smallest h at its corners.
-struct Limits {
-    double short_edges;  ///< all edges shorter than this: h in the middle is taken for the mean of the corners'
-    /// Edges longer than this are halved: a source inside lowers h up to a distance of h / gradation, and parts are
-    /// small enough, against the whole of the piece, to tell which side of a line they lie on.
+/// Decides whether a triangle is divided. Lengths and areas are in units of the smallest h at its corners.
+struct DivisionLimits {
+    /// If all edges are shorter than this, the mean of h at the corners is taken for h in the middle.
+    double short_edge;
+    /// Longer edges are halved. A source inside the triangle lowers h up to a distance of h / gradation, and parts have
+    /// to be small, compared to the whole piece, to tell which side of a line they lie on.
     double long_edge;
-    double little_area;  ///< unless there is so little in the triangle that it does not matter
+    /// Triangles of a smaller area need not be divided for their long edges: they hold too few triangles to matter.
+    double small_area;
 };
 
-Limits limits(const SizeField& size, std::size_t border_points) {
+DivisionLimits division_limits(const SizeField& size, std::size_t border_points) {
     const double reach = 1 / size.gradation(), border = static_cast<double>(border_points);
-    // A piece is about border / 4 edges wide: parts up to a tenth of that, or with 0.05 % of what it holds.
+    // A piece is about border / 4 edges wide. Parts may be up to a tenth of that wide, or hold 0.05 % of the piece.
     return {std::clamp(0.3 * reach, 1.0, 40.0), std::clamp(1.6 * reach, 16.0, std::max(40.0, border / 40)),
             std::clamp(3e-5 * border * border, 4.0, 64.0)};
 }
 
-/// Appends the parts of a triangle, which is halved at its longest edge until h differs little between the corners and
-/// the middle.
-void divide(Corner a, Corner b, Corner c, const SizeField& size, const Limits& limit, int depth,
-            std::vector<Part>& parts) {
-    const double low = std::min({a.size, b.size, c.size}), high = std::max({a.size, b.size, c.size});
-    const double mean = (a.size + b.size + c.size) / 3;
-    const double ab = squared_edge(a, b), bc = squared_edge(b, c), ca = squared_edge(c, a);
-    const double squared_longest = std::max({ab, bc, ca}), squared_low = low * low;
-    const bool is_short = squared_longest < limit.short_edges * limit.short_edges * squared_low;
-    const double inside = is_short ? mean : size((1.0 / 3) * (a.at + b.at + c.at));
-    const bool is_little = 0.5 * std::abs(cross(b.at - a.at, c.at - a.at)) < limit.little_area * squared_low;
-    const bool is_long = squared_longest > limit.long_edge * limit.long_edge * squared_low;
-    const bool alike = high < (is_little ? 2 : 1.5) * low && inside < 1.2 * mean && mean < 1.2 * inside;
-    if (depth == 0 || (alike && (is_little || !is_long))) {
-        parts.push_back(make_part(a, b, c, inside, size.gradation()));
-        return;
+/// Divides triangles into parts.
+class TriangleDivider {
+public:
+    TriangleDivider(const SizeField& size, const DivisionLimits& limits, std::vector<TrianglePart>& parts)
+        : size_(size), limits_(limits), parts_(parts) {}
+
+    /// Appends the parts of a triangle, which is halved at its longest edge until h differs little between the corners
+    /// and the middle, but at most `depth` times in a row.
+    void divide(SizedPoint a, SizedPoint b, SizedPoint c, int depth) {
+        const double low = std::min({a.size, b.size, c.size}), high = std::max({a.size, b.size, c.size});
+        const double mean = (a.size + b.size + c.size) / 3;
+        const double ab = squared_edge(a, b), bc = squared_edge(b, c), ca = squared_edge(c, a);
+        const double squared_longest = std::max({ab, bc, ca}), squared_low = low * low;
+        const bool is_short = squared_longest < limits_.short_edge * limits_.short_edge * squared_low;
+        const double inside = is_short ? mean : size_((1.0 / 3) * (a.at + b.at + c.at));
+        const bool is_small = 0.5 * std::abs(cross(b.at - a.at, c.at - a.at)) < limits_.small_area * squared_low;
+        const bool is_long = squared_longest > limits_.long_edge * limits_.long_edge * squared_low;
+        const bool alike = high < (is_small ? 2 : 1.5) * low && inside < 1.2 * mean && mean < 1.2 * inside;
+        if (depth == 0 || (alike && (is_small || !is_long))) {
+            parts_.push_back(make_part(a, b, c, inside, size_.gradation()));
+            return;
+        }
+        // Afterwards c-a is the longest edge.
+        if (ab >= bc && ab >= ca)
+            std::swap(b, c);
+        else if (bc >= ca)
+            std::swap(a, b);
+        const Point half = midpoint(a.at, c.at);
+        const SizedPoint between{half, size_(half)};
+        divide(a, b, between, depth - 1);
+        divide(between, b, c, depth - 1);
     }
-    // c-a becomes the longest edge.
-    if (ab >= bc && ab >= ca)
-        std::swap(b, c);
-    else if (bc >= ca)
-        std::swap(a, b);
-    const Point half = midpoint(a.at, c.at);
-    const Corner between{half, size(half)};
-    divide(a, b, between, size, limit, depth - 1, parts);
-    divide(between, b, c, size, limit, depth - 1, parts);
+
+private:
+    const SizeField& size_;
+    const DivisionLimits limits_;
+    std::vector<TrianglePart>& parts_;
+};
+
+/// The parts of all triangles.
+struct DividedTriangles {
+    std::vector<TrianglePart> parts;
+    std::vector<std::size_t> ends;  ///< for each triangle the number of parts up to its last one
+    std::size_t border_edges = 0;
+};
+
+DividedTriangles divide_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size) {
+    constexpr int max_depth = 40;       // only a guard
+    constexpr std::size_t grain = 256;  // triangles in a block
+    const DivisionLimits limits = division_limits(size, points.size());
+    std::vector<double> sizes(points.size());
+    std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return size(p); });
+    const auto divide_block = [&](std::size_t begin, std::size_t end) {
+        DividedTriangles block;
+        TriangleDivider divider(size, limits, block.parts);
+        const auto corner = [&](Index v) { return SizedPoint{points[v], sizes[v]}; };
+        block.ends.reserve(end - begin);
+        for (std::size_t i = begin; i < end; ++i) {
+            const Tri& t = tris[i];
+            divider.divide(corner(t.v[0]), corner(t.v[1]), corner(t.v[2]), max_depth);
+            block.ends.push_back(block.parts.size());
+            block.border_edges +=
+                static_cast<std::size_t>(std::count_if(t.n, t.n + 3, [](Link n) { return n.is_constrained(); }));
+        }
+        return block;
+    };
+    DividedTriangles all;
+    all.ends.reserve(tris.size());
+    for (const DividedTriangles& block : core::parallel_blocks(tris.size(), grain, divide_block)) {
+        for (const std::size_t end : block.ends) all.ends.push_back(all.parts.size() + end);
+        all.parts.insert(all.parts.end(), block.parts.begin(), block.parts.end());
+        all.border_edges += block.border_edges;
+    }
+    return all;
 }
 
 // ---- lattice or not ----
 
-/// What decides on a lattice, of a whole piece.
-struct Sums {
-    double bound = 0, even = 0;  ///< triangles of the bound's area, of them where h is even
-    double lattice = 0;          ///< triangles of the lattices there
-    double crossings = 0;        ///< of levels, times the edges that they are long
-    double border_edges = 0;
-    double low = HUGE_VAL, high = 0;  ///< sizes
+/// The sums over a whole region that decide whether a lattice is made.
+struct LatticeSums {
+    double min_triangles = 0;
+    double even = 0;          ///< min_triangles where h is even
+    double lattice = 0;       ///< triangles of the lattices there
+    double crossings = 0;     ///< length of the boundaries between levels, in edges
+    double border_edges = 0;  ///< number of frozen edges
 };
 
-bool is_even(const Part& part) { return part.gradient < even_gradient; }
+bool is_even(const TrianglePart& part) { return part.gradient < even_gradient; }
 
-/// Lattice triangles in the place of one of the bound's.
-double lattice_triangles(const Part& part, const std::vector<double>& edges) {
+/// Returns the number of lattice triangles for each of min_triangles.
+double lattice_triangles(const TrianglePart& part, const std::vector<double>& edges) {
     if (part.high > level_ratio * part.low) return 1 / mean_level_share;
-    constexpr double rounding = 1 + 1e-6;  // the field holds single-precision numbers
+    constexpr double rounding = 1 + 1e-6;  // the size field holds numbers of single precision
     const double share = edges[static_cast<std::size_t>(level_of(part.inside * rounding, edges))] / part.inside;
     return 1 / (share * share);
 }
 
-/// Between 0, no lattice, and 1.
-double lattice_expected(const Sums& sums) {
-    if (sums.even < least_even_share * sums.bound) return 0;
-    const double needed = least_lattice_per_border_edge * sums.border_edges * (sums.even / sums.bound) +
-                          least_lattice_per_crossing * sums.crossings;
-    if (sums.lattice > uncertain * needed) return 1;
-    return uncertain * sums.lattice > needed ? 0.5 : 0;
+/// Returns the edge lengths of the lattices that the sizes of the parts suit.
+std::vector<double> lattice_edges(const std::vector<TrianglePart>& parts) {
+    double low = HUGE_VAL, high = 0;
+    std::vector<SizeBin> bins;
+    bins.reserve(parts.size());
+    for (const TrianglePart& part : parts) {
+        low = std::min(low, part.low);
+        high = std::max(high, part.high);
+        bins.push_back({part.low, part.high, part.min_triangles});
+    }
+    return level_edges(low, 1.01 * high, std::move(bins));
+}
+
+LatticeSums sum_up(const DividedTriangles& divided, const std::vector<double>& edges) {
+    LatticeSums sums;
+    sums.border_edges = static_cast<double>(divided.border_edges);
+    for (const TrianglePart& part : divided.parts) {
+        sums.min_triangles += part.min_triangles;
+        if (!is_even(part)) continue;
+        sums.even += part.min_triangles;
+        sums.lattice += part.min_triangles * lattice_triangles(part, edges);
+        sums.crossings += part.min_triangles * part.gradient;
+    }
+    return sums;
+}
+
+/// Returns how probable a lattice is: 0, 0.5 or 1.
+double lattice_probability(const LatticeSums& sums) {
+    if (!(sums.min_triangles > 0) || sums.even < min_even_share * sums.min_triangles) return 0;
+    const double needed = min_lattice_per_border_edge * sums.border_edges * (sums.even / sums.min_triangles) +
+                          min_lattice_per_crossing * sums.crossings;
+    if (sums.lattice > uncertain_factor * needed) return 1;
+    return uncertain_factor * sums.lattice > needed ? 0.5 : 0;
 }
 
 }  // namespace
 
 double estimated_triangles(double area, double mean_inverse_square_size, double gradient) {
-    // Where h hardly grows one level serves all of it, else all levels do.
-    constexpr double one_level = 0.001;
-    const double bound = area * mean_inverse_square_size / core::equilateral_area;
-    if (gradient < one_level) return latticed / (lattice_share * lattice_share) * bound;
-    return (gradient < even_gradient ? latticed / mean_level_share : refined(gradient)) * bound;
+    // Below this gradient one level serves the whole region, above it all levels do.
+    constexpr double max_one_level_gradient = 0.001;
+    const double min_triangles = area * mean_inverse_square_size / core::equilateral_area;
+    if (gradient < max_one_level_gradient) return latticed / (lattice_share * lattice_share) * min_triangles;
+    return (gradient < even_gradient ? latticed / mean_level_share : refined(gradient)) * min_triangles;
 }
 
-Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size) {
-    constexpr int deepest = 40;         // halvings of one triangle: a guard only
-    constexpr std::size_t grain = 256;  // triangles a block
-    const Limits limit = limits(size, points.size());
-    std::vector<double> sizes(points.size());
-    std::transform(points.begin(), points.end(), sizes.begin(), [&](Point p) { return size(p); });
-    struct Divided {
-        std::vector<Part> parts;
-        std::vector<std::size_t> ends;  // of each triangle's parts
-        std::size_t border_edges = 0;
-    };
-    const auto divide_block = [&](std::size_t begin, std::size_t end) {
-        Divided divided;
-        for (std::size_t i = begin; i < end; ++i) {
-            const Tri& t = tris[i];
-            const auto corner = [&](Index v) { return Corner{points[v], sizes[v]}; };
-            divide(corner(t.v[0]), corner(t.v[1]), corner(t.v[2]), size, limit, deepest, divided.parts);
-            divided.ends.push_back(divided.parts.size());
-            divided.border_edges +=
-                static_cast<std::size_t>(std::count_if(t.n, t.n + 3, [](Link n) { return n.is_constrained(); }));
-        }
-        return divided;
-    };
-    Loads result;
-    Sums sums;
-    std::vector<Part> parts;
-    for (const Divided& divided : core::parallel_blocks(tris.size(), grain, divide_block)) {
-        for (const std::size_t end : divided.ends) result.begin.push_back(parts.size() + end);
-        parts.insert(parts.end(), divided.parts.begin(), divided.parts.end());
-        sums.border_edges += static_cast<double>(divided.border_edges);
-    }
+LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size) {
+    const DividedTriangles divided = divide_triangles(points, tris, size);
+    LoadEstimate result;
+    result.begin.insert(result.begin.end(), divided.ends.begin(), divided.ends.end());
+    if (divided.parts.empty()) return result;
 
-    if (parts.empty()) return result;
-    for (const Part& part : parts) {
-        sums.low = std::min(sums.low, part.low);
-        sums.high = std::max(sums.high, part.high);
-    }
-    std::vector<SizeCount> counts;
-    for (const Part& part : parts) counts.push_back({part.low, part.high, part.bound});
-    const std::vector<double> edges = level_edges(sums.low, 1.01 * sums.high, std::move(counts));
-    for (const Part& part : parts) {
-        sums.bound += part.bound;
-        if (!is_even(part)) continue;
-        sums.even += part.bound;
-        sums.lattice += part.bound * lattice_triangles(part, edges);
-        sums.crossings += part.bound * part.gradient;
-    }
-
-    const double lattice = sums.bound > 0 ? lattice_expected(sums) : 0;
+    const std::vector<double> edges = lattice_edges(divided.parts);
+    const LatticeSums sums = sum_up(divided, edges);
+    const double lattice = lattice_probability(sums);
     result.lattice = lattice > 0;
     double inside = 0;
-    result.loads.reserve(parts.size());
-    for (const Part& part : parts) {
+    result.loads.reserve(divided.parts.size());
+    for (const TrianglePart& part : divided.parts) {
         const double by_refinement = refined(part.gradient);
         const double by_lattice =
             lattice > 0 && is_even(part) ? latticed * lattice_triangles(part, edges) : by_refinement;
-        const double triangles = part.bound * (lattice * by_lattice + (1 - lattice) * by_refinement);
+        const double triangles = part.min_triangles * (lattice * by_lattice + (1 - lattice) * by_refinement);
         result.loads.push_back({part.at, triangles});
         inside += triangles;
     }
-    // What lies along the border is spread over the piece.
-    const double seam = lattice > 0 ? lattice * (sums.even / sums.bound) : 0;
+    // The triangles along the border are spread over the whole region.
+    const double seam = lattice > 0 ? lattice * (sums.even / sums.min_triangles) : 0;
     result.total = inside + sums.border_edges * (seam * latticed_along_border + (1 - seam) * refined_along_border);
     if (inside > 0)  // it underflows where h is beyond 1e154
         for (Load& load : result.loads) load.triangles *= result.total / inside;

@@ -1,11 +1,11 @@
-// How many triangles refinement will make, before it runs.
+// Estimates of the number of triangles that refinement will make, before it runs (docs/decisions/0015).
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include <lamina/export.hpp>
-#include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 
@@ -13,23 +13,25 @@
 
 namespace lamina::delaunay {
 
-/// Of a region far larger than its triangles, in which h grows by `gradient` per unit of distance.
+/// Returns the estimated number of triangles in a region that is far larger than they are, and in which h grows by
+/// `gradient` per unit of distance.
 LAMINA_EXPORT double estimated_triangles(double area, double mean_inverse_square_size, double gradient);
 
-/// Where they will be: points in a triangle of a triangulation, each with a share of what the triangle will hold.
+/// A point that stands for some of the estimated triangles.
 struct Load {
     Point at;
     double triangles;
 };
-/// Loads of all triangles one after the other: those of triangle t lie in [begin[t], begin[t + 1]).
-struct Loads {
-    std::vector<Load> loads;
-    std::vector<std::size_t> begin{0};
+
+/// The estimated number of triangles, and where they will be.
+struct LoadEstimate {
+    std::vector<Load> loads;            ///< triangle by triangle of the triangulation that the estimate is made from
+    std::vector<std::size_t> begin{0};  ///< the loads in triangle t are those from begin[t] to begin[t + 1]
     double total = 0;
     bool lattice = false;  ///< whether a lattice may pay (RefineOptions::lattice)
 };
 
-/// From a triangulation of a piece, all of whose fixed edges are frozen.
-LAMINA_EXPORT Loads estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size);
+/// Estimates the triangles in a region from a triangulation of its border. All constrained edges are frozen.
+LAMINA_EXPORT LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size);
 
 }  // namespace lamina::delaunay

@@ -1,4 +1,4 @@
-// The tables of the options of triangulation and refinement.
+// The tables of the options of triangulation and refinement, and small functions of delaunay.hpp.
 #include <lamina/delaunay.hpp>
 
 #include <lamina/option_builders.hpp>
@@ -11,7 +11,7 @@ OptionTable<DecompositionOptions> make_decomposition_table() {
     OptionTableBuilder<DecompositionOptions> table("Outer region");
     table.count("decomposition-depth", "N", "largest number of cuts on the way to a piece of the layer",
                 numbers_from_to(0, 24), member_at(&DecompositionOptions::depth));
-    table.count("leaf-vertices", "N", "pieces of the layer are cut down to about so many vertices",
+    table.count("leaf-vertices", "N", "pieces of the layer with at most this many vertices are not cut further",
                 numbers_from_to(1, 1e9), member_at(&DecompositionOptions::leaf_vertices));
     return table.take();
 }

@@ -1,22 +1,26 @@
-// Which triangles of a constrained triangulation are kept: floods that stop at fixed edges.
-#include <utility>
+// Selections are floods that stop at constrained edges.
+#include "delaunay/regions.hpp"
 
 #include <lamina/error.hpp>
 
 #include "core/predicates.hpp"
 #include "core/text.hpp"
-#include "delaunay/triangulator.hpp"
+#include "delaunay/insert_segments.hpp"
 
 namespace lamina::delaunay {
 
 namespace {
 
-/// Gives `value` to all triangles that can be reached from `start` without crossing a fixed edge. What has the value
-/// already is not entered.
-void flood(const Tris& tris, Index start, char value, Marks& marks, std::vector<Index>& front) {
+/// Whether a flood passes through ghost triangles, or leaves them as they are.
+enum class Ghosts { enter, avoid };
+
+/// Sets the flags of all triangles that can be reached from `start` without crossing a constrained edge. The flood does
+/// not enter triangles whose flag has the value already. `front` is scratch space.
+template <Ghosts ghosts>
+void flood(const Tris& tris, Index start, char value, TriangleSelection& selection, std::vector<Index>& front) {
     const auto reach = [&](Index t) {
-        if (marks[t] == value || tris[t].is_ghost()) return;
-        marks[t] = value;
+        if (selection[t] == value || (ghosts == Ghosts::avoid && tris[t].is_ghost())) return;
+        selection[t] = value;
         front.push_back(t);
     };
     reach(start);
@@ -28,8 +32,8 @@ void flood(const Tris& tris, Index start, char value, Marks& marks, std::vector<
     }
 }
 
-/// The triangle that holds p, a ghost where p is outside the hull. A walk that always takes the same edges first may
-/// run in circles where the triangulation is not Delaunay: the first edge looked at changes by chance.
+/// Returns the triangle that holds p, or a ghost if p lies outside the hull. A walk that always tries the same edge
+/// first may run in circles where the triangulation is not Delaunay, so the first edge to try is random.
 Index locate(std::span<const Point> points, const Tris& tris, Index start, Point p) {
     Index t = start;
     std::uint32_t random = 1;
@@ -47,89 +51,88 @@ Index locate(std::span<const Point> points, const Tris& tris, Index start, Point
     }
 }
 
-}  // namespace
-
-Marks mark_all(const Tris& tris) {
-    Marks marks(tris.size());
-    for (Index t = 0; t < tris.size(); ++t) marks[t] = !tris[t].is_ghost();
-    return marks;
+/// Throws InputError if the seed lies on a vertex or on a constrained edge of the triangle that holds it.
+void check_seed(std::span<const Point> points, const Tri& tri, Point seed, std::size_t index) {
+    unsigned touched = 0;
+    bool on_segment = false;
+    for (unsigned e = 0; e < 3; ++e) {
+        if (core::inline_orient2d(points[tri.v[next(e)]], points[tri.v[previous(e)]], seed) != 0) continue;
+        ++touched;
+        on_segment = on_segment || tri.n[e].is_constrained();
+    }
+    if (touched == 2 || on_segment)
+        throw InputError({.at = seed},
+                         core::concat("hole ", index, " lies on a ", touched == 2 ? "vertex" : "segment"));
 }
 
-Marks mark_inside_segments(const Tris& tris) {
-    Marks marks = mark_all(tris);
+}  // namespace
+
+TriangleSelection select_all(const Tris& tris) {
+    TriangleSelection selection(tris.size());
+    for (Index t = 0; t < tris.size(); ++t) selection[t] = !tris[t].is_ghost();
+    return selection;
+}
+
+TriangleSelection select_inside_segments(const Tris& tris) {
+    TriangleSelection selection = select_all(tris);
     std::vector<Index> front;
     for (const Tri& t : tris) {
         if (!t.is_ghost()) continue;
         for (unsigned e = 0; e < 3; ++e)
-            if (t.v[e] == ghost_vertex && !t.n[e].is_constrained()) flood(tris, t.n[e].triangle(), 0, marks, front);
+            if (t.v[e] == ghost_vertex && !t.n[e].is_constrained())
+                flood<Ghosts::avoid>(tris, t.n[e].triangle(), 0, selection, front);
     }
-    return marks;
+    return selection;
 }
 
-Marks mark_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count) {
+TriangleSelection select_left_of_segments(std::span<const Segment> segments, const Tris& tris,
+                                          std::size_t point_count) {
     const std::vector<Index> at_vertex = triangle_at_vertex(tris, point_count);
-    Marks marks(tris.size(), 0);
+    TriangleSelection selection(tris.size(), 0);
     std::vector<Index> front;
     for (const Segment& s : segments) {
         const Link left = find_edge(tris, at_vertex, s.a.value, s.b.value);
-        if (!left.is_border()) flood(tris, left.triangle(), 1, marks, front);
+        if (!left.is_border()) flood<Ghosts::avoid>(tris, left.triangle(), 1, selection, front);
     }
-    return marks;
+    return selection;
 }
 
-void carve_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris, Marks& marks) {
+TriangleSelection select_region(OrderedTriangulation& triangulation, std::span<const Segment> border) {
+    auto& [vertices, tris, at_vertex] = triangulation;
+    const std::vector<SegmentPiece> pieces = insert_and_split_segments(vertices, border, tris, at_vertex);
+    // Few triangles lie outside: it is quicker to flood these, through the ghosts, than the region.
+    TriangleSelection selection(tris.size(), 1);
+    std::vector<Index> front;
+    for (const SegmentPiece& piece : pieces) {
+        const Link right = find_edge(tris, at_vertex, piece.segment.b.value, piece.segment.a.value);
+        flood<Ghosts::enter>(tris, right.triangle(), 0, selection, front);
+    }
+    return selection;
+}
+
+void deselect_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris,
+                    TriangleSelection& selection) {
     Index t = 0;
     while (t < tris.size() && tris[t].is_ghost()) ++t;
     if (t == tris.size()) return;
     std::vector<Index> front;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-        const Index at = locate(points, tris, t, seeds[i]);
-        if (tris[at].is_ghost()) continue;
-        t = at;
-        const Tri& tri = tris[t];
-        unsigned touched = 0;
-        bool on_segment = false;
-        for (unsigned e = 0; e < 3; ++e) {
-            if (core::inline_orient2d(points[tri.v[next(e)]], points[tri.v[previous(e)]], seeds[i]) != 0) continue;
-            ++touched;
-            on_segment = on_segment || tri.n[e].is_constrained();
-        }
-        if (touched == 2 || on_segment)
-            throw InputError({.at = seeds[i]},
-                             core::concat("hole ", i, " lies on a ", touched == 2 ? "vertex" : "segment"));
-        flood(tris, t, 0, marks, front);
+        const Index found = locate(points, tris, t, seeds[i]);
+        if (tris[found].is_ghost()) continue;
+        t = found;
+        check_seed(points, tris[t], seeds[i], i);
+        flood<Ghosts::avoid>(tris, t, 0, selection, front);
     }
 }
 
-Marks mark_region(OrderedTriangulation& triangulation, std::span<const Segment> border) {
-    auto& [vertices, tris, at_vertex] = triangulation;
-    const std::vector<SegmentPiece> pieces = insert_and_split_segments(vertices, border, tris, at_vertex);
-    // What lies outside is little: it is flooded, through the ghosts, instead of the region.
-    Marks marks(tris.size(), 1);
-    std::vector<Index> front;
-    const auto reach = [&](Index t) {
-        if (std::exchange(marks[t], 0)) front.push_back(t);
-    };
-    for (const SegmentPiece& piece : pieces) {
-        reach(find_edge(tris, at_vertex, piece.segment.b.value, piece.segment.a.value).triangle());
-        while (!front.empty()) {
-            const Tri& t = tris[front.back()];
-            front.pop_back();
-            for (Link n : t.n)
-                if (!n.is_constrained()) reach(n.triangle());
-        }
-    }
-    return marks;
-}
-
-Tris keep_marked(const Tris& tris, const Marks& marks) {
+Tris keep_selected(const Tris& tris, const TriangleSelection& selection) {
     std::vector<Index> renumbered(tris.size(), no_index);
     Index count = 0;
     for (Index t = 0; t < tris.size(); ++t)
-        if (marks[t]) renumbered[t] = count++;
+        if (selection[t]) renumbered[t] = count++;
     Tris kept(count);
     for (Index t = 0; t < tris.size(); ++t) {
-        if (!marks[t]) continue;
+        if (!selection[t]) continue;
         Tri& copy = kept[renumbered[t]] = tris[t];
         for (Link& n : copy.n) {
             if (n.is_border()) continue;
@@ -141,7 +144,7 @@ Tris keep_marked(const Tris& tris, const Marks& marks) {
 }
 
 Tris keep_left_of_segments(std::span<const Segment> segments, const Tris& tris, std::size_t point_count) {
-    return keep_marked(tris, mark_left_of_segments(segments, tris, point_count));
+    return keep_selected(tris, select_left_of_segments(segments, tris, point_count));
 }
 
 }  // namespace lamina::delaunay

@@ -1,19 +1,20 @@
-// The kernel's only data structure: triangles that know their neighbours, in one flat array.
+// The one data structure of the triangulation code: triangles that know their neighbours, in one flat array.
 //
-//              v[0]                 Edge e lies opposite vertex e and runs from v[e+1] to v[e+2]
-//              /  \.                (indices modulo 3), so that the triangle is on its left.
-//      edge 2 /    \ edge 1         n[e] is the link across edge e.
-//            /      \.
-//        v[1] ------ v[2]           24 bytes a triangle.
+//              v[0]                 Edge e lies opposite vertex e and runs from v[e+1] to v[e+2] (indices modulo 3),
+//              /  \.                so the triangle is on the left of its edges. n[e] is the link across edge e.
+//      edge 2 /    \ edge 1
+//            /      \.              A triangle takes 24 bytes.
+//        v[1] ------ v[2]
 //             edge 0
 //
-// A link is the neighbour's index and its edge in 32 bits: triangle << 3 | fixed << 2 | edge. Fixed edges are
-// constraints: no cavity reaches across them. `Link::border()` stands where there is no neighbour.
-// During plain triangulation the outside of the hull is filled with ghost triangles (a, b, ghost_vertex), so that every
-// edge has two triangles; the real edge a-b of a ghost has the outside on its left.
+// A link packs the neighbour's index and edge into 32 bits: triangle << 3 | constrained << 2 | edge. No cavity reaches
+// across a constrained edge. Link::border() stands where there is no neighbour.
+// During plain triangulation ghost triangles (a, b, ghost_vertex) fill the outside of the hull, so every edge has two
+// triangles. The hull edge a-b of a ghost has the outside on its left.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,28 +25,37 @@ namespace lamina::delaunay {
 using Index = std::uint32_t;
 
 inline constexpr Index no_index = 0xffffffffu;
+/// The vertex at infinity, the third one of every ghost triangle.
 inline constexpr Index ghost_vertex = no_index;
 inline constexpr Index max_triangles = 1u << 29;
 
 constexpr unsigned next(unsigned e) { return e == 2 ? 0 : e + 1; }
 constexpr unsigned previous(unsigned e) { return e == 0 ? 2 : e - 1; }
 
+/// Returns a number that tells pairs of indices apart, whatever their order.
+constexpr std::uint64_t undirected_key(Index a, Index b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+}
+
+/// A neighbour across an edge, or one edge of a triangle.
 class Link {
 public:
     constexpr Link() = default;
-    constexpr Link(Index triangle, unsigned edge, bool fixed = false)
-        : bits_(triangle << 3 | static_cast<Index>(fixed) << 2 | edge) {}
+    constexpr Link(Index triangle, unsigned edge, bool constrained = false)
+        : bits_(triangle << 3 | static_cast<Index>(constrained) << 2 | edge) {}
+    /// Returns the link that stands where there is no neighbour.
     static constexpr Link border() { return {}; }
 
     constexpr bool is_border() const { return bits_ == no_index; }
-    /// True for constraints and borders: where a cavity ends.
+    /// Returns true for constrained edges and for borders: cavities end at both.
     constexpr bool is_constrained() const { return (bits_ & 4u) != 0; }
     constexpr Index triangle() const { return bits_ >> 3; }
     constexpr unsigned edge() const { return bits_ & 3u; }
-    constexpr Link fixed() const {
-        Link l;
-        l.bits_ = bits_ | 4u;
-        return l;
+    /// Returns the same link across a constrained edge.
+    constexpr Link constrained() const {
+        Link link;
+        link.bits_ = bits_ | 4u;
+        return link;
     }
     friend constexpr bool operator==(Link, Link) = default;
 
@@ -53,6 +63,7 @@ private:
     Index bits_ = no_index;
 };
 
+/// A triangle with its neighbours. Results of public functions hold a plain Triangle (ids.hpp) instead.
 struct Tri {
     Index v[3];
     Link n[3];
@@ -63,10 +74,17 @@ static_assert(sizeof(Tri) == 24);
 
 using Tris = std::vector<Tri>;
 
-/// Makes `inside` and what lies at `outer` neighbours; `inside` inherits the fixedness of `outer`.
+/// Makes an edge of `triangle` and the edge behind `outer` neighbours. The edge becomes constrained if `outer` is.
 inline void connect(Tris& tris, Index triangle, unsigned edge, Link outer) {
     tris[triangle].n[edge] = outer;
     if (!outer.is_border()) tris[outer.triangle()].n[outer.edge()] = Link(triangle, edge, outer.is_constrained());
 }
+
+/// Returns one triangle, any one, at each vertex; no_index for vertices without triangles.
+std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count);
+
+/// Returns the triangle on the left of the directed edge a -> b, and which of its edges that is; border() if a-b is no
+/// edge. Turns round a through all its triangles. Precondition: a is surrounded by triangles, ghosts among them.
+Link find_edge(const Tris& tris, const std::vector<Index>& at_vertex, Index a, Index b);
 
 }  // namespace lamina::delaunay

@@ -1,6 +1,9 @@
-// Plain Delaunay triangulation by cavity insertion in biased randomised order.
+// Plain Delaunay triangulation inserts points one by one in BRIO, each by its cavity. The tie rule makes every
+// intermediate triangulation the unique one of its points (docs/decisions/0001).
 // Sources: N. Amenta, S. Choi, G. Rote, SoCG 2003 (order); A. Bowyer, D. F. Watson, The Computer Journal 24 (1981)
-// (cavities); the tie rule makes every intermediate triangulation the unique one of its points (docs/decisions/0001).
+// (cavities).
+#include "delaunay/triangulate_points.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +15,6 @@
 #include "core/text.hpp"
 #include "delaunay/brio.hpp"
 #include "delaunay/cavity.hpp"
-#include "delaunay/triangulator.hpp"
 
 namespace lamina::delaunay {
 
@@ -23,6 +25,7 @@ namespace {
                      core::concat("points ", std::min(a, b), " and ", std::max(a, b), " are the same"));
 }
 
+/// Throws InputError for too many points and for coordinates outside the exact range.
 void check_points(std::span<const Point> points) {
     if (points.size() > max_triangles / 2)
         throw InputError(
@@ -36,7 +39,7 @@ void check_points(std::span<const Point> points) {
                      core::concat("point ", index, " is outside the range of exact arithmetic"));
 }
 
-/// Three points of the order that are not on one line, moved to its front. False if there are none.
+/// Moves three points that do not lie on one line to the front of the order. Returns false if there are none.
 bool bring_triangle_to_front(std::span<const Point> points, std::vector<Index>& order) {
     for (std::size_t i = 2; i < order.size(); ++i) {
         if (orient2d(points[order[0]], points[order[1]], points[order[i]]) != 0) {
@@ -47,6 +50,7 @@ bool bring_triangle_to_front(std::span<const Point> points, std::vector<Index>& 
     return false;
 }
 
+/// Throws InputError for duplicates; needed where there are no triangles to find them in.
 void refuse_duplicates_on_line(std::span<const Point> points, std::vector<Index> order) {
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
         return points[a] == points[b] ? a < b : lexicographically_less(points[a], points[b]);
@@ -55,8 +59,8 @@ void refuse_duplicates_on_line(std::span<const Point> points, std::vector<Index>
         if (points[order[i - 1]] == points[order[i]]) fail_duplicate(points, order[i - 1], order[i]);
 }
 
-/// Vertices are numbered from 1 in the order of insertion while the triangulation grows, so that what is near in the
-/// plane is near in memory; number 0 is the ghost.
+/// Returns the points in the order of their insertion, numbered from 1, behind the vertex at infinity (number 0). While
+/// the triangulation grows its vertices have these numbers, so points that are close in the plane are close in memory.
 std::vector<Point> vertices_in_order(std::span<const Point> points, const std::vector<Index>& order) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Point> vertices;
@@ -66,10 +70,10 @@ std::vector<Point> vertices_in_order(std::span<const Point> points, const std::v
     return vertices;
 }
 
-/// One triangle and its three ghosts:
+/// Makes a triangle of vertices 1, 2 and 3, and its three ghosts:
 ///
-///      ghost 2 \    / ghost 1       real edge of the ghost across edge e: v[e+2] -> v[e+1],
-///               v[0]                outside on its left
+///      ghost 2 \    / ghost 1       The ghost across edge e has the hull edge v[e+2] -> v[e+1],
+///               v[0]                with the outside on its left.
 ///              /    \.
 ///         v[1] ------ v[2]
 ///             ghost 0
@@ -82,16 +86,17 @@ void add_first_triangle(const Point* points, Tris& tris) {
         Tri& outside = tris[1 + e];
         outside.v[0] = v[previous(e)];
         outside.v[1] = v[next(e)];
-        outside.v[2] = ghost;
+        outside.v[2] = growing_ghost_vertex;
         connect(tris, 0, e, Link(1 + e, 2));
     }
     for (unsigned e = 0; e < 3; ++e) {
-        // Ghost edge 0 runs v[e+1] -> infinity; its neighbour is the ghost across edge e + 2, which starts there.
+        // Edge 0 of this ghost runs from v[e+1] to infinity; its neighbour is the ghost across edge e + 2, whose hull
+        // edge starts at v[e+1].
         connect(tris, 1 + e, 0, Link(1 + previous(e), 1));
     }
 }
 
-/// Is p strictly on the right of edge e of t? a and b are its ends relative to p.
+/// Returns whether p lies strictly on the right of edge e of t, whose ends relative to p are a and b. Exact.
 inline bool right_of(const Point* points, const Tri& t, unsigned e, Point a, Point b, Point p) {
     const double left = a.x * b.y, right = a.y * b.x;
     const double area2 = left - right;
@@ -99,8 +104,8 @@ inline bool right_of(const Point* points, const Tri& t, unsigned e, Point a, Poi
     return core::orient2d_after_filter(points[t.v[next(e)]], points[t.v[previous(e)]], p) < 0;
 }
 
-/// A triangle in conflict with p, found by walking from `start` (no ghost) towards p; or the triangle of which p is a
-/// vertex. The walk ends because the triangulation is Delaunay.
+/// Returns a triangle whose circle holds p, or a triangle that has p as a vertex. Walks from `start`, which is no
+/// ghost, towards p. The walk ends because the triangulation is Delaunay.
 Index locate(const Point* points, const Tri* tris, Index start, Point p) {
     unsigned e = 0;
     Point a, b;
@@ -112,15 +117,16 @@ Index locate(const Point* points, const Tri* tris, Index start, Point p) {
     }
     Link across = tris[start].n[e];
     for (;;) {
-        // Entered (b, a, w) through its edge k, p being on its side of a -> b:
+        // The walk has entered the triangle (b, a, w) through its edge k, so p lies on the same side of a -> b as w.
         //        a
-        //      / | \      p is on the right of a -> w: go on there; of w -> b: there; of neither: found
-        //     o  |  w
+        //      / | \      If p is on the right of a -> w, the walk goes on across a-w; if on the right of w -> b,
+        //      across
+        //     o  |  w     w-b; else the triangle holds p.
         //      \ | /
         //        b
         const Tri& t = tris[across.triangle()];
         const unsigned k = across.edge();
-        if (t.v[k] == ghost) return across.triangle();
+        if (t.v[k] == growing_ghost_vertex) return across.triangle();
         const Point w = points[t.v[k]] - p;
         if (right_of(points, t, next(k), a, w, p)) {
             across = t.n[next(k)];
@@ -142,28 +148,29 @@ void insert_vertices(std::span<const Point> vertices, std::span<const Point> poi
     for (Index vertex = 4; vertex < vertices.size(); ++vertex) {
         const Point p = vertices[vertex];
         const Index start = locate(vertices.data(), tris.data(), recent, p);
-        const SeenTriangle seen = see(vertices.data(), tris[start], p);
+        const RelativeTriangle relative = relative_to(vertices.data(), tris[start], p);
         for (unsigned i = 0; i < 3; ++i)
-            if (seen.r[i] == Point{}) fail_duplicate(points, order[tris[start].v[i] - 1], order[vertex - 1]);
-        find_cavity<true>(vertices.data(), tris.data(), start, seen, p, cavity);
+            if (relative.r[i] == Point{}) fail_duplicate(points, order[tris[start].v[i] - 1], order[vertex - 1]);
+        find_cavity<true>(vertices.data(), tris.data(), start, relative, p, cavity);
         fill_cavity(tris, cavity, vertex);
-        // A real triangle of the fan: ghosts hold the ghost at 1 or 2.
+        // The next walk starts at a new triangle that is no ghost; new ghosts hold the vertex at infinity at 1 or 2.
         for (std::size_t i = 0;; ++i) {
             recent = cavity.triangles.data()[i];
-            if (tris[recent].v[1] != ghost && tris[recent].v[2] != ghost) break;
+            if (tris[recent].v[1] != growing_ghost_vertex && tris[recent].v[2] != growing_ghost_vertex) break;
         }
     }
 }
 
-/// A triangulation as it grows: vertices as vertices_in_order() numbers them.
-struct Grown {
+/// A triangulation in the numbers of vertices_in_order().
+struct GrownTriangulation {
     std::vector<Point> vertices;
-    Tris tris;
+    Tris tris;  ///< empty where all points lie on one line
 };
 
-/// No triangles where all points are on one line. The order may change in its first three places.
-Grown grow(std::span<const Point> points, std::vector<Index>& order) {
-    Grown grown;
+/// Inserts the points in this order, of which the first three may change to make the first triangle. Throws InputError
+/// for duplicates.
+GrownTriangulation grow(std::span<const Point> points, std::vector<Index>& order) {
+    GrownTriangulation grown;
     if (order.size() < 3 || !bring_triangle_to_front(points, order)) {
         refuse_duplicates_on_line(points, order);
         return grown;
@@ -175,12 +182,12 @@ Grown grow(std::span<const Point> points, std::vector<Index>& order) {
     return grown;
 }
 
-/// Gives the vertex at infinity its usual number in all triangles round it.
-void name_ghosts(Tris& tris, Index first) {
+/// Changes growing_ghost_vertex to ghost_vertex in all triangles round the vertex at infinity; `first` is one of them.
+void renumber_ghost_vertex(Tris& tris, Index first) {
     Index t = first;
     do {
         Tri& tri = tris[t];
-        const unsigned i = tri.v[0] == ghost ? 0 : tri.v[1] == ghost ? 1 : 2;
+        const unsigned i = tri.v[0] == growing_ghost_vertex ? 0 : tri.v[1] == growing_ghost_vertex ? 1 : 2;
         tri.v[i] = ghost_vertex;
         t = tri.n[next(i)].triangle();
     } while (t != first);
@@ -192,22 +199,22 @@ Tris triangulate_points(std::span<const Point> points) {
     check_points(points);
     Box box;
     for (const Point p : points) box.include(p);
-    std::vector<Index> order = insertion_order(points, box);
+    std::vector<Index> order = brio_order(points, box);
     Tris tris = grow(points, order).tris;
-    order.insert(order.begin(), ghost_vertex);
+    order.insert(order.begin(), ghost_vertex);  // now vertex v is the point order[v]
     for (Tri& t : tris)
         for (Index& v : t.v) v = order[v];
     return tris;
 }
 
 OrderedTriangulation triangulate_in_order(std::span<const Point> points, std::vector<Index>& order) {
-    Grown grown = grow(points, order);
+    GrownTriangulation grown = grow(points, order);
     OrderedTriangulation result{std::move(grown.vertices), std::move(grown.tris), {}};
     if (result.tris.empty()) return result;
     result.at_vertex.resize(result.vertices.size());
     for (Index t = 0; t < result.tris.size(); ++t)
         for (const Index v : result.tris[t].v) result.at_vertex[v] = t;
-    name_ghosts(result.tris, result.at_vertex[ghost]);
+    renumber_ghost_vertex(result.tris, result.at_vertex[growing_ghost_vertex]);
     return result;
 }
 

@@ -171,7 +171,7 @@ private:
             corners.push_back(at(corners_[i]));
             sides.push_back({VertexId(i), VertexId((i + 1) % corners_.size())});
         }
-        for (const Triangle& t : triangulate(corners, sides, {.keep = Keep::left_of_segments}).triangles)
+        for (const Triangle& t : triangulate(corners, sides, {.keep = KeptRegion::left_of_segments}).triangles)
             cells_.triangles.push_back(
                 {{corners_[t.v[0].index()], corners_[t.v[1].index()], corners_[t.v[2].index()]}});
     }

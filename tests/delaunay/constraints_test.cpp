@@ -1,4 +1,4 @@
-// Constrained triangulation: whatever segments do to each other and to vertices.
+// Constrained triangulation: segments that cross, overlap, touch and run through vertices; holes.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,6 +11,7 @@
 #include <lamina/predicates.hpp>
 
 #include "support/point_sets.hpp"
+#include "support/triangulation_checks.hpp"
 
 namespace lamina::test {
 namespace {
@@ -19,17 +20,9 @@ using Segments = std::vector<Segment>;
 
 Segment segment(std::size_t a, std::size_t b) { return {VertexId{a}, VertexId{b}}; }
 
-std::vector<Point> with_added(std::vector<Point> points, const ConstrainedTriangulation& t) {
+std::vector<Point> with_steiner_points(std::vector<Point> points, const ConstrainedTriangulation& t) {
     points.insert(points.end(), t.steiner_points.begin(), t.steiner_points.end());
     return points;
-}
-
-double covered_area(const std::vector<Point>& points, const std::vector<Triangle>& triangles) {
-    double area = 0;
-    for (const Triangle& t : triangles)
-        area += 0.5 *
-                cross(points[t.v[1].index()] - points[t.v[0].index()], points[t.v[2].index()] - points[t.v[0].index()]);
-    return area;
 }
 
 bool on_segment(Point a, Point b, Point p) { return orient2d(a, b, p) == 0 && dot(p - a, p - b) <= 0; }
@@ -38,7 +31,7 @@ bool cross_properly(Point p, Point q, Point r, Point s) {
     return orient2d(p, q, r) * orient2d(p, q, s) < 0 && orient2d(r, s, p) * orient2d(r, s, q) < 0;
 }
 
-/// Undirected, sorted.
+/// Returns the segments with the smaller vertex first, sorted, each once.
 Segments undirected(Segments segments) {
     for (Segment& s : segments)
         if (s.b < s.a) std::swap(s.a, s.b);
@@ -47,7 +40,7 @@ Segments undirected(Segments segments) {
     return segments;
 }
 
-/// The segments cut at every vertex on them, by brute force.
+/// Returns the segments cut at every vertex on them, by brute force.
 Segments brute_force_pieces(const std::vector<Point>& points, const Segments& segments) {
     Segments pieces;
     for (const Segment& s : segments) {
@@ -62,53 +55,83 @@ Segments brute_force_pieces(const std::vector<Point>& points, const Segments& se
     return undirected(pieces);
 }
 
-/// Any triangulation that holds the pieces, then flips until every other edge is locally Delaunay: by Lee and Lin
-/// (1986) that is the constrained Delaunay triangulation, and with the tie rule there is only one.
-std::vector<Triangle> brute_force_constrained(const std::vector<Point>& points, const Segments& pieces) {
-    const std::size_t n = points.size();
-    std::set<std::pair<std::size_t, std::size_t>> edges;
-    const auto has = [&](std::size_t a, std::size_t b) { return edges.count({std::min(a, b), std::max(a, b)}) > 0; };
-    for (const Segment& s : pieces) edges.insert({s.a.index(), s.b.index()});
-    for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t b = a + 1; b < n; ++b) {
-            bool free = true;
-            for (std::size_t v = 0; v < n && free; ++v)
-                free = v == a || v == b || !on_segment(points[a], points[b], points[v]);
-            for (const auto& [c, d] : edges) free = free && !cross_properly(points[a], points[b], points[c], points[d]);
-            if (free) edges.insert({a, b});
+/// A triangulation of few points as a set of edges, made by brute force.
+class EdgeSet {
+public:
+    /// Makes any triangulation that holds the pieces.
+    EdgeSet(const std::vector<Point>& points, const Segments& pieces) : points_(points), pieces_(pieces) {
+        for (const Segment& s : pieces) edges_.insert({s.a.index(), s.b.index()});
+        for (std::size_t a = 0; a < points.size(); ++a)
+            for (std::size_t b = a + 1; b < points.size(); ++b)
+                if (is_free(a, b)) edges_.insert({a, b});
+    }
+
+    /// Flips edges until every edge that is no piece is locally Delaunay.
+    void flip_all() {
+        const std::size_t none = points_.size();
+        for (bool flipped = true; flipped;) {
+            flipped = false;
+            for (const auto& [a, b] : std::vector(edges_.begin(), edges_.end())) {
+                if (!has(a, b) || std::binary_search(pieces_.begin(), pieces_.end(), segment(a, b))) continue;
+                const std::size_t c = apex(a, b), d = apex(b, a);
+                if (c == none || d == none) continue;
+                if (incircle_perturbed(points_[a], points_[b], points_[c], points_[d]) < 0) continue;
+                edges_.erase({a, b});
+                edges_.insert({std::min(c, d), std::max(c, d)});
+                flipped = true;
+            }
         }
-    // The vertex on the left of a -> b whose triangle with it is empty; n if the edge is on the hull.
-    const auto apex = [&](std::size_t a, std::size_t b) {
-        std::size_t best = n;
-        for (std::size_t c = 0; c < n; ++c) {
-            if (c == a || c == b || !has(a, c) || !has(b, c) || orient2d(points[a], points[b], points[c]) <= 0)
+    }
+
+    std::vector<Triangle> triangles() const {
+        std::vector<Triangle> result;
+        for (const auto& [a, b] : edges_)
+            for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}})
+                if (const std::size_t c = apex(from, to); c < points_.size() && c > from && c > to)
+                    result.push_back({VertexId{from}, VertexId{to}, VertexId{c}});
+        return result;
+    }
+
+private:
+    bool has(std::size_t a, std::size_t b) const { return edges_.count({std::min(a, b), std::max(a, b)}) > 0; }
+
+    /// Returns whether a-b runs through no vertex and crosses no edge.
+    bool is_free(std::size_t a, std::size_t b) const {
+        for (std::size_t v = 0; v < points_.size(); ++v)
+            if (v != a && v != b && on_segment(points_[a], points_[b], points_[v])) return false;
+        return std::none_of(edges_.begin(), edges_.end(), [&](const auto& edge) {
+            return cross_properly(points_[a], points_[b], points_[edge.first], points_[edge.second]);
+        });
+    }
+
+    /// Returns the vertex on the left of a -> b that forms a triangle with it, or the number of points if a -> b has
+    /// the outside of the hull on its left.
+    std::size_t apex(std::size_t a, std::size_t b) const {
+        std::size_t best = points_.size();
+        for (std::size_t c = 0; c < points_.size(); ++c) {
+            if (c == a || c == b || !has(a, c) || !has(b, c) || orient2d(points_[a], points_[b], points_[c]) <= 0)
                 continue;
-            if (best == n || (orient2d(points[a], points[best], points[c]) <= 0 &&
-                              orient2d(points[best], points[b], points[c]) <= 0))
+            if (best == points_.size() || (orient2d(points_[a], points_[best], points_[c]) <= 0 &&
+                                           orient2d(points_[best], points_[b], points_[c]) <= 0))
                 best = c;
         }
         return best;
-    };
-    for (bool flipped = true; flipped;) {
-        flipped = false;
-        for (const auto& [a, b] : std::vector(edges.begin(), edges.end())) {
-            if (!has(a, b) || std::binary_search(pieces.begin(), pieces.end(), segment(a, b))) continue;
-            const std::size_t c = apex(a, b), d = apex(b, a);
-            if (c == n || d == n || incircle_perturbed(points[a], points[b], points[c], points[d]) < 0) continue;
-            edges.erase({a, b});
-            edges.insert({std::min(c, d), std::max(c, d)});
-            flipped = true;
-        }
     }
-    std::vector<Triangle> triangles;
-    for (const auto& [a, b] : edges)
-        for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}})
-            if (const std::size_t c = apex(from, to); c < n && c > from && c > to)
-                triangles.push_back({VertexId{from}, VertexId{to}, VertexId{c}});
-    return canonical(triangles);
+
+    const std::vector<Point>& points_;
+    const Segments& pieces_;
+    std::set<std::pair<std::size_t, std::size_t>> edges_;
+};
+
+/// Returns the constrained Delaunay triangulation: by Lee and Lin (1986) it is the one that flips lead to, and with the
+/// tie rule there is only one.
+std::vector<Triangle> brute_force_constrained(const std::vector<Point>& points, const Segments& pieces) {
+    EdgeSet edges(points, pieces);
+    edges.flip_all();
+    return canonical(edges.triangles());
 }
 
-/// Random segments among n points; without crossings where `planar`.
+/// Returns random segments between the points, without crossings if `planar`.
 Segments random_segments(const std::vector<Point>& points, std::size_t tries, bool planar, Random& random) {
     Segments segments;
     for (std::size_t i = 0; i < tries; ++i) {
@@ -122,7 +145,7 @@ Segments random_segments(const std::vector<Point>& points, std::size_t tries, bo
     return segments;
 }
 
-/// Points of every kind the tie rule and the collinear cases are about.
+/// Returns n points, or fewer, of one of four kinds: random, full of ties, cocircular, or on a few lines.
 std::vector<Point> mixed_points(std::size_t n, std::uint64_t seed) {
     switch (seed % 4) {
         case 0:
@@ -132,12 +155,12 @@ std::vector<Point> mixed_points(std::size_t n, std::uint64_t seed) {
         case 2: {
             auto circle = cocircular_points(5);
             Random random(seed);
-            for (std::size_t i = circle.size(); i > 1; --i) std::swap(circle[i - 1], circle[random.below(i)]);
+            shuffle(circle, random);
             circle.resize(std::min(n, circle.size()));
             return circle;
         }
         default: {
-            // Clusters along a few slanted lines.
+            // Points on a few slanted lines.
             Random random(seed);
             std::set<std::pair<double, double>> seen;
             while (seen.size() < n) {
@@ -152,11 +175,11 @@ std::vector<Point> mixed_points(std::size_t n, std::uint64_t seed) {
     }
 }
 
-/// Every promise about the result of keeping everything.
+/// Checks all that triangulate() promises where the convex hull is kept.
 void expect_constrained(const std::vector<Point>& points, const Segments& segments, const ConstrainedTriangulation& t) {
-    const auto all = with_added(points, t);
-    for (const std::string& defect : check_triangulation(all, t.triangles, t.segments)) ADD_FAILURE() << defect;
-    // The convex hull is covered: as many triangles as any triangulation of these points has.
+    const auto all = with_steiner_points(points, t);
+    expect_valid(all, t.triangles, t.segments);
+    // The triangles cover the convex hull if they are as many as any triangulation of these points has.
     EXPECT_EQ(t.triangles.size(), triangulate(all).triangles.size());
     ASSERT_EQ(t.segments.size(), t.parents.size());
     EXPECT_EQ(undirected(t.segments).size(), t.segments.size()) << "listed twice";
@@ -165,7 +188,7 @@ void expect_constrained(const std::vector<Point>& points, const Segments& segmen
         EXPECT_EQ(undirected(t.segments), brute_force_pieces(points, segments));
     }
     for (std::size_t i = 0; i < t.segments.size(); ++i) {
-        // Near its parent, in its direction, and on it exactly where nothing was rounded.
+        // An edge lies near its parent and has its direction; it lies exactly on it where nothing was rounded.
         const Point a = points[segments[t.parents[i]].a.index()], b = points[segments[t.parents[i]].b.index()];
         const Point p = all[t.segments[i].a.index()], q = all[t.segments[i].b.index()];
         if (t.steiner_points.empty() || distance(p, q) > 1e-14) {
@@ -181,7 +204,7 @@ void expect_constrained(const std::vector<Point>& points, const Segments& segmen
 
 Segments shuffled(Segments segments, std::uint64_t seed) {
     Random random(seed);
-    for (std::size_t i = segments.size(); i > 1; --i) std::swap(segments[i - 1], segments[random.below(i)]);
+    shuffle(segments, random);
     for (Segment& s : segments)
         if (random.below(2)) std::swap(s.a, s.b);
     return segments;
@@ -216,7 +239,7 @@ TEST(Constraints, PlanarSegmentsOnLargerSetsInAnyOrder) {
         const auto other = triangulate(points, shuffled(segments, seed));
         EXPECT_EQ(canonical(other.triangles), canonical(t.triangles));
         EXPECT_EQ(undirected(other.segments), undirected(t.segments));
-        // Nothing to resolve: the same with crossings allowed.
+        // No segments cross, so allowing crossings changes nothing.
         const auto resolved = triangulate(points, segments, {.crossings = Crossings::insert});
         EXPECT_TRUE(resolved.steiner_points.empty());
         EXPECT_EQ(resolved.triangles, t.triangles);
@@ -255,7 +278,7 @@ TEST(Constraints, NearlyParallelAndNearlyConcurrentSegmentsStayPlanar) {
         std::vector<Point> points;
         Segments segments;
         for (int i = 0; i < 14; ++i) {
-            // Fans through one point but for rounding, or bundles a few ulps apart.
+            // The segments run through one point but for rounding, or form a bundle a few ulps wide.
             const double a = random.real(0, 6.28), tilt = seed % 2 ? a : 1e-15 * random.real(-8, 8) + 0.7;
             const Point c{0.3 + 1e-16 * random.real(-4, 4), 0.1 + 1e-16 * random.real(-4, 4)};
             const Point d{std::cos(tilt), std::sin(tilt)};
@@ -329,29 +352,29 @@ struct Plate {
 
 TEST(Constraints, HolesBySeedByLoopAndFromOutside) {
     const Plate plate;
-    const auto by_loop = triangulate(plate.points, plate.segments, {.keep = Keep::left_of_segments});
+    const auto by_loop = triangulate(plate.points, plate.segments, {.keep = KeptRegion::left_of_segments});
     const auto by_seed =
-        triangulate(plate.points, plate.segments, {.keep = Keep::inside_segments, .holes = {{4, 4}, {50, 50}}});
+        triangulate(plate.points, plate.segments, {.keep = KeptRegion::inside_segments, .holes = {{4, 4}, {50, 50}}});
     EXPECT_NEAR(covered_area(plate.points, by_loop.triangles), plate.area, 1e-12);
     EXPECT_EQ(by_loop.triangles, by_seed.triangles);
     EXPECT_EQ(by_loop.segments, plate.segments);
     EXPECT_EQ(by_seed.segments, plate.segments);
-    for (const std::string& defect : check_triangulation(plate.points, by_seed.triangles, by_seed.segments))
-        ADD_FAILURE() << defect;
-    const auto inside = triangulate(plate.points, plate.segments, {.keep = Keep::inside_segments});
+    expect_valid(plate.points, by_seed.triangles, by_seed.segments);
+    const auto inside = triangulate(plate.points, plate.segments, {.keep = KeptRegion::inside_segments});
     EXPECT_NEAR(covered_area(plate.points, inside.triangles), plate.area + 4, 1e-12);
     const auto hull = triangulate(plate.points, plate.segments);
     EXPECT_NEAR(covered_area(plate.points, hull.triangles), 100, 1e-12);
-    // Open polygons enclose nothing; a seed in the region takes all of it with the hole's segments left alone.
+    // An open polygon encloses nothing. A seed in the region removes all of it and leaves only the hole.
     const Segments open(plate.segments.begin(), plate.segments.begin() + 6);
-    EXPECT_TRUE(triangulate(plate.points, open, {.keep = Keep::inside_segments}).triangles.empty());
-    const auto core = triangulate(plate.points, plate.segments, {.keep = Keep::inside_segments, .holes = {{1, 1}}});
+    EXPECT_TRUE(triangulate(plate.points, open, {.keep = KeptRegion::inside_segments}).triangles.empty());
+    const auto core =
+        triangulate(plate.points, plate.segments, {.keep = KeptRegion::inside_segments, .holes = {{1, 1}}});
     EXPECT_NEAR(covered_area(plate.points, core.triangles), 4, 1e-12);
     EXPECT_EQ(core.segments.size(), 4u);
 }
 
 TEST(Constraints, HolesInManyCells) {
-    // A lattice of cells, each second one a hole found by the walk.
+    // Every second cell of a lattice is a hole.
     const int n = 21;
     const auto points = square_lattice(n, n);
     Segments segments;
@@ -400,7 +423,7 @@ TEST(Constraints, CollinearChainsOfManyVertices) {
 }
 
 TEST(Constraints, NestedThinSpirals) {
-    // Two arms a hair apart, wound up together.
+    // Two arms close to each other are wound up together.
     for (double gap : {0.3, 1e-3, 1e-9}) {
         std::vector<Point> points;
         Segments segments;
@@ -413,11 +436,11 @@ TEST(Constraints, NestedThinSpirals) {
         }
         const auto t = triangulate(points, segments);
         expect_constrained(points, segments, t);
-        // Closed at both ends, it is a ribbon: one strip of triangles.
+        // If both ends are closed, the arms bound a ribbon, which is one strip of triangles.
         auto ribbon = segments;
         ribbon.push_back(segment(0, 1201));
         ribbon.push_back(segment(1200, 2401));
-        const auto strip = triangulate(points, ribbon, {.keep = Keep::inside_segments});
+        const auto strip = triangulate(points, ribbon, {.keep = KeptRegion::inside_segments});
         EXPECT_EQ(strip.triangles.size(), points.size() - 2) << gap;
     }
 }
@@ -427,7 +450,7 @@ TEST(Constraints, OneSegmentThroughManyTriangles) {
     const std::size_t n = points.size();
     points.push_back({-1, 0.5});
     points.push_back({2, 0.5000001});
-    // Rows on both sides of a segment as long as all of them: every vertex is in the cavity.
+    // Two rows of points lie along a segment on both sides, so that the segment crosses all triangles between them.
     for (int i = 0; i < 1000; ++i) {
         points.push_back({3 + 0.001 * i, 0.1 + 1e-5 * i * (999 - i) / 1e3});
         points.push_back({3 + 0.001 * i + 0.0005, -0.1});

@@ -1,33 +1,21 @@
-#include <lamina/delaunay.hpp>
-
+// Plain and constrained triangulation, and the check of triangulations.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
 #include "core/parallel.hpp"
-#include "delaunay/triangulator.hpp"
+#include "delaunay/triangulate_points.hpp"
 #include "support/point_sets.hpp"
+#include "support/triangulation_checks.hpp"
 
 namespace lamina::test {
 namespace {
-
-void expect_valid(const std::vector<Point>& points, const std::vector<Triangle>& triangles,
-                  const std::vector<Segment>& constraints = {}) {
-    for (const std::string& defect : check_triangulation(points, triangles, constraints)) ADD_FAILURE() << defect;
-}
-
-double covered_area(const std::vector<Point>& points, const std::vector<Triangle>& triangles) {
-    double area = 0;
-    for (const Triangle& t : triangles)
-        area += 0.5 *
-                cross(points[t.v[1].index()] - points[t.v[0].index()], points[t.v[2].index()] - points[t.v[0].index()]);
-    return area;
-}
 
 TEST(Delaunay, EqualsBruteForceOnRandomAndDegenerateSets) {
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
@@ -52,16 +40,16 @@ TEST(Delaunay, DoesNotDependOnTheOrderOfPoints) {
     for (const auto& original : {square_lattice(40, 30), hexagonal_lattice(30, 30), random_points(3000, 7),
                                  layer_points(100, 20), cocircular_points(5)}) {
         auto points = original;
-        std::vector<std::uint32_t> place(points.size());
-        std::iota(place.begin(), place.end(), 0u);
+        std::vector<std::uint32_t> original_index(points.size());
+        std::iota(original_index.begin(), original_index.end(), 0u);
         const auto expected = canonical(triangulate(points).triangles);
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             Random random(seed);
-            for (std::size_t i = points.size(); i > 1; --i) std::swap(place[i - 1], place[random.below(i)]);
-            for (std::size_t i = 0; i < points.size(); ++i) points[i] = original[place[i]];
+            shuffle(original_index, random);
+            for (std::size_t i = 0; i < points.size(); ++i) points[i] = original[original_index[i]];
             auto triangles = triangulate(points).triangles;
             for (Triangle& t : triangles)
-                for (VertexId& v : t.v) v = VertexId{place[v.index()]};
+                for (VertexId& v : t.v) v = VertexId{original_index[v.index()]};
             EXPECT_EQ(canonical(triangles), expected);
         }
     }
@@ -77,7 +65,7 @@ TEST(Delaunay, LargeSetsAreValidAndCoverTheirHull) {
                 1e-6);
 }
 
-/// triangulate() cuts sets of this size into pieces; the kernel alone does not.
+/// triangulate() cuts sets of this size into pieces; delaunay::triangulate_points() does not.
 TEST(Delaunay, PiecesGiveTheSequentialTriangulation) {
     auto clustered = random_points(60'000, 8);
     for (std::size_t i = 0; i < clustered.size(); i += 2) clustered[i].x = 0.5 + 1e-4 * clustered[i].x;
@@ -142,7 +130,7 @@ TEST(Delaunay, RefusesDuplicatesAndCoordinatesOutOfRange) {
 }
 
 TEST(Delaunay, CavityOfEveryTriangle) {
-    // Nothing but a ring and one point in its middle, which comes late or last in the order of insertion.
+    // The points are a ring and one point in its middle, which comes late or last in the order of insertion.
     for (std::size_t n = 3000; n < 3008; ++n) {
         std::vector<Point> points;
         for (std::size_t i = 0; i < n; ++i) {
@@ -191,7 +179,6 @@ TEST(ConstrainedDelaunay, EqualsDelaunayWhereSegmentsAreDelaunayEdges) {
     EXPECT_EQ(canonical(triangulate(points, segments).triangles), canonical(triangles));
 }
 
-/// A random set of segments that do not cross: edges of the triangulation of moved points.
 TEST(ConstrainedDelaunay, RandomCases) {
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
         Random random(seed);
@@ -235,7 +222,8 @@ TEST(ConstrainedDelaunay, KeepsAnnulusBetweenLoops) {
     Border border;
     border.add_loop({{0, 0}, {4, 0}, {4, 4}, {0, 4}}, 0.3);
     border.add_loop({{1, 1}, {1, 3}, {3, 3}, {3, 1}}, 0.2);
-    const auto triangles = triangulate(border.points, border.segments, {.keep = Keep::left_of_segments}).triangles;
+    const auto triangles =
+        triangulate(border.points, border.segments, {.keep = KeptRegion::left_of_segments}).triangles;
     expect_valid(border.points, triangles, border.segments);
     EXPECT_NEAR(covered_area(border.points, triangles), 12.0, 1e-12);
 }
@@ -243,7 +231,8 @@ TEST(ConstrainedDelaunay, KeepsAnnulusBetweenLoops) {
 TEST(ConstrainedDelaunay, CarvesSliversOfRoundedPointsOnSlantedBorders) {
     Border border;
     border.add_loop({{0, 0}, {1, 0.1}, {0.7, 1.3}, {-0.4, 0.9}}, 0.01);
-    const auto triangles = triangulate(border.points, border.segments, {.keep = Keep::left_of_segments}).triangles;
+    const auto triangles =
+        triangulate(border.points, border.segments, {.keep = KeptRegion::left_of_segments}).triangles;
     expect_valid(border.points, triangles, border.segments);
     EXPECT_EQ(triangles.size(), border.points.size() - 2);
 }

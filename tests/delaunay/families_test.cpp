@@ -1,23 +1,18 @@
-// Every family of the benchmarks, at the size of 1e5 triangles or points, validated exactly.
+// Validates, exactly, every family of inputs of the benchmarks, at the size of 1e5 triangles or points.
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <lamina/delaunay.hpp>
 
+#include "support/triangulation_checks.hpp"
 #include "support/triangulation_families.hpp"
 
 namespace lamina::test {
 namespace {
 
-void expect_valid(const std::vector<Point>& points, const std::vector<Triangle>& triangles,
-                  const std::vector<Segment>& constraints = {}) {
-    for (const std::string& defect : check_triangulation(points, triangles, constraints)) ADD_FAILURE() << defect;
-}
-
-TEST(KernelFamilies, PlainTriangulations) {
+TEST(TriangulationFamilies, PlainTriangulations) {
     constexpr std::size_t n = 100'000;
     for (const std::vector<Point>& points :
          {random_points(n, 3), naca_layer_points(n), square_lattice(316, 316), hexagonal_lattice(316, 316),
@@ -25,19 +20,20 @@ TEST(KernelFamilies, PlainTriangulations) {
         expect_valid(points, triangulate(points).triangles);
 }
 
-TEST(KernelFamilies, Constraints) {
+TEST(TriangulationFamilies, Constraints) {
     for (const std::size_t one_edge_in : {30, 3}) {
         const ConstrainedCase c = stretched_edges_case(100'000, one_edge_in);
         expect_valid(c.points, triangulate(c.points, c.segments).triangles, c.segments);
     }
 }
 
-struct Quality {
+/// The smallest and the mean smallest angle of triangles, in degrees.
+struct AngleQuality {
     double smallest = 180, mean = 0;
 };
 
-Quality quality_of(const std::vector<Point>& points, const std::vector<Triangle>& triangles) {
-    Quality q;
+AngleQuality quality_of(const std::vector<Point>& points, const std::vector<Triangle>& triangles) {
+    AngleQuality q;
     for (const Triangle& t : triangles) {
         const double angle = smallest_angle_deg(points, t);
         q.smallest = std::min(q.smallest, angle);
@@ -46,7 +42,7 @@ Quality quality_of(const std::vector<Point>& points, const std::vector<Triangle>
     return q;
 }
 
-TEST(KernelFamilies, Refinements) {
+TEST(TriangulationFamilies, Refinements) {
     for (const double area_ratio : {1.0, 1000.0})
         for (const double min_angle_deg : {20.7, 30.0})
             for (const bool patches : {false, true}) {
@@ -62,7 +58,7 @@ TEST(KernelFamilies, Refinements) {
                 expect_valid(points, r.triangles, c.border.segments);
                 EXPECT_EQ(r.stats.below_bound, 0u);
                 EXPECT_EQ(r.stats.oversized, 0u);
-                const Quality q = quality_of(points, r.triangles);
+                const AngleQuality q = quality_of(points, r.triangles);
                 EXPECT_GE(q.smallest, min_angle_deg - 1e-6);
                 EXPECT_GE(q.mean, 46.5);
                 EXPECT_NEAR(static_cast<double>(r.triangles.size()), 1e5, 4e4);

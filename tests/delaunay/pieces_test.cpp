@@ -10,7 +10,7 @@
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
-#include "delaunay/triangulator.hpp"
+#include "delaunay/triangulate_points.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulation_families.hpp"
 
@@ -189,7 +189,7 @@ TEST(Decomposition, EqualsOneTriangulationInRegions) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         const Region region = winding_region(20 + 5 * seed, 20 * seed, seed);
         const auto expected =
-            canonical(triangulate(region.points, region.border, {.keep = Keep::left_of_segments}).triangles);
+            canonical(triangulate(region.points, region.border, {.keep = KeptRegion::left_of_segments}).triangles);
         for (unsigned depth : {1u, 3u, 6u}) {
             const PiecewiseTriangulation t =
                 triangulate_in_pieces(region.points, region.border, {.depth = depth, .leaf_vertices = 5});
@@ -209,7 +209,7 @@ TEST(Decomposition, NamesCrossingSegmentsByTheirNumbers) {
     std::swap(region.points[20], region.points[22]);
     std::string whole, pieces;
     try {
-        triangulate(region.points, region.border, {.keep = Keep::left_of_segments});
+        triangulate(region.points, region.border, {.keep = KeptRegion::left_of_segments});
     } catch (const InputError& e) {
         whole = e.what();
     }

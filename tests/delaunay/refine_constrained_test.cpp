@@ -1,4 +1,4 @@
-// Refinement of constrained triangulations: segments split before, inner segments, holes, regions, small angles.
+// Refinement of constrained triangulations: split segments, inner segments, holes, regions, small angles.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,11 +9,13 @@
 #include <lamina/predicates.hpp>
 
 #include "support/point_sets.hpp"
+#include "support/triangulation_checks.hpp"
 
 namespace lamina::test {
 namespace {
 
-struct Geometry {
+/// Points and segments to be triangulated.
+struct PlanarGraph {
     std::vector<Point> points;
     std::vector<Segment> segments;
     void add_loop(const std::vector<Point>& corners) {
@@ -26,55 +28,49 @@ struct Geometry {
 };
 
 struct Refined {
-    std::vector<Point> points;
+    std::vector<Point> points;  ///< those of the input, then the Steiner points
     ConstrainedRefinement refinement;
     double area = 0;
 };
 
-/// Refines and checks what holds for every input: valid, Delaunay, segments present and on their parents, same area.
-Refined refine_and_check(const Geometry& geometry, const SizeField& size, const ConstrainedRefineOptions& options,
-                         const ConstrainedOptions& constrained = {.keep = Keep::inside_segments}) {
-    const auto t = triangulate(geometry.points, geometry.segments, constrained);
-    Refined r{geometry.points, refine(geometry.points, t, size, options), 0};
+/// Refines, and checks what holds for every input: the triangles are valid and constrained Delaunay, the segments are
+/// edges and lie on their parents, and the area stays what it was.
+Refined refine_and_check(const PlanarGraph& graph, const SizeField& size, const ConstrainedRefineOptions& options,
+                         const ConstrainedOptions& constrained = {.keep = KeptRegion::inside_segments}) {
+    const auto t = triangulate(graph.points, graph.segments, constrained);
+    Refined r{graph.points, refine(graph.points, t, size, options), 0};
     r.points.insert(r.points.end(), r.refinement.steiner_points.begin(), r.refinement.steiner_points.end());
-    for (const std::string& defect : check_triangulation(r.points, r.refinement.triangles, r.refinement.segments))
-        ADD_FAILURE() << defect;
-    const auto area = [&](const std::vector<Triangle>& triangles) {
-        double sum = 0;
-        for (const Triangle& x : triangles)
-            sum += 0.5 * cross(r.points[x.v[1].index()] - r.points[x.v[0].index()],
-                               r.points[x.v[2].index()] - r.points[x.v[0].index()]);
-        return sum;
-    };
-    r.area = area(r.refinement.triangles);
-    EXPECT_NEAR(r.area, area(t.triangles), 1e-12 * r.area);
+    expect_valid(r.points, r.refinement.triangles, r.refinement.segments);
+    r.area = covered_area(r.points, r.refinement.triangles);
+    EXPECT_NEAR(r.area, covered_area(r.points, t.triangles), 1e-12 * r.area);
     EXPECT_EQ(r.refinement.regions.size(), r.refinement.triangles.size());
     for (std::size_t i = 0; i < r.refinement.segments.size(); ++i) {
-        const Segment parent = geometry.segments[r.refinement.parents[i]];
-        const Point a = geometry.points[parent.a.index()], b = geometry.points[parent.b.index()];
+        const Segment parent = graph.segments[r.refinement.parents[i]];
+        const Point a = graph.points[parent.a.index()], b = graph.points[parent.b.index()];
         const Point p = r.points[r.refinement.segments[i].a.index()];
         EXPECT_LE(std::abs(cross(b - a, p - a)), 1e-13 * squared_length(b - a) + 1e-30);
     }
     return r;
 }
 
-std::size_t below(const Refined& r, double bound) {
+/// Returns the number of triangles with an angle below the bound, in degrees.
+std::size_t count_below(const Refined& r, double bound) {
     return std::size_t(
         std::count_if(r.refinement.triangles.begin(), r.refinement.triangles.end(),
                       [&](const Triangle& t) { return smallest_angle_deg(r.points, t) < bound - 1e-6; }));
 }
 
 TEST(RefineConstrained, CoarseInputsMeetTheAngleBound) {
-    Geometry ell;
+    PlanarGraph ell;
     ell.add_loop({{0, 0}, {8, 0}, {8, 1}, {1, 1}, {1, 8}, {0, 8}});
-    Geometry slot;  // two borders a hair apart
+    PlanarGraph slot;  // between two boxes close to each other
     slot.add_loop({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
     slot.add_loop({{3, 3}, {6, 3}, {6, 4}, {3, 4}});
     slot.add_loop({{3, 4.01}, {6, 4.01}, {6, 5}, {3, 5}});
-    for (const Geometry& geometry : {ell, slot}) {
+    for (const PlanarGraph& graph : {ell, slot}) {
         for (double angle : {20.0, 28.0}) {
-            const Refined r = refine_and_check(geometry, SizeField(100), {.refine = {.min_angle_deg = angle}});
-            EXPECT_EQ(below(r, angle), 0u) << angle;
+            const Refined r = refine_and_check(graph, SizeField(100), {.refine = {.min_angle_deg = angle}});
+            EXPECT_EQ(count_below(r, angle), 0u) << angle;
             EXPECT_EQ(r.refinement.stats.below_bound, 0u);
             EXPECT_LT(r.refinement.triangles.size(), 30000u);
         }
@@ -82,15 +78,15 @@ TEST(RefineConstrained, CoarseInputsMeetTheAngleBound) {
 }
 
 TEST(RefineConstrained, AreaBoundAndRegions) {
-    Geometry geometry;
-    geometry.add_loop({{0, 0}, {2, 0}, {2, 1}, {0, 1}});
-    geometry.points.insert(geometry.points.end(), {{1, 0}, {1, 1}, {0.2, 0.2}, {0.4, 0.3}});
-    geometry.segments.push_back({VertexId{4u}, VertexId{5u}});
-    geometry.segments.push_back({VertexId{6u}, VertexId{7u}});  // dangles inside
+    PlanarGraph graph;
+    graph.add_loop({{0, 0}, {2, 0}, {2, 1}, {0, 1}});
+    graph.points.insert(graph.points.end(), {{1, 0}, {1, 1}, {0.2, 0.2}, {0.4, 0.3}});
+    graph.segments.push_back({VertexId{4u}, VertexId{5u}});
+    graph.segments.push_back({VertexId{6u}, VertexId{7u}});  // dangles inside
     ConstrainedRefineOptions options;
     options.regions.push_back({{1.5, 0.5}, SizeField(0.02)});
-    const Refined r = refine_and_check(geometry, SizeField(0.1), options);
-    EXPECT_EQ(below(r, 20.7), 0u);
+    const Refined r = refine_and_check(graph, SizeField(0.1), options);
+    EXPECT_EQ(count_below(r, 20.7), 0u);
     EXPECT_EQ(r.refinement.stats.oversized, 0u);
     for (std::size_t i = 0; i < r.refinement.triangles.size(); ++i) {
         const auto& v = r.refinement.triangles[i].v;
@@ -103,23 +99,23 @@ TEST(RefineConstrained, AreaBoundAndRegions) {
 }
 
 TEST(RefineConstrained, KeepsBordersWhereAsked) {
-    Geometry geometry;
-    geometry.add_loop({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-    const Refined r = refine_and_check(geometry, SizeField(0.1), {.split_segments = false});
+    PlanarGraph graph;
+    graph.add_loop({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    const Refined r = refine_and_check(graph, SizeField(0.1), {.split_segments = false});
     EXPECT_EQ(r.refinement.on_segments, 0u);
-    EXPECT_EQ(r.refinement.segments, geometry.segments);
+    EXPECT_EQ(r.refinement.segments, graph.segments);
 }
 
 TEST(RefineConstrained, ConvexHullOfPoints) {
-    const Geometry geometry{random_points(300, 8), {}};
+    const PlanarGraph graph{random_points(300, 8), {}};
     const Refined r =
-        refine_and_check(geometry, SizeField(10), {.refine = {.min_angle_deg = 20}}, {.keep = Keep::convex_hull});
+        refine_and_check(graph, SizeField(10), {.refine = {.min_angle_deg = 20}}, {.keep = KeptRegion::convex_hull});
     EXPECT_EQ(r.refinement.stats.below_bound, r.refinement.stats.exempt);
     EXPECT_TRUE(r.refinement.segments.empty());
 }
 
-/// Triangles under the bound lie at corners of the input below 60 degrees only: at the vertex, or between segments that
-/// meet there. `corners` are those vertices.
+/// Expects triangles below the bound only within `reach` of the corners, which are the vertices where segments meet at
+/// less than 60 degrees.
 void expect_confined(const Refined& r, double bound, const std::vector<Point>& corners, double reach) {
     EXPECT_EQ(r.refinement.stats.below_bound, r.refinement.stats.exempt);
     for (const Triangle& t : r.refinement.triangles) {
@@ -134,12 +130,12 @@ TEST(RefineConstrained, NeedleAnglesTerminateAndStayConfined) {
     for (double degrees : {1.0, 2.0, 5.0, 12.0, 25.0, 45.0, 59.0}) {
         SCOPED_TRACE(degrees);
         const double a = degrees * M_PI / 180;
-        Geometry wedge;
+        PlanarGraph wedge;
         wedge.add_loop({{0, 0}, {1, 0}, {std::cos(a), std::sin(a)}});
         const Refined inside = refine_and_check(wedge, SizeField(10), {});
         EXPECT_EQ(inside.refinement.stats.below_bound, inside.refinement.stats.exempt);
-        // Two segments from the middle of a square.
-        Geometry square;
+        // Two segments start from the middle of a square.
+        PlanarGraph square;
         square.add_loop({{-2, -2}, {2, -2}, {2, 2}, {-2, 2}});
         square.points.insert(square.points.end(), {{0, 0}, {1, 0}, {std::cos(a), std::sin(a)}});
         square.segments.push_back({VertexId{4u}, VertexId{5u}});
@@ -154,15 +150,15 @@ TEST(RefineConstrained, RandomSegmentsTerminate) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        Geometry geometry;
-        geometry.add_loop({{-1, -1}, {2, -1}, {2, 2}, {-1, 2}});
-        for (Point p : random_points(12, seed)) geometry.points.push_back(p);
+        PlanarGraph graph;
+        graph.add_loop({{-1, -1}, {2, -1}, {2, 2}, {-1, 2}});
+        for (Point p : random_points(12, seed)) graph.points.push_back(p);
         for (int i = 0; i < 6; ++i) {
             const std::size_t a = 4 + random.below(12), b = 4 + random.below(12);
-            if (a != b) geometry.segments.push_back({VertexId{a}, VertexId{b}});
+            if (a != b) graph.segments.push_back({VertexId{a}, VertexId{b}});
         }
-        const Refined r = refine_and_check(geometry, SizeField(10), {},
-                                           {.keep = Keep::inside_segments, .crossings = Crossings::insert});
+        const Refined r = refine_and_check(graph, SizeField(10), {},
+                                           {.keep = KeptRegion::inside_segments, .crossings = Crossings::insert});
         EXPECT_EQ(r.refinement.stats.below_bound, r.refinement.stats.exempt);
         EXPECT_LT(r.refinement.triangles.size(), 100000u);
     }

@@ -1,4 +1,6 @@
+// Refinement of regions with frozen borders, with lattice patches and without.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -6,24 +8,25 @@
 #include <lamina/error.hpp>
 
 #include "support/point_sets.hpp"
+#include "support/triangulation_checks.hpp"
 
 namespace lamina::test {
 namespace {
 
 constexpr double equilateral_area = 0.43301270189221932;
 
-/// Border points, then added ones.
+/// Returns the border points, then the Steiner points.
 std::vector<Point> all_points(const Border& border, const Refinement& r) {
     std::vector<Point> points = border.points;
     points.insert(points.end(), r.steiner_points.begin(), r.steiner_points.end());
     return points;
 }
 
-/// Every promise of refine(), checked from the outside.
+/// Checks all that refine() promises.
 void expect_promises(const Border& border, const Refinement& r, const SizeField& size, const RefineOptions& options,
                      double area) {
     const auto points = all_points(border, r);
-    for (const std::string& defect : check_triangulation(points, r.triangles, border.segments)) ADD_FAILURE() << defect;
+    expect_valid(points, r.triangles, border.segments);
     double covered = 0;
     std::size_t below = 0, oversized = 0;
     for (const Triangle& t : r.triangles) {
@@ -39,9 +42,9 @@ void expect_promises(const Border& border, const Refinement& r, const SizeField&
     EXPECT_EQ(oversized, r.stats.oversized);
 }
 
-/// Deterministic graded field with a single small edge at the origin.
-SizeField graded(double smallest, double gradation, double extent) {
-    const std::vector<SizeSource> sources{{{0, 0}, {smallest, 0}, smallest}};
+/// Returns a graded field with a single short edge at the origin.
+SizeField graded(double min_size, double gradation, double extent) {
+    const std::vector<SizeSource> sources{{{0, 0}, {min_size, 0}, min_size}};
     return SizeField(sources, {.gradation = gradation}, {{-extent, -extent}, {extent, extent}});
 }
 
@@ -56,7 +59,7 @@ TEST(Refine, UniformSquareMeetsBounds) {
         EXPECT_EQ(r.stats.below_bound, 0u) << angle;
         EXPECT_EQ(r.stats.oversized, 0u) << angle;
         EXPECT_EQ(r.stats.refused, 0u) << angle;
-        // Not finer than needed: the mean triangle has at least half of the area allowed.
+        // The mesh is not finer than needed: the mean triangle has at least half of the largest area allowed.
         EXPECT_LT(double(r.triangles.size()), 2.0 / (equilateral_area * h * h));
     }
 }
@@ -68,7 +71,7 @@ TEST(Refine, GradedBorderMeetsBounds) {
     const std::vector<Point> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     for (int side = 0; side < 4; ++side) {
         const Point a = corners[side], b = corners[(side + 1) % 4];
-        // March with lengths of 0.8 h, from the finer end.
+        // The side is divided from its finer end, into lengths of 0.75 h, which are stretched to fit.
         const bool forward = size(a) <= size(b);
         const Point from = forward ? a : b, to = forward ? b : a;
         std::vector<double> cuts{0};
@@ -79,8 +82,7 @@ TEST(Refine, GradedBorderMeetsBounds) {
         if (!forward) std::reverse(line.begin(), line.end());
         border.points.insert(border.points.end(), line.begin(), line.end() - 1);
     }
-    for (std::size_t i = 0; i < border.points.size(); ++i)
-        border.segments.push_back({VertexId{i}, VertexId{(i + 1) % border.points.size()}});
+    border.close_loop();
     for (double angle : {20.7, 30.0}) {
         const RefineOptions options{.min_angle_deg = angle};
         const Refinement r = refine(border.points, border.segments, size, options);
@@ -90,7 +92,7 @@ TEST(Refine, GradedBorderMeetsBounds) {
     }
 }
 
-/// Mean of the smallest angles.
+/// Returns the mean of the smallest angles, in degrees.
 double mean_smallest_angle(const Border& border, const Refinement& r) {
     const auto points = all_points(border, r);
     double sum = 0;
@@ -117,7 +119,7 @@ TEST(Refine, LatticePatchesKeepEveryPromise) {
     }
 }
 
-/// Equal shares of the integral of ds / h between u and v, at most frozen_share each: the points between them.
+/// Returns points between u and v that divide the integral of ds / h into equal shares of at most frozen_share.
 std::vector<Point> graded_points(Point u, Point v, const SizeField& size) {
     constexpr std::size_t steps = 20'000;
     const auto at = [&](std::size_t i) { return u + (static_cast<double>(i) / steps) * (v - u); };
@@ -133,15 +135,14 @@ std::vector<Point> graded_points(Point u, Point v, const SizeField& size) {
     return points;
 }
 
-/// The polygon's sides divided as the size field asks.
+/// Returns a polygon whose sides are divided as the size field demands.
 Border graded_border(const std::vector<Point>& corners, const SizeField& size) {
     Border border;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         border.points.push_back(corners[i]);
         for (Point p : graded_points(corners[i], corners[(i + 1) % corners.size()], size)) border.points.push_back(p);
     }
-    for (std::size_t i = 0; i < border.points.size(); ++i)
-        border.segments.push_back({VertexId{i}, VertexId{(i + 1) % border.points.size()}});
+    border.close_loop();
     return border;
 }
 
@@ -153,7 +154,8 @@ double enclosed_area(const Border& border) {
 }
 
 TEST(Refine, LatticePatchesAreFoundInACornerOfASteepField) {
-    // One size in a thousandth of the region, which holds most of the triangles; outside it h doubles within ten edges.
+    // A thousandth of the region has one size and holds most of the triangles. Outside of it h doubles within ten
+    // edges.
     const std::vector<SizeSource> sources{{.a = {-1, -1}, .b = {1, 1}, .size = 0.01, .shape = SizeSource::Shape::box}};
     const SizeField size(sources, {.gradation = 0.1}, {{-1, -1}, {31, 31}});
     const Border border = graded_border({{0, 0}, {31, 0}, {31, 31}, {0, 31}}, size);
@@ -165,7 +167,7 @@ TEST(Refine, LatticePatchesAreFoundInACornerOfASteepField) {
 }
 
 TEST(Refine, LatticePatchesFitTheCommonestSize) {
-    // Something finer beside it does not make the lattice finer.
+    // A finer source inside does not make the lattice finer.
     const Border border = square_border(1, 0.008);
     const RefineOptions options;
     const double alone = double(refine(border.points, border.segments, SizeField(0.01), options).triangles.size());
@@ -205,7 +207,7 @@ TEST(Refine, LatticePatchesStayOutOfHolesNotchesAndThinParts) {
     const RefineOptions options;
     const Refinement r = refine(border.points, border.segments, size, options);
     expect_promises(border, r, size, options, enclosed_area(border));
-    // The needle's tip leaves what it leaves without patches, too.
+    // The tip of the needle leaves triangles below the bound, with patches as many as without.
     const Refinement pure = refine(border.points, border.segments, size, {.lattice = false});
     EXPECT_EQ(r.stats.below_bound, pure.stats.below_bound);
     EXPECT_GT(mean_smallest_angle(border, r), 52);
@@ -257,19 +259,17 @@ TEST(Refine, SmallInputAnglesTerminateAndStayConfined) {
         border.add_loop({{0, 0}, {1, 0}, {std::cos(a), std::sin(a)}}, 0.02);
         const SizeField size(0.03);
         const Refinement r = refine(border.points, border.segments, size);
-        const auto points = all_points(border, r);
-        for (const std::string& defect : check_triangulation(points, r.triangles, border.segments))
-            ADD_FAILURE() << defect;
+        expect_valid(all_points(border, r), r.triangles, border.segments);
     }
 }
 
 TEST(Refine, CoarseBorderIsNeverSplit) {
-    // Border edges fifty times longer than h: points beside them would encroach and are refused; the mesh stays valid.
+    // Border edges are fifty times longer than h. Points beside them would encroach and are refused; the mesh stays
+    // valid.
     const Border border = square_border(1, 0.5);
     const SizeField size(0.01);
     const Refinement r = refine(border.points, border.segments, size);
-    const auto points = all_points(border, r);
-    for (const std::string& defect : check_triangulation(points, r.triangles, border.segments)) ADD_FAILURE() << defect;
+    expect_valid(all_points(border, r), r.triangles, border.segments);
     EXPECT_GT(r.stats.refused, 0u);
 }
 

@@ -53,7 +53,7 @@ void expect_same_at_depths(const std::string& name, const Layer& layer, Balance 
                            std::initializer_list<unsigned> depths) {
     const LayerEdges edges = layer.edges;
     const auto expected =
-        canonical(triangulate(layer.points, edges.region, {.keep = Keep::left_of_segments}).triangles);
+        canonical(triangulate(layer.points, edges.region, {.keep = KeptRegion::left_of_segments}).triangles);
     for (const unsigned depth : depths) {
         const PiecewiseTriangulation t = layers::triangulate_layer(layer, {.depth = depth, .leaf_vertices = 10});
         ASSERT_EQ(canonical(t.triangles), expected) << name << ", depth " << depth;

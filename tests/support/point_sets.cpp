@@ -75,8 +75,12 @@ void Border::add_loop(const std::vector<Point>& corners, double spacing) {
         const int n = std::max(1, int(std::ceil(distance(a, b) / spacing - 1e-9)));
         for (int j = 0; j < n; ++j) points.push_back(a + (double(j) / n) * (b - a));
     }
-    for (std::size_t i = first; i < points.size(); ++i)
-        segments.push_back({VertexId{i}, VertexId{i + 1 < points.size() ? i + 1 : first}});
+    close_loop(first);
+}
+
+void Border::close_loop(std::size_t first_point) {
+    for (std::size_t i = first_point; i < points.size(); ++i)
+        segments.push_back({VertexId{i}, VertexId{i + 1 < points.size() ? i + 1 : first_point}});
 }
 
 Border square_border(double side, double spacing) {
@@ -107,6 +111,14 @@ std::vector<Triangle> brute_force_delaunay(const std::vector<Point>& points) {
                 if (empty) result.push_back({VertexId{a}, VertexId{b}, VertexId{c}});
             }
     return canonical(result);
+}
+
+double covered_area(const std::vector<Point>& points, const std::vector<Triangle>& triangles) {
+    double area = 0;
+    for (const Triangle& t : triangles)
+        area += 0.5 *
+                cross(points[t.v[1].index()] - points[t.v[0].index()], points[t.v[2].index()] - points[t.v[0].index()]);
+    return area;
 }
 
 double smallest_angle_deg(const std::vector<Point>& points, const Triangle& t) {

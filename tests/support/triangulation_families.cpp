@@ -6,7 +6,7 @@ namespace lamina::test {
 
 namespace {
 
-/// Points at distances 0, step, step (1 + growth), ... from `foot`.
+/// Appends `count` points at distances 0, step, step (1 + growth), ... from `foot`.
 void add_ray(std::vector<Point>& points, Point foot, Point direction, std::size_t count, double step, double growth) {
     double height = 0;
     for (std::size_t i = 0; i < count; ++i, step *= growth) {
@@ -22,7 +22,7 @@ std::vector<Point> naca_layer_points(std::size_t n) {
     const std::size_t rays = n / points_on_ray;
     std::vector<Point> points;
     for (std::size_t i = 0; i < rays; ++i) {
-        // Half a step off, so that no ray starts from the edges themselves.
+        // The angles are half a step off, so that no ray starts at the leading or the trailing edge.
         const double angle = 2 * M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(rays);
         const double x = 0.5 * (1 + std::cos(angle)), side = angle < M_PI ? 1 : -1;
         const double y = 0.6 * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1015 * x))));
@@ -44,8 +44,8 @@ std::vector<Point> flat_plate_points(std::size_t n, double cosine, double sine) 
 }
 
 RefinementCase unit_square_case(double triangles, double area_ratio) {
-    // Triangles come out at about 0.62 of their bound; a uniform fill has 1 / (0.62 sqrt(3)/4 h^2) of them, a linear h
-    // from h0 to h1 as many as a uniform one of sqrt(h0 h1).
+    // The mean area of triangles is about 0.62 of the largest allowed, so a uniform h makes 1 / (0.62 sqrt(3)/4 h^2) of
+    // them. A linear h from h0 to h1 makes as many as a uniform h of sqrt(h0 h1).
     const double mean = std::sqrt(1 / (0.62 * 0.43301270189221932 * triangles));
     const double ratio = std::sqrt(area_ratio);
     RefinementCase c;
@@ -68,8 +68,7 @@ RefinementCase unit_square_case(double triangles, double area_ratio) {
     for (std::size_t i = along; i > 0; --i) points.push_back({x_at(i), 1});
     for (std::size_t i = at_left; i > 0; --i)
         points.push_back({0, static_cast<double>(i) / static_cast<double>(at_left)});
-    for (std::size_t i = 0; i < points.size(); ++i)
-        c.border.segments.push_back({VertexId{i}, VertexId{(i + 1) % points.size()}});
+    c.border.close_loop();
 
     if (ratio == 1) {
         c.field = SizeField(c.size);

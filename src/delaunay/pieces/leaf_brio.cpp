@@ -56,19 +56,19 @@ std::vector<Index> leaf_brio(const SortedPoints& sorted, const Piece& leaf) {
     const Strips strips(leaf.by_x.all(), count);
 
     // Every strip of every round has a bucket. A round has half as many strips as the round after it.
-    std::array<Index, insertion_rounds> first{};
-    std::array<unsigned, insertion_rounds> shift{};
+    std::array<Index, brio_rounds> first{};
+    std::array<unsigned, brio_rounds> shift{};
     Index buckets = 0;
-    for (unsigned r = 0; r < insertion_rounds; ++r) {
+    for (unsigned r = 0; r < brio_rounds; ++r) {
         first[r] = buckets;
-        shift[r] = insertion_rounds - 1 - r;
+        shift[r] = brio_rounds - 1 - r;
         buckets += static_cast<Index>((count - 1) >> shift[r]) + 1;
     }
     core::UninitializedArray<Index> bucket(leaf.size());
     std::vector<Index> place(buckets + 1, 0);
     for (std::size_t i = 0; i < leaf.size(); ++i) {
         const Index point = leaf.by_y[i];
-        const unsigned round = insertion_round(point);
+        const unsigned round = brio_round(point);
         bucket[i] = first[round] + (strips[point] >> shift[round]);
         ++place[bucket[i] + 1];
     }

@@ -9,7 +9,7 @@
 namespace lamina::delaunay::pieces {
 
 /// Returns all points of a piece in biased randomised insertion order: random rounds that grow by a factor of four,
-/// each of which runs up and down through upright strips. It does for sorted points what insertion_order() (brio.hpp)
+/// each of which runs up and down through upright strips. It does for sorted points what brio_order() (brio.hpp)
 /// does for points in any order, in linear time.
 std::vector<Index> leaf_brio(const SortedPoints& sorted, const Piece& leaf);
 

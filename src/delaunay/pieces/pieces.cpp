@@ -18,7 +18,8 @@
 #include "delaunay/pieces/cut_piece.hpp"
 #include "delaunay/pieces/leaf_brio.hpp"
 #include "delaunay/pieces/vertex_index_map.hpp"
-#include "delaunay/triangulator.hpp"
+#include "delaunay/regions.hpp"
+#include "delaunay/triangulate_points.hpp"
 
 namespace lamina::delaunay::pieces {
 
@@ -65,7 +66,8 @@ LeafTriangles triangulate_leaf(const SortedPoints& sorted, Piece leaf) {
     leaf.by_x = {};
     leaf.by_y = {};
     OrderedTriangulation triangulation = triangulate_in_order(sorted.points.all(), order);
-    const Marks inside = mark_region(triangulation, in_insertion_numbers(std::exchange(leaf.border, {}), order));
+    const TriangleSelection inside =
+        select_region(triangulation, in_insertion_numbers(std::exchange(leaf.border, {}), order));
     // From here on `order` holds for each vertex its index in the input.
     for (Index& i : order) i = sorted.original[i];
     LeafTriangles triangles(static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1)));
@@ -216,7 +218,8 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std:
         }
     }
     const core::BusyTimes::Scope busy(times, triangulating);
-    auto result = one_piece(triangulate(points, border, {.keep = Keep::left_of_segments}).triangles, points.size());
+    auto result =
+        one_piece(triangulate(points, border, {.keep = KeptRegion::left_of_segments}).triangles, points.size());
     result.stats.fallbacks = fallbacks;
     return result;
 }

@@ -26,8 +26,8 @@ LAMINA_EXPORT PiecewiseTriangulation triangulate_in_pieces(std::span<const Point
                                                            core::BusyTimes* times = nullptr);
 
 /// Returns the constrained Delaunay triangulation of the region on the left of its border, piece by piece: the
-/// triangles that triangulate() keeps with Keep::left_of_segments. Throws as triangulate() does. Precondition: the
-/// border bounds the region all round, and every point lies in the region or on its border.
+/// triangles that triangulate() keeps with KeptRegion::left_of_segments. Throws as triangulate() does. Precondition:
+/// the border bounds the region all round, and every point lies in the region or on its border.
 LAMINA_EXPORT PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points,
                                                            std::span<const Segment> border,
                                                            const DecompositionOptions& options,

@@ -1,0 +1,214 @@
+// Source: M. V. Anglada, An improved incremental algorithm for constructing restricted Delaunay triangulations,
+// Computers & Graphics 21 (1997). The opposite vertex of each base is chosen with the perturbed incircle test, so the
+// result obeys the one tie rule.
+#include "delaunay/crossed_polygons.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include <lamina/ids.hpp>
+
+#include "core/predicates.hpp"
+#include "delaunay/insert_segments.hpp"
+#include "delaunay/regions.hpp"
+#include "delaunay/triangulate_points.hpp"
+
+namespace lamina::delaunay {
+
+namespace {
+
+/// Returns whether the direction from u to x lies in the closed sector that opens counter-clockwise from the direction
+/// to `from` to the direction to `to`.
+bool in_sector(Point u, Point from, Point to, Point x) {
+    if (from == to) return true;
+    const double opening = core::inline_orient2d(u, from, to);
+    if (opening >= 0) return core::inline_orient2d(u, from, x) >= 0 && core::inline_orient2d(u, x, to) >= 0;
+    return !(core::inline_orient2d(u, to, x) > 0 && core::inline_orient2d(u, x, from) > 0);
+}
+
+/// Returns the constrained Delaunay triangulation of the inside of a polygon. Its border has the inside on its left.
+Tris triangulate_polygon(std::span<const Point> vertices, std::span<const Segment> border) {
+    Tris tris = triangulate_points(vertices);
+    insert_segments(vertices, border, tris);
+    return keep_left_of_segments({&border.back(), 1}, tris, vertices.size());
+}
+
+}  // namespace
+
+void CrossedPolygons::clear() {
+    crossed_.clear();
+    edges_.clear();
+    left_.clear();
+    right_.clear();
+}
+
+void CrossedPolygons::add(std::vector<Index>& chain, Index triangle, unsigned edge) {
+    const Tri& t = tris_[triangle];
+    chain.push_back(static_cast<Index>(edges_.size()));
+    edges_.push_back({t.v[next(edge)], t.v[previous(edge)], Link(triangle, edge), t.n[edge], no_index, {}});
+}
+
+void CrossedPolygons::fill() {
+    pair_dangling_edges();
+    chain_ = left_;
+    const Link left = fill_chain();
+    // The right chain, walked from b to a, has its polygon on the same side as the left one.
+    chain_.assign(right_.rbegin(), right_.rend());
+    const Link right = fill_chain();
+    connect(tris_, left.triangle(), left.edge(), right.constrained());
+}
+
+/// Sets the partners of the chain edges whose other side is removed, too. The removed triangles serve as a table: their
+/// links are overwritten by indices into the list of chain edges.
+void CrossedPolygons::pair_dangling_edges() {
+    // Two vertices of this number mark a removed triangle; a ghost has only one.
+    for (Index t : crossed_) tris_[t].v[0] = tris_[t].v[1] = no_index;
+    for (Index i = 0; i < edges_.size(); ++i) {
+        const ChainEdge& edge = edges_[i];
+        tris_[edge.inside.triangle()].n[edge.inside.edge()] = Link(i, 0);
+    }
+    for (ChainEdge& edge : edges_) {
+        if (edge.outer.is_border()) continue;
+        const Tri& t = tris_[edge.outer.triangle()];
+        if (t.v[0] == no_index && t.v[1] == no_index) edge.partner = t.n[edge.outer.edge()].triangle();
+    }
+}
+
+/// Triangulates the polygon between chain_ and its base, the line from the chain's first vertex to its last, which has
+/// the polygon on its left. The new triangles take the places at the end of crossed_. Returns the new triangle at the
+/// base, and its edge there.
+Link CrossedPolygons::fill_chain() {
+    // Seen from the crossed triangles the edges run against the chain, which has its polygon on the right.
+    vertices_.assign(1, edges_[chain_.front()].b);
+    for (Index e : chain_) vertices_.push_back(edges_[e].a);
+    constexpr std::size_t long_chain = 100;
+    return chain_.size() < long_chain ? fill_short_chain() : fill_long_chain();
+}
+
+/// Fills the polygon recursively, in O(k^2) for k edges. The vertex k whose circle with the base holds no other vertex
+/// of the chain makes the triangle at the base; the parts on both sides of it are problems of the same kind.
+///
+///             k
+///           /   \.
+///       ../       \..
+///      low ------- high
+Link CrossedPolygons::fill_short_chain() {
+    Link top = Link::border();
+    ranges_.assign(1, {0, chain_.size(), Link::border()});
+    while (!ranges_.empty()) {
+        const ChainRange r = ranges_.back();
+        ranges_.pop_back();
+        const std::size_t k = opposite_vertex(r.low, r.high);
+        const Index t = crossed_.back();
+        crossed_.pop_back();
+        const Index v[3] = {vertices_[r.low], vertices_[r.high], vertices_[k]};
+        for (unsigned i = 0; i < 3; ++i) {
+            tris_[t].v[i] = v[i];
+            tris_[t].n[i] = Link::border();
+            at_vertex_[v[i]] = t;
+        }
+        if (r.base.is_border())
+            top = Link(t, 2);
+        else
+            connect(tris_, t, 2, r.base);
+        if (r.high == k + 1)
+            attach(chain_[k], t, 0);
+        else
+            ranges_.push_back({k, r.high, Link(t, 0)});
+        if (k == r.low + 1)
+            attach(chain_[r.low], t, 1);
+        else
+            ranges_.push_back({r.low, k, Link(t, 1)});
+    }
+    return top;
+}
+
+/// Returns the index in vertices_, strictly between low and high, of the vertex that forms a triangle with low -> high:
+/// it lies on the left, and no other such vertex lies in its circle. A vertex from which edges dangle stands in the
+/// chain several times: then the entry counts whose interior angle faces the base.
+std::size_t CrossedPolygons::opposite_vertex(std::size_t low, std::size_t high) const {
+    const Index a = vertices_[low], b = vertices_[high];
+    std::size_t k = low;
+    for (std::size_t i = low + 1; i < high; ++i) {
+        const Index v = vertices_[i];
+        if (core::inline_orient2d(points_[a], points_[b], points_[v]) <= 0) continue;
+        if (k == low ||
+            (v == vertices_[k]
+                 ? in_sector(points_[v], points_[vertices_[i - 1]], points_[vertices_[i + 1]], points_[a])
+                 : core::inline_incircle_perturbed(points_[a], points_[b], points_[vertices_[k]], points_[v]) > 0))
+            k = i;
+    }
+    assert(k != low);
+    return k;
+}
+
+/// Connects a new triangle to the neighbour across a chain edge. Across an edge that dangles the neighbour is a new
+/// triangle as well: the later one of the two connects both.
+void CrossedPolygons::attach(Index chain_edge, Index triangle, unsigned edge) {
+    ChainEdge& c = edges_[chain_edge];
+    c.filled = Link(triangle, edge);
+    if (c.partner == no_index)
+        connect(tris_, triangle, edge, c.outer);
+    else if (const Link other = edges_[c.partner].filled; !other.is_border())
+        connect(tris_, triangle, edge, Link(other.triangle(), other.edge(), c.outer.is_constrained()));
+}
+
+/// Fills the polygon by the constrained triangulation of its vertices, of which the polygon's is a part. Chain edges
+/// were Delaunay edges of more points, or segments: nearly all of them are edges of the plain triangulation, and
+/// inserting the others is a smaller problem of this kind. So long chains do not cost O(k^2).
+Link CrossedPolygons::fill_long_chain() {
+    std::vector<Index> global = vertices_;  // local number -> number; a vertex may stand in the chain several times
+    std::sort(global.begin(), global.end());
+    global.erase(std::unique(global.begin(), global.end()), global.end());
+    const auto local = [&](Index v) {
+        return VertexId(static_cast<std::size_t>(std::lower_bound(global.begin(), global.end(), v) - global.begin()));
+    };
+    std::vector<Point> points;
+    points.reserve(global.size());
+    for (Index v : global) points.push_back(points_[v]);
+    // The border is directed with the polygon on its left; edge i is chain edge i, and the base is the last.
+    std::vector<Segment> border;
+    border.reserve(vertices_.size());
+    for (std::size_t i = 0; i < chain_.size(); ++i) border.push_back({local(vertices_[i + 1]), local(vertices_[i])});
+    border.push_back({local(vertices_.front()), local(vertices_.back())});
+    const Tris inside = triangulate_polygon(points, border);
+    assert(inside.size() + 1 == chain_.size());
+
+    std::vector<std::pair<Segment, Index>> border_index;
+    border_index.reserve(border.size());
+    for (std::size_t i = 0; i < border.size(); ++i) border_index.push_back({border[i], static_cast<Index>(i)});
+    std::sort(border_index.begin(), border_index.end());
+    const std::vector<Index> places = replace_crossed(inside, global);
+    Link top = Link::border();
+    for (std::size_t i = 0; i < inside.size(); ++i)
+        for (unsigned e = 0; e < 3; ++e) {
+            if (!inside[i].n[e].is_constrained()) continue;
+            const Segment edge{VertexId{inside[i].v[next(e)]}, VertexId{inside[i].v[previous(e)]}};
+            const Index index =
+                std::lower_bound(border_index.begin(), border_index.end(), std::pair{edge, Index{0}})->second;
+            if (index + 1 == border.size())
+                top = Link(places[i], e);
+            else
+                attach(chain_[index], places[i], e);
+        }
+    return top;
+}
+
+/// Copies the triangles inside a polygon to the places at the end of crossed_, in global numbers, with links between
+/// each other alone. Returns the place of each triangle.
+std::vector<Index> CrossedPolygons::replace_crossed(const Tris& inside, std::span<const Index> global) {
+    std::vector<Index> places(crossed_.end() - static_cast<std::ptrdiff_t>(inside.size()), crossed_.end());
+    crossed_.resize(crossed_.size() - inside.size());
+    for (std::size_t i = 0; i < inside.size(); ++i)
+        for (unsigned e = 0; e < 3; ++e) {
+            const Link n = inside[i].n[e];
+            const Index v = global[inside[i].v[e]];
+            tris_[places[i]].v[e] = v;
+            tris_[places[i]].n[e] = n.is_constrained() ? Link::border() : Link(places[n.triangle()], n.edge());
+            at_vertex_[v] = places[i];
+        }
+    return places;
+}
+
+}  // namespace lamina::delaunay

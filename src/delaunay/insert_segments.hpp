@@ -1,0 +1,39 @@
+// Insertion of segments as constrained edges into a triangulation.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <lamina/export.hpp>
+#include <lamina/ids.hpp>
+#include <lamina/point.hpp>
+
+#include "delaunay/triangles.hpp"
+
+namespace lamina::delaunay {
+
+/// Throws InputError for a segment that does not join two of the points, and for any segment if there are no triangles.
+void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris);
+
+/// A part of a segment that is one edge of the triangulation, directed as the segment is.
+struct SegmentPiece {
+    Segment segment;
+    Index parent;  ///< index of the whole segment
+};
+
+/// Makes every segment a chain of constrained edges, split where it runs through vertices, and keeps the constrained
+/// Delaunay property by the tie rule. Returns the pieces in the order of the segments, each chain from a to b;
+/// overlapping segments give equal pieces. Throws InputError where segments cross; the message names both.
+/// Precondition: `tris` is closed by ghosts.
+std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                                    Tris& tris);
+
+/// Does the same with a triangle at each vertex at hand, and keeps `at_vertex` up to date.
+std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                                    Tris& tris, std::vector<Index>& at_vertex);
+
+/// Makes every segment a constrained edge. Throws InputError as insert_and_split_segments() does, and where a segment
+/// runs through a vertex.
+LAMINA_EXPORT void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris);
+
+}  // namespace lamina::delaunay

@@ -1,0 +1,197 @@
+// Erosion and dilation of vertices, and triangles: all of it works on the 64 bits of a word at a time.
+#include "delaunay/lattice_patch.hpp"
+
+#include <bit>
+
+namespace lamina::delaunay {
+
+namespace {
+
+using Word = LatticeWord;
+using Row = LatticeRow;
+
+/// Returns word w of a row moved so that bit i holds what was in column i + 1.
+Word from_right(const Word* row, std::size_t w, std::size_t words) {
+    return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
+}
+/// Returns word w of a row moved so that bit i holds what was in column i - 1.
+Word from_left(const Word* row, std::size_t w) { return row[w] << 1 | (w > 0 ? row[w - 1] >> 63 : 0); }
+
+/// A row of bits with the rows below and above it. The neighbours of a vertex in these two rows stand in columns i - 1
+/// and i if its row is even, in columns i and i + 1 if it is odd.
+struct RowTriple {
+    const Word *here, *below, *above;
+    std::size_t words;
+    bool odd;
+
+    /// Returns whether there is no bit in word w of the three rows, nor in the columns beside it. This holds for most
+    /// words of a narrow level in a wide box.
+    bool is_empty_round(std::size_t w) const {
+        Word near = here[w] | below[w] | above[w];
+        if (w > 0) near |= (here[w - 1] | below[w - 1] | above[w - 1]) >> 63;
+        if (w + 1 < words) near |= (here[w + 1] | below[w + 1] | above[w + 1]) << 63;
+        return near == 0;
+    }
+
+    /// Returns, for each vertex of word w, the bit of the apex that the edge to its right neighbour has in `other`, the
+    /// row above or below.
+    Word apex(const Word* other, std::size_t w) const { return odd ? from_right(other, w, words) : other[w]; }
+};
+
+/// Calls f(j, rows) for each row j of the bits. Rows outside the grid are empty.
+template <class F>
+void for_row_triples(const LatticeGrid& grid, const std::vector<Word>& bits, F&& f) {
+    const std::vector<Word> none(grid.words, 0);
+    for (Row j = 0; j < grid.rows; ++j) {
+        const Word* here = bits.data() + static_cast<std::size_t>(j) * grid.words;
+        const Word* below = j > 0 ? here - grid.words : none.data();
+        const Word* above = j + 1 < grid.rows ? here + grid.words : none.data();
+        f(j, RowTriple{here, below, above, grid.words, (j & 1) != 0});
+    }
+}
+
+/// Whether with_neighbours() demands all of a vertex and its six neighbours, or any of them.
+enum class Combine { all, any };
+
+template <Combine combine>
+Word combine_neighbours(const RowTriple& rows, std::size_t w) {
+    const auto& [here, below, above, words, odd] = rows;
+    const Word n[6] = {from_left(here, w), from_right(here, w, words),
+                       below[w],           odd ? from_right(below, w, words) : from_left(below, w),
+                       above[w],           odd ? from_right(above, w, words) : from_left(above, w)};
+    Word r = here[w];
+    for (Word x : n) r = combine == Combine::all ? r & x : r | x;
+    return r;
+}
+
+/// Returns the vertices that are set together with all of their neighbours (erosion), or the vertices and all
+/// neighbours of them (dilation).
+template <Combine combine>
+std::vector<Word> with_neighbours(const LatticeGrid& grid, const std::vector<Word>& bits) {
+    std::vector<Word> result(bits.size(), 0);
+    for_row_triples(grid, bits, [&](Row j, const RowTriple& rows) {
+        Word* to = result.data() + static_cast<std::size_t>(j) * grid.words;
+        for (std::size_t w = 0; w < grid.words; ++w) {
+            const bool is_zero = combine == Combine::all ? rows.here[w] == 0 : rows.is_empty_round(w);
+            if (!is_zero) to[w] = combine_neighbours<combine>(rows, w);
+        }
+    });
+    return result;
+}
+
+/// The triangles of a patch by their horizontal edge (i, i + 1) of row j: `up` with the apex in row j + 1, `down` with
+/// the apex in row j - 1. A triangle belongs to the patch if one of its corners is a centre.
+struct TriangleBits {
+    std::vector<Word> up, down;
+};
+
+TriangleBits triangle_bits(const LatticeGrid& grid, const PatchVertices& patch) {
+    TriangleBits bits{std::vector<Word>(grid.bits.size(), 0), std::vector<Word>(grid.bits.size(), 0)};
+    for_row_triples(grid, patch.centres, [&](Row j, const RowTriple& rows) {
+        const std::size_t base = static_cast<std::size_t>(j) * grid.words;
+        for (std::size_t w = 0; w < grid.words; ++w) {
+            if (rows.is_empty_round(w)) continue;
+            const Word edge = rows.here[w] | from_right(rows.here, w, grid.words);
+            bits.up[base + w] = edge | rows.apex(rows.above, w);
+            bits.down[base + w] = edge | rows.apex(rows.below, w);
+        }
+    });
+    return bits;
+}
+
+/// Calls f(column) for each set bit of word w of a row.
+template <class F>
+void for_bits(Word bits, std::size_t w, F&& f) {
+    for (; bits != 0; bits &= bits - 1) f(64 * w + static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+/// Appends the vertices of row j and notes their numbers by column.
+void append_row(const LatticeGrid& grid, const PatchVertices& patch, Row j, std::vector<std::uint32_t>& ids,
+                LatticePatches& patches) {
+    const std::size_t base = static_cast<std::size_t>(j) * grid.words;
+    const double y = grid.row_y(j), shift = grid.shift(j);
+    for (std::size_t w = 0; w < grid.words; ++w) {
+        for_bits(grid.bits[base + w], w, [&](std::size_t i) {
+            ids[i] = static_cast<std::uint32_t>(patches.points.size());
+            patches.points.push_back({grid.origin.x + grid.edge * (static_cast<double>(i) + shift), y});
+        });
+        for_bits(grid.bits[base + w] & ~patch.all[base + w], w,
+                 [&](std::size_t i) { patches.collar.push_back(VertexId{ids[i]}); });
+    }
+}
+
+/// Appends the triangles between rows j (`here`) and j + 1 (`above`), and those of their edges across which the patch
+/// has no triangle. Boundary edges are directed with the seam on their left, against the triangle.
+///
+///        C ------- D             row j + 1     The triangle up (i) has A = i and B = i + 1 in row j; its apex C is in
+///       /  \      /                            column i of row j + 1, or i + 1 if row j is odd.
+///      /    \    /                             The triangle down (i) has C = i and D = i + 1 in row j + 1; its apex B
+///      is
+///     A ----- B                  row j         in column i + 1 of row j, or i if row j is odd.
+void append_strip(const LatticeGrid& grid, const TriangleBits& bits, Row j, const std::vector<std::uint32_t>& here,
+                  const std::vector<std::uint32_t>& above, LatticePatches& patches) {
+    const std::size_t words = grid.words, base = static_cast<std::size_t>(j) * words;
+    const std::size_t odd = (j & 1) != 0 ? 1 : 0;
+    const Word* up = bits.up.data() + base;
+    const Word* down_here = bits.down.data() + base;
+    const Word* down = bits.down.data() + base + words;
+    const Word* up_above = bits.up.data() + base + words;
+    const auto vertex = [](const std::vector<std::uint32_t>& ids, std::size_t i) {
+        return VertexId{std::size_t{ids[i]}};
+    };
+    const auto boundary = [&](VertexId a, VertexId b) { patches.boundary.push_back({b, a}); };
+    for (std::size_t w = 0; w < words; ++w) {
+        if ((up[w] | down[w]) == 0) continue;
+        const auto add_up = [&](std::size_t i) {
+            patches.triangles.push_back({{vertex(here, i), vertex(here, i + 1), vertex(above, i + odd)}});
+        };
+        const auto add_down = [&](std::size_t i) {
+            patches.triangles.push_back({{vertex(above, i + 1), vertex(above, i), vertex(here, i + 1 - odd)}});
+        };
+        // The triangles form a strip, each beside the one before.
+        for_bits(up[w] | down[w], w, [&](std::size_t i) {
+            const Word bit = Word{1} << (i % 64);
+            if (odd != 0 && (down[w] & bit) != 0) add_down(i);
+            if ((up[w] & bit) != 0) add_up(i);
+            if (odd == 0 && (down[w] & bit) != 0) add_down(i);
+        });
+        for_bits(up[w] & ~down_here[w], w, [&](std::size_t i) { boundary(vertex(here, i), vertex(here, i + 1)); });
+        for_bits(down[w] & ~up_above[w], w, [&](std::size_t i) { boundary(vertex(above, i + 1), vertex(above, i)); });
+        // On the right of up (i) lies down (i + odd), on its left down (i + odd - 1).
+        const Word right_of_up = odd != 0 ? from_right(down, w, words) : down[w];
+        const Word left_of_up = odd != 0 ? down[w] : from_left(down, w);
+        for_bits(up[w] & ~right_of_up, w,
+                 [&](std::size_t i) { boundary(vertex(here, i + 1), vertex(above, i + odd)); });
+        for_bits(up[w] & ~left_of_up, w, [&](std::size_t i) { boundary(vertex(above, i + odd), vertex(here, i)); });
+        // On the left of down (i) lies up (i - odd), on its right up (i + 1 - odd).
+        const Word left_of_down = odd != 0 ? from_left(up, w) : up[w];
+        const Word right_of_down = odd != 0 ? up[w] : from_right(up, w, words);
+        for_bits(down[w] & ~left_of_down, w,
+                 [&](std::size_t i) { boundary(vertex(above, i), vertex(here, i + 1 - odd)); });
+        for_bits(down[w] & ~right_of_down, w,
+                 [&](std::size_t i) { boundary(vertex(here, i + 1 - odd), vertex(above, i + 1)); });
+    }
+}
+
+}  // namespace
+
+PatchVertices open_patch(LatticeGrid& grid) {
+    PatchVertices patch;
+    patch.centres = with_neighbours<Combine::all>(grid, with_neighbours<Combine::all>(grid, grid.bits));
+    patch.all = with_neighbours<Combine::any>(grid, patch.centres);
+    grid.bits = with_neighbours<Combine::any>(grid, patch.all);
+    return patch;
+}
+
+void append_patch(const LatticeGrid& grid, const PatchVertices& patch, LatticePatches& patches) {
+    const TriangleBits bits = triangle_bits(grid, patch);
+    std::vector<std::uint32_t> here(64 * grid.words + 1, 0), above(here);
+    append_row(grid, patch, 0, here, patches);
+    for (Row j = 0; j + 1 < grid.rows; ++j) {
+        append_row(grid, patch, j + 1, above, patches);
+        append_strip(grid, bits, j, here, above, patches);
+        std::swap(here, above);
+    }
+}
+
+}  // namespace lamina::delaunay

@@ -1,0 +1,36 @@
+// Patches of lattice triangles, made from the vertices of one level's lattice.
+#pragma once
+
+#include <vector>
+
+#include <lamina/ids.hpp>
+#include <lamina/point.hpp>
+
+#include "delaunay/lattice_grid.hpp"
+
+namespace lamina::delaunay {
+
+/// Triangulated patches strictly inside a region. Round each patch stands a collar, one row of loose lattice points.
+/// The seam is what lies between the patches and the border of the region; the collar is in it.
+struct LatticePatches {
+    std::vector<Point> points;
+    std::vector<Triangle> triangles;  ///< equilateral up to rounding, counter-clockwise; they index points
+    std::vector<Segment> boundary;    ///< the boundary of the patches, with the seam on its left; indexes points
+    std::vector<VertexId> collar;     ///< the points that belong to the seam alone
+    bool empty() const { return triangles.empty(); }
+};
+
+/// The vertices of a level's patch.
+struct PatchVertices {
+    std::vector<LatticeWord> centres;  ///< vertices whose six triangles all belong to the patch
+    std::vector<LatticeWord> all;      ///< the centres and their neighbours
+};
+
+/// Opens the grid's vertices by hexagons two rows wide, which leaves neither thin fingers nor crumbs, and peels the
+/// collar off. Afterwards the grid holds the vertices of the patch and of the collar. Returns those of the patch.
+PatchVertices open_patch(LatticeGrid& grid);
+
+/// Appends the vertices of the grid, and the triangles, boundary and collar of its patch.
+void append_patch(const LatticeGrid& grid, const PatchVertices& patch, LatticePatches& patches);
+
+}  // namespace lamina::delaunay
