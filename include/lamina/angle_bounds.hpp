@@ -9,6 +9,6 @@ inline constexpr double proved_min_angle_deg = 20.7;
 
 /// The largest bound that refinement accepts. Between the proved bound and this one refinement has always ended in
 /// trials, but may leave triangles below the bound, which are counted (docs/decisions/0002).
-inline constexpr double largest_min_angle_deg = 33;
+inline constexpr double max_min_angle_deg = 33;
 
 }  // namespace lamina

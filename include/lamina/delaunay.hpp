@@ -117,7 +117,7 @@ LAMINA_EXPORT ConstrainedTriangulation triangulate(std::span<const Point> points
 
 struct RefineOptions {
     /// Smallest angle of a triangle; 0: no bound. Refinement is proved to end up to the default, and has ended in all
-    /// trials up to largest_min_angle_deg.
+    /// trials up to max_min_angle_deg.
     double min_angle_deg = proved_min_angle_deg;
     std::size_t max_points = 200'000'000;  ///< number of Steiner points beyond which refine() throws MeshError
     /// Whether large, evenly sized parts are filled with patches of an equilateral lattice, so that only the seams

@@ -19,7 +19,7 @@ OptionTable<DecompositionOptions> make_decomposition_table() {
 OptionTable<RefineOptions> make_refine_table() {
     OptionTableBuilder<RefineOptions> table("Outer region");
     table.number("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees; 0: no bound",
-                 numbers_from_to(0, largest_min_angle_deg), member_at(&RefineOptions::min_angle_deg));
+                 numbers_from_to(0, max_min_angle_deg), member_at(&RefineOptions::min_angle_deg));
     table
         .count("max-points", "N", "points beyond which the refinement of one piece gives up", numbers_from_to(0, 4e9),
                member_at(&RefineOptions::max_points))
