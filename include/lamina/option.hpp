@@ -89,7 +89,7 @@ void require_in_range(const OptionTable<Options>& table, const Options& options)
 
 /// Returns the table of an options struct that holds another one: member(outer) is a reference to the inner struct.
 template <class Outer, class Inner, class Member>
-OptionTable<Outer> lifted(const OptionTable<Inner>& table, Member member) {
+OptionTable<Outer> nested_table(const OptionTable<Inner>& table, Member member) {
     OptionTable<Outer> result;
     for (const Option<Inner>& o : table)
         result.push_back({o.name, o.kind, o.metavar, o.help, o.range,

@@ -14,24 +14,24 @@
 namespace lamina {
 
 /// The word that stands for a number that lamina finds itself.
-inline constexpr const char* automatic = "auto";
+inline constexpr const char* auto_word = "auto";
 
 /// The words for the values of an enumeration.
 template <class Choice>
 using Choices = std::vector<std::pair<std::string, Choice>>;
 
 // Typed access to a value. All throw OptionError for values of another kind.
-LAMINA_EXPORT double number_of(const OptionValue& value, const std::string& option);
-LAMINA_EXPORT std::int64_t count_of(const OptionValue& value, const std::string& option);
-LAMINA_EXPORT bool flag_of(const OptionValue& value, const std::string& option);
-LAMINA_EXPORT std::string word_of(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT double as_number(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT std::int64_t as_count(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT bool as_flag(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT std::string as_word(const OptionValue& value, const std::string& option);
 /// A number will do for a word that may be one.
-LAMINA_EXPORT std::string word_or_number_of(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT std::string as_word_or_number(const OptionValue& value, const std::string& option);
 /// One word will do for a list of one.
-LAMINA_EXPORT std::vector<std::string> words_of(const OptionValue& value, const std::string& option);
+LAMINA_EXPORT std::vector<std::string> as_words(const OptionValue& value, const std::string& option);
 
 /// Throws OptionError where the range does not contain the value.
-LAMINA_EXPORT void require_in(const OptionRange& range, double value, const std::string& option);
+LAMINA_EXPORT void require_in_range(const OptionRange& range, double value, const std::string& option);
 
 /// Makes the rows of one table, under one heading of the help at a time.
 template <class Options>
@@ -45,8 +45,8 @@ public:
                             Member member) {
         const std::string key = option_key(name);
         const auto set = [=](Options& o, const OptionValue& value) {
-            const double number = number_of(value, key);
-            require_in(range, number, key);
+            const double number = as_number(value, key);
+            require_in_range(range, number, key);
             member(o) = number;
         };
         const auto get = [=](const Options& o) { return value_of<double>(member(o)); };
@@ -60,8 +60,8 @@ public:
         using Number = decltype(plain(member(std::declval<Options&>())));
         const std::string key = option_key(name);
         const auto set = [=](Options& o, const OptionValue& value) {
-            const std::int64_t number = count_of(value, key);
-            require_in(range, static_cast<double>(number), key);
+            const std::int64_t number = as_count(value, key);
+            require_in_range(range, static_cast<double>(number), key);
             member(o) = static_cast<Number>(number);
         };
         const auto get = [=](const Options& o) { return value_of<std::int64_t>(member(o)); };
@@ -78,14 +78,14 @@ public:
         const auto get_count = option.get;
         option.set = [=, key = option.key()](Options& o, const OptionValue& value) {
             const auto* word = std::get_if<std::string>(&value);
-            if (word && *word != automatic) throw OptionError(key, "must be a whole number or 'auto'");
+            if (word && *word != auto_word) throw OptionError(key, "must be a whole number or 'auto'");
             if (word) {
                 member(o).reset();
             } else {
                 set_count(o, value);
             }
         };
-        option.get = [=](const Options& o) { return get_count(o).value_or(automatic); };
+        option.get = [=](const Options& o) { return get_count(o).value_or(auto_word); };
         return option;
     }
 
@@ -93,7 +93,7 @@ public:
     template <class Member>
     Option<Options>& flag(const std::string& name, std::string help, bool meaning, Member member) {
         const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
-            member(o) = flag_of(value, key) == meaning;
+            member(o) = as_flag(value, key) == meaning;
         };
         const auto get = [=](const Options& o) { return std::optional<OptionValue>(member(o) == meaning); };
         return add({name, OptionKind::flag, "", std::move(help), "", set, get});
@@ -105,7 +105,7 @@ public:
         std::string metavar;
         for (const auto& entry : choices) metavar += (metavar.empty() ? "" : "|") + entry.first;
         const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
-            const std::string word = word_of(value, key);
+            const std::string word = as_word(value, key);
             const auto found =
                 std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == word; });
             if (found == choices.end())
@@ -126,7 +126,7 @@ public:
     Option<Options>& text(const std::string& name, OptionKind kind, std::string metavar, std::string help,
                           Member member) {
         const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
-            member(o) = word_of(value, key);
+            member(o) = as_word(value, key);
         };
         const auto get = [=](const Options& o) { return std::optional<OptionValue>(member(o)); };
         return add({name, kind, std::move(metavar), std::move(help), "", set, get});
@@ -137,7 +137,7 @@ public:
     Option<Options>& list(const std::string& name, OptionKind kind, std::string metavar, std::string help,
                           Member member) {
         const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
-            member(o) = words_of(value, key);
+            member(o) = as_words(value, key);
         };
         const auto get = [=](const Options& o) { return std::optional<OptionValue>(member(o)); };
         return add({name, kind, std::move(metavar), std::move(help), "", set, get});
@@ -149,7 +149,7 @@ public:
     Option<Options>& spec(const std::string& name, std::string metavar, std::string help, Parse parse, Print print,
                           Member member) {
         const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
-            member(o) = parsed(key, word_or_number_of(value, key), parse);
+            member(o) = parsed(key, as_word_or_number(value, key), parse);
         };
         const auto get = [=](const Options& o) {
             return member(o) ? std::optional<OptionValue>(print(*member(o))) : std::nullopt;
@@ -163,7 +163,7 @@ public:
                            Member member) {
         const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
             member(o).clear();
-            for (const std::string& text : words_of(value, key)) member(o).push_back(parsed(key, text, parse));
+            for (const std::string& text : as_words(value, key)) member(o).push_back(parsed(key, text, parse));
         };
         const auto get = [=](const Options& o) {
             std::vector<std::string> texts;

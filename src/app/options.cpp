@@ -59,7 +59,7 @@ OptionTable<MeshCase> other_options() {
 OptionTable<MeshCase> make_table() {
     OptionTable<MeshCase> table = file_options();
     for (OptionTable<MeshCase> rows :
-         {lifted<MeshCase>(case_option_table(), member_at(&MeshCase::options)), other_options()})
+         {nested_table<MeshCase>(case_option_table(), member_at(&MeshCase::options)), other_options()})
         std::move(rows.begin(), rows.end(), std::back_inserter(table));
     std::erase_if(table, [](const Option<MeshCase>& option) { return option.library_only; });
     const auto place = [](const Option<MeshCase>& option) {
@@ -124,7 +124,7 @@ OptionValue value_of_text(OptionKind kind, const std::vector<std::string>& texts
     const std::string& text = texts.back();
     if (kind == OptionKind::number) return parse_real(text, origin);
     if (kind == OptionKind::flag) return text == "true";
-    if (kind == OptionKind::count || (kind == OptionKind::count_or_auto && text != automatic))
+    if (kind == OptionKind::count || (kind == OptionKind::count_or_auto && text != auto_word))
         return parse<std::int64_t>(text, origin, "whole number");
     return text;
 }

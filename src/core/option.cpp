@@ -23,39 +23,39 @@ std::string OptionRange::text() const {
     return std::isinf(upper) ? from : core::concat(from, " and <= ", upper);
 }
 
-double number_of(const OptionValue& value, const std::string& option) {
+double as_number(const OptionValue& value, const std::string& option) {
     if (const auto* number = std::get_if<double>(&value)) return *number;
     if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
     throw OptionError(option, "must be a number");
 }
 
-std::int64_t count_of(const OptionValue& value, const std::string& option) {
+std::int64_t as_count(const OptionValue& value, const std::string& option) {
     if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
     throw OptionError(option, "must be a whole number");
 }
 
-bool flag_of(const OptionValue& value, const std::string& option) {
+bool as_flag(const OptionValue& value, const std::string& option) {
     if (const auto* flag = std::get_if<bool>(&value)) return *flag;
     throw OptionError(option, "must be true or false");
 }
 
-std::string word_of(const OptionValue& value, const std::string& option) {
+std::string as_word(const OptionValue& value, const std::string& option) {
     if (const auto* word = std::get_if<std::string>(&value)) return *word;
     throw OptionError(option, "must be a string");
 }
 
-std::string word_or_number_of(const OptionValue& value, const std::string& option) {
+std::string as_word_or_number(const OptionValue& value, const std::string& option) {
     if (const auto* word = std::get_if<std::string>(&value)) return *word;
-    return core::to_text(number_of(value, option));
+    return core::to_text(as_number(value, option));
 }
 
-std::vector<std::string> words_of(const OptionValue& value, const std::string& option) {
+std::vector<std::string> as_words(const OptionValue& value, const std::string& option) {
     if (const auto* words = std::get_if<std::vector<std::string>>(&value)) return *words;
     if (const auto* word = std::get_if<std::string>(&value)) return {*word};
     throw OptionError(option, "must be an array of strings");
 }
 
-void require_in(const OptionRange& range, double value, const std::string& option) {
+void require_in_range(const OptionRange& range, double value, const std::string& option) {
     if (!range.contains(value))
         throw OptionError(option, core::concat(value, " is out of range: must be ", range.text()));
 }

@@ -24,7 +24,7 @@ OptionTable<FarFieldOptions> make_far_field_table() {
                 member_at(&FarFieldOptions::shape))
         .excludes = {"far-field-outline"};
     const auto set = [](FarFieldOptions& options, const OptionValue& value) {
-        const std::string text = word_of(value, "far_field_outline");
+        const std::string text = as_word(value, "far_field_outline");
         try {
             options.outline = parse_outline(text);
         } catch (const UsageError& error) {

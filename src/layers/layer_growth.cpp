@@ -15,9 +15,9 @@ namespace lamina {
 using namespace layers;
 
 double first_height_for(double y_plus, double reynolds, double chord) {
-    require_in(positive_numbers, y_plus, "y_plus");
-    require_in(positive_numbers, reynolds, "reynolds");
-    require_in(positive_numbers, chord, "chord");
+    require_in_range(positive_numbers, y_plus, "y_plus");
+    require_in_range(positive_numbers, reynolds, "reynolds");
+    require_in_range(positive_numbers, chord, "chord");
     const double friction = 0.026 / core::pow_reproducible(reynolds, 1.0 / 7);
     return y_plus * chord / (reynolds * std::sqrt(0.5 * friction));
 }

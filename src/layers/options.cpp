@@ -21,8 +21,8 @@ Option<LayerOptions>& add_flow_number(OptionTableBuilder<LayerOptions>& table, c
         return std::get<YPlus>(options.first_height).*member;
     };
     const auto set = [flow_member, key = option_key(name)](LayerOptions& options, const OptionValue& value) {
-        const double number = number_of(value, key);
-        require_in(positive_numbers, number, key);
+        const double number = as_number(value, key);
+        require_in_range(positive_numbers, number, key);
         flow_member(options) = number;
     };
     const auto get = [member](const LayerOptions& options) -> std::optional<OptionValue> {
@@ -37,8 +37,8 @@ Option<LayerOptions>& add_flow_number(OptionTableBuilder<LayerOptions>& table, c
 /// Adds the options of the first height: a length, or the flow that it follows from.
 void add_first_height(OptionTableBuilder<LayerOptions>& table) {
     const auto set_first_height = [](LayerOptions& options, const OptionValue& value) {
-        const double height = number_of(value, "first_height");
-        require_in(positive_numbers, height, "first_height");
+        const double height = as_number(value, "first_height");
+        require_in_range(positive_numbers, height, "first_height");
         options.first_height = height;
     };
     const auto get_first_height = [](const LayerOptions& options) -> std::optional<OptionValue> {
@@ -122,10 +122,10 @@ void validate(const LayerOptions& options) {
 }
 
 void validate(const BorderOptions& options) {
-    require_in(numbers_above(1), options.max_ratio, "max_ratio");
-    require_in(positive_numbers, options.gradation, "gradation");
+    require_in_range(numbers_above(1), options.max_ratio, "max_ratio");
+    require_in_range(positive_numbers, options.gradation, "gradation");
     if (!(options.max_edge > 0)) throw OptionError("max_edge", "must be greater than 0");
-    if (options.ray_gradation) require_in(positive_numbers, *options.ray_gradation, "ray_gradation");
+    if (options.ray_gradation) require_in_range(positive_numbers, *options.ray_gradation, "ray_gradation");
 }
 
 }  // namespace lamina

@@ -17,7 +17,7 @@ constexpr double slowest_wall_gradation = 0.05;
 
 template <class Inner, class Member>
 void append(const OptionTable<Inner>& inner, Member member, OptionTable<CaseOptions>& table) {
-    OptionTable<CaseOptions> rows = lifted<CaseOptions>(inner, member_at(member));
+    OptionTable<CaseOptions> rows = nested_table<CaseOptions>(inner, member_at(member));
     std::move(rows.begin(), rows.end(), std::back_inserter(table));
 }
 
