@@ -14,7 +14,7 @@
 
 namespace lamina {
 
-/// The kind of an error, and what the program returns to the shell for it (docs/guide.md, "Exit codes").
+/// The kinds of errors, and the exit codes that the program returns for them (docs/guide.md, "Exit codes").
 enum class ExitCode : int {
     done = 0,
     usage = 2,        ///< options or arguments are wrong
@@ -42,7 +42,7 @@ public:
 /// An option whose value is out of range or does not go with the others.
 class LAMINA_EXPORT OptionError : public UsageError {
 public:
-    /// what() reads "option: reason".
+    /// Makes an error whose what() reads "option: reason".
     OptionError(const std::string& option, const std::string& reason);
     /// Returns the name of the option as case files write it: "first_height".
     const std::string& option() const noexcept { return option_; }
@@ -52,11 +52,11 @@ private:
     std::string option_, reason_;
 };
 
-/// Where in the input something is wrong. Parts that do not apply stay empty.
+/// A place in the input where something is wrong. Parts that do not apply stay empty.
 struct InputPlace {
     std::string file{};
-    std::size_t line = 0;  ///< counts from 1; 0: not tied to one line
-    std::optional<Point> at{};
+    std::size_t line = 0;                 ///< counts from 1; 0: not tied to one line
+    std::optional<Point> at{};            ///< coordinates of the place
     std::string element{};                ///< name of the body
     std::vector<std::size_t> points{};    ///< indices into the points handed in
     std::vector<std::size_t> segments{};  ///< indices into the segments handed in
@@ -65,7 +65,7 @@ struct InputPlace {
 /// Input that cannot be used.
 class LAMINA_EXPORT InputError : public Error {
 public:
-    /// what() reads "file:line: reason (at x, y)".
+    /// Makes an error whose what() reads "file:line: reason (at x, y)", without the parts that are empty.
     InputError(InputPlace place, const std::string& reason);
     const InputPlace& place() const noexcept { return place_; }
     const std::string& reason() const noexcept { return reason_; }
@@ -90,7 +90,7 @@ private:
 /// A file that could not be read or written.
 class LAMINA_EXPORT IoError : public Error {
 public:
-    /// what() reads "file: reason".
+    /// Makes an error whose what() reads "file: reason".
     IoError(const std::string& file, const std::string& reason);
     const std::string& file() const noexcept { return file_; }
     const std::string& reason() const noexcept { return reason_; }

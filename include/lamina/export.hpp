@@ -1,4 +1,4 @@
-// Marks what lamina's libraries export. Everything else is hidden in shared libraries.
+// The mark of functions and classes that lamina's libraries export. Everything else is hidden in shared libraries.
 #pragma once
 
 #if defined(__GNUC__)

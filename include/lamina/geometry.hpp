@@ -27,7 +27,7 @@ struct Base {
 /// Places of an outline that later stages need to know.
 struct OutlineFeatures {
     std::vector<std::size_t> corners;  ///< indices of the vertices that are no samples of a smooth curve, ascending
-    std::optional<Base> base{};
+    std::optional<Base> base{};        ///< empty where the trailing edge is not blunt
     /// The sharp corner, or the middle of the base, that lies farthest downstream (at the largest x) in the rear half
     /// of the body; the rearmost vertex where there is neither.
     Point trailing_edge{};
@@ -35,16 +35,16 @@ struct OutlineFeatures {
 
 /// One closed body.
 struct Element {
-    std::string name;    ///< name of its marker in the mesh: no spaces, at most 32 characters, unique
-    std::string file;    ///< as the user gave it; "naca:0012" for generated sections
-    std::string title;   ///< the title line of the file, if it has one
-    std::string format;  ///< "selig", "lednicer", "table", "xy", "csv" or "naca"
-    std::size_t points_read = 0;
+    std::string name;             ///< name of its marker in the mesh: no spaces, at most 32 characters, unique
+    std::string file;             ///< as the user gave it; "naca:0012" for generated sections
+    std::string title;            ///< the title line of the file, if it has one
+    std::string format;           ///< "selig", "lednicer", "table", "xy", "csv" or "naca"
+    std::size_t points_read = 0;  ///< number of points in the file; 0 for generated sections
     /// The outline, counter-clockwise: the body lies on the left of every edge. The first point is not repeated.
     std::vector<Point> points;
     std::vector<std::size_t> lines;    ///< per point: its line in the file; 0 where lamina added the point
-    std::vector<std::string> repairs;  ///< what the reader mended: "line 12: duplicate of line 11 removed (0.5, 0.1)"
-    std::vector<std::string> surface_notes;  ///< what prepare_surfaces() did to the points, and why
+    std::vector<std::string> repairs;  ///< repairs by the reader: "line 12: duplicate of line 11 removed (0.5, 0.1)"
+    std::vector<std::string> surface_notes;  ///< changes that prepare_surfaces() made to the points, and why
     bool resampled = false;                  ///< whether prepare_surfaces() chose the spacing of the points
     OutlineFeatures features;                ///< set by prepare_surfaces()
 };
@@ -68,25 +68,26 @@ LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const GeometryOptions& options);
 
-/// Reads every input, which is a path or `naca:DIGITS[:POINTS][:blunt|:sharp]`; repairs, orients, names and checks what
-/// it holds. Coordinates are neither scaled nor moved. Throws InputError for what cannot be repaired (no or too few
-/// points, NaN, an outline that crosses itself, elements that cross or contain each other, coordinates outside the
-/// exact range of predicates.hpp), IoError for files that cannot be read, UsageError for names that are no markers.
+/// Reads every input, which is a path or `naca:DIGITS[:POINTS][:blunt|:sharp]`, and repairs, orients, names and checks
+/// its elements. Coordinates are neither scaled nor moved. Throws InputError for input that cannot be repaired (no or
+/// too few points, NaN, an outline that crosses itself, elements that cross or contain each other, coordinates outside
+/// the exact range of predicates.hpp), IoError for files that cannot be read, UsageError for names that are no markers.
 LAMINA_EXPORT Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
 
 /// Reads one file, which may hold several elements. Takes the same steps and throws the same errors as read_geometry().
 LAMINA_EXPORT std::vector<Element> read_airfoil(const std::filesystem::path& file);
 
-enum class TrailingEdge { sharp, blunt };
+/// The trailing edges of NACA sections.
+enum class TrailingEdge {
+    sharp,  ///< the last thickness coefficient is -0.1036, which closes the trailing edge
+    blunt,  ///< the last thickness coefficient is the published one, -0.1015, which leaves a base
+};
 
 /// Returns the NACA 4-digit ("0012") or 5-digit ("23012", reflexed "23112") section of unit chord with cosine spacing.
 /// The points start at the trailing edge and run over the upper surface first. Both surfaces get the same number, so
 /// `points` (surface points without the repeated trailing edge and without those inside a base) is rounded up to an
-/// even number for `sharp` and to an odd one for `blunt`. Sections of symmetric digits are mirror images exactly.
-/// `sharp` closes the trailing edge by the modified last thickness coefficient (-0.1036); `blunt` keeps the published
-/// one
-/// (-0.1015) and its base. Throws UsageError for digits that name no section and for fewer than 6 or more than 10
-/// million points.
+/// even number for `sharp` and to an odd one for `blunt`. The surfaces of symmetric sections are mirror images exactly.
+/// Throws UsageError for digits that name no section and for fewer than 6 or more than 10 million points.
 /// Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935).
 LAMINA_EXPORT Element naca_airfoil(const std::string& digits, std::size_t points,
                                    TrailingEdge trailing_edge = TrailingEdge::sharp);

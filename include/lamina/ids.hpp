@@ -1,5 +1,5 @@
-// Strong ids: an index that says what it is an index of. 32 bits address 4.29e9 vertices and 8.6e9 triangles, far
-// beyond memory; counts and offsets are std::size_t.
+// Indices with a type of their own, so that a vertex cannot be taken for a triangle. 32 bits suffice for 4.29e9
+// vertices (docs/decisions/0005); counts and offsets are std::size_t.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 namespace lamina {
 
+/// An index into an array of the things that Tag names. An id that is made without an index is not valid.
 template <class Tag>
 struct Id {
     std::uint32_t value = std::numeric_limits<std::uint32_t>::max();
@@ -16,13 +17,14 @@ struct Id {
     constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
     constexpr bool valid() const { return value != std::numeric_limits<std::uint32_t>::max(); }
     constexpr std::size_t index() const { return value; }
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 of the defaulted comparison for a null pointer
     friend constexpr auto operator<=>(Id, Id) = default;
 };
 
-using VertexId = Id<struct VertexTag>;      ///< a point of the array at hand
-using TriangleId = Id<struct TriangleTag>;  ///< a triangle of the array at hand
+using VertexId = Id<struct VertexTag>;      ///< index into an array of points
+using TriangleId = Id<struct TriangleTag>;  ///< index into an array of triangles
 
-/// The vertices run counter-clockwise unless a comment says otherwise.
+/// A triangle; the vertices run counter-clockwise unless a comment says otherwise.
 struct Triangle {
     VertexId v[3];
     friend constexpr bool operator==(const Triangle&, const Triangle&) = default;
@@ -36,6 +38,7 @@ struct Quad {
 /// A segment that is directed from a to b.
 struct Segment {
     VertexId a, b;
+    // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 of the defaulted comparison for a null pointer
     friend constexpr auto operator<=>(const Segment&, const Segment&) = default;
 };
 

@@ -19,7 +19,7 @@ namespace lamina {
 /// The value of an option, as a case file or a script writes it.
 using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::vector<std::string>>;
 
-/// What an option takes.
+/// The kinds of values that options take.
 enum class OptionKind {
     number,         ///< one number
     count,          ///< one whole number
@@ -32,13 +32,13 @@ enum class OptionKind {
     paths,          ///< several paths
 };
 
-/// The numbers that an option may take. They are always finite.
+/// A range of the numbers that an option may take. They are always finite.
 struct LAMINA_EXPORT OptionRange {
     double lower = -HUGE_VAL;
-    double upper = HUGE_VAL;  ///< included
-    bool with_lower = false;  ///< whether the lower bound is included
+    double upper = HUGE_VAL;      ///< belongs to the range
+    bool includes_lower = false;  ///< whether the lower bound belongs to the range
 
-    /// Returns false for NaN and infinities.
+    /// Returns whether the range holds a value; false for NaN and infinities.
     bool contains(double value) const;
     /// Returns the range in words: "> 0 and <= 90".
     std::string text() const;
@@ -58,13 +58,13 @@ struct Option {
     std::string name;  ///< as on the command line, without hyphens in front: "first-height"
     OptionKind kind;
     std::string metavar;  ///< what stands for the value in help: "H"
-    std::string help;     ///< what the option does, with unit
-    std::string range;    ///< the values it takes, in words; empty where the metavar says it
+    std::string help;     ///< one sentence on the option's effect, with its unit
+    std::string range;    ///< the values that it takes, in words; empty where the metavar says it
     /// Sets the option. Throws OptionError for values of the wrong kind or out of range.
     std::function<void(Options&, const OptionValue&)> set;
     /// Returns the value; empty where an option without default is not set.
     std::function<std::optional<OptionValue>(const Options&)> get;
-    std::string group = {};                  ///< heading in help and guide
+    std::string group = {};                  ///< heading in help and in the guide
     std::vector<std::string> excludes = {};  ///< names of options that may not be given beside this one
     std::vector<std::string> needs = {};     ///< names of options that must be given beside this one
     bool library_only = false;               ///< neither on the command line nor in case files
@@ -87,7 +87,8 @@ void require_in_range(const OptionTable<Options>& table, const Options& options)
     }
 }
 
-/// Returns the table of an options struct that holds another one: member(outer) is a reference to the inner struct.
+/// Returns the table of an inner options struct as rows for the struct that holds it; member(outer) returns a reference
+/// to the inner struct.
 template <class Outer, class Inner, class Member>
 OptionTable<Outer> nested_table(const OptionTable<Inner>& table, Member member) {
     OptionTable<Outer> result;

@@ -1,9 +1,8 @@
-// Builders for the rows of option tables. A builder takes the option's name, what help says of it, and member(options),
-// which returns a reference to what the option sets.
+// Builders for the rows of option tables. Each builder takes the option's name as on the command line, its text in
+// help, and member(options), which returns a reference to the member that the option sets.
 #pragma once
 
 #include <algorithm>
-#include <concepts>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,33 +12,36 @@
 
 namespace lamina {
 
-/// The word that stands for a number that lamina finds itself.
+/// The word for a number that lamina chooses itself.
 inline constexpr const char* auto_word = "auto";
 
-/// The words for the values of an enumeration.
+/// The values of an enumeration, each with its word.
 template <class Choice>
 using Choices = std::vector<std::pair<std::string, Choice>>;
 
-// Typed access to a value. All throw OptionError for values of another kind.
+// Typed access to the value of an option, whose key is `option` in messages. All throw OptionError for values of
+// another kind.
+
+/// Returns a number, which may have been written as a whole number.
 LAMINA_EXPORT double as_number(const OptionValue& value, const std::string& option);
 LAMINA_EXPORT std::int64_t as_count(const OptionValue& value, const std::string& option);
 LAMINA_EXPORT bool as_flag(const OptionValue& value, const std::string& option);
 LAMINA_EXPORT std::string as_word(const OptionValue& value, const std::string& option);
-/// A number will do for a word that may be one.
+/// Returns a word, or the text of a number, for words that may be numbers.
 LAMINA_EXPORT std::string as_word_or_number(const OptionValue& value, const std::string& option);
-/// One word will do for a list of one.
+/// Returns several words; a single word counts as a list of one.
 LAMINA_EXPORT std::vector<std::string> as_words(const OptionValue& value, const std::string& option);
 
 /// Throws OptionError where the range does not contain the value.
 LAMINA_EXPORT void require_in_range(const OptionRange& range, double value, const std::string& option);
 
-/// Makes the rows of one table, under one heading of the help at a time.
+/// Collects the rows of one table under one heading of the help.
 template <class Options>
 class OptionTableBuilder {
 public:
     explicit OptionTableBuilder(std::string group) : group_(std::move(group)) {}
 
-    /// A number; member(options) is a double or an optional of one.
+    /// Adds an option that takes a number; member(options) is a double or an optional of one.
     template <class Member>
     Option<Options>& number(const std::string& name, std::string metavar, std::string help, OptionRange range,
                             Member member) {
@@ -53,11 +55,11 @@ public:
         return add({name, OptionKind::number, std::move(metavar), std::move(help), range.text(), set, get});
     }
 
-    /// A whole number; member(options) is an integer or an optional of one.
+    /// Adds an option that takes a whole number; member(options) is an integer or an optional of one.
     template <class Member>
     Option<Options>& count(const std::string& name, std::string metavar, std::string help, OptionRange range,
                            Member member) {
-        using Number = decltype(plain(member(std::declval<Options&>())));
+        using Number = decltype(number_type(member(std::declval<Options&>())));
         const std::string key = option_key(name);
         const auto set = [=](Options& o, const OptionValue& value) {
             const std::int64_t number = as_count(value, key);
@@ -68,7 +70,7 @@ public:
         return add({name, OptionKind::count, std::move(metavar), std::move(help), range.text(), set, get});
     }
 
-    /// A whole number, or "auto", for which member(options) is an empty optional.
+    /// Adds an option that takes a whole number or "auto"; member(options) is an optional, empty for "auto".
     template <class Member>
     Option<Options>& count_or_auto(const std::string& name, const std::string& metavar, std::string help,
                                    OptionRange range, Member member) {
@@ -89,7 +91,7 @@ public:
         return option;
     }
 
-    /// A flag, which sets the member to `meaning` where it is given.
+    /// Adds a flag that sets the member to `meaning` where it is given.
     template <class Member>
     Option<Options>& flag(const std::string& name, std::string help, bool meaning, Member member) {
         const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
@@ -99,7 +101,7 @@ public:
         return add({name, OptionKind::flag, "", std::move(help), "", set, get});
     }
 
-    /// One word of several.
+    /// Adds an option that takes one of the words of `choices`; member(options) is of the enumeration.
     template <class Choice, class Member>
     Option<Options>& choice(const std::string& name, std::string help, const Choices<Choice>& choices, Member member) {
         std::string metavar;
@@ -121,7 +123,7 @@ public:
         return add({name, OptionKind::word, std::move(metavar), std::move(help), "", set, get});
     }
 
-    /// A text as it stands; empty by default.
+    /// Adds an option that takes a text as it is; member(options) is a string.
     template <class Member>
     Option<Options>& text(const std::string& name, OptionKind kind, std::string metavar, std::string help,
                           Member member) {
@@ -132,7 +134,7 @@ public:
         return add({name, kind, std::move(metavar), std::move(help), "", set, get});
     }
 
-    /// Several texts.
+    /// Adds an option that takes several texts; member(options) is a vector of strings.
     template <class Member>
     Option<Options>& list(const std::string& name, OptionKind kind, std::string metavar, std::string help,
                           Member member) {
@@ -143,8 +145,8 @@ public:
         return add({name, kind, std::move(metavar), std::move(help), "", set, get});
     }
 
-    /// A word with a grammar of its own: parse(text) throws UsageError with the bare reason, print(value) returns the
-    /// text; member(options) is an optional.
+    /// Adds an option that takes a word with a grammar of its own. parse(text) returns the value or throws UsageError
+    /// with the bare reason; print(value) returns the text that parse reads back; member(options) is an optional.
     template <class Parse, class Print, class Member>
     Option<Options>& spec(const std::string& name, std::string metavar, std::string help, Parse parse, Print print,
                           Member member) {
@@ -157,7 +159,7 @@ public:
         return add({name, OptionKind::word, std::move(metavar), std::move(help), "", set, get});
     }
 
-    /// Several such words; member(options) is a vector.
+    /// Adds an option that takes several words with a grammar as for spec(); member(options) is a vector.
     template <class Parse, class Print, class Member>
     Option<Options>& specs(const std::string& name, std::string metavar, std::string help, Parse parse, Print print,
                            Member member) {
@@ -173,23 +175,25 @@ public:
         return add({name, OptionKind::repeated, std::move(metavar), std::move(help), "", set, get});
     }
 
-    /// A row of any kind.
+    /// Adds a row that is complete but for its heading.
     Option<Options>& add(Option<Options> option) {
         option.group = group_;
         table_.push_back(std::move(option));
         return table_.back();
     }
 
+    /// Hands over the table.
     OptionTable<Options> take() { return std::move(table_); }
 
 private:
     std::string group_;
     OptionTable<Options> table_;
 
+    // Declared alone: the type of a number, or of the number in an optional.
     template <class Number>
-    static Number plain(Number);
+    static Number number_type(Number);
     template <class Number>
-    static Number plain(std::optional<Number>);
+    static Number number_type(std::optional<Number>);
 
     template <class As, class Member>
     static std::optional<OptionValue> value_of(const Member& member) {
@@ -219,7 +223,8 @@ private:
     }
 };
 
-/// The member at the end of a chain of pointers to members: member_at(&Case::options, &Options::layer).
+/// Returns a function that follows a chain of pointers to members: member_at(&Case::options, &Options::layer) returns a
+/// function from a case to its layer options.
 template <class... Members>
 auto member_at(Members... members) {
     return [members...](auto& options) -> auto& { return (options.*....*members); };

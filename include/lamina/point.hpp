@@ -1,5 +1,5 @@
-// Points of the plane and the few operations on them.
-// Lengths are in the units of the input everywhere; angles are in radians unless a name says _deg.
+// Points of the plane, vectors between them, and boxes. All lengths in lamina are in the units of the input; angles are
+// in radians unless a name ends in _deg.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 namespace lamina {
 
+/// A point of the plane, or the vector to it from the origin.
 struct Point {
     double x = 0;
     double y = 0;
@@ -19,26 +20,29 @@ constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 constexpr Point operator-(Point a) { return {-a.x, -a.y}; }
 constexpr Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
 
-/// Rounded, not exact: use orient2d() where a decision hangs on the sign.
+/// Returns the scalar product, rounded.
 constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+/// Returns the cross product, rounded. A decision that hangs on its sign needs orient2d().
 constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 constexpr double squared_length(Point a) { return dot(a, a); }
 inline double length(Point a) { return std::sqrt(squared_length(a)); }
 inline double distance(Point a, Point b) { return length(b - a); }
 constexpr Point midpoint(Point a, Point b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
-/// The vector turned by +90 degrees.
+/// Returns the vector turned by 90 degrees counter-clockwise.
 constexpr Point perpendicular(Point a) { return {-a.y, a.x}; }
-/// Precondition: a is not zero.
+/// Returns the vector scaled to length 1. Precondition: a is not zero.
 inline Point unit(Point a) { return (1.0 / length(a)) * a; }
 
-/// x first, then y: the total order that every tie rule in the program goes back to (docs/decisions/0001).
+/// Returns whether a comes before b in the order by x and then by y. Every tie rule of the program goes back to this
+/// total order (docs/decisions/0001).
 constexpr bool lexicographically_less(Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
-/// Axis-parallel box; empty when lower > upper.
+/// An axis-parallel box that includes its border. It is empty, as a new box is, where lower exceeds upper.
 struct Box {
     Point lower{HUGE_VAL, HUGE_VAL};
     Point upper{-HUGE_VAL, -HUGE_VAL};
 
+    /// Enlarges the box to hold a point.
     constexpr void include(Point p) {
         lower = {p.x < lower.x ? p.x : lower.x, p.y < lower.y ? p.y : lower.y};
         upper = {p.x > upper.x ? p.x : upper.x, p.y > upper.y ? p.y : upper.y};
@@ -49,12 +53,12 @@ struct Box {
     constexpr bool overlaps(const Box& o) const {
         return lower.x <= o.upper.x && o.lower.x <= upper.x && lower.y <= o.upper.y && o.lower.y <= upper.y;
     }
-    /// Empty where they do not overlap.
+    /// Returns the common part of two boxes, which is empty where they do not overlap.
     constexpr Box intersection(const Box& o) const {
         return {{std::max(lower.x, o.lower.x), std::max(lower.y, o.lower.y)},
                 {std::min(upper.x, o.upper.x), std::min(upper.y, o.upper.y)}};
     }
-    /// Counter-clockwise, from the lower left one.
+    /// Returns the corners counter-clockwise, from the lower left one on.
     constexpr std::array<Point, 4> corners() const { return {lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}; }
     constexpr double width() const { return upper.x - lower.x; }
     constexpr double height() const { return upper.y - lower.y; }

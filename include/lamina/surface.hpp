@@ -10,7 +10,7 @@
 
 namespace lamina {
 
-/// What becomes of the given points.
+/// The ways to treat the given points.
 enum class Surface {
     automatic,  ///< coarse samples of a smooth curve are resampled; all other elements are kept
     keep,       ///< kept exactly
@@ -22,7 +22,7 @@ struct SurfaceOptions {
     Surface surface = Surface::automatic;
     /// Wall vertices per element, about; all spacings below keep their proportions. Makes `automatic` resample.
     std::optional<std::size_t> points{};
-    /// The points are smoothed first, each moved by at most this many units of the input.
+    /// The points are smoothed first; each moves by at most this many units of the input. Empty: no smoothing.
     std::optional<double> smooth{};
     double max_turning_deg = 10;  ///< largest turning at a vertex between two corners
     double max_ratio = 1.2;       ///< largest ratio of neighbouring spacings, where none is below min_spacing
@@ -40,20 +40,21 @@ LAMINA_EXPORT const OptionTable<SurfaceOptions>& surface_option_table();
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const SurfaceOptions& options);
 
-/// What the layer over a wall asks of the wall's spacing, beyond the options of the surface: the stricter one holds.
+/// Limits on the spacing of a wall that come from the layer over it. They hold beside the options of the surface; the
+/// stricter limit wins.
 struct SpacingLimits {
-    double max_turning_deg = HUGE_VAL;
-    double gradation = HUGE_VAL;
+    double max_turning_deg = HUGE_VAL;  ///< as in SurfaceOptions
+    double gradation = HUGE_VAL;        ///< as in SurfaceOptions
     /// Length, in units of the input, of the layer's border edges over the fan of rays at sharp corners. The spacing at
     /// sharp corners equals it, between a quarter of sharp_corner_spacing and corner_spacing.
     std::optional<double> fan_spacing{};
 };
 
-/// Keeps or resamples each element, as the options say, and finds its features. Element::surface_notes tells which and
-/// why. Resampling puts a cubic spline, parametrised by chord length, through the points between corners and divides it
-/// into a whole number of edges that take equal shares of the integral of ds / spacing; corners stay vertices exactly.
-/// An element whose resampled outline would cross itself or another one is kept as given. Mirrored or reversed input
-/// gives mirrored points, up to rounding.
+/// Keeps or resamples each element, as the options say, and finds its features. Element::surface_notes tells which of
+/// the two was done, and why. Resampling puts a cubic spline, parametrised by chord length, through the points between
+/// corners and divides it into a whole number of edges that take equal shares of the integral of ds / spacing; corners
+/// stay vertices exactly. An element whose resampled outline would cross itself or another one is kept as given.
+/// Mirrored or reversed input gives mirrored points, up to rounding.
 /// Precondition: check_simple(); the result passes it, too. Throws OptionError for options out of range.
 /// Source: J. F. Thompson, B. K. Soni, N. P. Weatherill, Handbook of Grid Generation (1999), chapters 3 and 30; C. de
 /// Boor, A Practical Guide to Splines (1978), chapter 4.
@@ -68,10 +69,10 @@ struct ElementSummary {
     double perimeter = 0;
     double min_spacing = 0;
     double max_spacing = 0;
-    double max_spacing_ratio = 0;  ///< of neighbouring edges
-    double max_turning_deg = 0;    ///< largest exterior angle
-    Point max_turning_at;
-    std::size_t sharp_corners = 0;  ///< convex vertices that turn by more than sharp_corner_deg
+    double max_spacing_ratio = 0;   ///< largest ratio of the lengths of neighbouring edges
+    double max_turning_deg = 0;     ///< largest exterior angle
+    Point max_turning_at;           ///< a vertex with that angle
+    std::size_t sharp_corners = 0;  ///< number of convex vertices that turn by more than sharp_corner_deg
     Point trailing_edge;            ///< as in OutlineFeatures
     bool blunt_trailing_edge = false;
 };
@@ -79,7 +80,7 @@ struct ElementSummary {
 /// Measures an element.
 LAMINA_EXPORT ElementSummary summarize(const Element& element);
 
-/// Returns what was read, mended and found, element by element, as several lines of text (`lamina info`).
+/// Returns several lines of text on each element: its source, its measures, its repairs and notes (`lamina info`).
 LAMINA_EXPORT std::string describe(const Geometry& geometry);
 
 }  // namespace lamina

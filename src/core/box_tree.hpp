@@ -1,7 +1,10 @@
-// Bounding boxes of an ordered sequence of items, in a tree of fixed arity: finds what overlaps a box, or the least of
-// (value + slope x distance). Items that follow each other along a curve lie close together, so groups of consecutive
-// items make tight boxes and no sorting is needed; unlike a uniform grid it does not care about graded spacing.
-// Source: bounding volume hierarchies, e.g. C. Ericson, Real-Time Collision Detection (2005), chapter 6.
+// A tree of bounding boxes over an ordered sequence of items. It finds the items whose boxes overlap a box or each
+// other, and the minimum of (value + slope x distance) over the items. Consecutive items of a curve lie close together,
+// so that groups of consecutive items have tight boxes: the items need no sorting and, unlike for a uniform grid, may
+// be graded in any way.
+// Source: bounding volume hierarchies, e.g. C. Ericson, Real-Time Collision Detection (2005), chapter 6; a tree
+// searched against itself: G. Barequet et al., BOXTREE: a hierarchical representation for surfaces in 3D, Comput.
+// Graph. Forum 15 (1996).
 #pragma once
 
 #include <algorithm>
@@ -14,6 +17,7 @@
 
 namespace lamina::core {
 
+/// Returns the squared distance from a point to a box, 0 inside it.
 inline double squared_distance(const Box& box, Point p) {
     const double dx = std::max({box.lower.x - p.x, 0.0, p.x - box.upper.x});
     const double dy = std::max({box.lower.y - p.y, 0.0, p.y - box.upper.y});
@@ -35,48 +39,60 @@ public:
         }
     }
 
-    /// Calls visit(item) for each item whose box overlaps the query.
+    /// Calls visit(item) for each item whose box overlaps the query, in ascending order.
     template <class Visit>
     void overlaps(const Box& query, Visit&& visit) const {
         walk([&](const Box& box, std::size_t, std::size_t) { return box.overlaps(query); }, visit);
     }
 
-    /// Least value of each group of items on every level, for minimum().
-    std::vector<std::vector<double>> group_minima(std::vector<double> values) const {
-        std::vector<std::vector<double>> least{std::move(values)};
-        for (std::size_t level = 1; level < levels_.size(); ++level) {
-            std::vector<double> up(levels_[level].size(), HUGE_VAL);
-            for (std::size_t i = 0; i < least.back().size(); ++i)
-                up[i / arity] = std::min(up[i / arity], least.back()[i]);
-            least.push_back(std::move(up));
-        }
-        return least;
+    /// Calls visit(i, j), i < j, once for each pair of items whose boxes overlap. The order of the calls depends on the
+    /// items alone: the pairs within the first half of a group of 2^k items, then those within the second half, then
+    /// those across. On real outlines the number of pairs of groups that are compared is O(n), since neighbouring
+    /// groups touch at one point only.
+    template <class Visit>
+    void overlapping_pairs(Visit&& visit) const {
+        pairs_within(levels_.size() - 1, 0, visit);
     }
 
-    /// min(start, min over items of value + slope x distance(item, p)); `exact(item)` gives the distance to an item.
+    /// Returns the smallest value of each group of items on every level, from the values of the items: the argument of
+    /// minimum().
+    std::vector<std::vector<double>> group_minima(std::vector<double> values) const {
+        std::vector<std::vector<double>> minima{std::move(values)};
+        for (std::size_t level = 1; level < levels_.size(); ++level) {
+            std::vector<double> above(levels_[level].size(), HUGE_VAL);
+            for (std::size_t i = 0; i < minima.back().size(); ++i)
+                above[i / arity] = std::min(above[i / arity], minima.back()[i]);
+            minima.push_back(std::move(above));
+        }
+        return minima;
+    }
+
+    /// Returns min(start, minimum over the items of value + slope x distance to p). distance(item) returns the distance
+    /// from p to an item, which may not be less than that to its box.
     template <class Distance>
     double minimum(Point p, double slope, double start, const std::vector<std::vector<double>>& values,
-                 Distance&& exact) const {
+                   Distance&& distance) const {
         double best = start;
         walk(
             [&](const Box& box, std::size_t level, std::size_t i) {
                 const double room = best - values[level][i];
                 return room > 0 && slope * slope * squared_distance(box, p) < room * room;
             },
-            [&](std::size_t item) { best = std::min(best, values[0][item] + slope * exact(item)); });
+            [&](std::size_t item) { best = std::min(best, values[0][item] + slope * distance(item)); });
         return best;
     }
 
 private:
     static constexpr std::size_t arity = 4;
-    std::vector<std::vector<Box>> levels_;  ///< items first, the coarsest groups (at most `arity`) last
+    std::vector<std::vector<Box>> levels_;  ///< items first, the largest groups (at most `arity`) last
 
+    /// Calls visit(item) for the items of all groups that enter(box, level, index) lets in, in ascending order.
     template <class Enter, class Visit>
     void walk(Enter&& enter, Visit&& visit) const {
         struct Group {
             std::size_t level, index;
         };
-        // Depth at most 16 for 2^32 items; each level leaves at most arity - 1 siblings waiting.
+        // The depth is at most 16 for 2^32 items; each level leaves at most arity - 1 siblings waiting.
         std::array<Group, 16 * arity> stack;
         std::size_t waiting = 0;
         const auto push_all = [&](std::size_t level, std::size_t first) {
@@ -91,6 +107,64 @@ private:
             } else {
                 push_all(group.level - 1, group.index * arity);
             }
+        }
+    }
+
+    /// Two children, by their numbers within their groups.
+    struct ChildPair {
+        std::size_t first, second;
+    };
+
+    /// Visits the overlapping pairs among the items of the children of a group, which lie on `level` from index arity x
+    /// group on.
+    template <class Visit>
+    void pairs_within(std::size_t level, std::size_t group, Visit&& visit) const {
+        // The order of a binary tree: within the first two children, within the last two, across.
+        static constexpr std::array<ChildPair, 10> order{
+            {{0, 0}, {1, 1}, {0, 1}, {2, 2}, {3, 3}, {2, 3}, {0, 2}, {0, 3}, {1, 2}, {1, 3}}};
+        static_assert(arity == 4);
+        const std::size_t first = arity * group;
+        for (const ChildPair pair : order) {
+            const std::size_t a = first + pair.first, b = first + pair.second;
+            if (b >= levels_[level].size()) continue;
+            if (a != b) {
+                pairs_between(level, a, b, visit);
+            } else if (level > 0) {
+                pairs_within(level - 1, a, visit);
+            }
+        }
+    }
+
+    /// Visits the overlapping pairs of an item of group a and an item of group b, both on `level`.
+    template <class Visit>
+    void pairs_between(std::size_t level, std::size_t a, std::size_t b, Visit&& visit) const {
+        if (!levels_[level][a].overlaps(levels_[level][b])) return;
+        if (level == 0) {
+            visit(a, b);
+            return;
+        }
+        // The order of a binary tree: first half with first, first with second, second with first, second with second.
+        static constexpr std::array<ChildPair, 16> order{{{0, 0},
+                                                          {0, 1},
+                                                          {1, 0},
+                                                          {1, 1},
+                                                          {0, 2},
+                                                          {0, 3},
+                                                          {1, 2},
+                                                          {1, 3},
+                                                          {2, 0},
+                                                          {2, 1},
+                                                          {3, 0},
+                                                          {3, 1},
+                                                          {2, 2},
+                                                          {2, 3},
+                                                          {3, 2},
+                                                          {3, 3}}};
+        static_assert(arity == 4);
+        for (const ChildPair pair : order) {
+            const std::size_t child_a = arity * a + pair.first, child_b = arity * b + pair.second;
+            if (std::max(child_a, child_b) < levels_[level - 1].size())
+                pairs_between(level - 1, child_a, child_b, visit);
         }
     }
 };

@@ -9,7 +9,8 @@ namespace lamina::core {
 
 namespace {
 
-/// Joins place and reason to one line, whatever a damaged file made the reason quote.
+/// Returns the place and the reason as one line. Control characters, which a reason may quote from a damaged file,
+/// become question marks.
 std::string describe(const InputPlace& place, const std::string& reason) {
     std::string text;
     if (!place.file.empty()) text += place.file + ":";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <lamina/option_builders.hpp>
+
 #include "core/text.hpp"
 
 namespace lamina {
@@ -14,12 +15,12 @@ std::string option_key(const std::string& name) {
 }
 
 bool OptionRange::contains(double value) const {
-    const bool above = with_lower ? value >= lower : value > lower;
+    const bool above = includes_lower ? value >= lower : value > lower;
     return std::isfinite(value) && above && value <= upper;
 }
 
 std::string OptionRange::text() const {
-    const std::string from = core::concat(with_lower ? ">= " : "> ", lower);
+    const std::string from = core::concat(includes_lower ? ">= " : "> ", lower);
     return std::isinf(upper) ? from : core::concat(from, " and <= ", upper);
 }
 

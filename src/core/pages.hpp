@@ -1,4 +1,4 @@
-// Memory that is done with but not yet freed, given back to the system page by page.
+// Memory that is no longer used but not yet freed, given back to the system page by page.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace lamina::core {
 
-/// The whole pages within [data, data + bytes) become free memory; what they held is lost and must not be read again.
-/// The allocation itself stays valid and is freed as usual. Does nothing where the system offers no such call.
+/// Gives the whole pages within [data, data + bytes) back to the system. Their contents are lost and must not be read
+/// again; the allocation itself stays valid and is freed as usual. Does nothing on systems without such a call.
 LAMINA_EXPORT void give_back_pages(void* data, std::size_t bytes);
 
 }  // namespace lamina::core

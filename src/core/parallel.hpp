@@ -1,6 +1,6 @@
-// Parallel loops and tasks. This header and parallel_tbb.cpp are the only code that knows the thread library. Callers
-// ask for blocks of work and combine the results in the order of the blocks, so that no result depends on the number of
-// threads or on their timing.
+// Parallel loops and tasks. parallel_tbb.cpp implements them on a thread library, which no other code knows;
+// parallel_none.cpp implements them without one. Callers divide work into blocks and combine the results in the order
+// of the blocks, so that no result depends on the number of threads or on their timing.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace lamina::core {
 
 /// Calls f(begin, end) for the blocks [0, grain), [grain, 2 grain), ... of [0, n). The blocks depend on n and grain
 /// alone. They are started in ascending order, each on the next free thread, so callers put the largest jobs first.
-/// When calls throw, no further block is started and the exception of the lowest failing block is rethrown. Calls may
-/// nest. Precondition: grain > 0.
+/// Once a call throws, no further block is started, and the exception of the first block in order that failed is
+/// rethrown. Calls may nest. Precondition: grain > 0.
 LAMINA_EXPORT void parallel_for(std::size_t n, std::size_t grain,
                                 const std::function<void(std::size_t, std::size_t)>& f);
 
-/// Calls f(begin, end) for the blocks of parallel_for() and returns the results in the order of the blocks. Callers
-/// reduce them from front to back. Precondition: the result type is default-constructible.
+/// Calls f(begin, end) for the blocks of parallel_for() and returns the results in the order of the blocks, in which
+/// callers combine them. Precondition: the result type is default-constructible.
 template <class F>
 auto parallel_blocks(std::size_t n, std::size_t grain, F&& f) {
     std::vector<decltype(f(n, n))> results((n + grain - 1) / grain);
@@ -29,7 +29,7 @@ auto parallel_blocks(std::size_t n, std::size_t grain, F&& f) {
     return results;
 }
 
-/// Calls f and g, at the same time where a second thread is free, and returns when both have ended. When both throw,
+/// Calls f and g, at the same time where a second thread is free, and returns when both have ended. Where both throw,
 /// the exception of f is rethrown. Calls may nest: a task that divides itself calls this function for its parts.
 LAMINA_EXPORT void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g);
 

@@ -1,19 +1,12 @@
-// The build without a thread library (LAMINA_THREADS=none): every block and task runs on the calling thread, in the
-// order in which several threads would start them. Results are the same, since none depends on the number of threads.
+// Parallel loops and tasks without a thread library (LAMINA_THREADS=none): every block and task runs on the calling
+// thread, in the order in which several threads would start them. Results are the same, since they never depend on the
+// number of threads.
+#include "core/parallel.hpp"
+
 #include <cassert>
 #include <exception>
 
 #include <lamina/threads.hpp>
-
-#include "core/parallel.hpp"
-
-namespace lamina {
-
-void with_threads(unsigned, const std::function<void()>& f) { f(); }
-
-unsigned thread_count() { return 1; }
-
-}  // namespace lamina
 
 namespace lamina::core {
 
@@ -36,3 +29,11 @@ void parallel_invoke(const std::function<void()>& f, const std::function<void()>
 unsigned thread_index() { return 0; }
 
 }  // namespace lamina::core
+
+namespace lamina {
+
+void with_threads(unsigned, const std::function<void()>& f) { f(); }
+
+unsigned thread_count() { return 1; }
+
+}  // namespace lamina

@@ -1,15 +1,22 @@
+// Parallel loops and tasks on oneTBB (LAMINA_THREADS=tbb).
+//
+// Several places below store an atomic variable with release order before work is handed to the scheduler and load it
+// with acquire order in the work, and the other way round at its end. The scheduler itself orders memory like that, but
+// the thread sanitizer does not know the scheduler; it does understand these atomics.
 #include "core/parallel.hpp"
-
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_invoke.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
 #include <cassert>
 #include <exception>
 #include <mutex>
 #include <thread>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <lamina/threads.hpp>
 
 namespace lamina::core {
 
@@ -23,12 +30,11 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
         return;
     }
 
-    // Every block below a failing one has been started already, so the lowest failure does not depend on timing.
+    // Blocks start in ascending order, so all blocks before a failing one have started, and which block fails first in
+    // order does not depend on timing.
     std::atomic<std::size_t> next, finished;
-    // What the caller wrote happens before the workers' part, and that before the return. The scheduler sees to that;
-    // said once more with `next` and `finished` for the thread sanitizer, which does not know the scheduler.
     finished.store(0, std::memory_order_relaxed);
-    next.store(0, std::memory_order_release);
+    next.store(0, std::memory_order_release);  // for the thread sanitizer, as all orders below
     std::mutex failure_mutex;
     std::size_t failed_block = blocks;
     std::exception_ptr failure;
@@ -66,8 +72,7 @@ void parallel_invoke(const std::function<void()>& f, const std::function<void()>
         guarded(f, f_failure);
         guarded(g, g_failure);
     } else {
-        // Said to the thread sanitizer as in parallel_for().
-        std::atomic<int> finished;
+        std::atomic<int> finished;  // for the thread sanitizer
         finished.store(0, std::memory_order_release);
         const auto run = [&](const std::function<void()>& task, std::exception_ptr& failure) {
             if (finished.load(std::memory_order_acquire) <= 1) guarded(task, failure);
@@ -93,11 +98,10 @@ namespace lamina {
 void with_threads(unsigned threads, const std::function<void()>& f) {
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
     if (threads == 0) threads = cores;
-    // By itself the library never starts more threads than there are cores.
+    // Without this the thread library never starts more threads than there are cores.
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(threads, cores));
     tbb::task_arena arena(static_cast<int>(threads));
-    // The scheduler may hand f to another thread: see parallel_for().
-    std::atomic<bool> handed_over, returned;
+    std::atomic<bool> handed_over, returned;  // for the thread sanitizer: f may run on another thread
     returned.store(false, std::memory_order_relaxed);
     handed_over.store(true, std::memory_order_release);
     arena.execute([&] {

@@ -1,16 +1,19 @@
-// Exact predicates.
-// Source: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
-// Discrete & Computational Geometry 18 (1997): expansions, error bounds, stages. Section numbers below are his.
+// The exact stages of the predicates.
+// Source: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, Discrete &
+// Computational Geometry 18 (1997): expansions, error bounds, stages. Section numbers below refer to it.
 //
-// Why the range of coordinates is enough. A coordinate of magnitude in [1e-60, 1e60] is a multiple of
-// u = 2^-252 (1e-60 > 2^-200, less 52 bits) below 2^200. So are sums and differences and all their round-off (below
-// 2^201); the two halves of a split number are multiples of the same unit as the number itself. Every value met in a
-// product of k differences, round-off included, is hence a multiple of u^k: for k = 4 of 2^-1008, which is above the
-// smallest subnormal number 2^-1074, so no round-off is ever lost. Upwards, the largest determinant is below
-// 6 * 2 * 2^(4 * 201) < 2^808, and splitting multiplies by 2^27 at most: far below 2^1024.
-// The error bounds themselves (2^-53 and 2^-106 times a permanent) might underflow only where the permanent is below
-// 2^-955 or so; then it holds less than 53 bits over its unit, every operation under it was exact, and so were the
-// differences (an inexact one is at least 2^-199, its square times two other differences at least 2^-902).
+// Nothing over- or underflows in the range of coordinates that lamina accepts (predicates.hpp):
+// - A coordinate of magnitude in [1e-60, 1e60] is below 2^200 and a multiple of u = 2^-252, since 1e-60 > 2^-200 and a
+//   double has 52 bits below its first one. Sums, differences and their round-off are multiples of u, too, and below
+//   2^201. The two halves of a split number are multiples of the same unit as the number itself. Every value in a
+//   product of k differences, round-off included, is hence a multiple of u^k. For k = 4 this is 2^-1008, which is above
+//   the smallest subnormal number 2^-1074, so that no round-off is ever lost.
+// - The largest determinant is below 6 * 2 * 2^(4 * 201) < 2^808, and splitting multiplies by 2^27 at most, which is
+//   far below 2^1024.
+// - The error bounds themselves (2^-53 and 2^-106 times a permanent) might underflow only where the permanent is below
+//   about 2^-955. Such a permanent holds less than 53 bits over its unit, so every operation under it was exact. So
+//   were the differences: an inexact one is at least 2^-199, and its square times two other differences at least
+//   2^-902.
 
 #include "core/predicates.hpp"
 
@@ -26,51 +29,54 @@ namespace lamina::core {
 
 namespace {
 
-// Error bounds of the later stages (4.3 and 4.4), to be multiplied by the permanent: B after the exact determinant of
-// the rounded differences, C after the first-order correction by their tails.
+// Error bounds of the later stages (sections 4.3 and 4.4), as multiples of the permanent. Bound B holds for the exact
+// determinant of the rounded differences, bound C after its first-order correction by the tails of the differences.
 constexpr double result_bound = (3 + 8 * epsilon) * epsilon;
 constexpr double orient2d_bound_b = (2 + 12 * epsilon) * epsilon;
 constexpr double orient2d_bound_c = (9 + 64 * epsilon) * epsilon * epsilon;
 constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
 constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
 
-// head + tail is the exact result of an operation, head the rounded one.
-struct Two {
+/// The exact result of an operation, head + tail, where head is the rounded result.
+struct HeadTail {
     double head, tail;
 };
 
-// Precondition: |a| >= |b| or a == 0.
-inline Two fast_two_sum(double a, double b) {
+/// Returns a + b.
+/// Precondition: |a| >= |b| or a == 0.
+inline HeadTail fast_two_sum(double a, double b) {
     const double head = a + b;
     return {head, b - (head - a)};
 }
 
-inline Two two_sum(double a, double b) {
+inline HeadTail two_sum(double a, double b) {
     const double head = a + b;
     const double b_seen = head - a;
     const double a_seen = head - b_seen;
     return {head, (a - a_seen) + (b - b_seen)};
 }
 
-inline Two two_diff(double a, double b) { return two_sum(a, -b); }
+inline HeadTail two_diff(double a, double b) { return two_sum(a, -b); }
 
-// Two halves of 26 bits, whose products are exact (Dekker): fused multiply-add is not part of baseline x86-64.
-inline Two split(double a) {
+/// Returns a as two halves of 26 bits, whose products are exact (Dekker). Fused multiply-add would be simpler, but is
+/// not part of baseline x86-64.
+inline HeadTail split(double a) {
     const double c = 0x1.0000002p27 * a;
     const double high = c - (c - a);
     return {high, a - high};
 }
 
-inline Two two_product(double a, Two a_halves, double b, Two b_halves) {
+inline HeadTail two_product(double a, HeadTail a_halves, double b, HeadTail b_halves) {
     const double head = a * b;
     const double error =
         ((head - a_halves.head * b_halves.head) - a_halves.tail * b_halves.head) - a_halves.head * b_halves.tail;
     return {head, a_halves.tail * b_halves.tail - error};
 }
 
-inline Two two_product(double a, double b) { return two_product(a, split(a), b, split(b)); }
+inline HeadTail two_product(double a, double b) { return two_product(a, split(a), b, split(b)); }
 
-// A sum of doubles that do not overlap, of growing magnitude, without zeros: the last one has the sign of the sum.
+/// A sum of doubles that do not overlap, in ascending order of magnitude and without zeros. The last one has the sign
+/// of the sum.
 template <int Capacity>
 struct Expansion {
     int size = 0;
@@ -79,7 +85,9 @@ struct Expansion {
     void push(double x) {
         if (x != 0) part[size++] = x;
     }
+    /// Returns a number with the sign of the sum.
     double sign() const { return size == 0 ? 0.0 : part[size - 1]; }
+    /// Returns the rounded sum.
     double estimate() const {
         double sum = 0;
         for (int i = 0; i < size; ++i) sum += part[i];
@@ -87,14 +95,15 @@ struct Expansion {
     }
 };
 
-inline Expansion<2> expansion(Two a) {
+inline Expansion<2> expansion(HeadTail a) {
     Expansion<2> result;
     result.push(a.tail);
     result.push(a.head);
     return result;
 }
 
-// Fast expansion sum (2.4), zeros left out: merge by magnitude, then one sweep.
+/// Returns the sum by FAST-EXPANSION-SUM (section 2.4): both expansions are merged by magnitude and summed in one
+/// sweep. Zeros are left out.
 template <int M, int N>
 Expansion<M + N> operator+(const Expansion<M>& e, const Expansion<N>& f) {
     Expansion<M + N> h;
@@ -111,7 +120,7 @@ Expansion<M + N> operator+(const Expansion<M>& e, const Expansion<N>& f) {
     };
     double q = next();
     for (int k = 1; k < e.size + f.size; ++k) {
-        const Two s = two_sum(q, next());
+        const HeadTail s = two_sum(q, next());
         h.push(s.tail);
         q = s.head;
     }
@@ -119,20 +128,20 @@ Expansion<M + N> operator+(const Expansion<M>& e, const Expansion<N>& f) {
     return h;
 }
 
-// Scale expansion (2.5), zeros left out.
+/// Returns the product by SCALE-EXPANSION (section 2.5). Zeros are left out.
 template <int N>
 Expansion<2 * N> operator*(const Expansion<N>& e, double b) {
     Expansion<2 * N> h;
     if (e.size == 0 || b == 0) return h;
-    const Two b_halves = split(b);
-    Two p = two_product(e.part[0], split(e.part[0]), b, b_halves);
+    const HeadTail b_halves = split(b);
+    HeadTail p = two_product(e.part[0], split(e.part[0]), b, b_halves);
     h.push(p.tail);
     double q = p.head;
     for (int i = 1; i < e.size; ++i) {
         p = two_product(e.part[i], split(e.part[i]), b, b_halves);
-        const Two low = two_sum(q, p.tail);
+        const HeadTail low = two_sum(q, p.tail);
         h.push(low.tail);
-        const Two high = fast_two_sum(p.head, low.head);
+        const HeadTail high = fast_two_sum(p.head, low.head);
         h.push(high.tail);
         q = high.head;
     }
@@ -150,7 +159,7 @@ template <int M, int N>
 Expansion<2 * M * N> operator*(const Expansion<M>& e, const Expansion<N>& f) {
     if constexpr (N == 1) {
         return e * (f.size == 0 ? 0.0 : f.part[0]);
-    } else {  // halves, so that partial sums stay short
+    } else {  // f is halved, so that partial sums stay short
         Expansion<N / 2> low;
         Expansion<N - N / 2> high;
         const int half = std::min(f.size / 2, N / 2);
@@ -160,59 +169,62 @@ Expansion<2 * M * N> operator*(const Expansion<M>& e, const Expansion<N>& f) {
     }
 }
 
-// a b - c d of rounded factors.
+/// Returns a b - c d, exactly.
 inline Expansion<4> cross_expansion(double a, double b, double c, double d) {
     return expansion(two_product(a, b)) + expansion(two_product(-c, d));
 }
 
-// a b - c d of exact differences.
-inline Expansion<16> cross_expansion(const Two& a, const Two& b, const Two& c, const Two& d) {
+/// Returns a b - c d for factors with tails, exactly.
+inline Expansion<16> cross_expansion(const HeadTail& a, const HeadTail& b, const HeadTail& c, const HeadTail& d) {
     return expansion(a) * expansion(b) + -(expansion(c) * expansion(d));
 }
 
-// A coordinate difference with its round-off.
+/// The difference of two points with its round-off.
 struct Difference {
-    Two x, y;
+    HeadTail x, y;
+    /// Returns whether rounding changed nothing.
     bool exact() const { return x.tail == 0 && y.tail == 0; }
 };
 
 inline Difference difference(Point a, Point b) { return {two_diff(a.x, b.x), two_diff(a.y, b.y)}; }
 
-// (x^2 + y^2) m for rounded x, y.
+/// Returns (x^2 + y^2) m for the rounded difference.
 inline Expansion<32> lifted(const Difference& p, const Expansion<4>& m) {
     return m * p.x.head * p.x.head + m * p.y.head * p.y.head;
 }
 
-// (x^2 + y^2) m for exact differences.
+/// Returns (x^2 + y^2) m for the exact difference.
 Expansion<512> lifted(const Difference& p, const Expansion<16>& m) {
     const Expansion<2> x = expansion(p.x), y = expansion(p.y);
     return m * (x * x + y * y);
 }
 
-// The first-order change of the two factors of one term of incircle's determinant by the tails of a, b, c.
+/// Returns the first-order change of one term of the determinant of incircle() by the tails of a, b, c.
 inline double first_order(const Difference& a, const Difference& b, const Difference& c) {
     return (a.x.head * a.x.head + a.y.head * a.y.head) *
                ((b.x.head * c.y.tail + c.y.head * b.x.tail) - (b.y.head * c.x.tail + c.x.head * b.y.tail)) +
            2.0 * (a.x.head * a.x.tail + a.y.head * a.y.tail) * (b.x.head * c.y.head - b.y.head * c.x.head);
 }
 
-// The stage between filter and expansions. Points of a mesh lie so close together that their differences, round-off
-// included, are integers below 2^61 in some common unit: then 256-bit integers decide exactly, at a quarter of the cost
-// of expansions. Lattices and layers come here by the hundred thousand.
+// A stage between the filter and the expansions. Points of a mesh often lie so close together that their differences,
+// round-off included, are integers below 2^61 in a common unit. Then 256-bit integers decide exactly, at a quarter of
+// the cost of expansions. Lattices and layers need this stage some hundred thousand times.
 __extension__ using Int128 = __int128;
 __extension__ using Unsigned128 = unsigned __int128;
 
-/// The differences in units of 2^-60 times the power of two below the largest. False where one is no integer.
+/// Converts differences to integers, in units of 2^-60 times the power of two below the largest difference. Returns
+/// false where one of them is not an integer.
 template <std::size_t N>
-bool to_integers(const std::array<Two, N>& differences, std::array<std::int64_t, N>& integers) {
+bool to_integers(const std::array<HeadTail, N>& differences, std::array<std::int64_t, N>& integers) {
     double largest = 0;
-    for (const Two& d : differences) largest = std::max(largest, std::abs(d.head));
+    for (const HeadTail& d : differences) largest = std::max(largest, std::abs(d.head));
     if (largest == 0) {
         integers.fill(0);
         return true;
     }
     constexpr std::uint64_t bias = 1023, mantissa_bits = 52;
-    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(largest) >> mantissa_bits;  // biased, far from its ends
+    // The biased exponent; the range of coordinates keeps it far from its ends.
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(largest) >> mantissa_bits;
     const double scale = std::bit_cast<double>((2 * bias + 60 - exponent) << mantissa_bits);
     bool exact = true;
     for (std::size_t i = 0; i < N; ++i) {
@@ -251,7 +263,7 @@ private:
     Unsigned128 low_ = 0;
 };
 
-/// Sets sign and returns true where the differences are integers.
+/// Sets `sign` to that of incircle() and returns true where the differences are integers; else returns false.
 bool incircle_integer(const Difference& a, const Difference& b, const Difference& c, double& sign) {
     std::array<std::int64_t, 6> i;
     if (!to_integers<6>({a.x, a.y, b.x, b.y, c.x, c.y}, i)) return false;
@@ -279,10 +291,10 @@ double incircle_adaptive(Point pa, Point pb, Point pc, Point pd) {
     const auto term = [](const Difference& p, const Difference& q, const Difference& r) {
         return lifted(p, cross_expansion(q.x.head, r.y.head, r.x.head, q.y.head));
     };
-    const Expansion<96> of_heads = term(a, b, c) + term(b, c, a) + term(c, a, b);
-    if (a.exact() && b.exact() && c.exact()) return of_heads.sign();
+    const Expansion<96> det_of_heads = term(a, b, c) + term(b, c, a) + term(c, a, b);
+    if (a.exact() && b.exact() && c.exact()) return det_of_heads.sign();
 
-    double det = of_heads.estimate();
+    double det = det_of_heads.estimate();
     const double permanent = rounded_incircle(pa, pb, pc, pd).permanent;
     if (std::abs(det) > incircle_bound_b * permanent) return det;
     const double error = incircle_bound_c * permanent + result_bound * std::abs(det);
@@ -291,8 +303,8 @@ double incircle_adaptive(Point pa, Point pb, Point pc, Point pd) {
     return incircle_exact(a, b, c);
 }
 
-// The sign of the determinant's change where the point `index` of a, b, c, d (rows) is lowered: minus its cofactor in
-// the column of heights.
+/// Returns a number whose sign is that of the change of the determinant of incircle() where the point `index` of a, b,
+/// c, d is lowered: minus the point's cofactor in the column of heights.
 double change_by_lowering(int index, const std::array<Point, 4>& p) {
     switch (index) {
         case 0:
@@ -306,12 +318,14 @@ double change_by_lowering(int index, const std::array<Point, 4>& p) {
     }
 }
 
-// Each height is lowered by an infinitesimal, the lexicographically smallest point's beyond all others: the first
-// coefficient that is not 0 decides. Of four distinct cocircular points no three are collinear, so it is the first.
+/// Returns a number whose sign is that of incircle_perturbed() for cocircular points. In lexicographical order, each
+/// point is lowered by an infinitesimal beyond those of all later points, so that the first cofactor that is not 0
+/// decides. This is the cofactor of the smallest point, since no three of four distinct cocircular points are
+/// collinear.
 double break_tie(const std::array<Point, 4>& p) {
-    const int of_ab = lexicographically_less(p[1], p[0]) ? 1 : 0;
-    const int of_cd = lexicographically_less(p[3], p[2]) ? 3 : 2;
-    const int smallest = lexicographically_less(p[of_cd], p[of_ab]) ? of_cd : of_ab;
+    const int smaller_ab = lexicographically_less(p[1], p[0]) ? 1 : 0;
+    const int smaller_cd = lexicographically_less(p[3], p[2]) ? 3 : 2;
+    const int smallest = lexicographically_less(p[smaller_cd], p[smaller_ab]) ? smaller_cd : smaller_ab;
     return change_by_lowering(smallest, p);
 }
 
@@ -324,10 +338,10 @@ double orient2d_after_filter(Point pa, Point pb, Point pc) {
         const Int128 left = product(i[0], i[3]), right = product(i[1], i[2]);
         return left > right ? 1 : left < right ? -1 : 0;
     }
-    const Expansion<4> of_heads = cross_expansion(a.x.head, b.y.head, a.y.head, b.x.head);
-    if (a.exact() && b.exact()) return of_heads.sign();
+    const Expansion<4> det_of_heads = cross_expansion(a.x.head, b.y.head, a.y.head, b.x.head);
+    if (a.exact() && b.exact()) return det_of_heads.sign();
 
-    double det = of_heads.estimate();
+    double det = det_of_heads.estimate();
     const double permanent = std::abs(a.x.head * b.y.head) + std::abs(a.y.head * b.x.head);
     if (std::abs(det) > orient2d_bound_b * permanent) return det;
     const double error = orient2d_bound_c * permanent + result_bound * std::abs(det);
@@ -342,8 +356,8 @@ double incircle_after_filter(Point a, Point b, Point c, Point d) {
 }
 
 double flattened_turn_after_filter(Point pa, Point pb, Point pc, double cut) {
-    const Two a = two_diff(pa.x, cut), b = two_diff(pb.x, cut), c = two_diff(pc.x, cut);
-    const Two bt = two_diff(pb.y, pa.y), ct = two_diff(pc.y, pa.y);
+    const HeadTail a = two_diff(pa.x, cut), b = two_diff(pb.x, cut), c = two_diff(pc.x, cut);
+    const HeadTail bt = two_diff(pb.y, pa.y), ct = two_diff(pc.y, pa.y);
     std::array<std::int64_t, 5> i;
     if (to_integers<5>({a, b, c, bt, ct}, i)) {
         const Int128 aa = product(i[0], i[0]);
@@ -352,7 +366,7 @@ double flattened_turn_after_filter(Point pa, Point pb, Point pc, double cut) {
         det.add_product(i[4], aa - product(i[1], i[1]) - product(i[3], i[3]));
         return det.sign();
     }
-    const auto square = [](const Two& t) { return expansion(t) * expansion(t); };
+    const auto square = [](const HeadTail& t) { return expansion(t) * expansion(t); };
     const Expansion<8> aa = square(a);
     const Expansion<24> b_height = square(b) + -aa + square(bt), c_height = square(c) + -aa + square(ct);
     return (c_height * expansion(bt) + -(b_height * expansion(ct))).sign();

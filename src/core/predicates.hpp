@@ -1,6 +1,6 @@
-// Exact predicates for hot loops: the floating-point filter inline, everything behind it in predicates.cpp.
-// Source: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
-// Discrete & Computational Geometry 18 (1997).
+// Exact predicates for hot loops: the floating-point filters are inline, the exact stages stand in predicates.cpp.
+// Source: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, Discrete &
+// Computational Geometry 18 (1997).
 #pragma once
 
 #include <cmath>
@@ -13,22 +13,23 @@ namespace lamina::core {
 /// Half an ulp of 1.
 inline constexpr double epsilon = 0x1p-53;
 
-/// The rounded determinant has the right sign where it exceeds its bound times the permanent: the same expression with
-/// every product replaced by its magnitude and every difference of products by their sum.
+/// The bounds of the filters: a rounded determinant has the right sign where its magnitude exceeds the bound times the
+/// permanent. The permanent is the same expression with every product replaced by its magnitude and every difference of
+/// products by their sum.
 inline constexpr double orient2d_bound = (3 + 16 * epsilon) * epsilon;
 inline constexpr double incircle_bound = (10 + 96 * epsilon) * epsilon;
 inline constexpr double flattened_turn_bound = (9 + 96 * epsilon) * epsilon;
 
-/// orient2d() where the filter could not tell.
+/// Returns orient2d() where its filter could not decide.
 LAMINA_EXPORT double orient2d_after_filter(Point a, Point b, Point c);
 
-/// incircle_perturbed() where the filter could not tell: adaptive and exact stages, then the tie rule.
+/// Returns incircle_perturbed() where its filter could not decide: by the adaptive and exact stages, then the tie rule.
 LAMINA_EXPORT double incircle_after_filter(Point a, Point b, Point c, Point d);
 
-/// flattened_turn() where the filter could not tell.
+/// Returns flattened_turn() where its filter could not decide.
 LAMINA_EXPORT double flattened_turn_after_filter(Point a, Point b, Point c, double cut);
 
-/// orient2d(), inline.
+/// Returns orient2d(), inline.
 inline double inline_orient2d(Point a, Point b, Point c) {
     const double left = (a.x - c.x) * (b.y - c.y);
     const double right = (a.y - c.y) * (b.x - c.x);
@@ -40,6 +41,7 @@ inline double inline_orient2d(Point a, Point b, Point c) {
 /// The rounded determinant of incircle(), and its permanent.
 struct RoundedIncircle {
     double det, permanent;
+    /// Returns whether the determinant has the right sign.
     bool certain() const { return std::abs(det) > incircle_bound * permanent; }
 };
 
@@ -55,18 +57,20 @@ inline RoundedIncircle rounded_incircle(Point a, Point b, Point c, Point d) {
     return {det, permanent};
 }
 
-/// incircle_perturbed(), inline.
+/// Returns incircle_perturbed(), inline.
 inline double inline_incircle_perturbed(Point a, Point b, Point c, Point d) {
     const RoundedIncircle rounded = rounded_incircle(a, b, c, d);
     if (rounded.certain()) return rounded.det;
     return incircle_after_filter(a, b, c, d);
 }
 
-/// The turn a, b, c of points lifted to the paraboloid x^2 + y^2 and projected along x, the paraboloid's axis standing
-/// at x = cut: (y, (x - cut)^2 + y^2) is the image of (x, y). > 0 if b is below the line through a and c, < 0 above,
-/// 0 on it. Only the sign is exact. Precondition: a.y < b.y < c.y.
-/// Heights are taken relative to that of a, and y from a.y: that adds a linear function of y, which turns nothing.
+/// Returns how the images of a, b, c turn that are lifted to the paraboloid whose axis stands at x = cut and then
+/// projected along x: the image of (x, y) is (y, (x - cut)^2 + y^2). The result is > 0 if the image of b is below the
+/// line through those of a and c, < 0 if above, and 0 if on it. Only the sign is exact.
+/// Precondition: a.y < b.y < c.y.
 inline double flattened_turn(Point a, Point b, Point c, double cut) {
+    // Heights are relative to that of a, and y to a.y. This adds a linear function of y to the heights, which changes
+    // no turn.
     const double as = a.x - cut, bs = b.x - cut, cs = c.x - cut;
     const double bt = b.y - a.y, ct = c.y - a.y;
     const double b_across = b.x - a.x, c_across = c.x - a.x;

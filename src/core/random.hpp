@@ -1,4 +1,4 @@
-// The random numbers of lamina: the same on every machine.
+// Random numbers that are the same on every machine.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace lamina::core {
 
-/// Returns the random number that belongs to a counter: 64 bits that look independent of those of all other counters.
+/// Returns the random number of a counter: 64 bits that look independent of those of all other counters.
 /// Source: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators, OOPSLA (2014):
 /// splitmix64, as S. Vigna put it into the public domain.
 constexpr std::uint64_t splitmix64(std::uint64_t counter) {
@@ -21,6 +21,7 @@ class Random {
 public:
     explicit Random(std::uint64_t seed) : counter_(seed) {}
 
+    /// Returns 64 random bits.
     std::uint64_t bits() {
         const std::uint64_t result = splitmix64(counter_);
         counter_ += 0x9e3779b97f4a7c15u;
@@ -28,6 +29,7 @@ public:
     }
     /// Returns a number in [0, 1).
     double real() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+    /// Returns a number in [low, high), up to rounding.
     double real(double low, double high) { return low + (high - low) * real(); }
     /// Returns a number from 0 to n - 1.
     std::size_t below(std::size_t n) { return static_cast<std::size_t>(bits() % n); }

@@ -1,7 +1,6 @@
 #include "core/text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <lamina/error.hpp>
@@ -31,7 +30,8 @@ std::vector<double> parse_numbers(const std::string& text, char separator) {
 }
 
 std::string lower_case(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     return text;
 }
 

@@ -1,4 +1,4 @@
-// Text of messages, for the folders that need nothing but the standard library.
+// Numbers and text for messages and options, made with nothing but the standard library.
 #pragma once
 
 #include <array>
@@ -34,19 +34,19 @@ inline std::string rounded_text(double value) {
     return {digits.data(), end};
 }
 
-/// Joins texts and numbers: concat("point ", 3, " is missing").
+/// Returns texts and numbers joined: concat("point ", 3, " is missing").
 template <class... Parts>
 std::string concat(const Parts&... parts) {
     return (std::string() + ... + to_text(parts));
 }
 
-/// Reads one finite number that fills the whole text. Throws UsageError with the bare reason.
+/// Returns the finite number that fills the whole text. Throws UsageError with the bare reason.
 LAMINA_EXPORT double parse_number(const std::string& text);
 
-/// Reads finite numbers between separators. Throws UsageError with the bare reason, which quotes the text.
+/// Returns the finite numbers between separators. Throws UsageError with the bare reason, which quotes the text.
 LAMINA_EXPORT std::vector<double> parse_numbers(const std::string& text, char separator);
 
-/// Returns the text with its ASCII letters in lower case.
+/// Returns the text with its ASCII letters in lower case, whatever the locale.
 LAMINA_EXPORT std::string lower_case(std::string text);
 
 /// Returns the extension of a file's name, in lower case and with the dot.

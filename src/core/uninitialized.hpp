@@ -1,4 +1,4 @@
-// An array whose entries start uninitialised: for storage that is written once, entry by entry, before it is read.
+// An array whose entries start uninitialised, for storage that is written entry by entry before it is read.
 #pragma once
 
 #include <cassert>
@@ -18,7 +18,7 @@ public:
     explicit UninitializedArray(std::size_t size) : data_(std::make_unique_for_overwrite<T[]>(size)), size_(size) {}
 
     std::size_t size() const { return size_; }
-    /// Gives up the entries behind; the storage stays.
+    /// Drops the entries from `size` on; the storage stays.
     void shrink(std::size_t size) {
         assert(size <= size_);
         size_ = size;

@@ -93,7 +93,7 @@ Document split_blocks(const std::vector<Row>& rows, const std::string& file) {
             if (!in_exact_range(at))
                 throw InputError({file, row.line, at},
                                  fmt::format("coordinates must be 0 or of a magnitude from {} to {}",
-                                             smallest_exact_coordinate, largest_exact_coordinate));
+                                             min_exact_coordinate, max_exact_coordinate));
             any_numbers = true;
             document.csv |= row.separated;
             if (row.decimal_comma && document.notes.empty())

@@ -138,8 +138,8 @@ private:
 Quadruple clamped(Quadruple p) {
     for (Point& q : p)
         for (double* c : {&q.x, &q.y}) {
-            if (std::abs(*c) < smallest_exact_coordinate) *c = 0;
-            *c = std::clamp(*c, -largest_exact_coordinate, largest_exact_coordinate);
+            if (std::abs(*c) < min_exact_coordinate) *c = 0;
+            *c = std::clamp(*c, -max_exact_coordinate, max_exact_coordinate);
         }
     return p;
 }
@@ -311,7 +311,7 @@ TEST(Predicates, MixedMagnitudes) {
 TEST(Predicates, LargeOffset) { EXPECT_EQ(compare(large_offset, cases, 6).wrong, 0); }
 
 TEST(Predicates, EndsOfTheRange) {
-    const double big = largest_exact_coordinate, small = smallest_exact_coordinate;
+    const double big = max_exact_coordinate, small = min_exact_coordinate;
     EXPECT_GT(incircle({-big, -big}, {big, -big}, {big, big}, {small, -small}), 0);
     EXPECT_EQ(incircle({-big, -big}, {big, -big}, {big, big}, {-big, big}), 0);
     EXPECT_LT(incircle({-big, -big}, {big, -big}, {big, std::nextafter(big, 0)}, {-big, big}), 0);

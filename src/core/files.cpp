@@ -1,0 +1,53 @@
+#include <lamina/files.hpp>
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include <lamina/error.hpp>
+
+#include "core/atomic_file.hpp"
+
+namespace lamina {
+
+using namespace core;
+
+namespace fs = std::filesystem;
+
+void check_folder_writable(const fs::path& file) {
+    const fs::path folder = folder_of(file);
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot write: is a directory");
+    if (!fs::exists(folder, ignored)) throw IoError(file.string(), "cannot write: its folder does not exist");
+    if (!fs::is_directory(folder, ignored)) throw IoError(file.string(), "cannot write: its folder is a file");
+    const bool writable =
+        is_device(file) ? ::access(file.c_str(), W_OK) == 0 : ::access(folder.c_str(), W_OK | X_OK) == 0;
+    if (!writable) throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
+}
+
+std::string read_file(const fs::path& file) {
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot read: is a directory");
+    errno = 0;
+    std::ifstream in(file, std::ios::binary);
+    std::string bytes;
+    // The file is read block by block, since a pipe cannot tell its size.
+    constexpr std::size_t block = std::size_t{1} << 20;
+    while (in) {
+        const std::size_t before = bytes.size();
+        bytes.resize(before + block);
+        in.read(bytes.data() + before, block);
+        bytes.resize(before + static_cast<std::size_t>(in.gcount()));
+    }
+    if (!in.eof()) throw IoError(file.string(), std::string("cannot read: ") + std::strerror(errno ? errno : EIO));
+    return bytes;
+}
+
+void write_file(const fs::path& file, const std::string& text) {
+    write_stream_atomically(file, [&](std::ostream& out) { out << text; });
+}
+
+}  // namespace lamina
