@@ -1,23 +1,25 @@
-// Are the outlines simple, counter-clockwise and pairwise apart? Exact.
-// Edges that may meet are found by a tree of boxes over the edges in the order of the outline (every node covers a run
-// of consecutive edges), traversed against itself: neighbouring runs touch at one point only, so on real outlines the
-// number of overlapping pairs of nodes is O(n), whatever the grading of the points.
-// Source: G. Barequet et al., BOXTREE: a hierarchical representation for surfaces in 3D, Comput. Graph. Forum 15
-// (1996).
-#include <fmt/format.h>
+// The exact test that outlines are simple, counter-clockwise and pairwise apart. Edges that may meet are found by a
+// tree of boxes over the edges in the order of the outlines.
+#include <lamina/geometry.hpp>
 
 #include <algorithm>
-#include <lamina/geometry.hpp>
-#include <lamina/predicates.hpp>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/predicates.hpp>
+
+#include "core/bounding_box.hpp"
+#include "core/box_tree.hpp"
 
 namespace lamina::geometry {
 
 namespace {
 
-struct Edge {
+/// The edge of an outline from one point to the next.
+struct OutlineEdge {
     const Element* element;
-    std::size_t index;  ///< from points[index] to the next
+    std::size_t index;  ///< of the first point
 
     std::size_t next() const { return index + 1 == element->points.size() ? 0 : index + 1; }
     Point a() const { return element->points[index]; }
@@ -26,9 +28,10 @@ struct Edge {
 
 // ---- messages ------------------------------------------------------------------------------------------------------
 
+/// Returns the line of the file that holds point i, 0 if none does.
 std::size_t line_of(const Element& e, std::size_t i) { return i < e.lines.size() ? e.lines[i] : 0; }
 
-/// The nearest point at or before/after i that stands in the file.
+/// Returns the line of the first point that stands in the file, from point i forward or backward; 0 if none does.
 std::size_t line_near(const Element& e, std::size_t i, bool forward) {
     const std::size_t n = e.points.size();
     for (std::size_t step = 0; step < n; ++step) {
@@ -38,107 +41,73 @@ std::size_t line_near(const Element& e, std::size_t i, bool forward) {
     return 0;
 }
 
-std::string name_of(const Edge& edge) {
+std::string describe(const OutlineEdge& edge) {
     const Element& e = *edge.element;
     const std::size_t a = line_near(e, edge.index, false), b = line_near(e, edge.next(), true);
     if (a == 0) return fmt::format("the edge of points {} and {}", edge.index + 1, edge.next() + 1);
-    const bool added = line_of(e, edge.index) == 0 || line_of(e, edge.next()) == 0;
-    return fmt::format("the {} of lines {} and {}", added ? "closing edge" : "edge", std::min(a, b), std::max(a, b));
+    const bool closes = line_of(e, edge.index) == 0 || line_of(e, edge.next()) == 0;
+    return fmt::format("the {} of lines {} and {}", closes ? "closing edge" : "edge", std::min(a, b), std::max(a, b));
 }
 
-[[noreturn]] void refuse(const Edge& first, const Edge& second, Point at, const std::string& verb) {
+[[noreturn]] void refuse(const OutlineEdge& first, const OutlineEdge& second, Point at, const std::string& verb) {
     const Element &e = *first.element, &f = *second.element;
-    const bool same = &e == &f;
     const std::string reason =
-        same ? fmt::format("the outline {} itself: {} and {}", verb, name_of(first), name_of(second))
-             : fmt::format("the outline {} that of '{}' ({}): {} and there {}", verb, f.name, f.file, name_of(first),
-                           name_of(second));
+        &e == &f ? fmt::format("the outline {} itself: {} and {}", verb, describe(first), describe(second))
+                 : fmt::format("the outline {} that of '{}' ({}): {} and there {}", verb, f.name, f.file,
+                               describe(first), describe(second));
     throw InputError({e.file, line_near(e, first.index, false), at}, reason);
 }
 
-/// Rounded; only for messages.
-Point crossing_point(const Edge& e, const Edge& f) {
+/// Returns the point where two edges cross, rounded, for messages only.
+Point crossing_point(const OutlineEdge& e, const OutlineEdge& f) {
     const Point d = e.b() - e.a(), g = f.b() - f.a();
     return e.a() + (cross(f.a() - e.a(), g) / cross(d, g)) * d;
 }
 
 // ---- pairs of edges ------------------------------------------------------------------------------------------------
 
-Box box_of(const Edge& e) {
-    Box box;
-    box.include(e.a());
-    box.include(e.b());
-    return box;
-}
-
-/// p is known to be on the line through a and b.
-bool within(Point p, Point a, Point b) {
+/// Returns whether p lies on the closed segment a-b. Precondition: p lies on the line through a and b.
+bool is_between(Point p, Point a, Point b) {
     return lexicographically_less(a, b) ? !lexicographically_less(p, a) && !lexicographically_less(b, p)
                                         : !lexicographically_less(p, b) && !lexicographically_less(a, p);
 }
 
-/// Edges without a common vertex may not meet at all.
-void check_apart(const Edge& e, const Edge& f) {
+/// Throws InputError where edges without a common vertex meet.
+void check_apart(const OutlineEdge& e, const OutlineEdge& f) {
     const Point a = e.a(), b = e.b(), c = f.a(), d = f.b();
     const double oa = orient2d(c, d, a), ob = orient2d(c, d, b), oc = orient2d(a, b, c), od = orient2d(a, b, d);
     if (((oa > 0 && ob < 0) || (oa < 0 && ob > 0)) && ((oc > 0 && od < 0) || (oc < 0 && od > 0)))
         refuse(e, f, crossing_point(e, f), "crosses");
-    if (oa == 0 && within(a, c, d)) refuse(e, f, a, "touches");
-    if (ob == 0 && within(b, c, d)) refuse(e, f, b, "touches");
-    if (oc == 0 && within(c, a, b)) refuse(e, f, c, "touches");
-    if (od == 0 && within(d, a, b)) refuse(e, f, d, "touches");
+    if (oa == 0 && is_between(a, c, d)) refuse(e, f, a, "touches");
+    if (ob == 0 && is_between(b, c, d)) refuse(e, f, b, "touches");
+    if (oc == 0 && is_between(c, a, b)) refuse(e, f, c, "touches");
+    if (od == 0 && is_between(d, a, b)) refuse(e, f, d, "touches");
 }
 
-void check_pair(const Edge& e, const Edge& f) {
-    if (!box_of(e).overlaps(box_of(f))) return;
-    const bool neighbours = e.element == f.element && (e.next() == f.index || f.next() == e.index);
-    if (!neighbours) check_apart(e, f);
+/// Throws InputError where consecutive edges a-b and b-c share more than b.
+void check_neighbours(const OutlineEdge& first, const OutlineEdge& second) {
+    const Point a = first.a(), b = first.b(), c = second.b();
+    if (orient2d(a, b, c) != 0 || lexicographically_less(a, b) != lexicographically_less(c, b)) return;
+    throw InputError(
+        {first.element->file, line_of(*first.element, first.next()), b},
+        fmt::format("the outline folds back on itself: {} and {} overlap", describe(first), describe(second)));
 }
 
-// ---- all pairs -----------------------------------------------------------------------------------------------------
-
-/// Implicit binary tree: node 1 covers all leaves, node k has the children 2k and 2k + 1.
-class EdgeTree {
-public:
-    explicit EdgeTree(const std::vector<Edge>& edges) : edges_(edges) {
-        while (leaves_ < edges.size()) leaves_ *= 2;
-        boxes_.resize(2 * leaves_);  // empty boxes overlap nothing
-        for (std::size_t i = 0; i < edges.size(); ++i) boxes_[leaves_ + i] = box_of(edges[i]);
-        for (std::size_t k = leaves_ - 1; k > 0; --k) {
-            const Box &a = boxes_[2 * k], &b = boxes_[2 * k + 1];
-            boxes_[k] = {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y)},
-                         {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y)}};
-        }
-    }
-
-    /// Every pair of edges whose boxes overlap, once, in an order that depends on the edges alone.
-    void check_all_pairs() const {
-        std::vector<std::pair<std::size_t, std::size_t>> stack{{1, 1}};
-        while (!stack.empty()) {
-            const auto [k, m] = stack.back();
-            stack.pop_back();
-            if (k == m) {
-                if (k >= leaves_) continue;
-                stack.insert(stack.end(), {{2 * k, 2 * k + 1}, {2 * k + 1, 2 * k + 1}, {2 * k, 2 * k}});
-            } else if (boxes_[k].overlaps(boxes_[m])) {
-                if (k >= leaves_) {  // both are leaves: pairs are of one level
-                    check_pair(edges_[k - leaves_], edges_[m - leaves_]);
-                } else {
-                    stack.insert(stack.end(),
-                                 {{2 * k + 1, 2 * m + 1}, {2 * k + 1, 2 * m}, {2 * k, 2 * m + 1}, {2 * k, 2 * m}});
-                }
-            }
-        }
-    }
-
-private:
-    const std::vector<Edge>& edges_;
-    std::size_t leaves_ = 1;
-    std::vector<Box> boxes_;
-};
+/// Throws InputError where any two edges meet that are not consecutive.
+void check_all_pairs(const std::vector<OutlineEdge>& edges) {
+    std::vector<Box> boxes;
+    boxes.reserve(edges.size());
+    for (const OutlineEdge& edge : edges) boxes.push_back(core::bounding_box(edge.a(), edge.b()));
+    core::BoxTree(std::move(boxes)).overlapping_pairs([&](std::size_t i, std::size_t j) {
+        const OutlineEdge &e = edges[i], &f = edges[j];
+        const bool consecutive = e.element == f.element && (e.next() == f.index || f.next() == e.index);
+        if (!consecutive) check_apart(e, f);
+    });
+}
 
 // ---- whole outlines ------------------------------------------------------------------------------------------------
 
+/// Throws InputError for fewer than three points, points outside the exact range and repeated points.
 void check_points(const Element& e) {
     const std::size_t n = e.points.size();
     const InputPlace place{e.file, n > 0 ? line_near(e, 0, true) : 0, {}};
@@ -151,27 +120,17 @@ void check_points(const Element& e) {
     }
 }
 
-/// Consecutive edges a-b and b-c may share b only.
-void check_neighbours(const Edge& first, const Edge& second) {
-    const Point a = first.a(), b = first.b(), c = second.b();
-    if (orient2d(a, b, c) == 0 && lexicographically_less(a, b) == lexicographically_less(c, b)) {
-        const std::size_t line = line_of(*first.element, first.next());
-        throw InputError(
-            {first.element->file, line, b},
-            fmt::format("the outline folds back on itself: {} and {} overlap", name_of(first), name_of(second)));
-    }
-}
-
-/// Precondition: simple.
+/// Throws InputError for a clockwise outline. Precondition: the outline is simple.
 void check_orientation(const Element& e) {
     const std::size_t n = e.points.size();
-    const auto i = static_cast<std::size_t>(std::min_element(e.points.begin(), e.points.end(), lexicographically_less) -
-                                            e.points.begin());
+    const auto smallest = std::min_element(e.points.begin(), e.points.end(), lexicographically_less);
+    const auto i = static_cast<std::size_t>(smallest - e.points.begin());
     if (orient2d(e.points[(i + n - 1) % n], e.points[i], e.points[(i + 1) % n]) <= 0)
         throw InputError({e.file, line_near(e, i, true), e.points[i]}, "the outline runs clockwise");
 }
 
-/// Precondition: p is not on the outline. Crossings of the ray from p towards +x.
+/// Returns whether p lies inside an outline, by the parity of its crossings with the ray from p towards +x.
+/// Precondition: p is not on the outline.
 bool contains(const Element& e, Point p) {
     bool inside = false;
     for (std::size_t i = 0, n = e.points.size(); i < n; ++i) {
@@ -182,11 +141,11 @@ bool contains(const Element& e, Point p) {
     return inside;
 }
 
-/// Precondition: no two outlines touch.
+/// Throws InputError where an element lies inside another one. Precondition: no two outlines touch.
 void check_side_by_side(const std::vector<Element>& elements) {
-    std::vector<Box> boxes(elements.size());
-    for (std::size_t i = 0; i < elements.size(); ++i)
-        for (Point p : elements[i].points) boxes[i].include(p);
+    std::vector<Box> boxes;
+    boxes.reserve(elements.size());
+    for (const Element& e : elements) boxes.push_back(core::bounding_box(e.points));
     for (std::size_t i = 0; i < elements.size(); ++i) {
         const Element& inner = elements[i];
         for (std::size_t j = 0; j < elements.size(); ++j) {
@@ -207,7 +166,7 @@ namespace lamina {
 using namespace geometry;
 
 void check_simple(const Geometry& geometry) {
-    std::vector<Edge> edges;
+    std::vector<OutlineEdge> edges;
     for (const Element& e : geometry.elements) {
         check_points(e);
         for (std::size_t i = 0; i < e.points.size(); ++i) {
@@ -215,8 +174,7 @@ void check_simple(const Geometry& geometry) {
             check_neighbours(edges.back(), {&e, edges.back().next()});
         }
     }
-    if (edges.empty()) return;
-    EdgeTree(edges).check_all_pairs();
+    check_all_pairs(edges);
     for (const Element& e : geometry.elements) check_orientation(e);
     check_side_by_side(geometry.elements);
 }

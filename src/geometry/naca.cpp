@@ -1,14 +1,17 @@
 // NACA 4- and 5-digit sections.
 // Source: E. N. Jacobs, K. E. Ward, R. M. Pinkerton, NACA Report 460 (1933); E. N. Jacobs, R. M. Pinkerton, NACA Report
-// 537 (1935). The sharp trailing edge changes the last coefficient of the thickness to -0.1036, which closes the tail
-// with the least change elsewhere (J. Moran, Theoretical and Computational Aerodynamics, 1984).
-#include <fmt/format.h>
+// 537 (1935). For a sharp trailing edge the last coefficient of the thickness is -0.1036, which closes the tail with
+// the least change elsewhere (J. Moran, Theoretical and Computational Aerodynamics, 1984).
+#include <lamina/geometry.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/reproducible_math.hpp"
+#include "geometry/characters.hpp"
 #include "geometry/outline_repair.hpp"
 
 namespace lamina::geometry {
@@ -17,13 +20,14 @@ namespace {
 
 constexpr std::size_t min_points = 6, max_points = 10'000'000;
 
-/// Height and slope of the mean line.
+/// The mean line at one x.
 struct Camber {
     double y = 0, slope = 0;
 };
 
+/// The mean line of 4-digit sections: two parabolas that meet at the largest camber.
 struct FourDigitLine {
-    double max_camber, position;
+    double max_camber, position;  ///< in chords
 
     Camber operator()(double x) const {
         const double m = max_camber, p = position;
@@ -34,7 +38,8 @@ struct FourDigitLine {
     }
 };
 
-/// Report 537: cubic up to r, straight (or, reflexed, cubic) behind it; k1 for a design lift coefficient of 0.3.
+/// The mean line of 5-digit sections (Report 537): cubic up to x = r; behind it straight or, if reflexed, cubic. The
+/// tabled k1 are for a design lift coefficient of 0.3.
 struct FiveDigitLine {
     double r, k1, k2_over_k1;
     bool reflexed;
@@ -52,30 +57,26 @@ struct FiveDigitLine {
     }
 };
 
-struct Section {
-    double thickness;
+struct NacaSection {
+    double thickness;  ///< in chords
     std::optional<FiveDigitLine> five_digit;
     FourDigitLine four_digit{0, 0};
 
     Camber camber(double x) const { return five_digit ? (*five_digit)(x) : four_digit(x); }
 };
 
-Section parse_digits(const std::string& digits) {
-    const auto fail = [&](const std::string& reason) -> UsageError {
-        return UsageError(fmt::format("naca:{}: {}", digits, reason));
-    };
-    const bool all_digits = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (!all_digits || (digits.size() != 4 && digits.size() != 5))
-        throw fail("a section has 4 or 5 digits, as in naca:0012 or naca:23012");
-    const auto digit = [&](std::size_t i) { return digits[i] - '0'; };
-    Section section;
-    section.thickness = (10 * digit(digits.size() - 2) + digit(digits.size() - 1)) / 100.0;
-    if (section.thickness == 0) throw fail("no thickness");
-    if (digits.size() == 4) {
-        if ((digit(0) == 0) != (digit(1) == 0)) throw fail("camber and its position must both be given or both be 0");
-        section.four_digit = {digit(0) / 100.0, digit(1) / 10.0};
-        return section;
-    }
+UsageError bad_digits(const std::string& digits, const std::string& reason) {
+    return UsageError(fmt::format("naca:{}: {}", digits, reason));
+}
+
+FourDigitLine four_digit_line(const std::string& digits) {
+    const int camber = digits[0] - '0', position = digits[1] - '0';
+    if ((camber == 0) != (position == 0))
+        throw bad_digits(digits, "camber and its position must both be given or both be 0");
+    return {camber / 100.0, position / 10.0};
+}
+
+FiveDigitLine five_digit_line(const std::string& digits) {
     constexpr FiveDigitLine simple[] = {{0.0580, 361.400, 0, false},
                                         {0.1260, 51.640, 0, false},
                                         {0.2025, 15.957, 0, false},
@@ -85,12 +86,57 @@ Section parse_digits(const std::string& digits) {
                                           {0.2170, 15.793, 0.00677, true},
                                           {0.3180, 6.520, 0.0303, true},
                                           {0.4410, 3.191, 0.1355, true}};
-    const int lift = digit(0), position = digit(1), reflex = digit(2);
+    const int lift = digits[0] - '0', position = digits[1] - '0', reflex = digits[2] - '0';
     if (lift == 0 || reflex > 1 || position < 1 + reflex || position > 5)
-        throw fail("the first three digits must be 110 to 950 or, reflexed, 121 to 951, the second of them at most 5");
-    section.five_digit = reflex == 1 ? reflexed[position - 2] : simple[position - 1];
-    section.five_digit->k1 *= lift / 2.0;
+        throw bad_digits(digits,
+                         "the first three digits must be 110 to 950 or, reflexed, 121 to 951, the second of them at "
+                         "most 5");
+    FiveDigitLine line = reflex == 1 ? reflexed[position - 2] : simple[position - 1];
+    line.k1 *= lift / 2.0;
+    return line;
+}
+
+NacaSection parse_digits(const std::string& digits) {
+    const std::size_t n = digits.size();
+    if (!std::all_of(digits.begin(), digits.end(), is_digit) || (n != 4 && n != 5))
+        throw bad_digits(digits, "a section has 4 or 5 digits, as in naca:0012 or naca:23012");
+    NacaSection section;
+    section.thickness = (10 * (digits[n - 2] - '0') + (digits[n - 1] - '0')) / 100.0;
+    if (section.thickness == 0) throw bad_digits(digits, "no thickness");
+    if (n == 4) {
+        section.four_digit = four_digit_line(digits);
+    } else {
+        section.five_digit = five_digit_line(digits);
+    }
     return section;
+}
+
+/// Points of both surfaces from the leading to the trailing edge, which both have in common.
+struct NacaSurfaces {
+    std::vector<Point> upper, lower;
+};
+
+/// Returns n + 1 points of each surface by cosine spacing.
+NacaSurfaces make_surfaces(const NacaSection& section, std::size_t n, bool sharp) {
+    const double last_coefficient = sharp ? -0.1036 : -0.1015;
+    NacaSurfaces surfaces{std::vector<Point>(n + 1), std::vector<Point>(n + 1)};
+    for (std::size_t k = 1; k <= n; ++k) {
+        // (1 - cos 2a) / 2 = sin^2 a has no cancellation at the leading edge.
+        const double s = core::sin_reproducible(core::pi * static_cast<double>(k) / static_cast<double>(2 * n));
+        const double x = k == n ? 1.0 : s * s;
+        const double half_thickness =
+            5 * section.thickness *
+            (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * last_coefficient))));
+        // Rounding must open no gap at x = 1.
+        const double t = k == n && sharp ? 0.0 : half_thickness;
+        Camber camber = section.camber(x);
+        if (k == n) camber.y = 0;
+        const double cosine = 1 / std::sqrt(1 + camber.slope * camber.slope);
+        const Point normal{-camber.slope * cosine, cosine};
+        surfaces.upper[k] = {x + t * normal.x, camber.y + t * normal.y};
+        surfaces.lower[k] = {x - t * normal.x, camber.y - t * normal.y};
+    }
+    return surfaces;
 }
 
 }  // namespace
@@ -102,38 +148,22 @@ namespace lamina {
 using namespace geometry;
 
 Element naca_airfoil(const std::string& digits, std::size_t points, TrailingEdge trailing_edge) {
-    const Section section = parse_digits(digits);
+    const NacaSection section = parse_digits(digits);
     if (points < min_points || points > max_points)
         throw UsageError(
             fmt::format("naca:{}: {} points; {} to {} can be made", digits, points, min_points, max_points));
     const bool sharp = trailing_edge == TrailingEdge::sharp;
-    const double tail = sharp ? -0.1036 : -0.1015;
     const std::size_t n = sharp ? (points + 1) / 2 : points / 2;  // edges of each surface
-
-    std::vector<Point> upper(n + 1), lower(n + 1);  // from the leading edge
-    for (std::size_t k = 1; k <= n; ++k) {
-        // (1 - cos 2a) / 2 = sin^2 a, without cancellation at the leading edge.
-        const double s = core::sin_reproducible(core::pi * static_cast<double>(k) / static_cast<double>(2 * n));
-        const double x = k == n ? 1.0 : s * s;
-        const double half =
-            5 * section.thickness * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * tail))));
-        const double t = k == n && sharp ? 0.0 : half;
-        Camber camber = section.camber(x);
-        if (k == n) camber.y = 0;
-        const double cosine = 1 / std::sqrt(1 + camber.slope * camber.slope);
-        const Point normal{-camber.slope * cosine, cosine};
-        upper[k] = {x + t * normal.x, camber.y + t * normal.y};
-        lower[k] = {x - t * normal.x, camber.y - t * normal.y};
-    }
+    const NacaSurfaces surfaces = make_surfaces(section, n, sharp);
 
     RawOutline outline;
     outline.title = fmt::format("NACA {}", digits);
     outline.format = "naca";
-    for (std::size_t k = n + 1; k-- > 0;) outline.points.push_back({upper[k], 0});
-    for (std::size_t k = 1; k <= n; ++k) outline.points.push_back({lower[k], 0});
+    for (std::size_t k = n + 1; k-- > 0;) outline.points.push_back({surfaces.upper[k], 0});
+    for (std::size_t k = 1; k <= n; ++k) outline.points.push_back({surfaces.lower[k], 0});
     Element element = repair_outline(outline, "naca:" + digits);
     element.points_read = 0;
-    element.repairs.clear();  // nothing here was wrong
+    element.repairs.clear();  // joining the surfaces and closing the base repair nothing
     element.name = "airfoil";
     return element;
 }

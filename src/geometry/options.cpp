@@ -1,4 +1,4 @@
-// The table of the geometry's options.
+// The table of the options of the stage "read".
 #include <lamina/geometry.hpp>
 
 #include <lamina/option_builders.hpp>
@@ -27,12 +27,5 @@ const OptionTable<GeometryOptions>& geometry_option_table() {
 }
 
 void validate(const GeometryOptions& options) { require_in_range(geometry_option_table(), options); }
-
-Box bounding_box(const Geometry& geometry) {
-    Box box;
-    for (const Element& element : geometry.elements)
-        for (Point p : element.points) box.include(p);
-    return box;
-}
 
 }  // namespace lamina

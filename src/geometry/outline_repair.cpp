@@ -1,9 +1,12 @@
 #include "geometry/outline_repair.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include <lamina/predicates.hpp>
 
 #include "core/segments.hpp"
@@ -12,21 +15,14 @@ namespace lamina::geometry {
 
 namespace {
 
-using Outline = std::vector<SourcePoint>;
+using SourcePoints = std::vector<SourcePoint>;
 
-/// The longer side of the bounding box.
-double extent(const Outline& points) {
-    Box box;
-    for (const SourcePoint& p : points) box.include(p.at);
-    return points.empty() ? 0 : std::max(box.width(), box.height());
-}
+/// Returns the distance below which neighbours are the same point, written with different rounding.
+double merge_tolerance(const SourcePoints& points) { return 1e-12 * extent(points); }
 
-/// Distance below which neighbours are the same point, printed with different rounding.
-double merge_tolerance(const Outline& points) { return 1e-12 * extent(points); }
-
-void remove_duplicates(Outline& points, std::vector<std::string>& repairs) {
+void remove_duplicates(SourcePoints& points, std::vector<std::string>& repairs) {
     const double tolerance = merge_tolerance(points);
-    Outline kept;
+    SourcePoints kept;
     for (const SourcePoint& p : points) {
         if (kept.empty() || distance(kept.back().at, p.at) > tolerance) {
             kept.push_back(p);
@@ -43,7 +39,8 @@ void remove_duplicates(Outline& points, std::vector<std::string>& repairs) {
     points = std::move(kept);
 }
 
-void check_extent(const Outline& points, const std::string& file) {
+/// Throws InputError for fewer than three points and for points on one line.
+void check_extent(const SourcePoints& points, const std::string& file) {
     const InputPlace place{file, points.empty() ? 0 : points[0].line, {}};
     if (points.size() < 3)
         throw InputError(place, fmt::format("only {} distinct point{}; an outline needs at least three", points.size(),
@@ -54,38 +51,39 @@ void check_extent(const Outline& points, const std::string& file) {
     if (flat) throw InputError(place, fmt::format("all {} points lie on one line", points.size()));
 }
 
-/// Neighbours nearer to each other than anyone can see whose other edges cross, as rounding to a few digits makes them
-/// where the two surfaces meet: one of the two points goes, never the first of the outline.
+/// Merges neighbours that are too near to each other to be seen apart and whose other edges cross. Rounding to a few
+/// digits makes them where the two surfaces meet. The second of the two is removed, but never the first point of the
+/// outline.
 ///
 ///       ---___                       ---___
-///     ___---==x=-- first            ___---===- first
+///     ___---==x=-- first     ->     ___---===- first
 ///              \\ last
-void merge_crossed_neighbours(Outline& points, std::vector<std::string>& repairs) {
-    constexpr double invisible = 1e-4;  // of the extent
-    const double near = invisible * extent(points);
+void merge_crossed_neighbours(SourcePoints& points, std::vector<std::string>& repairs) {
+    constexpr double max_distance_share = 1e-4;  // of the extent
+    const double max_distance = max_distance_share * extent(points);
     for (std::size_t i = 0; i < points.size() && points.size() >= 5; ++i) {
         const std::size_t n = points.size(), next = (i + 1) % n;
-        if (distance(points[i].at, points[next].at) > near ||
+        if (distance(points[i].at, points[next].at) > max_distance ||
             !core::segments_meet(points[(i + n - 1) % n].at, points[i].at, points[next].at, points[(i + 2) % n].at))
             continue;
-        const std::size_t gone = next == 0 ? i : next, kept = next == 0 ? next : i;
+        const std::size_t removed = next == 0 ? i : next, kept = next == 0 ? next : i;
         repairs.push_back(fmt::format("lines {} and {}: the edges on both sides of them cross; {} merged with {}",
-                                      points[gone].line, points[kept].line, coordinates(points[gone].at),
+                                      points[removed].line, points[kept].line, coordinates(points[removed].at),
                                       coordinates(points[kept].at)));
-        points.erase(points.begin() + static_cast<std::ptrdiff_t>(gone));
+        points.erase(points.begin() + static_cast<std::ptrdiff_t>(removed));
     }
 }
 
-/// A trailing edge drawn as a line: the two surfaces have their last points in common.
+/// Cuts off a trailing edge that is drawn as a line, since the two surfaces have their last points in common.
 ///
 ///     ---___                         ---___
 ///            x------ first   ->             x first
 ///     ___---                         ___---
-void cut_flat_tail(Outline& points, std::vector<std::string>& repairs) {
-    constexpr double longest = 0.01;  // of the extent
-    const double tolerance = merge_tolerance(points), most = longest * extent(points);
+void cut_flat_tail(SourcePoints& points, std::vector<std::string>& repairs) {
+    constexpr double max_length_share = 0.01;  // of the extent
+    const double tolerance = merge_tolerance(points), max_length = max_length_share * extent(points);
     while (points.size() >= 5 && distance(points[1].at, points.back().at) <= tolerance &&
-           distance(points[0].at, points[1].at) <= most) {
+           distance(points[0].at, points[1].at) <= max_length) {
         repairs.push_back(fmt::format("lines {}, {} and {}: a tail of no thickness cut off, from {} to {}",
                                       points[0].line, points[1].line, points.back().line, coordinates(points[1].at),
                                       coordinates(points[0].at)));
@@ -94,8 +92,10 @@ void cut_flat_tail(Outline& points, std::vector<std::string>& repairs) {
     }
 }
 
-/// The edge from the last point back to the first gets vertices at about the spacing of the shorter neighbour.
-void close_outline(Outline& points, const std::string& file, std::vector<std::string>& repairs) {
+/// Divides the edge from the last point back to the first into edges about as long as the shorter of its neighbours.
+/// Throws InputError where that edge is too long to be a base.
+void close_outline(SourcePoints& points, const std::string& file, std::vector<std::string>& repairs) {
+    constexpr double max_edges = 64;
     const SourcePoint last = points.back(), first = points.front();
     const double base = distance(last.at, first.at);
     double perimeter = 0;
@@ -108,13 +108,13 @@ void close_outline(Outline& points, const std::string& file, std::vector<std::st
                         base, coordinates(first.at), first.line));
     const double neighbour =
         std::min(distance(points[0].at, points[1].at), distance(points[points.size() - 2].at, points.back().at));
-    const auto edges = static_cast<std::size_t>(std::clamp(std::floor(base / neighbour + 0.5), 1.0, 64.0));
+    const auto edges = static_cast<std::size_t>(std::clamp(std::floor(base / neighbour + 0.5), 1.0, max_edges));
     // Each vertex is placed from the nearer end, so that a symmetric base gets symmetric vertices, exactly.
     for (std::size_t i = 1; i < edges; ++i) {
-        const auto part = [&](std::size_t k) { return static_cast<double>(k) / static_cast<double>(edges); };
+        const auto share = [&](std::size_t k) { return static_cast<double>(k) / static_cast<double>(edges); };
         const Point at = 2 * i == edges  ? midpoint(last.at, first.at)
-                         : 2 * i < edges ? last.at + part(i) * (first.at - last.at)
-                                         : first.at + part(edges - i) * (last.at - first.at);
+                         : 2 * i < edges ? last.at + share(i) * (first.at - last.at)
+                                         : first.at + share(edges - i) * (last.at - first.at);
         points.push_back({at, 0});
     }
     repairs.push_back(fmt::format("lines {} and {}: open end closed from {} to {} by {} edge{}, {:.4g} long", last.line,
@@ -122,8 +122,9 @@ void close_outline(Outline& points, const std::string& file, std::vector<std::st
                                   base));
 }
 
-/// Exact for simple outlines: the turn at the lexicographically smallest point is the turn of the loop.
-bool is_clockwise(const Outline& points) {
+/// Returns whether an outline runs clockwise, which the turn at its lexicographically smallest point tells. Exact for
+/// simple outlines.
+bool is_clockwise(const SourcePoints& points) {
     const auto smallest =
         std::min_element(points.begin(), points.end(),
                          [](const SourcePoint& a, const SourcePoint& b) { return lexicographically_less(a.at, b.at); });
@@ -141,7 +142,7 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     element.points_read = outline.points.size();
     element.repairs = outline.notes;
 
-    Outline points = outline.points;
+    SourcePoints points = outline.points;
     const bool closed = points.size() > 1 && distance(points.front().at, points.back().at) <= merge_tolerance(points);
     remove_duplicates(points, element.repairs);
     check_extent(points, file);

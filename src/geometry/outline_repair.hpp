@@ -1,5 +1,7 @@
-// Raw outline -> closed counter-clockwise element, every change reported.
+// Raw outline -> closed counter-clockwise element; every change is reported.
 #pragma once
+
+#include <string>
 
 #include <lamina/geometry.hpp>
 
@@ -7,12 +9,15 @@
 
 namespace lamina::geometry {
 
-/// Removes repeated neighbours (nearer than 1e-12 of the extent, as after rounding), merges neighbours within 1e-4 of
-/// the extent whose other edges cross, cuts off a trailing edge without thickness of at most 1 % of the extent, closes
-/// an open outline by a base edge with vertices spaced like its neighbours, reverses clockwise order. Coordinates stay
-/// as they are; the first point stays first, unless it was cut off. Whether the outline is simple is for check_simple()
-/// to say. Throws InputError for fewer than three points, points on one line, and an outline too open to be closed. The
-/// element's name stays empty.
+/// Returns the element of an outline, without a name. The repairs:
+/// - Neighbours nearer than 1e-12 of the extent, which differ by rounding alone, become one point.
+/// - Neighbours within 1e-4 of the extent whose other edges cross become one point.
+/// - A trailing edge without thickness, of at most 1 % of the extent, is cut off.
+/// - An open outline is closed by a base, which gets vertices spaced like its neighbours.
+/// - Clockwise order is reversed.
+/// Coordinates are not changed, and the first point stays first unless it was cut off. check_simple() tells whether the
+/// result is simple. Throws InputError for fewer than three points, for points on one line, and for an outline too open
+/// to be closed.
 Element repair_outline(const RawOutline& outline, const std::string& file);
 
 }  // namespace lamina::geometry

@@ -1,35 +1,27 @@
-// Rows of an airfoil file -> one raw outline an element.
+// Rows of an airfoil file -> one raw outline per element. Runs of coordinates are recognised as surfaces of one element
+// (as in Lednicer files), pieces of one loop, or separate elements, in all formats that XFOIL, MSES and the UIUC
+// collection use.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
-#include <lamina/geometry.hpp>
-
-#include "geometry/coordinate_text.hpp"
+#include "geometry/coordinate_rows.hpp"
+#include "geometry/source_point.hpp"
 
 namespace lamina::geometry {
 
-/// A point and the line of the file that holds it.
-struct SourcePoint {
-    Point at;
-    std::size_t line = 0;
-};
-
-/// One element as the file has it: in the order of the file but for Lednicer surfaces, which are joined at the leading
-/// edge into one run. Open or closed, either direction, duplicates and all.
+/// One element in the order of the file, except that separate surfaces are joined at the leading edge into one run. It
+/// may be open or closed, run in either direction and have duplicate points.
 struct RawOutline {
     std::vector<SourcePoint> points;
     std::string title;
-    std::string format;
-    std::vector<std::string> notes;
+    std::string format;              ///< as in Element
+    std::vector<std::string> notes;  ///< decisions of the reader that its user should know
 };
 
-/// "(0.5, 0.1)", digits enough to find the point in the file; -0 as 0.
-std::string coordinates(Point p);
-
-/// Throws InputError (naming `file`) where the rows cannot be understood as outlines.
-std::vector<RawOutline> assemble_outlines(const std::vector<Row>& rows, const std::string& file);
+/// Returns the outlines of a file. Throws InputError, which names `file`, where the rows cannot be understood as
+/// outlines.
+std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, const std::string& file);
 
 }  // namespace lamina::geometry

@@ -1,4 +1,4 @@
-// The reader without the file: text -> elements.
+// The reader without files: text -> elements -> geometry.
 #pragma once
 
 #include <string>
@@ -9,10 +9,11 @@
 
 namespace lamina::geometry {
 
-/// Returns the repaired elements of a file of this content, without names. `file` is the name for messages.
+/// Returns the repaired elements of the text of a file, without names. `file` names it in messages. Throws InputError.
 std::vector<Element> parse_airfoil(std::string_view text, const std::string& file);
 
-/// Names the elements and checks that their outlines are simple and lie side by side. Throws as read_geometry() does.
-Geometry finish(std::vector<Element> elements, const GeometryOptions& options);
+/// Names elements as the options say and checks that their outlines are simple and lie side by side. Throws UsageError
+/// and InputError as read_geometry() does.
+Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options);
 
 }  // namespace lamina::geometry

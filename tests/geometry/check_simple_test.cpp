@@ -1,9 +1,12 @@
-// check_simple() against a plain test of all pairs.
+// check_simple() against a plain test of all pairs of edges.
+#include <cmath>
+#include <random>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include <lamina/geometry.hpp>
 #include <lamina/predicates.hpp>
-#include <random>
 
 #include "support/shapes.hpp"
 
@@ -22,7 +25,7 @@ bool accepted(const shapes::Outline& outline) { return accepted(shapes::geometry
 
 int sign(double v) { return (v > 0) - (v < 0); }
 
-/// Closed segments ab and cd have a point in common.
+/// Returns whether the closed segments ab and cd have a point in common.
 bool meet(Point a, Point b, Point c, Point d) {
     const int oa = sign(orient2d(c, d, a)), ob = sign(orient2d(c, d, b)), oc = sign(orient2d(a, b, c)),
               od = sign(orient2d(a, b, d));
@@ -69,7 +72,7 @@ TEST(CheckSimple, AgreesWithAllPairsOnRandomPolygons) {
     EXPECT_GT(simple, cases / 50);
 }
 
-TEST(CheckSimple, AcceptsSimpleShapesHoweverTurned) {
+TEST(CheckSimple, AcceptsSimpleShapesAtAnyAngle) {
     std::mt19937 random(12);
     for (const shapes::Outline& p :
          {shapes::circle(1, 500), shapes::joukowski(0.1, 0.1, 300), shapes::l_shape(), shapes::c_shape(0.1),
@@ -85,7 +88,7 @@ TEST(CheckSimple, AcceptsSimpleShapesHoweverTurned) {
 TEST(CheckSimple, FindsOneBadEdgeAmongMany) {
     shapes::Outline p = shapes::joukowski(0.1, 0.05, 2000);
     ASSERT_TRUE(accepted(p));
-    // One point of the upper surface below the lower one.
+    // One point of the upper surface is moved below the lower surface.
     p[400].y -= 1;
     EXPECT_FALSE(accepted(p));
 }
@@ -93,7 +96,7 @@ TEST(CheckSimple, FindsOneBadEdgeAmongMany) {
 TEST(CheckSimple, IsQuickForMillionsOfPoints) { EXPECT_TRUE(accepted(shapes::ellipse(1, 0.01, 1'000'000))); }
 
 TEST(CheckSimple, IsExact) {
-    // A vertex one unit in the last place above, on, or below the opposite edge y = x.
+    // A vertex lies one unit in the last place above, on, or below the opposite edge y = x.
     for (const auto& [y, expected] :
          {std::pair{std::nextafter(0.5, 1.0), true}, {0.5, false}, {std::nextafter(0.5, 0.0), false}})
         EXPECT_EQ(accepted(shapes::polygon({{0, 0}, {1, 1}, {0.75, 2}, {0.5, y}, {0.25, 2}})), expected) << y;
@@ -107,11 +110,11 @@ TEST(CheckSimple, SeveralBodies) {
     EXPECT_FALSE(accepted(shapes::geometry({a, shapes::moved(a, 0, 1, {1, 1})}))) << "a common corner";
     EXPECT_FALSE(accepted(shapes::geometry({a, shapes::moved(a, 0, 0.5, {0.25, 0.25})}))) << "inside";
     EXPECT_FALSE(accepted(shapes::geometry({a, shapes::moved(a, 0, 1, {0.5, 0.5})}))) << "crossing";
-    // In the cove, outside the body.
+    // The second body lies in the cove of the first, outside of it.
     EXPECT_TRUE(accepted(shapes::geometry({shapes::c_shape(0.1), shapes::moved(a, 0, 0.5, {0.7, 0.7})})));
 }
 
-TEST(CheckSimple, RefusesWhatIsNoOutline) {
+TEST(CheckSimple, RefusesPointsThatAreNoOutline) {
     EXPECT_TRUE(accepted(Geometry{}));
     EXPECT_FALSE(accepted(shapes::polygon({})));
     EXPECT_FALSE(accepted(shapes::polygon({{0, 0}, {1, 0}})));

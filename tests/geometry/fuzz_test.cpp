@@ -1,9 +1,12 @@
-// Damaged files: whatever the bytes, the reader ends with a Geometry that passes check_simple() or with an Error.
+// Whatever the bytes of a damaged file, the reader ends with a Geometry that passes check_simple() or with an Error.
+#include <random>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <lamina/geometry.hpp>
 #include <lamina/surface.hpp>
-#include <random>
 
 #include "geometry/parse_airfoil.hpp"
 #include "support/geometry_fixtures.hpp"
@@ -11,6 +14,7 @@
 namespace lamina {
 namespace {
 
+/// Damages a text at one to four random places.
 class Mutator {
 public:
     explicit Mutator(unsigned seed) : random_(seed) {}
@@ -76,7 +80,7 @@ private:
     std::mt19937 random_;
 };
 
-TEST(Fuzz, DamagedFilesGiveAPslgOrAnError) {
+TEST(Fuzz, DamagedFilesGiveASimpleGeometryOrAnError) {
     std::vector<std::string> seeds = fixtures::same_loop;
     seeds.insert(seeds.end(), {fixtures::two_999, fixtures::two_blank, fixtures::two_labelled, fixtures::two_lednicer,
                                fixtures::open_base});
@@ -86,7 +90,7 @@ TEST(Fuzz, DamagedFilesGiveAPslgOrAnError) {
     for (std::size_t i = 0; i < cases; ++i) {
         const std::string content = mutate(seeds[i % seeds.size()]);
         try {
-            const Geometry geometry = geometry::finish(geometry::parse_airfoil(content, "fuzz.dat"), {});
+            const Geometry geometry = geometry::make_geometry(geometry::parse_airfoil(content, "fuzz.dat"), {});
             ASSERT_FALSE(geometry.elements.empty());
             ASSERT_NO_THROW(check_simple(geometry)) << content;
             ASSERT_FALSE(describe(geometry).empty());

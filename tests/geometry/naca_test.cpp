@@ -1,8 +1,11 @@
-// NACA sections against what their digits promise.
-#include <gtest/gtest.h>
-
+// NACA sections have the shapes that their digits promise.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
 #include <lamina/geometry.hpp>
 #include <lamina/surface.hpp>
 
@@ -16,7 +19,7 @@ Element naca(const std::string& input, std::size_t default_points = 200) {
     return read_geometry(inputs, options).elements.at(0);
 }
 
-/// Ordinate of a polyline at x.
+/// Returns the ordinate of a polyline at x.
 double interpolate(const std::vector<Point>& line, double x) {
     for (std::size_t i = 1; i < line.size(); ++i) {
         const Point a = line[i - 1], b = line[i];
@@ -30,7 +33,7 @@ struct Surfaces {
     std::vector<Point> upper, lower;
 };
 
-/// n: edges of each surface.
+/// Returns both surfaces of a section with n edges each, from the trailing to the leading edge and back.
 Surfaces surfaces(const Element& e, std::size_t n) {
     Surfaces s;
     for (std::size_t k = 0; k <= n; ++k) s.upper.push_back(e.points.at(k));
@@ -63,7 +66,7 @@ TEST(Naca, StartsAtTheTrailingEdgeUpperSurfaceFirst) {
     }
 }
 
-TEST(Naca, ThicknessIsThatOfTheDigitsNearThirtyPerCent) {
+TEST(Naca, ThicknessPeaksAtThirtyPerCent) {
     const auto [upper, lower] = surfaces(naca_airfoil("0012", 2000), 1000);
     EXPECT_NEAR(interpolate(upper, 0.3) - interpolate(lower, 0.3), 0.12, 2e-4);
     double thickest = 0, where = 0;
@@ -71,7 +74,7 @@ TEST(Naca, ThicknessIsThatOfTheDigitsNearThirtyPerCent) {
         if (p.y > thickest) thickest = p.y, where = p.x;
     EXPECT_NEAR(2 * thickest, 0.12, 2e-4);
     EXPECT_NEAR(where, 0.30, 0.005);
-    // Report 460's ordinate at 30 %: 6.002 per cent, with the published coefficients.
+    // Report 460 tables an ordinate of 6.002 per cent at 30 %, with the published coefficients.
     EXPECT_NEAR(interpolate(surfaces(naca_airfoil("0012", 2001, TrailingEdge::blunt), 1000).upper, 0.3), 0.06002, 1e-5);
 }
 
@@ -85,7 +88,7 @@ TEST(Naca, MeanLinesPeakWhereTheDigitsSay) {
         }
         return best;
     };
-    // A thin section's midpoints are its mean line.
+    // The midpoints of a thin section lie on its mean line.
     EXPECT_NEAR(peak("4401").x, 0.4, 0.01);
     EXPECT_NEAR(peak("4401").y, 0.04, 1e-4);
     EXPECT_NEAR(peak("2601").x, 0.6, 0.01);
@@ -104,11 +107,11 @@ TEST(Naca, ReflexedMeanLinesRiseAtTheTail) {
     EXPECT_NEAR(mean(1), 0, 1e-15);
 }
 
-TEST(Naca, BluntBaseIsThePublishedOne) {
+TEST(Naca, BluntSectionsHaveThePublishedBase) {
     const Element e = naca("naca:0012:400:blunt");
     EXPECT_EQ(e.points[0].x, 1);
     EXPECT_NEAR(e.points[0].y, 0.00126, 1e-12);
-    // 401 surface points; the base gets vertices inside, at x = 1 as well.
+    // The section has 401 surface points. The base gets further vertices, at x = 1 as well.
     EXPECT_EQ(e.points[400].x, 1);
     EXPECT_NEAR(e.points[0].y - e.points[400].y, 0.00252, 1e-12);
     EXPECT_GT(e.points.size(), 401u);
@@ -124,7 +127,7 @@ TEST(Naca, CosineSpacing) {
         EXPECT_NEAR(e.points[k].x, 0.5 * (1 + std::cos(full_turn * static_cast<double>(k) / 64)), 1e-15);
 }
 
-TEST(Naca, InputsSayHowManyPoints) {
+TEST(Naca, InputsMayGiveTheNumberOfPoints) {
     EXPECT_EQ(naca("naca:0012").points.size(), 200u);
     EXPECT_EQ(naca("naca:0012", 90).points.size(), 90u);
     EXPECT_EQ(naca("naca:0012:400").points.size(), 400u);
@@ -135,7 +138,7 @@ TEST(Naca, InputsSayHowManyPoints) {
     EXPECT_EQ(naca("naca:0012").name, "airfoil");
 }
 
-TEST(Naca, RefusesWhatNamesNoSection) {
+TEST(Naca, RefusesInputsThatNameNoSection) {
     for (const std::string input : {"naca:",
                                     "naca:12",
                                     "naca:001",

@@ -1,16 +1,19 @@
-// Formats and quirks of files, and the repairs the reader makes.
-#include <gtest/gtest.h>
-
+// The reader understands the formats and quirks of files, and repairs them.
 #include <algorithm>
 #include <clocale>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
 #include <lamina/error.hpp>
 #include <lamina/geometry.hpp>
 #include <lamina/surface.hpp>
 
 #include "support/geometry_fixtures.hpp"
 #include "support/shapes.hpp"
-
-#include <fmt/format.h>
 
 namespace lamina {
 namespace {
@@ -68,7 +71,7 @@ TEST(Reader, TablesOfUpperAndLowerOrdinates) {
     }
 }
 
-/// Taken as they stand, the surfaces would cross.
+// Taken as they are, the surfaces would cross.
 TEST(Reader, TablesThatCountLowerOrdinatesDownward) {
     const Element e = read("title\nx lower upper\n0 0 0\n.1 .02 .04\n.3 .07 .06\n.6 .01 .05\n1 0 0\n").elements[0];
     EXPECT_TRUE(has_repair(e, "downward"));
@@ -104,9 +107,9 @@ TEST(Reader, RemarksBehindCoordinatesAreIgnored) {
     EXPECT_EQ(read(content).elements[0].points, fixtures::loop);
 }
 
-TEST(Reader, LinesAreThoseOfTheFile) {
+TEST(Reader, RemembersTheLinesOfPoints) {
     const Element e = read(fixtures::lednicer).elements[0];
-    // The lower surface's leading edge (line 10) is that of the upper one (line 4).
+    // The leading edge stands in line 10 with the lower surface and in line 4 with the upper one, which counts.
     EXPECT_EQ(e.lines, (std::vector<std::size_t>{8, 7, 6, 5, 4, 11, 12, 13}));
     EXPECT_EQ(e.points_read, 9u);
 }
@@ -174,13 +177,13 @@ TEST(Reader, MergesSurfacesThatCrossByRounding) {
     EXPECT_EQ(geometry.elements[0].points[0], (Point{1, 0}));
     ASSERT_FALSE(geometry.elements[0].repairs.empty());
     EXPECT_NE(geometry.elements[0].repairs[0].find("the edges on both sides of them cross"), std::string::npos);
-    // At the nose, as where each surface brings its own.
+    // The same happens at a nose that each surface has with other digits.
     const Element nose =
         read("NOSE\n1 0\n0.6 0.05\n0.0005 0.01\n0 0\n0 0.00001\n0.0005 -0.01\n0.6 -0.04\n").elements[0];
     EXPECT_EQ(nose.points.size(), 6u);
     EXPECT_TRUE(
         has_repair(nose, "lines 6 and 5: the edges on both sides of them cross; (0, 1e-05) merged with (0, 0)"));
-    // A crossing that can be seen is the user's to mend.
+    // A crossing that can be seen is left to the user.
     EXPECT_THROW(read("CROSSED\n1 0\n0.98 0.002\n0.7 0.04\n0.3 0.06\n0 0\n0.3 -0.03\n0.7 -0.01\n0.98 0.001\n"
                       "1.003 0.002\n"),
                  InputError);
@@ -191,7 +194,7 @@ TEST(Reader, CutsOffATailWithoutThickness) {
     EXPECT_EQ(e.points.size(), 4u);
     EXPECT_EQ(e.points[0], (Point{0.995, 0.001}));
     EXPECT_TRUE(has_repair(e, "a tail of no thickness cut off, from (0.995, 0.001) to (1, 0)"));
-    // A long one is no tail.
+    // A long line is not taken for a tail.
     EXPECT_THROW(read("TAIL\n1 0\n0.9 0.01\n0.6 0.05\n0 0\n0.6 -0.04\n0.9 0.01\n1 0\n"), InputError);
 }
 
@@ -204,7 +207,7 @@ TEST(Reader, ReversesClockwiseOrderFromTheSamePoint) {
 
 TEST(Reader, ClosesAnOpenTrailingEdgeByABase) {
     const Element e = read(fixtures::open_base).elements[0];
-    // Base 0.02; the shorter neighbour is hypot(0.01, 0.001): two edges.
+    // The base is 0.02 long and its shorter neighbour hypot(0.01, 0.001), so that it gets two edges.
     ASSERT_EQ(e.points.size(), 12u);
     EXPECT_EQ(e.points.back(), (Point{1, 0}));
     EXPECT_EQ(e.lines.back(), 0u);
@@ -221,13 +224,13 @@ TEST(Reader, NeverScalesOrMoves) {
 }
 
 TEST(Reader, PerCentFilesAreNotMistakenForCounts) {
-    // First point (100, 2): looks like Lednicer's counts.
+    // The first point (100, 2) looks like the counts of a Lednicer file.
     const Element e = read("100.0 2.0\n50 9\n20 8\n0 0\n20 -3\n50 -4\n100 2\n").elements[0];
     EXPECT_EQ(e.points.size(), 6u);
     EXPECT_EQ(e.points[0], (Point{100, 2}));
 }
 
-/// The loop that is read is the image of the loop that is read from the original, for rotations and scalings too.
+// The outline that is read from a rotated, scaled or shifted file is the image of the original outline.
 TEST(Reader, MappedInputGivesTheMappedLoop) {
     std::mt19937 random(3);
     for (const shapes::Outline& shape : {shapes::joukowski(0.1, 0.05, 40), shapes::ellipse(1, 0.2, 31),
@@ -271,7 +274,7 @@ TEST(Names, ComeFromFileStemsOrTheUser) {
     }
 }
 
-TEST(Names, NeverTakeThatOfTheOuterBoundary) {
+TEST(Names, AvoidTheNameOfTheOuterBoundary) {
     const test::TemporaryFolder folder;
     const std::vector<std::string> inputs{folder.write("farfield.dat", fixtures::selig).string(),
                                           folder.write("flap.dat", fixtures::second_body).string()};

@@ -1,4 +1,8 @@
-// Bad input: each refusal names file, line, place and reason.
+// Each refusal of bad input names the file, the line, the place and the reason.
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <lamina/geometry.hpp>
@@ -9,7 +13,7 @@ namespace lamina {
 namespace {
 
 struct Refusal {
-    std::string what, file;
+    std::string message, file;
     std::size_t line = 0;
     std::optional<Point> at;
     ExitCode code = ExitCode::done;
@@ -31,10 +35,10 @@ void expect_refusal(const std::string& content, std::size_t line, const std::str
     const Refusal r = refusal_of(content);
     EXPECT_EQ(r.code, ExitCode::bad_input);
     EXPECT_EQ(r.line, line);
-    EXPECT_NE(r.what.find(reason), std::string::npos) << r.what;
-    EXPECT_EQ(r.what.find('\n'), std::string::npos) << r.what;
+    EXPECT_NE(r.message.find(reason), std::string::npos) << r.message;
+    EXPECT_EQ(r.message.find('\n'), std::string::npos) << r.message;
     EXPECT_TRUE(r.file.ends_with("bad.dat")) << r.file;
-    EXPECT_EQ(r.what.find(r.file), 0u);
+    EXPECT_EQ(r.message.find(r.file), 0u);
     if (at) {
         ASSERT_TRUE(r.at.has_value());
         EXPECT_NEAR(r.at->x, at->x, 1e-12);
@@ -91,7 +95,7 @@ TEST(Refusal, AllPointsOnALine) {
 }
 
 TEST(Refusal, SelfCrossing) {
-    // Edge (1, 0)-(0, 1) of lines 3 and 4 crosses (0, 0)-(1, 1) of the ends, lines 2 and 5.
+    // The edge (1, 0)-(0, 1) of lines 3 and 4 crosses the edge (0, 0)-(1, 1) between the ends, lines 2 and 5.
     expect_refusal("t\n0 0\n1 0\n0 1\n1 1\n0 0\n", 3,
                    "the outline crosses itself: the edge of lines 3 and 4 and the edge of lines 2 and 5",
                    Point{0.5, 0.5});
@@ -99,7 +103,7 @@ TEST(Refusal, SelfCrossing) {
 
 TEST(Refusal, SelfTouching) {
     expect_refusal("t\n0 0\n2 0\n2 1\n1 0.5\n2 2\n1 3\n1 0.5\n0 1\n0 0\n", 4, "touches itself", Point{1, 0.5});
-    // A vertex on an edge.
+    // The outline touches itself with a vertex on an edge.
     expect_refusal("t\n0 0\n2 0\n2 1\n1 0\n0 1\n0 0\n", 2, "touches itself", Point{1, 0});
 }
 
@@ -110,7 +114,7 @@ TEST(Refusal, FoldsAndSpikes) {
 
 TEST(Refusal, HalfAnOutline) {
     expect_refusal("t\n0 0\n0.2 0.06\n0.5 0.07\n1 0\n", 5, "the outline is open", Point{1, 0});
-    // A surface beside a whole body.
+    // A single surface follows a whole body.
     expect_refusal(fixtures::selig + "\n2 0\n2.5 0.1\n3 0\n", 12, "neither a closed outline nor one of two surfaces");
 }
 

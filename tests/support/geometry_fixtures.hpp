@@ -1,19 +1,21 @@
-// Airfoil files as strings, one a format or quirk; all describe sections of eight points about.
+// Airfoil files as strings, one per format or quirk. Each describes sections of about eight points.
 #pragma once
 
-#include <lamina/geometry.hpp>
 #include <string>
 #include <vector>
+
+#include <lamina/geometry.hpp>
 
 #include "support/temporary_folder.hpp"
 
 namespace lamina::fixtures {
 
-/// Closed, counter-clockwise from the trailing edge; line 2 holds the first point.
+/// A closed outline, counter-clockwise from the trailing edge. Line 2 holds the first point.
 inline const std::string selig =
     "SAMPLE 12\n"
     "1.0 0.0\n0.75 0.04\n0.5 0.07\n0.2 0.06\n0.0 0.0\n0.2 -0.04\n0.5 -0.05\n0.75 -0.03\n1.0 0.0\n";
 
+/// The outline of the file above.
 inline const std::vector<Point> loop = {{1, 0}, {0.75, 0.04}, {0.5, 0.07},  {0.2, 0.06},
                                         {0, 0}, {0.2, -0.04}, {0.5, -0.05}, {0.75, -0.03}};
 
@@ -57,7 +59,7 @@ inline const std::string z_column =
     "SAMPLE\n1 0 0\n.75 .04 0\n.5 .07 0\n.2 .06 0\n0 0 0\n.2 -.04 0\n.5 -.05 0\n.75 -.03 0\n1 0 0\n";
 inline const std::string clockwise = "SAMPLE\n1 0\n.75 -.03\n.5 -.05\n.2 -.04\n0 0\n.2 .06\n.5 .07\n.75 .04\n1 0\n";
 
-/// Every one of these is the closed loop above.
+/// All files that hold the outline `loop`.
 inline const std::vector<std::string> same_loop = {
     selig,         crlf,          old_mac,           no_title,         fortran,      csv,
     csv_semicolon, decimal_comma, lednicer,          lednicer_one_run, two_surfaces, two_surfaces_one_run,
@@ -72,11 +74,11 @@ inline const std::string two_lednicer = lednicer +
                                         "\nFlap\n 4 3\n1.02 -0.06\n1.1 -0.04\n1.2 -0.05\n1.3 -0.1\n\n"
                                         "1.02 -0.06\n1.1 -0.09\n1.3 -0.1\n";
 
-/// Blunt trailing edge left open.
+/// An outline that is open at its blunt trailing edge.
 inline const std::string open_base =
     "BLUNT\n1 0.01\n0.99 0.012\n.75 .04\n.5 .07\n.2 .06\n0 0\n.2 -.04\n.5 -.05\n.75 -.03\n0.99 -.011\n1 -0.01\n";
 
-/// Writes `content` to a file of its own and reads it.
+/// Writes `content` to a temporary file of this name and reads it.
 inline Geometry read(const std::string& content, const std::string& name = "sample.dat") {
     const test::TemporaryFolder folder;
     const std::vector<std::string> inputs{folder.write(name, content).string()};

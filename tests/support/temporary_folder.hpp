@@ -1,4 +1,4 @@
-// A folder of a test's own, gone with it.
+// A temporary folder for one test.
 #pragma once
 
 #include <stdlib.h>
@@ -13,6 +13,7 @@
 
 namespace lamina::test {
 
+/// Creates a folder, and removes it with all files in it at the end.
 class TemporaryFolder {
 public:
     TemporaryFolder() {
@@ -30,16 +31,18 @@ public:
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
+    /// Writes a file and returns its path.
     std::filesystem::path write(const std::string& name, const std::string& content) const {
         std::ofstream(path_ / name, std::ios::binary) << content;
         return path_ / name;
     }
+    /// Returns the content of a file. Throws where it cannot be read.
     std::string read(const std::string& name) const {
         std::ifstream in(path_ / name, std::ios::binary);
         if (!in) throw std::runtime_error("cannot read " + name);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    /// Sorted names of everything in it.
+    /// Returns the sorted names of all files and folders in it.
     std::vector<std::string> names() const {
         std::vector<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename());

@@ -1,0 +1,21 @@
+// The characters of airfoil files: classes of ASCII characters that do not depend on the locale, and printable UTF-8.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lamina::geometry {
+
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+/// Returns whether a character is white space within a line. Ctrl-Z, which ends old DOS files, counts as such.
+inline bool is_space(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\x1a'; }
+
+/// Returns the text without white space at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// Returns bytes as trimmed, printable UTF-8. Bytes that are not valid UTF-8 are taken as Latin-1; control characters
+/// become spaces.
+std::string printable(std::string_view bytes);
+
+}  // namespace lamina::geometry

@@ -1,0 +1,44 @@
+// Rows of an airfoil file -> blocks: runs of coordinates without anything between them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "geometry/coordinate_rows.hpp"
+#include "geometry/source_point.hpp"
+
+namespace lamina::geometry {
+
+/// A point with the numbers of its row.
+struct RowPoint : SourcePoint {
+    std::size_t columns = 2;  ///< number of the row's numbers
+    double third = 0;         ///< the third of them; 0 where there are two
+};
+
+using PointRun = std::vector<RowPoint>;
+
+/// Coordinates that follow each other without a blank line, comment, label or separator between them.
+struct CoordinateBlock {
+    PointRun points;
+    std::string title;  ///< the text before the block
+};
+
+/// The blocks between two separators, which are rows "999 999".
+using CoordinateSection = std::vector<CoordinateBlock>;
+
+struct CoordinateDocument {
+    std::vector<CoordinateSection> sections{1};
+    bool csv = false;               ///< a row has commas or semicolons between its fields
+    bool titled = false;            ///< text stands before the first coordinates
+    std::string first_comment;      ///< the first comment before the first coordinates
+    std::string heading;            ///< all text before the first coordinates, in lower case
+    std::size_t symmetry_line = 0;  ///< the line that says that one surface stands for both; 0 where none does
+    std::vector<std::string> notes;
+};
+
+/// Divides rows into blocks and sections. Throws InputError, which names `file`, for damaged coordinates, rows of more
+/// than three numbers and coordinates outside the exact range.
+CoordinateDocument split_into_blocks(const std::vector<TextRow>& rows, const std::string& file);
+
+}  // namespace lamina::geometry

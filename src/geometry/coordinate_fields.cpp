@@ -1,0 +1,116 @@
+#include "geometry/coordinate_fields.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "geometry/characters.hpp"
+
+namespace lamina::geometry {
+
+namespace {
+
+/// Returns the kind of a text that std::from_chars() does not understand.
+FieldKind kind_of_text(const std::string& text) {
+    const std::size_t first = text.find_first_not_of("+-.");
+    const bool starts_with_digit = first != std::string::npos && is_digit(text[first]);
+    const bool only_points = first == std::string::npos && text.find('.') != std::string::npos;  // "......"
+    return starts_with_digit || only_points ? FieldKind::number_like : FieldKind::word;
+}
+
+Field make_field(std::string text) {
+    Field field{std::move(text)};
+    std::string s = field.text;
+    if (s.size() > 1 && s[0] == '+' && s[1] != '-') s.erase(0, 1);
+    std::replace_if(
+        s.begin(), s.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
+    const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), field.value);
+    if (error == std::errc::invalid_argument) {
+        field.kind = kind_of_text(s);
+    } else if (end != s.data() + s.size()) {
+        // "infinite" starts with "inf", but is a word.
+        field.kind = is_letter(s[0]) ? FieldKind::word : FieldKind::number_like;
+    } else if (error == std::errc::result_out_of_range) {
+        field.kind = FieldKind::too_extreme;
+    } else {
+        field.kind = std::isfinite(field.value) ? FieldKind::number : FieldKind::not_finite;
+    }
+    return field;
+}
+
+/// Returns whether a text is a number where the comma is the decimal sign: "12", "-0,5", "1,0e-3".
+bool fits_decimal_comma(std::string_view s) {
+    std::size_t i = !s.empty() && (s[0] == '+' || s[0] == '-') ? 1 : 0;
+    const auto skip_digits = [&] {
+        const std::size_t start = i;
+        while (i < s.size() && is_digit(s[i])) ++i;
+        return i > start;
+    };
+    if (!skip_digits()) return false;
+    if (i < s.size() && s[i] == ',') {
+        ++i;
+        if (!skip_digits()) return false;
+    }
+    if (i < s.size() && (s[i] == 'e' || s[i] == 'E')) {
+        ++i;
+        if (i < s.size() && (s[i] == '+' || s[i] == '-')) ++i;
+        if (!skip_digits()) return false;
+    }
+    return i == s.size();
+}
+
+/// The texts of the fields of a line.
+struct SplitLine {
+    std::vector<std::string> texts;
+    bool has_separators = false;
+};
+
+SplitLine split(std::string_view s, bool comma_separates) {
+    SplitLine result;
+    const auto is_separator = [&](char c) { return c == ';' || (comma_separates && c == ','); };
+    bool after_separator = false;
+    std::size_t i = 0;
+    while (i < s.size()) {
+        if (is_space(s[i])) {
+            ++i;
+        } else if (is_separator(s[i])) {
+            if (after_separator || result.texts.empty()) result.texts.emplace_back();
+            after_separator = true;
+            result.has_separators = true;
+            ++i;
+        } else {
+            const std::size_t start = i;
+            while (i < s.size() && !is_space(s[i]) && !is_separator(s[i])) ++i;
+            result.texts.emplace_back(s.substr(start, i - start));
+            after_separator = false;
+        }
+    }
+    return result;
+}
+
+/// Returns whether the commas in the fields of a line, of which there must be some, are decimal signs.
+bool uses_decimal_commas(const std::vector<std::string>& texts) {
+    const auto has_comma = [](const std::string& text) { return text.find(',') != std::string::npos; };
+    return texts.size() >= 2 && std::all_of(texts.begin(), texts.end(), fits_decimal_comma) &&
+           std::any_of(texts.begin(), texts.end(), has_comma);
+}
+
+}  // namespace
+
+FieldList read_fields(std::string_view line) {
+    FieldList result;
+    SplitLine parts = split(line, false);
+    result.has_decimal_commas = uses_decimal_commas(parts.texts);
+    if (result.has_decimal_commas) {
+        for (std::string& text : parts.texts) std::replace(text.begin(), text.end(), ',', '.');
+    } else {
+        parts = split(line, true);
+    }
+    result.has_separators = parts.has_separators;
+    for (std::string& text : parts.texts) result.fields.push_back(make_field(std::move(text)));
+    return result;
+}
+
+}  // namespace lamina::geometry

@@ -1,0 +1,36 @@
+// One line of an airfoil file -> fields: numbers and words.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lamina::geometry {
+
+enum class FieldKind {
+    number,
+    not_finite,   ///< "nan", "inf"
+    too_extreme,  ///< a number that over- or underflows
+    number_like,  ///< starts like a number, but is none
+    word,
+};
+
+struct Field {
+    std::string text;
+    FieldKind kind = FieldKind::word;
+    double value = 0;  ///< of a number
+};
+
+/// The fields of one line.
+struct FieldList {
+    std::vector<Field> fields;
+    bool has_separators = false;      ///< fields are separated by commas or semicolons
+    bool has_decimal_commas = false;  ///< commas were read as decimal points
+};
+
+/// Splits a line into fields. White space separates fields; so does one comma or semicolon with white space round it.
+/// Two separators in a row enclose an empty field. Where all fields fit, commas are decimal signs instead. Numbers are
+/// decimal, correctly rounded and independent of the locale; Fortran's D exponents and a leading + are understood.
+FieldList read_fields(std::string_view line);
+
+}  // namespace lamina::geometry

@@ -1,0 +1,123 @@
+#include "geometry/coordinate_rows.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "geometry/characters.hpp"
+#include "geometry/coordinate_fields.hpp"
+
+namespace lamina::geometry {
+
+namespace {
+
+bool has_point(const Field& f) { return f.text.find('.') != std::string::npos; }
+
+/// Returns whether a field was written as a number.
+bool is_numeric(const Field& f) {
+    return f.kind == FieldKind::number || f.kind == FieldKind::not_finite || f.kind == FieldKind::too_extreme;
+}
+
+bool resembles_number(const Field& f) { return is_numeric(f) || f.kind == FieldKind::number_like; }
+
+/// Returns whether a row, whatever stands before it, can only be a damaged pair of coordinates. Titles may be numbers
+/// and words mixed ("63 212a"), so that decimal points are wanted too: in both fields of the first row of a file, which
+/// is the place of the title, and in one field elsewhere.
+bool must_be_coordinates(const std::vector<Field>& fields, bool is_first_row) {
+    if (fields.size() < 2) return false;
+    const Field &x = fields[0], &y = fields[1];
+    if (is_numeric(x) && is_numeric(y)) return true;
+    const bool resembles_pair =
+        fields.size() <= 3 && resembles_number(x) && resembles_number(y) && (is_numeric(x) || is_numeric(y));
+    const bool has_points = is_first_row ? has_point(x) && has_point(y) : has_point(x) || has_point(y);
+    return resembles_pair && has_points;
+}
+
+/// Returns whether a row that follows coordinates can only be a damaged pair of coordinates.
+bool must_be_coordinates_in_run(const std::vector<Field>& fields) {
+    const Field& first = fields[0];
+    // A single "nan" or "inf" may be a label.
+    if (resembles_number(first)) return first.kind != FieldKind::not_finite || fields.size() > 1;
+    const bool starts_with_letter = !first.text.empty() && is_letter(first.text[0]);
+    return !starts_with_letter && std::any_of(fields.begin(), fields.end(), is_numeric);
+}
+
+/// Returns why the first two fields are no pair of coordinates.
+std::string describe_damage(const std::vector<Field>& fields) {
+    const auto end = fields.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(fields.size(), 2));
+    const auto culprit = std::find_if(fields.begin(), end, [](const Field& f) { return f.kind != FieldKind::number; });
+    if (culprit == end) return "one number where two are expected";
+    const std::string text = printable(culprit->text);
+    if (culprit->kind == FieldKind::not_finite) return fmt::format("'{}' is not a finite number", text);
+    if (culprit->kind == FieldKind::too_extreme) return fmt::format("'{}' is beyond the range of numbers", text);
+    return fmt::format("'{}' is not a number", text);
+}
+
+bool starts_comment(std::string_view line) {
+    return line[0] == '#' || line[0] == '!' || line[0] == ';' || line[0] == '%' || line.starts_with("//");
+}
+
+/// Reads a row that is neither blank nor a comment.
+void read_fields_of(std::string_view line, bool is_first_row, TextRow& row) {
+    const FieldList list = read_fields(trimmed(line.substr(0, line.find_first_of("#!"))));
+    const std::vector<Field>& fields = list.fields;
+    while (row.number_count < fields.size() && fields[row.number_count].kind == FieldKind::number) {
+        if (row.number_count < row.values.size()) row.values[row.number_count] = fields[row.number_count].value;
+        ++row.number_count;
+    }
+    row.has_remark = row.number_count < fields.size();
+    row.has_separators = list.has_separators;
+    row.has_decimal_commas = list.has_decimal_commas;
+    if (row.number_count >= 2) {
+        row.kind = RowKind::numbers;
+        row.has_decimal_points = has_point(fields[0]) && has_point(fields[1]);
+        if (row.has_remark || row.number_count > row.values.size()) row.text = printable(line);
+        return;
+    }
+    row.kind = RowKind::text;
+    row.text = printable(line);
+    if (fields.empty()) return;
+    if (must_be_coordinates(fields, is_first_row)) row.damage = describe_damage(fields);
+    if (must_be_coordinates_in_run(fields)) row.damage_in_run = describe_damage(fields);
+}
+
+/// Reads one line, which is the first row where only blank lines and comments stand before it.
+TextRow read_row(std::string_view line, std::size_t number, bool is_first_row) {
+    TextRow row;
+    row.line = number;
+    line = trimmed(line);
+    if (line.empty()) return row;
+    if (starts_comment(line)) {
+        row.kind = RowKind::comment;
+        const std::size_t start = line.find_first_not_of("#!;%/ \t");
+        if (start != std::string_view::npos) row.text = printable(line.substr(start));
+    } else {
+        read_fields_of(line, is_first_row, row);
+    }
+    return row;
+}
+
+}  // namespace
+
+std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of UTF-8
+    std::vector<TextRow> rows;
+    bool is_first_row = true;
+    std::size_t number = 0;
+    while (!text.empty()) {
+        const std::size_t end = text.find_first_of("\r\n");
+        const std::string_view line = text.substr(0, end);
+        ++number;
+        if (line.find('\0') != std::string_view::npos)
+            throw InputError({file, number, {}}, "not a text file (NUL byte)");
+        rows.push_back(read_row(line, number, is_first_row));
+        if (rows.back().kind != RowKind::blank && rows.back().kind != RowKind::comment) is_first_row = false;
+        if (end == std::string_view::npos) break;
+        text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);
+    }
+    return rows;
+}
+
+}  // namespace lamina::geometry

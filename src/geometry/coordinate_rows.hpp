@@ -1,0 +1,41 @@
+// Text of an airfoil file -> rows: lines that hold coordinates, titles, comments or nothing. Each line is judged by
+// itself here; coordinate_blocks.hpp judges it among its neighbours.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lamina::geometry {
+
+enum class RowKind {
+    blank,
+    comment,  ///< starts with # ! ; % or //
+    text,     ///< titles, labels, tags
+    numbers,  ///< starts with two numbers
+};
+
+/// One line of a file.
+struct TextRow {
+    std::size_t line = 0;  ///< counts from 1
+    RowKind kind = RowKind::blank;
+    std::size_t number_count = 0;     ///< how many numbers the row starts with
+    std::array<double, 3> values{};   ///< the first three of these numbers
+    bool has_remark = false;          ///< text follows the numbers
+    bool has_decimal_points = false;  ///< both of the first two numbers are written with a decimal point
+    bool has_separators = false;      ///< fields are separated by commas or semicolons (CSV)
+    bool has_decimal_commas = false;  ///< "0,5" was read as 0.5
+    /// Trimmed UTF-8 text of `text` and `comment` rows, and of `numbers` rows with a remark or more than three numbers.
+    std::string text;
+    /// Why a `text` row can only be a damaged pair of coordinates; empty where it need not be one.
+    std::string damage;
+    /// Why a `text` row can only be a damaged pair of coordinates where the row before it holds coordinates.
+    std::string damage_in_run;
+};
+
+/// Returns the rows of a text. Lines end in LF, CR LF or CR. Throws InputError, which names `file`, for NUL bytes.
+std::vector<TextRow> read_rows(std::string_view text, const std::string& file);
+
+}  // namespace lamina::geometry

@@ -1,0 +1,26 @@
+#include "geometry/parse_airfoil.hpp"
+
+#include <utility>
+
+#include "geometry/coordinate_rows.hpp"
+#include "geometry/element_names.hpp"
+#include "geometry/outline_repair.hpp"
+#include "geometry/outlines.hpp"
+
+namespace lamina::geometry {
+
+std::vector<Element> parse_airfoil(std::string_view text, const std::string& file) {
+    std::vector<Element> elements;
+    for (const RawOutline& outline : assemble_outlines(read_rows(text, file), file))
+        elements.push_back(repair_outline(outline, file));
+    return elements;
+}
+
+Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options) {
+    Geometry geometry{std::move(elements)};
+    name_elements(geometry.elements, options);
+    check_simple(geometry);
+    return geometry;
+}
+
+}  // namespace lamina::geometry

@@ -1,0 +1,54 @@
+#include "geometry/point_runs.hpp"
+
+#include <algorithm>
+
+namespace lamina::geometry {
+
+namespace {
+
+double run_length(const PointRun& points) {
+    double sum = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) sum += distance(points[i - 1].at, points[i].at);
+    return sum;
+}
+
+/// Returns the distance from the last point to the first.
+double end_gap(const PointRun& points) { return distance(points.front().at, points.back().at); }
+
+}  // namespace
+
+bool is_loop(const PointRun& points) { return points.size() >= 3 && end_gap(points) <= 0.5 * run_length(points); }
+
+bool are_two_surfaces(const PointRun& a, const PointRun& b) {
+    if (a.size() < 2 || b.size() < 2) return false;
+    const double size = std::max(extent(a), extent(b));
+    if (end_gap(a) <= 0.5 * size || end_gap(b) <= 0.5 * size) return false;
+    const double at_start = distance(a.front().at, b.front().at), at_end = distance(a.back().at, b.back().at);
+    return std::min(at_start, at_end) <= 0.1 * size && std::max(at_start, at_end) <= 0.5 * size;
+}
+
+PointRun join_surfaces(const PointRun& upper, const PointRun& lower) {
+    PointRun run(upper.rbegin(), upper.rend());
+    const bool shared = run.back().at == lower.front().at;
+    run.insert(run.end(), lower.begin() + (shared ? 1 : 0), lower.end());
+    return run;
+}
+
+std::optional<std::size_t> find_second_surface(const PointRun& points) {
+    // The step from the end of the first surface to the start of the second is the longest one.
+    std::size_t second = 0;
+    double max_step = -1;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double step = distance(points[i - 1].at, points[i].at);
+        if (step > max_step) {
+            max_step = step;
+            second = i;
+        }
+    }
+    if (second < 3 || points.size() - second < 3) return std::nullopt;
+    const auto middle = points.begin() + static_cast<std::ptrdiff_t>(second);
+    if (!are_two_surfaces({points.begin(), middle}, {middle, points.end()})) return std::nullopt;
+    return second;
+}
+
+}  // namespace lamina::geometry

@@ -1,0 +1,27 @@
+// The shapes of runs of points: closed loops, single surfaces, pairs of surfaces. All criteria are ratios of lengths,
+// so that they hold for rotated and scaled sections, too.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "geometry/coordinate_blocks.hpp"
+
+namespace lamina::geometry {
+
+/// Returns whether the ends of a run lie so near to each other that closing it makes a body. A surface from the leading
+/// to the trailing edge is none.
+bool is_loop(const PointRun& points);
+
+/// Returns whether two runs have both ends in common, at least about, and run the same way, as the upper and the lower
+/// surface do.
+bool are_two_surfaces(const PointRun& a, const PointRun& b);
+
+/// Returns one run over the upper surface from its end to its start, then over the lower surface. A first point that
+/// both have in common appears once.
+PointRun join_surfaces(const PointRun& upper, const PointRun& lower);
+
+/// Returns where the second surface begins in a run of two surfaces one behind the other; empty for other runs.
+std::optional<std::size_t> find_second_surface(const PointRun& points);
+
+}  // namespace lamina::geometry
