@@ -1,10 +1,14 @@
-#include "surface/walls.hpp"
+#include "surface/clearance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "core/segments.hpp"
 
 namespace lamina::surface {
 
-Walls::Walls(const Geometry& geometry) {
+ClearanceSearch::ClearanceSearch(const Geometry& geometry) {
     std::vector<Box> boxes;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         const std::vector<Point>& p = geometry.elements[e].points;
@@ -17,15 +21,18 @@ Walls::Walls(const Geometry& geometry) {
     zeros_ = tree_.group_minima(std::vector<double>(edges_.size(), 0.0));
 }
 
-double Walls::room(std::size_t element, Point p, Point normal, double least_own, double most) const {
-    return tree_.minimum(p, 1, most, zeros_, [&](std::size_t i) {
-        const Edge& edge = edges_[i];
+double ClearanceSearch::clearance(std::size_t element, Point p, Point normal, double min_own,
+                                  double max_clearance) const {
+    return tree_.minimum(p, 1, max_clearance, zeros_, [&](std::size_t i) {
+        const WallEdge& edge = edges_[i];
         const double d = core::distance_to_segment(p, edge.a, edge.b);
         if (edge.element != element) return d;
-        // Opposite faces whose normals meet: neither the other side of the wall nor the way round a corner.
-        const Point towards = midpoint(edge.a, edge.b) - p, facing = unit(-perpendicular(edge.b - edge.a));
-        const bool across = dot(towards, normal) > 0 && dot(towards, facing) < 0 && dot(normal, facing) < -0.5;
-        return across ? std::max(d, least_own) : HUGE_VAL;
+        // Two walls of one element face each other where their normals meet. Neither the other side of the body nor the
+        // wall round a corner does.
+        const Point towards = midpoint(edge.a, edge.b) - p, edge_normal = unit(-perpendicular(edge.b - edge.a));
+        const bool faces_p =
+            dot(towards, normal) > 0 && dot(towards, edge_normal) < 0 && dot(normal, edge_normal) < -0.5;
+        return faces_p ? std::max(d, min_own) : HUGE_VAL;
     });
 }
 

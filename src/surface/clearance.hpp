@@ -1,4 +1,4 @@
-// All walls of a geometry, searched for the free room outside of one of them.
+// The free room outside of the walls.
 #pragma once
 
 #include <cstddef>
@@ -10,23 +10,24 @@
 
 namespace lamina::surface {
 
-class Walls {
+/// A search over all walls of a geometry for the walls that face a point of one of them.
+class ClearanceSearch {
 public:
-    explicit Walls(const Geometry& geometry);
+    explicit ClearanceSearch(const Geometry& geometry);
 
-    /// Returns the distance from a point p of an element to the other elements, or to what faces p across a cove of the
-    /// same element; the latter counts as `least_own` at least. The result is at most `most`. `normal` is the outward
-    /// unit normal at p.
-    double room(std::size_t element, Point p, Point normal, double least_own, double most) const;
+    /// Returns the distance from a point p of an element to the other elements and to walls of the same element that
+    /// face p across a cove. The latter count as at least `min_own` away. The result is at most `max_clearance`.
+    /// `normal` is the outward unit normal at p.
+    double clearance(std::size_t element, Point p, Point normal, double min_own, double max_clearance) const;
 
 private:
-    struct Edge {
+    struct WallEdge {
         std::size_t element;
         Point a, b;
     };
-    std::vector<Edge> edges_;
+    std::vector<WallEdge> edges_;
     core::BoxTree tree_{{}};
-    std::vector<std::vector<double>> zeros_;  ///< as values of the tree's items
+    std::vector<std::vector<double>> zeros_;  ///< values of the tree's items: BoxTree::minimum() is then a distance
 };
 
 }  // namespace lamina::surface

@@ -1,4 +1,4 @@
-// Digitisation noise: points that zigzag about the curve they were read from.
+// Digitisation noise: points that zigzag about the curve they were read from, or that stand off it one by one.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,21 @@
 
 namespace lamina::surface {
 
-struct Noise {
-    std::size_t vertices = 0;  ///< that zigzag
-    double turning = 0;        ///< the most of them, in radians
-    double amplitude = 0;      ///< about the largest distance from the curve between the zigzag
+/// An estimate of the noise of an outline.
+struct NoiseEstimate {
+    std::size_t vertices = 0;  ///< number of vertices that zigzag
+    double max_turning = 0;    ///< largest turning of these vertices, in radians
+    double amplitude = 0;      ///< largest distance of these vertices from the curve, about
 };
 
-/// A section has a few inflections; where the sense of turning changes at three vertices in a row, and by more than the
-/// eye of a flow solver misses (0.2 degrees), the points scatter about the curve. `corners` are left out, ascending.
-Noise find_noise(std::span<const Point> outline, std::span<const std::size_t> corners);
+/// Estimates the noise of a closed outline. A section has a few inflections only: where the sense of turning changes at
+/// three vertices in a row, and each turns by more than a flow solver overlooks (0.2 degrees), the points scatter about
+/// the curve. The corners, by ascending index, are left out.
+NoiseEstimate estimate_noise(std::span<const Point> outline, std::span<const std::size_t> corners);
 
-/// Points that stand off the curve through their neighbours, as slips of the pen do: the outline turns there by more
-/// than 15 degrees to one side and, at both neighbours, to the other; without the point it would turn at the neighbours
-/// by less than a third of that. Ascending.
-std::vector<std::size_t> find_misplaced(std::span<const Point> outline);
+/// Returns the indices, ascending, of points of a closed outline that stand off the curve through their neighbours, as
+/// slips of the pen do. The outline turns there by more than 15 degrees to one side and, at both neighbours, to the
+/// other side. Without the point it would turn at the neighbours by less than a third of that.
+std::vector<std::size_t> find_misplaced_points(std::span<const Point> outline);
 
 }  // namespace lamina::surface

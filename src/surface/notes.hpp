@@ -1,4 +1,4 @@
-// Notes for the user about the points of an element.
+// Notes for the user about the points of an element (Element::surface_notes).
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,16 @@
 
 namespace lamina::surface {
 
-/// Returns "1 corner", "2 corners".
-inline std::string counted(std::size_t n, const std::string& what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+/// Returns a number with its noun: "1 corner", "2 corners".
+inline std::string counted(std::size_t n, const std::string& noun) {
+    return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
 }
 
-/// Notes that the points zigzag about the curve they were read from, if they do.
-void note_noise(Element& element);
+/// Adds a note where the points zigzag about the curve they were read from. Precondition: the corners are known.
+void add_noise_note(Element& element);
 
-/// Notes single points that stand off the curve of their neighbours. Many of them are the shape of the thing.
-void note_misplaced(Element& element);
+/// Adds a note on each point that stands off the curve of its neighbours. Where there are many, they belong to the
+/// shape of the body, and no note is added.
+void add_misplaced_point_notes(Element& element);
 
 }  // namespace lamina::surface

@@ -1,4 +1,4 @@
-// The table of the surface's options.
+// The table of the options of the stage "prepare".
 #include <lamina/surface.hpp>
 
 #include <lamina/option_builders.hpp>
@@ -16,7 +16,7 @@ OptionTable<SurfaceOptions> make_table() {
         "replaced where they are coarse",
         Choices<Surface>{{"auto", Surface::automatic}, {"keep", Surface::keep}, {"resample", Surface::resample}},
         at(&SurfaceOptions::surface));
-    table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle asks for",
+    table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle requires",
                 numbers_from_to(3, 1e7), at(&SurfaceOptions::points));
     table.number("smooth", "TOL", "smooth the points first; none moves by more than this, in units of the input",
                  positive_numbers, at(&SurfaceOptions::smooth));

@@ -5,33 +5,27 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <lamina/surface.hpp>
 
-#include "surface/spline.hpp"
-#include "surface/walls.hpp"
+#include "surface/clearance.hpp"
 
 namespace lamina::surface {
 
 /// Returns the longer side of the box round an outline.
 double extent(std::span<const Point> outline);
 
-/// Cuts a closed outline at its corners, ascending: one run from each corner to the next one, or one closed run where
-/// there is no corner.
-std::vector<SmoothRun> split_at_corners(std::span<const Point> outline, std::span<const std::size_t> corners);
-
-/// What the new points are asked for.
-struct Resampling {
+/// The requests that the new points of all elements have to meet.
+struct ResamplingRequest {
     const SurfaceOptions& options;
     const SpacingLimits& limits;
-    const Walls& walls;
+    const ClearanceSearch& walls;
 
     double max_turning_deg() const { return std::min(options.max_turning_deg, limits.max_turning_deg); }
 };
 
-/// Returns the element, whose number in its geometry is `index`, with new points. The corners of its outline are known
-/// (Element::features); `reason` goes to the element's notes.
-Element resampled(const Element& given, std::size_t index, const Resampling& how, const std::string& reason);
+/// Returns the element, whose number in its geometry is `index`, with new points, and adds a note that quotes `reason`.
+/// Precondition: the corners of its outline are known (Element::features).
+Element resample(const Element& given, std::size_t index, const ResamplingRequest& request, const std::string& reason);
 
 }  // namespace lamina::surface

@@ -1,4 +1,4 @@
-// The division of a closed outline's curves into edges.
+// The target spacing of points along the curves of an outline.
 #pragma once
 
 #include <cstddef>
@@ -12,33 +12,40 @@
 
 namespace lamina::surface {
 
-/// What edges are wanted, in units of the input.
+/// Bounds on the edges of an outline. Lengths are in units of the input.
 struct SpacingRule {
-    double longest;
-    double shortest;     ///< nothing else asks for less
-    double turning;      ///< of the curve along an edge, in radians
-    double tolerance;    ///< of an edge from the curve
-    double growth;       ///< of the spacing per unit of arc length
-    double worst_ratio;  ///< of the spacings on both sides of a corner
-    /// Free room outside of a point of the outline, by the point and the unit normal; empty = no limit.
-    std::function<double(Point, Point)> room;
-    double room_share;  ///< of that room
+    double max_spacing;
+    double min_spacing;       ///< no other bound asks for less
+    double max_turning;       ///< of the curve along an edge, in radians
+    double tolerance;         ///< largest distance of an edge from the curve
+    double gradation;         ///< growth of the spacing per unit of arc length
+    double max_corner_ratio;  ///< of the lengths of the edges on both sides of a corner
+    /// Returns the free room outside of a point of the outline, given the point and the outward unit normal there. May
+    /// be empty.
+    std::function<double(Point, Point)> clearance;
+    double clearance_share;  ///< largest spacing as a share of the free room
 };
 
-struct Division {
-    std::vector<Point> points;
-    /// By curve: index of its first point.
-    std::vector<std::size_t> starts;
-    double deviation = 0;  ///< largest distance of the curves from the edges
+/// A sample of a curve, with the target spacing there.
+struct CurveSample {
+    std::size_t piece;
+    double share;       ///< of the piece, from 0 to 1
+    double arc_length;  ///< from the start of the curve, about
+    Point at;
+    double spacing;  ///< target length of edges
 };
+using CurveSamples = std::vector<CurveSample>;
 
-/// Divides curves that follow each other round an outline, each ending where the next one starts (a single closed one
-/// may have no corner). corner_spacing: by curve, wanted where it starts, infinite for no wish. Each curve gets a whole
-/// number of edges, an even one where it turns by more than 90 degrees, so that a symmetric nose keeps its vertex.
-Division divide(std::span<const Curve> curves, std::span<const double> corner_spacing, const SpacingRule& rule);
+/// Returns samples of each curve with the spacing that the rule allows, before gradation. corner_spacing holds, per
+/// curve, the largest spacing at its start; infinity means no bound. Curves follow each other round an outline.
+std::vector<CurveSamples> sample_spacings(std::span<const SplineCurve> curves, std::span<const double> corner_spacing,
+                                          const SpacingRule& rule);
 
-/// The same with all wishes scaled so that there are about `edges` edges.
-Division divide_into(std::span<const Curve> curves, std::span<const double> corner_spacing, const SpacingRule& rule,
-                     std::size_t edges);
+/// Lowers spacings until none grows faster than `gradation` per unit of arc length, all round the outline and across
+/// its corners.
+void limit_gradation(std::vector<CurveSamples>& curves, double gradation);
+
+/// Returns the angle by which a curve turns from one sample to another, in radians, positive to the left.
+double turning_between(const SplineCurve& curve, const CurveSample& from, const CurveSample& to);
 
 }  // namespace lamina::surface

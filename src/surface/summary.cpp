@@ -1,15 +1,18 @@
-// What a person wants to know about an element, as numbers and as text.
-#include <fmt/format.h>
+// Facts about an element for a person to read, as numbers and as text.
+#include <lamina/surface.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <lamina/surface.hpp>
-#include <optional>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "core/bounding_box.hpp"
 #include "core/reproducible_math.hpp"
 #include "surface/corners.hpp"
-#include "surface/features.hpp"
+#include "surface/notes.hpp"
+#include "surface/trailing_edge.hpp"
 
 namespace lamina {
 
@@ -20,7 +23,7 @@ ElementSummary summarize(const Element& element) {
     const std::vector<Point>& points = element.points;
     const std::size_t n = points.size();
     if (n < 3) return s;
-    for (Point p : points) s.box.include(p);
+    s.box = core::bounding_box(points);
     s.chord = s.box.width();
 
     s.min_spacing = HUGE_VAL;
@@ -36,9 +39,9 @@ ElementSummary summarize(const Element& element) {
         before = spacing;
     }
 
-    const std::vector<double> angles = turnings(points);
+    const std::vector<double> turning = turning_angles(points);
     for (std::size_t i = 0; i < n; ++i) {
-        const double turning_deg = core::degrees(angles[i]);
+        const double turning_deg = core::degrees(turning[i]);
         if (std::abs(turning_deg) > s.max_turning_deg) {
             s.max_turning_deg = std::abs(turning_deg);
             s.max_turning_at = points[i];
@@ -70,9 +73,8 @@ std::string describe(const Geometry& geometry) {
         fmt::format_to(out, "  chord          {:.6g}, perimeter {:.6g}, area {:.6g}\n", s.chord, s.perimeter, s.area);
         fmt::format_to(out, "  spacing        {:.4g} to {:.4g}, neighbours differ by up to a factor {:.4g}\n",
                        s.min_spacing, s.max_spacing, s.max_spacing_ratio);
-        fmt::format_to(out, "  turning        at most {:.4g} degrees, at ({:.6g}, {:.6g}); {} sharp corner{}\n",
-                       s.max_turning_deg, s.max_turning_at.x, s.max_turning_at.y, s.sharp_corners,
-                       s.sharp_corners == 1 ? "" : "s");
+        fmt::format_to(out, "  turning        at most {:.4g} degrees, at ({:.6g}, {:.6g}); {}\n", s.max_turning_deg,
+                       s.max_turning_at.x, s.max_turning_at.y, counted(s.sharp_corners, "sharp corner"));
         fmt::format_to(out, "  trailing edge  {}, at ({:.6g}, {:.6g})\n", s.blunt_trailing_edge ? "blunt" : "not blunt",
                        s.trailing_edge.x, s.trailing_edge.y);
         if (e.repairs.empty()) {

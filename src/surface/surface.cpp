@@ -1,4 +1,4 @@
-// Which elements are resampled, and why.
+// The stage "prepare": the decision which elements are resampled, and the safety net behind it.
 #include <lamina/surface.hpp>
 
 #include <algorithm>
@@ -12,21 +12,24 @@
 #include <lamina/error.hpp>
 
 #include "core/reproducible_math.hpp"
+#include "surface/clearance.hpp"
 #include "surface/corners.hpp"
-#include "surface/features.hpp"
 #include "surface/notes.hpp"
 #include "surface/resample.hpp"
+#include "surface/smooth_run.hpp"
+#include "surface/smoothing_spline.hpp"
+#include "surface/trailing_edge.hpp"
 
 namespace lamina::surface {
 
 namespace {
 
-/// Ice, rather than a section: its corners are too many for samples of a smooth curve.
+/// Returns whether an element has too many corners for samples of a smooth curve. Iced sections have.
 bool is_jagged(const Element& e) { return e.features.corners.size() > std::max<std::size_t>(8, e.points.size() / 25); }
 
 // ---- smoothing -----------------------------------------------------------------------------------------------------
 
-/// Smooths the runs between corners, which stay where they are.
+/// Smooths the runs between corners. The corners stay where they are.
 void smooth(Element& e, double tolerance) {
     const std::vector<Point> given = e.points;
     const std::vector<std::size_t>& corners = e.features.corners;
@@ -45,25 +48,25 @@ void smooth(Element& e, double tolerance) {
 
 /// How finely an outline is sampled.
 struct Sampling {
-    double turning_deg = 0;  ///< most, at a vertex that is no corner
-    double ratio = 1;        ///< of neighbouring spacings
-    double longest = 0;      ///< spacing, as a share of the element's length
+    double max_turning_deg = 0;  ///< at vertices that are no corners
+    double max_ratio = 1;        ///< of neighbouring spacings
+    double max_spacing = 0;      ///< as a share of the element's length
 };
 
-Sampling sampling_of(const Element& e) {
+Sampling measure_sampling(const Element& e) {
     Sampling s;
     const std::size_t n = e.points.size();
-    const std::vector<double> turning = turnings(e.points);
+    const std::vector<double> turning = turning_angles(e.points);
     std::vector<bool> is_corner(n);
     for (std::size_t c : e.features.corners) is_corner[c] = true;
     for (std::size_t i = 0; i < n; ++i) {
         const double before = distance(e.points[(i + n - 1) % n], e.points[i]),
                      after = distance(e.points[i], e.points[(i + 1) % n]);
-        s.ratio = std::max({s.ratio, before / after, after / before});
-        s.longest = std::max(s.longest, after);
-        if (!is_corner[i]) s.turning_deg = std::max(s.turning_deg, core::degrees(std::abs(turning[i])));
+        s.max_ratio = std::max({s.max_ratio, before / after, after / before});
+        s.max_spacing = std::max(s.max_spacing, after);
+        if (!is_corner[i]) s.max_turning_deg = std::max(s.max_turning_deg, core::degrees(std::abs(turning[i])));
     }
-    s.longest /= extent(e.points);
+    s.max_spacing /= extent(e.points);
     return s;
 }
 
@@ -72,39 +75,40 @@ struct Decision {
     std::string reason;  ///< "they turn by up to 12.3 degrees"
 };
 
-Decision decide(const Element& e, const Resampling& how) {
-    // Beyond these, samples of a smooth curve are too coarse for a mesh. The ratio is a user's own choice up to 2.
-    constexpr double most_ratio = 2, longest = 0.05;
-    constexpr std::size_t dense = 1000;
-    const SurfaceOptions& options = how.options;
-    if (options.surface == Surface::keep) return {false, "as asked"};
-    if (options.points) return {true, fmt::format("about {} points are asked for", *options.points)};
-    if (options.surface == Surface::resample) return {true, "as asked"};
+Decision decide(const Element& e, const ResamplingRequest& request) {
+    // Beyond these bounds, samples of a smooth curve are too coarse for a mesh. Ratios up to 2 may be a user's choice.
+    constexpr double max_ratio = 2, max_spacing = 0.05;
+    constexpr std::size_t min_dense_points = 1000;
+    const SurfaceOptions& options = request.options;
+    if (options.surface == Surface::keep) return {false, "as requested"};
+    if (options.points) return {true, fmt::format("about {} points are requested", *options.points)};
+    if (options.surface == Surface::resample) return {true, "as requested"};
     if (e.format == "naca") return {false, "generated points are exact"};
-    if (e.points.size() >= dense) return {false, "they are dense"};
+    if (e.points.size() >= min_dense_points) return {false, "they are dense"};
     const std::vector<std::size_t>& corners = e.features.corners;
     if (is_jagged(e) || corners.size() + 1 >= e.points.size())
         return {false, fmt::format("{} of them are corners", corners.size())};
-    const Sampling s = sampling_of(e);
-    if (s.turning_deg > how.max_turning_deg())
-        return {true, fmt::format("they turn by up to {:.1f} degrees", s.turning_deg)};
-    if (s.longest > longest) return {true, fmt::format("they are up to {:.1f} % of the length apart", 100 * s.longest)};
-    if (s.ratio > most_ratio) return {true, fmt::format("neighbouring spacings differ by up to {:.1f}", s.ratio)};
+    const Sampling s = measure_sampling(e);
+    if (s.max_turning_deg > request.max_turning_deg())
+        return {true, fmt::format("they turn by up to {:.1f} degrees", s.max_turning_deg)};
+    if (s.max_spacing > max_spacing)
+        return {true, fmt::format("they are up to {:.1f} % of the length apart", 100 * s.max_spacing)};
+    if (s.max_ratio > max_ratio)
+        return {true, fmt::format("neighbouring spacings differ by up to {:.1f}", s.max_ratio)};
     return {false,
             fmt::format("they turn by at most {:.1f} degrees, and neighbouring spacings differ by at most {:.2f}",
-                        s.turning_deg, s.ratio)};
+                        s.max_turning_deg, s.max_ratio)};
 }
 
 // ---- safety --------------------------------------------------------------------------------------------------------
 
-/// Gives the element back its given points and says why. False where it has them already.
-bool take_back(Geometry& geometry, std::size_t element, const Geometry& given, const std::string& why) {
+/// Gives an element back its given points, unless it has them already, and adds a note with the reason.
+void restore(Geometry& geometry, std::size_t element, const Geometry& given, const std::string& reason) {
     const Element& original = given.elements[element];
-    if (geometry.elements[element].points == original.points) return false;
+    if (geometry.elements[element].points == original.points) return;
     geometry.elements[element] = original;
     geometry.elements[element].surface_notes.push_back(
-        fmt::format("{} points kept as given: {}", original.points.size(), why));
-    return true;
+        fmt::format("{} points kept as given: {}", original.points.size(), reason));
 }
 
 bool is_simple(const Geometry& geometry) {
@@ -116,14 +120,14 @@ bool is_simple(const Geometry& geometry) {
     }
 }
 
-/// Elements whose new outlines cross themselves or each other get their given points back.
-void take_back_crossing(Geometry& geometry, const Geometry& given) {
+/// Restores the given points of elements whose new outlines cross themselves or each other.
+void restore_crossing(Geometry& geometry, const Geometry& given) {
     if (is_simple(geometry)) return;
     const std::size_t n = geometry.elements.size();
     for (std::size_t e = 0; e < n; ++e)
-        if (!is_simple({{geometry.elements[e]}})) take_back(geometry, e, given, "its smooth curve would cross itself");
+        if (!is_simple({{geometry.elements[e]}})) restore(geometry, e, given, "its smooth curve would cross itself");
     for (std::size_t e = 0; e < n && !is_simple(geometry); ++e)
-        take_back(geometry, e, given, "its smooth curve would cross that of another element");
+        restore(geometry, e, given, "its smooth curve would cross that of another element");
 }
 
 }  // namespace
@@ -140,29 +144,29 @@ Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const S
     if (options.smooth) {
         Geometry smoothed = given;
         for (Element& e : smoothed.elements) smooth(e, *options.smooth);
-        take_back_crossing(smoothed, given);
+        restore_crossing(smoothed, given);
         given = std::move(smoothed);
     } else {
         for (Element& e : given.elements) {
             if (is_jagged(e)) continue;
-            note_noise(e);
-            note_misplaced(e);
+            add_noise_note(e);
+            add_misplaced_point_notes(e);
         }
     }
 
-    const Walls walls(given);
-    const Resampling how{options, limits, walls};
+    const ClearanceSearch walls(given);
+    const ResamplingRequest request{options, limits, walls};
     Geometry result = given;
     for (std::size_t i = 0; i < given.elements.size(); ++i) {
         Element& element = result.elements[i];
-        const Decision decision = decide(element, how);
+        const Decision decision = decide(element, request);
         if (decision.resample) {
-            element = resampled(given.elements[i], i, how, decision.reason);
+            element = resample(given.elements[i], i, request, decision.reason);
         } else {
             element.surface_notes.push_back(fmt::format("{} points kept: {}", element.points.size(), decision.reason));
         }
     }
-    take_back_crossing(result, given);
+    restore_crossing(result, given);
     for (Element& e : result.elements) find_trailing_edge(e.points, e.features);
     return result;
 }

@@ -1,12 +1,16 @@
-// The collection of real files, where it is at hand (LAMINA_SHARED or ../shared beside the sources).
-#include <gtest/gtest.h>
-
+// The reader and the resampling on a collection of real files. The tests are skipped unless it is found in the folder
+// LAMINA_SHARED, or in ../shared beside the sources.
 #include <cstdlib>
 #include <filesystem>
-#include <lamina/geometry.hpp>
-#include <lamina/surface.hpp>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lamina/geometry.hpp>
+#include <lamina/surface.hpp>
 
 namespace lamina {
 namespace {
@@ -30,7 +34,7 @@ protected:
     }
 };
 
-/// Files that a person would send back, too: crossings, folds, half outlines, tables, damaged text.
+/// Files that are rightly refused, for crossings, folds, half outlines, tables or damaged text.
 const std::set<std::string> refused = {"special/ag40d-02r_crossing.dat",
                                        "special/count_mismatch.dat",
                                        "special/dsma661_table.dat",
@@ -88,7 +92,7 @@ TEST_F(Collection, EveryOutlineCanBeResampled) {
             if (result.elements[i].points == given.elements[i].points) continue;
             ++resampled;
             const ElementSummary s = summarize(result.elements[i]);
-            if (s.min_spacing < 1.5 * options.min_spacing * s.chord) continue;  // the base of s1221-4deg-flap
+            if (s.min_spacing < 1.5 * options.min_spacing * s.chord) continue;  // as at the base of s1221-4deg-flap
             EXPECT_LE(s.max_spacing_ratio, options.max_ratio) << name;
         }
     }

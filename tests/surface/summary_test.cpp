@@ -1,3 +1,8 @@
+// Summaries of elements, as numbers and as text.
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <lamina/surface.hpp>
@@ -8,10 +13,10 @@
 namespace lamina {
 namespace {
 
-ElementSummary of(const shapes::Outline& outline) { return summarize(shapes::geometry({outline}).elements[0]); }
+ElementSummary summary_of(const shapes::Outline& outline) { return summarize(shapes::geometry({outline}).elements[0]); }
 
 TEST(Summary, MeasuresKnownShapes) {
-    const ElementSummary box = of(shapes::box());
+    const ElementSummary box = summary_of(shapes::box());
     EXPECT_EQ(box.chord, 1);
     EXPECT_EQ(box.area, 1);
     EXPECT_EQ(box.perimeter, 4);
@@ -21,30 +26,30 @@ TEST(Summary, MeasuresKnownShapes) {
     EXPECT_NEAR(box.max_turning_deg, 90, 1e-12);
     EXPECT_EQ(box.sharp_corners, 4u);
 
-    const ElementSummary l = of(shapes::l_shape());
+    const ElementSummary l = summary_of(shapes::l_shape());
     EXPECT_EQ(l.area, 3);
     EXPECT_EQ(l.sharp_corners, 5u) << "the concave corner is none";
     EXPECT_EQ(l.max_spacing_ratio, 2);
 
-    const ElementSummary wedge = of(shapes::wedge());
+    const ElementSummary wedge = summary_of(shapes::wedge());
     EXPECT_GT(wedge.max_turning_deg, 160);
     EXPECT_EQ(wedge.max_turning_at, (Point{0, 0}));
 }
 
 TEST(Summary, TellsABluntTrailingEdge) {
-    EXPECT_TRUE(of(shapes::section(0.12, 0.01, 40)).blunt_trailing_edge);
-    EXPECT_TRUE(of(shapes::plate(0.05, 20)).blunt_trailing_edge);
-    EXPECT_FALSE(of(shapes::section(0.12, 0, 40)).blunt_trailing_edge);
-    EXPECT_FALSE(of(shapes::circle(1, 60)).blunt_trailing_edge);
+    EXPECT_TRUE(summary_of(shapes::section(0.12, 0.01, 40)).blunt_trailing_edge);
+    EXPECT_TRUE(summary_of(shapes::plate(0.05, 20)).blunt_trailing_edge);
+    EXPECT_FALSE(summary_of(shapes::section(0.12, 0, 40)).blunt_trailing_edge);
+    EXPECT_FALSE(summary_of(shapes::circle(1, 60)).blunt_trailing_edge);
 }
 
 TEST(Summary, FindsTheTrailingEdge) {
-    const auto trailing_edge = [](const shapes::Outline& outline) { return of(outline).trailing_edge; };
+    const auto trailing_edge = [](const shapes::Outline& outline) { return summary_of(outline).trailing_edge; };
     EXPECT_EQ(trailing_edge(shapes::section(0.12, 0, 40)), (Point{1, 0}));
     EXPECT_NEAR(distance(trailing_edge(shapes::section(0.12, 0.01, 40)), {1, 0}), 0, 1e-12);
     EXPECT_EQ(trailing_edge(shapes::circle(1, 60)), (Point{1, 0}));
     EXPECT_EQ(trailing_edge(shapes::diamond()), (Point{1, 0}));
-    // Deflected and scaled; sharp and blunt.
+    // Sharp and blunt flaps are deflected and scaled.
     for (double base : {0.0, 0.01})
         for (double angle : {-1.0, -0.6, 0.3, 0.9}) {
             const Point turned{2 + 0.3 * std::cos(angle), 1 + 0.3 * std::sin(angle)};
@@ -54,15 +59,15 @@ TEST(Summary, FindsTheTrailingEdge) {
 }
 
 TEST(Summary, ScalesWithTheBody) {
-    const ElementSummary a = of(shapes::section(0.12, 0.01, 40)),
-                         b = of(shapes::moved(shapes::section(0.12, 0.01, 40), 0, 8, {1, 2}));
+    const ElementSummary a = summary_of(shapes::section(0.12, 0.01, 40)),
+                         b = summary_of(shapes::moved(shapes::section(0.12, 0.01, 40), 0, 8, {1, 2}));
     EXPECT_NEAR(b.perimeter, 8 * a.perimeter, 1e-12);
     EXPECT_NEAR(b.area, 64 * a.area, 1e-12);
     EXPECT_NEAR(b.max_turning_deg, a.max_turning_deg, 1e-9);
     EXPECT_EQ(b.sharp_corners, a.sharp_corners);
 }
 
-TEST(Describe, SaysWhatWasFoundAndMended) {
+TEST(Describe, TellsMeasuresAndRepairs) {
     const std::string text = describe(fixtures::read(fixtures::clockwise));
     for (const char* part : {"airfoil", "sample.dat (selig)", "SAMPLE", "9 read, 8 in the outline", "chord",
                              "x 0 to 1, y -0.05 to 0.07", "clockwise order reversed", "closing point merged"})

@@ -1,11 +1,12 @@
-// The surface stage: what it promises of spacings, corners, symmetry and shape.
-#include <gtest/gtest.h>
-
+// The surface stage keeps its promises on spacings, corners, symmetry and shape.
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <initializer_list>
 #include <random>
-#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
 
 #include <lamina/error.hpp>
 #include <lamina/surface.hpp>
@@ -35,7 +36,7 @@ Element prepared(const Outline& outline, const SurfaceOptions& options) {
     return result.elements[0];
 }
 
-double largest_ratio(const Outline& p) {
+double max_spacing_ratio(const Outline& p) {
     double ratio = 1;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double before = distance(p[(i + p.size() - 1) % p.size()], p[i]),
@@ -45,15 +46,15 @@ double largest_ratio(const Outline& p) {
     return ratio;
 }
 
-/// At vertices that turn by less than `corner`.
-double largest_turning_deg(const Outline& p, double corner = 45) {
+/// Returns the largest turning of the vertices that turn by less than `corner_deg`.
+double max_turning_deg(const Outline& p, double corner_deg = 45) {
     double largest = 0;
-    for (double t : surface::turnings(p))
-        if (std::abs(t) * to_degrees < corner) largest = std::max(largest, std::abs(t) * to_degrees);
+    for (double t : surface::turning_angles(p))
+        if (std::abs(t) * to_degrees < corner_deg) largest = std::max(largest, std::abs(t) * to_degrees);
     return largest;
 }
 
-double longest_edge(const Outline& p) {
+double max_edge_length(const Outline& p) {
     double longest = 0;
     for (std::size_t i = 0; i < p.size(); ++i) longest = std::max(longest, distance(p[i], p[(i + 1) % p.size()]));
     return longest;
@@ -71,8 +72,8 @@ double distance_to(const Outline& outline, Point p) {
     return least;
 }
 
-/// Of the vertices and the middles of the edges.
-double farthest_from(const Outline& exact, const Outline& outline) {
+/// Returns the largest distance of the vertices and the middles of the edges from an exact outline.
+double max_distance_from(const Outline& exact, const Outline& outline) {
     double farthest = 0;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         farthest = std::max(farthest, distance_to(exact, outline[i]));
@@ -81,15 +82,15 @@ double farthest_from(const Outline& exact, const Outline& outline) {
     return farthest;
 }
 
-std::size_t inflections(const Outline& p) {
-    const std::vector<double> t = surface::turnings(p);
+std::size_t count_inflections(const Outline& p) {
+    const std::vector<double> t = surface::turning_angles(p);
     std::size_t changes = 0;
     for (std::size_t i = 0; i < t.size(); ++i)
         if (t[i] * t[(i + 1) % t.size()] < 0) ++changes;
     return changes;
 }
 
-/// Sections as coarse as those of old collections.
+/// Returns sections that are as coarse as those of old collections.
 std::vector<Outline> coarse_sections() {
     return {shapes::section(0.12, 0, 15),     shapes::section(0.12, 0.003, 20),
             shapes::section(0.2, 0.02, 12),   shapes::joukowski(0.1, 0.08, 40),
@@ -105,11 +106,11 @@ TEST(Resampling, BoundsSpacingsAndTurning) {
         for (double limit : {2.0, 5.0}) {
             const SurfaceOptions options = resampling(limit);
             const Element e = prepared(outline, options);
-            EXPECT_LE(largest_ratio(e.points), options.max_ratio);
-            EXPECT_LE(largest_turning_deg(e.points), limit);
+            EXPECT_LE(max_spacing_ratio(e.points), options.max_ratio);
+            EXPECT_LE(max_turning_deg(e.points), limit);
             Box box;
             for (Point p : outline) box.include(p);
-            EXPECT_LE(longest_edge(e.points), options.max_spacing * 1.01 * std::max(box.width(), box.height()));
+            EXPECT_LE(max_edge_length(e.points), options.max_spacing * 1.01 * std::max(box.width(), box.height()));
             EXPECT_EQ(e.surface_notes.size(), 1u);
         }
     }
@@ -132,7 +133,7 @@ TEST(Resampling, KeepsCorners) {
         for (Point corner : c.corners) EXPECT_TRUE(contains(p, corner)) << corner.x << ' ' << corner.y;
         EXPECT_EQ(surface::find_corners(c.outline).size(), c.corners.size()) << "and nothing else is one";
     }
-    // A flap's hinge: a kink of 20 degrees between straight parts.
+    // The hinge of a flap is a kink of 20 degrees between straight parts.
     Outline kinked{{0, 0}, {0.7, 0}, {0.85, -0.05}, {1, -0.1}, {0.85, -0.03}, {0.7, 0.03}, {0.35, 0.05}};
     EXPECT_TRUE(contains(prepared(kinked, resampling()).points, {0.7, 0}));
 }
@@ -163,9 +164,9 @@ TEST(Resampling, FollowsCurvesThatAreKnownExactly) {
     for (const Case& c : cases) {
         SCOPED_TRACE(c.coarse.size());
         const Element e = prepared(c.coarse, resampling());
-        EXPECT_LT(farthest_from(c.exact, e.points), c.tolerance);
-        // The polygon of the points is farther away.
-        EXPECT_LT(2 * farthest_from(c.exact, e.points), farthest_from(c.exact, c.coarse));
+        EXPECT_LT(max_distance_from(c.exact, e.points), c.tolerance);
+        // The polygon through the given points is farther away.
+        EXPECT_LT(2 * max_distance_from(c.exact, e.points), max_distance_from(c.exact, c.coarse));
     }
 }
 
@@ -204,7 +205,7 @@ TEST(Resampling, MovesTurnsAndScalesWithTheBody) {
     for (std::size_t i = 0; i < p.size(); ++i) EXPECT_LT(distance(shifted[i], expected[i]), 1e-10);
 }
 
-TEST(Resampling, MakesAboutAsManyPointsAsAskedFor) {
+TEST(Resampling, MakesAboutTheRequestedNumberOfPoints) {
     for (std::size_t points : {60u, 150u, 400u, 2000u}) {
         SurfaceOptions options;
         options.points = points;
@@ -212,7 +213,7 @@ TEST(Resampling, MakesAboutAsManyPointsAsAskedFor) {
             const Element e = prepared(outline, options);
             EXPECT_NEAR(double(e.points.size()), double(points), 0.02 * double(points) + 3);
             if (points >= 150) {
-                EXPECT_LE(largest_ratio(e.points), options.max_ratio);
+                EXPECT_LE(max_spacing_ratio(e.points), options.max_ratio);
             }
         }
     }
@@ -244,8 +245,8 @@ TEST(Resampling, SurvivesNearDuplicates) {
                 doubled.insert(doubled.begin() + at + 1, p + off * unit(outline[at + 1] - p) +
                                                              0.3 * off * perpendicular(unit(outline[at + 1] - p)));
                 const Element e = prepared(doubled, resampling());
-                EXPECT_LT(farthest_from(clean, e.points), 2e-4) << off << ' ' << at;
-                EXPECT_LE(largest_turning_deg(e.points), 5);
+                EXPECT_LT(max_distance_from(clean, e.points), 2e-4) << off << ' ' << at;
+                EXPECT_LE(max_turning_deg(e.points), 5);
             }
     }
 }
@@ -269,8 +270,8 @@ TEST(Resampling, SpacingsInASlotFitIt) {
     EXPECT_LT(longest, 1.2);
 }
 
-TEST(Resampling, GivesWayWhereTheCurveWouldCross) {
-    // The spline through the coarse arc reaches beyond the plate that its chords just pass.
+TEST(Resampling, IsUndoneWhereTheCurveWouldCross) {
+    // The spline through the coarse arc crosses the plate, which its chords just miss.
     Outline arc = shapes::moved(shapes::circle(1, 12), 0.2617993877991494, 1, {0, 0});
     const double reach = std::cos(0.2617993877991494);
     Outline plate{{reach + 0.005, -0.3}, {1.5, -0.3}, {1.5, 0.3}, {reach + 0.005, 0.3}};
@@ -282,7 +283,7 @@ TEST(Resampling, GivesWayWhereTheCurveWouldCross) {
     EXPECT_NE(result.elements[0].surface_notes.back().find("kept as given"), std::string::npos);
 }
 
-TEST(AutomaticSurface, KeepsWhatIsFineOrExact) {
+TEST(AutomaticSurface, KeepsFineAndExactOutlines) {
     const SurfaceOptions automatic;
     const std::vector<std::string> naca{"naca:0012:40"};
     EXPECT_EQ(prepare_surfaces(read_geometry(naca), automatic).elements[0].points.size(), 40u);
@@ -304,7 +305,7 @@ TEST(KeptSurface, IsUntouched) {
     for (const Outline& outline : coarse_sections()) EXPECT_EQ(prepared(outline, keep).points, outline);
 }
 
-/// A section with every point but the ends moved at random by up to `noise`.
+/// Returns a section with every point but the trailing edge moved at random by up to `noise`.
 Outline noisy_section(double noise, std::size_t points) {
     std::mt19937 random(7);
     const auto uniform = [&] { return static_cast<double>(random()) / 2147483648.0 - 1; };
@@ -314,7 +315,7 @@ Outline noisy_section(double noise, std::size_t points) {
     return outline;
 }
 
-TEST(Smoothing, TakesNoiseAwayWithinTheTolerance) {
+TEST(Smoothing, RemovesNoiseWithinTheTolerance) {
     for (double noise : {1e-5, 1e-4}) {
         const Outline outline = noisy_section(noise, 200);
         SurfaceOptions options;
@@ -327,30 +328,30 @@ TEST(Smoothing, TakesNoiseAwayWithinTheTolerance) {
         EXPECT_LE(moved, noise);
         EXPECT_GT(moved, 0.3 * noise);
         EXPECT_EQ(smooth[0], outline[0]) << "the trailing edge is a corner";
-        EXPECT_LT(3 * inflections(smooth), inflections(outline));
-        EXPECT_LT(surface::find_noise(smooth, surface::find_corners(smooth)).vertices, 3u);
+        EXPECT_LT(3 * count_inflections(smooth), count_inflections(outline));
+        EXPECT_LT(surface::estimate_noise(smooth, surface::find_corners(smooth)).vertices, 3u);
     }
 }
 
-TEST(Smoothing, IsOfferedWhereItHelps) {
-    const auto offers = [](const Outline& outline) {
+TEST(Smoothing, IsSuggestedWhereItHelps) {
+    const auto is_suggested = [](const Outline& outline) {
         const Element e = prepared(outline, {});
         return e.surface_notes.front().find("--smooth") != std::string::npos;
     };
-    EXPECT_TRUE(offers(noisy_section(2e-4, 200)));
-    EXPECT_FALSE(offers(naca_airfoil("2412", 200).points));
-    EXPECT_FALSE(offers(shapes::joukowski(0.1, 0.05, 200)));
+    EXPECT_TRUE(is_suggested(noisy_section(2e-4, 200)));
+    EXPECT_FALSE(is_suggested(naca_airfoil("2412", 200).points));
+    EXPECT_FALSE(is_suggested(shapes::joukowski(0.1, 0.05, 200)));
 }
 
-TEST(MisplacedPoints, AreToldAndKept) {
+TEST(MisplacedPoints, AreReportedAndKept) {
     const Outline good = naca_airfoil("2412", 60).points;
-    EXPECT_TRUE(surface::find_misplaced(good).empty());
+    EXPECT_TRUE(surface::find_misplaced_points(good).empty());
     for (const std::size_t i : {8u, 20u, 42u, 50u}) {
         for (const double off : {-0.012, 0.012}) {
             Outline outline = good;
             outline[i].y += off;
             for (const Outline& any : {outline, shapes::mirrored(outline)}) {
-                const std::vector<std::size_t> misplaced = surface::find_misplaced(any);
+                const std::vector<std::size_t> misplaced = surface::find_misplaced_points(any);
                 ASSERT_EQ(misplaced.size(), 1u) << i << ' ' << off;
                 EXPECT_EQ(any[misplaced[0]].x, outline[i].x);
                 const Element e = prepared(any, {});
@@ -360,13 +361,13 @@ TEST(MisplacedPoints, AreToldAndKept) {
             }
         }
     }
-    // Corners, flaps, steps and coves are meant.
+    // Corners, flaps, steps and coves belong to the shape.
     for (const Outline& shape : {shapes::l_shape(), shapes::c_shape(0.05), shapes::comb(4, 0.1), shapes::diamond(),
                                  shapes::plate(0.05, 12), shapes::refined(shapes::v_notch(0.4), 15)})
-        EXPECT_TRUE(surface::find_misplaced(shape).empty());
+        EXPECT_TRUE(surface::find_misplaced_points(shape).empty());
 }
 
-TEST(Smoothing, OfAClosedCurveKnowsNoSeam) {
+TEST(Smoothing, LeavesNoSeamInAClosedCurve) {
     std::mt19937 random(3);
     Outline rough = shapes::circle(1, 120);
     for (Point& p : rough) p = (1 + 1e-4 * (static_cast<double>(random()) / 2147483648.0 - 1)) * p;
@@ -374,7 +375,7 @@ TEST(Smoothing, OfAClosedCurveKnowsNoSeam) {
     options.surface = Surface::keep;
     options.smooth = 2e-4;
     const Outline smooth = prepared(rough, options).points;
-    EXPECT_EQ(inflections(smooth), 0u);
+    EXPECT_EQ(count_inflections(smooth), 0u);
     expect_equal_loops(smooth, prepared(shapes::started_at(rough, 31), options).points);
 }
 

@@ -1,0 +1,187 @@
+// Source: J. F. Thompson, B. K. Soni, N. P. Weatherill, Handbook of Grid Generation (1999), chapter 3
+// (equidistribution).
+#include "surface/divide_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/reproducible_math.hpp"
+
+namespace lamina::surface {
+
+namespace {
+
+/// Calls visit(i, a, b, part) for steps along a curve: from share a to share b of the way from sample i to the next
+/// one, the integral of ds / spacing is `part`. The spacing is linear between samples, and steps are short against it.
+template <class Visit>
+void for_each_step(const CurveSamples& samples, Visit&& visit) {
+    constexpr double max_step_share = 0.25;  // of the spacing
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+        const double ds = samples[i + 1].arc_length - samples[i].arc_length;
+        const double h0 = samples[i].spacing, h1 = samples[i + 1].spacing;
+        const double steps = std::ceil(ds / (max_step_share * std::min(h0, h1)));
+        for (double k = 0; k < steps; ++k) {
+            const double a = k / steps, b = (k + 1) / steps;
+            const double ha = h0 + a * (h1 - h0), hb = h0 + b * (h1 - h0);
+            visit(i, a, b, 0.5 * ds / steps * (1 / ha + 1 / hb));
+        }
+    }
+}
+
+double integrate(const CurveSamples& samples) {
+    double sum = 0;
+    for_each_step(samples, [&](std::size_t, double, double, double part) { sum += part; });
+    return sum;
+}
+
+/// The edges that a curve is divided into.
+struct EdgeCount {
+    double integral;                   ///< of ds / spacing along the curve
+    double edges;                      ///< a whole number
+    double first_length, last_length;  ///< lengths of the first and the last edge
+};
+
+EdgeCount count_edges(const SplineCurve& curve, const CurveSamples& samples, double min_edges) {
+    constexpr double slack = 1e-6;  // of an edge, so that rounding does not decide
+    double turning = 0;
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i) turning += turning_between(curve, samples[i], samples[i + 1]);
+    const double integral = integrate(samples);
+    double edges = std::max(std::ceil(integral - slack), min_edges);
+    if (std::abs(turning) > 0.5 * core::pi) edges = 2 * std::ceil(0.5 * edges - 0.25);
+
+    const double edge = integral / edges, length = samples.back().arc_length;
+    EdgeCount count{integral, edges, length, length};
+    double done = 0;
+    for_each_step(samples, [&](std::size_t i, double a, double b, double part) {
+        const auto arc_length_at = [&](double value) {
+            const double share = a + (b - a) * ((value - done) / part);
+            return samples[i].arc_length + share * (samples[i + 1].arc_length - samples[i].arc_length);
+        };
+        if (done < edge && done + part >= edge) count.first_length = arc_length_at(edge);
+        const double before_last = integral - edge;
+        if (done < before_last && done + part >= before_last) count.last_length = length - arc_length_at(before_last);
+        done += part;
+    });
+    return count;
+}
+
+/// Lowers the spacings at corners whose two edges differ by more than the rule allows: the whole numbers of edges make
+/// short curves finer than their spacing asks for. The shorter edge becomes the spacing on both sides. Returns whether
+/// a spacing was lowered.
+bool even_out_corners(std::vector<CurveSamples>& curves, std::span<const EdgeCount> counts, const SpacingRule& rule) {
+    constexpr double max_factor = 0.98;  // so that every round changes something
+    bool changed = false;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        const std::size_t j = (i + 1) % curves.size();
+        const double before = counts[i].last_length, after = counts[j].first_length;
+        if (std::max(before, after) <= rule.max_corner_ratio * std::min(before, after)) continue;
+        const double spacing =
+            std::min(max_factor * curves[j].front().spacing, std::min(before, after) / (1 + 0.5 * rule.gradation));
+        if (spacing < rule.min_spacing) continue;
+        curves[i].back().spacing = curves[j].front().spacing = spacing;
+        changed = true;
+    }
+    return changed;
+}
+
+/// Curves with their graded spacings, and the edges of each.
+struct DivisionPlan {
+    std::vector<CurveSamples> curves;
+    std::vector<EdgeCount> counts;
+
+    /// Returns the number of edges of all curves.
+    double edges() const {
+        double sum = 0;
+        for (const EdgeCount& c : counts) sum += c.edges;
+        return sum;
+    }
+};
+
+DivisionPlan make_plan(std::span<const SplineCurve> curves, std::vector<CurveSamples> spacings,
+                       const SpacingRule& rule) {
+    constexpr int max_rounds = 30;
+    DivisionPlan plan{std::move(spacings), {}};
+    // An outline has at least three edges.
+    const double min_edges = curves.size() == 1 ? 3 : curves.size() == 2 ? 2 : 1;
+    for (int round = 0; round < max_rounds; ++round) {
+        limit_gradation(plan.curves, rule.gradation);
+        plan.counts.clear();
+        for (std::size_t i = 0; i < curves.size(); ++i)
+            plan.counts.push_back(count_edges(curves[i], plan.curves[i], min_edges));
+        if (curves.size() == 1 || !even_out_corners(plan.curves, plan.counts, rule)) break;
+    }
+    return plan;
+}
+
+double distance_to_chord(Point p, Point a, Point b) {
+    const double chord = distance(a, b);
+    return chord > 0 ? std::abs(cross(b - a, p - a)) / chord : distance(p, a);
+}
+
+/// Appends the first point of a curve and those between its edges, but not its last one.
+void place_points(const SplineCurve& curve, const CurveSamples& samples, const EdgeCount& count,
+                  DividedCurves& result) {
+    result.starts.push_back(result.points.size());
+    result.points.push_back(samples.front().at);
+    double sum = 0, next = 1;
+    std::size_t first_sample = 0;  // of the edge that begins at the last point
+    const auto finish_edge = [&](Point end, std::size_t last_sample) {
+        for (std::size_t i = first_sample; i <= last_sample; ++i)
+            result.deviation = std::max(result.deviation, distance_to_chord(samples[i].at, result.points.back(), end));
+    };
+    for_each_step(samples, [&](std::size_t i, double a, double b, double part) {
+        const double edge = count.integral / count.edges;
+        while (next < count.edges && sum + part >= next * edge) {
+            const double share = a + (b - a) * ((next * edge - sum) / part);
+            const CurveSample &from = samples[i], &to = samples[i + 1];
+            const double start = from.piece == to.piece ? from.share : 0;
+            const Point at = curve.at(to.piece, start + share * (to.share - start));
+            finish_edge(at, i);
+            first_sample = i + 1;
+            result.points.push_back(at);
+            ++next;
+        }
+        sum += part;
+    });
+    finish_edge(samples.back().at, samples.size() - 1);
+}
+
+DividedCurves place_all_points(std::span<const SplineCurve> curves, const DivisionPlan& plan) {
+    DividedCurves result;
+    for (std::size_t i = 0; i < curves.size(); ++i) place_points(curves[i], plan.curves[i], plan.counts[i], result);
+    return result;
+}
+
+}  // namespace
+
+DividedCurves divide_curves(std::span<const SplineCurve> curves, std::span<const double> corner_spacing,
+                            const SpacingRule& rule) {
+    return place_all_points(curves, make_plan(curves, sample_spacings(curves, corner_spacing, rule), rule));
+}
+
+DividedCurves divide_curves_into(std::span<const SplineCurve> curves, std::span<const double> corner_spacing,
+                                 const SpacingRule& rule, std::size_t edges) {
+    constexpr int max_doublings = 40, max_bisections = 30;
+    const std::vector<CurveSamples> spacings = sample_spacings(curves, corner_spacing, rule);
+    const auto scaled_plan = [&](double factor) {
+        std::vector<CurveSamples> scaled = spacings;
+        for (CurveSamples& samples : scaled)
+            for (CurveSample& sample : samples) sample.spacing *= factor;
+        return make_plan(curves, std::move(scaled), rule);
+    };
+    const auto target = static_cast<double>(edges);
+    double coarse = 1, fine = 1;  // factors of too few and of too many edges
+    for (int k = 0; k < max_doublings && scaled_plan(coarse).edges() > target; ++k) coarse *= 2;
+    for (int k = 0; k < max_doublings && scaled_plan(fine).edges() < target; ++k) fine *= 0.5;
+    for (int k = 0; k < max_bisections; ++k) {
+        const double middle = 0.5 * (coarse + fine);
+        const double count = scaled_plan(middle).edges();
+        if (count == target) return place_all_points(curves, scaled_plan(middle));
+        (count > target ? fine : coarse) = middle;
+    }
+    const DivisionPlan below = scaled_plan(coarse), above = scaled_plan(fine);
+    return place_all_points(curves, target - below.edges() <= above.edges() - target ? below : above);
+}
+
+}  // namespace lamina::surface
