@@ -1,15 +1,17 @@
-// The parallel loop: every block once, results in order, failures that do not depend on timing.
-#include <gtest/gtest.h>
+// Parallel loops visit every block once, keep results in order, and fail in a way that does not depend on timing.
+#include "core/parallel.hpp"
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "core/busy_times.hpp"
-#include "core/parallel.hpp"
 
 namespace lamina {
 namespace {
@@ -63,17 +65,18 @@ TEST(ParallelInvoke, RunsBothAndNests) {
         with_threads(threads, [&] {
             std::atomic<int> leaves = 0;
             const std::function<void(int)> divide = [&](int depth) {
-                if (depth == 0)
+                if (depth == 0) {
                     ++leaves;
-                else
+                } else {
                     core::parallel_invoke([&] { divide(depth - 1); }, [&] { divide(depth - 1); });
+                }
             };
             divide(10);
             EXPECT_EQ(leaves, 1024);
         });
 }
 
-TEST(ParallelInvoke, RethrowsTheFirst) {
+TEST(ParallelInvoke, RethrowsTheFailureOfTheFirstTask) {
     for (int repeat = 0; repeat < 50; ++repeat)
         for (const unsigned threads : {1u, 4u}) {
             std::string caught;
@@ -122,7 +125,7 @@ TEST(BusyTimes, WorkWithinWorkCountsOnce) {
         EXPECT_GE(times.seconds(0, 1), 0.02);
         EXPECT_EQ(times.seconds(0, 2), 0);
         EXPECT_LE(times.seconds(0, 0) + times.seconds(0, 1), elapsed);
-        const core::BusyTimes::Scope none(nullptr, 1);
+        const core::BusyTimes::Scope measures_nothing(nullptr, 1);
     });
 }
 

@@ -1,9 +1,8 @@
-// The predicates against exact integer arithmetic on adversarial points: 1.4 million quadruples.
+// The predicates against exact integer arithmetic, on 1.4 million quadruples of points that are hard to decide.
 #include <lamina/predicates.hpp>
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <boost/multiprecision/cpp_int.hpp>
 
 #include "core/predicates.hpp"
 
@@ -30,7 +30,7 @@ struct IntegerPoint {
     Integer x, y;
 };
 
-// The points times a common power of two that makes them integers: it changes no sign.
+/// Returns the points times a common power of two that makes their coordinates integers, which changes no sign.
 std::array<IntegerPoint, 4> to_integers(const Quadruple& p) {
     struct Parts {
         std::int64_t mantissa = 0;
@@ -42,14 +42,14 @@ std::array<IntegerPoint, 4> to_integers(const Quadruple& p) {
         for (; result.mantissa != 0 && result.mantissa % 2 == 0; ++result.exponent) result.mantissa /= 2;
         return result;
     };
-    int smallest = std::numeric_limits<int>::max();
+    int min_exponent = std::numeric_limits<int>::max();
     for (const Point& q : p)
         for (const double c : {q.x, q.y})
-            if (c != 0) smallest = std::min(smallest, parts(c).exponent);
+            if (c != 0) min_exponent = std::min(min_exponent, parts(c).exponent);
     const auto scaled = [&](double c) {
         const Parts part = parts(c);
         Integer result = part.mantissa;
-        if (part.mantissa != 0) result <<= part.exponent - smallest;
+        if (part.mantissa != 0) result <<= part.exponent - min_exponent;
         return result;
     };
     std::array<IntegerPoint, 4> result;
@@ -75,7 +75,7 @@ int exact_incircle(const std::array<IntegerPoint, 4>& p) {
     return sign_of(det);
 }
 
-// The turn of a, b, c seen along x over the cut at d.x.
+/// Returns the sign of core::flattened_turn() of the first three points over a cut through the fourth.
 int exact_flattened_turn(const std::array<IntegerPoint, 4>& p) {
     const auto height = [&](const IntegerPoint& q) -> Integer { return (q.x - p[3].x) * (q.x - p[3].x) + q.y * q.y; };
     const Integer left = (p[1].y - p[0].y) * (height(p[2]) - height(p[0]));
@@ -83,8 +83,9 @@ int exact_flattened_turn(const std::array<IntegerPoint, 4>& p) {
     return left.compare(right);
 }
 
-// The tie rule with numbers instead of infinitesimals: small integer points are lifted, the heights lowered by
-// fractions that differ by factors no cofactor can bridge, and the 4 x 4 determinant is taken by permutations.
+/// Returns the sign of incircle_perturbed() for points with small integer coordinates, by numbers instead of
+/// infinitesimals: the lifted heights are lowered by fractions that differ by factors too large for any cofactor, and
+/// the 4 x 4 determinant is summed over all permutations.
 int lowered_incircle(const Quadruple& p) {
     std::array<int, 4> rank{};
     for (int i = 0; i < 4; ++i)
@@ -102,17 +103,15 @@ int lowered_incircle(const Quadruple& p) {
         for (int i = 0; i < 4; ++i)
             for (int j = i + 1; j < 4; ++j) inversions += column[i] > column[j];
         const Integer product = row[0][column[0]] * row[1][column[1]] * row[2][column[2]] * row[3][column[3]];
-        if (inversions % 2 == 0)
-            det += product;
-        else
-            det -= product;
+        det += inversions % 2 == 0 ? product : Integer(-product);
     } while (std::next_permutation(column.begin(), column.end()));
     return sign_of(det);
 }
 
-class Random {
+/// Random numbers and points.
+class PointSource {
 public:
-    explicit Random(std::uint64_t seed) : engine_(seed) {}
+    explicit PointSource(std::uint64_t seed) : engine_(seed) {}
     int integer(int lower, int upper) {
         return lower + static_cast<int>(engine_() % static_cast<std::uint64_t>(upper - lower + 1));
     }
@@ -120,9 +119,9 @@ public:
         return lower + (upper - lower) * static_cast<double>(engine_() >> 11) * 0x1p-53;
     }
     Point point(double scale = 1) { return {scale * real(), scale * real()}; }
-    // A power of ten, far out now and then.
+    /// Returns a random power of ten in a third of the calls, else 1.
     double scale() { return integer(0, 2) == 0 ? std::pow(10.0, integer(-57, 59)) : 1.0; }
-    // Moved by up to `ulps` units in the last place.
+    /// Returns the point with each coordinate moved by up to `ulps` units in the last place.
     Point nudged(Point p, int ulps) {
         for (double* c : {&p.x, &p.y})
             for (int n = integer(-ulps, ulps); n != 0; n += n < 0 ? 1 : -1)
@@ -134,7 +133,7 @@ private:
     std::mt19937_64 engine_;
 };
 
-// Into the exact range, where scaling and nudging have left it.
+/// Returns points moved back into the exact range, which scaling and nudging may leave.
 Quadruple clamped(Quadruple p) {
     for (Point& q : p)
         for (double* c : {&q.x, &q.y}) {
@@ -144,7 +143,7 @@ Quadruple clamped(Quadruple p) {
     return p;
 }
 
-Quadruple near_collinear(Random& random) {
+Quadruple near_collinear(PointSource& random) {
     const double scale = random.scale();
     const Point a = random.point(scale),
                 b = random.integer(0, 1) ? random.point(scale) : a + random.point(1e-9 * scale);
@@ -152,7 +151,7 @@ Quadruple near_collinear(Random& random) {
     return {a, b, on_line(), on_line()};
 }
 
-Quadruple near_cocircular(Random& random) {
+Quadruple near_cocircular(PointSource& random) {
     const double scale = random.scale();
     const Point center = random.point(scale);
     const double radius = scale * std::pow(10.0, random.integer(-6, 1));
@@ -164,7 +163,7 @@ Quadruple near_cocircular(Random& random) {
     return p;
 }
 
-Quadruple lattice(Random& random) {
+Quadruple lattice(PointSource& random) {
     const std::array<double, 6> steps{1, 0.1, 1.0 / 3, 1e-60, 1e58, 0.7e-5};
     const double step = steps[static_cast<std::size_t>(random.integer(0, 5))];
     const int extent = random.integer(1, 40);
@@ -173,8 +172,8 @@ Quadruple lattice(Random& random) {
     return p;
 }
 
-// Exactly cocircular before the nudges: rectangles and mirror images with full mantissas.
-Quadruple symmetric(Random& random) {
+/// Returns rectangles and mirror images with full mantissas, which are exactly cocircular before one point is nudged.
+Quadruple symmetric(PointSource& random) {
     const double scale = random.scale();
     const Point a = random.point(scale),
                 b = random.integer(0, 1) ? random.point(scale) : a + random.point(1e-7 * scale);
@@ -194,8 +193,9 @@ Quadruple symmetric(Random& random) {
     return p;
 }
 
-// Points on a circle whose centre lies on the cut through the fourth: their images lie on a line before the nudges.
-Quadruple centred_on_cut(Random& random) {
+/// Returns points on a circle whose centre lies on the cut through the fourth point. Their flattened images lie on a
+/// line before one point is nudged.
+Quadruple centred_on_cut(PointSource& random) {
     const std::array<Point, 8> circle{Point{3, 4}, {4, 3}, {5, 0}, {4, -3}, {-3, 4}, {-5, 0}, {0, 5}, {0, -5}};
     const double scale = std::ldexp(random.scale(), random.integer(-3, 3));
     const Point center = random.integer(0, 1) ? Point{} : Point{8 * scale, 1024 * scale};
@@ -206,8 +206,8 @@ Quadruple centred_on_cut(Random& random) {
     return p;
 }
 
-// Every coordinate of its own magnitude, anywhere in the range, now and then shared or 0.
-Quadruple mixed_magnitudes(Random& random) {
+/// Returns points whose coordinates have independent magnitudes in the whole range; some coordinates are equal or 0.
+Quadruple mixed_magnitudes(PointSource& random) {
     const auto coordinate = [&] {
         const double magnitude = random.real(1, 10) * std::pow(10.0, random.integer(-60, 59));
         return random.integer(0, 9) == 0 ? 0.0 : random.integer(0, 1) ? magnitude : -magnitude;
@@ -220,8 +220,8 @@ Quadruple mixed_magnitudes(Random& random) {
     return p;
 }
 
-// Differences of few bits beside tails far below: what the exact last stage is for.
-Quadruple large_offset(Random& random) {
+/// Returns points whose differences have few bits and tails far below them, for which the last, exact stage is made.
+Quadruple large_offset(PointSource& random) {
     const Point offset = random.point(std::pow(10.0, random.integer(0, 12)));
     const double tiny = std::pow(10.0, random.integer(-30, -8));
     const std::array<Point, 8> circle{Point{3, 4}, {4, 3}, {5, 0}, {4, -3}, {-3, 4}, {-5, 0}, {0, 5}, {0, -5}};
@@ -231,15 +231,17 @@ Quadruple large_offset(Random& random) {
     return p;
 }
 
+/// Counts over the cases of one generator.
 struct Tally {
-    int wrong = 0;
-    int filter_failures = 0;
-    int ties = 0;
-    int flat_ties = 0;
+    int wrong = 0;            ///< cases with a wrong sign
+    int filter_failures = 0;  ///< cases that the filter of incircle() could not decide
+    int ties = 0;             ///< cocircular points
+    int flat_ties = 0;        ///< points whose flattened images lie on a line
 };
 
-// Of the first three points in ascending order of y, over a cut through the fourth.
-bool flattened_turn_right(Quadruple p, Tally& tally) {
+/// Returns whether core::flattened_turn() is right for the first three points, in ascending order of y, over a cut
+/// through the fourth.
+bool flattened_turn_is_right(Quadruple p, Tally& tally) {
     std::sort(p.begin(), p.begin() + 3, [](Point a, Point b) { return a.y < b.y; });
     if (p[0].y == p[1].y || p[1].y == p[2].y) return true;
     const int turn = exact_flattened_turn(to_integers(p));
@@ -248,9 +250,10 @@ bool flattened_turn_right(Quadruple p, Tally& tally) {
            sign_of(core::flattened_turn_after_filter(p[0], p[1], p[2], p[3].x)) == turn;
 }
 
+/// Compares all predicates with exact arithmetic on generated points.
 template <class Generator>
 Tally compare(Generator generate, int cases, std::uint64_t seed) {
-    Random random(seed);
+    PointSource random(seed);
     Tally tally;
     for (int n = 0; n < cases; ++n) {
         const Quadruple p = clamped(generate(random));
@@ -261,7 +264,7 @@ Tally compare(Generator generate, int cases, std::uint64_t seed) {
             sign_of(orient2d(p[0], p[1], p[2])) == turn && sign_of(incircle(p[0], p[1], p[2], p[3])) == inside &&
             (inside == 0 || perturbed == inside) &&
             sign_of(core::incircle_after_filter(p[0], p[1], p[2], p[3])) == perturbed &&
-            sign_of(core::orient2d_after_filter(p[0], p[1], p[2])) == turn && flattened_turn_right(p, tally);
+            sign_of(core::orient2d_after_filter(p[0], p[1], p[2])) == turn && flattened_turn_is_right(p, tally);
         if (!right && tally.wrong++ == 0)
             ADD_FAILURE() << std::hexfloat << p[0].x << ' ' << p[0].y << "  " << p[1].x << ' ' << p[1].y << "  "
                           << p[2].x << ' ' << p[2].y << "  " << p[3].x << ' ' << p[3].y << ": orient2d should be "
@@ -317,7 +320,7 @@ TEST(Predicates, EndsOfTheRange) {
     EXPECT_LT(incircle({-big, -big}, {big, -big}, {big, std::nextafter(big, 0)}, {-big, big}), 0);
     EXPECT_EQ(incircle({-small, -small}, {small, -small}, {small, small}, {-small, small}), 0);
     EXPECT_GT(incircle({-small, -small}, {small, -small}, {small, small}, {small, 0}), 0);
-    // The smallest determinant there is: four points of the finest lattice.
+    // Four points of the finest lattice make the smallest determinant.
     const double ulp = std::nextafter(small, 1) - small;
     EXPECT_LT(incircle({small, small}, {small + ulp, small}, {small, small + ulp}, {small + ulp, small + 2 * ulp}), 0);
     EXPECT_EQ(incircle({small, small}, {small + ulp, small}, {small, small + ulp}, {small + ulp, small + ulp}), 0);
@@ -333,10 +336,10 @@ TEST(Predicates, ExactRange) {
     }
 }
 
-// Like the determinants they stand for, both incircle predicates change sign with every exchange of two points, and
-// orient2d keeps its sign under rotation.
+// Like the determinants that they are signs of, both incircle predicates change sign with every exchange of two points,
+// and orient2d() keeps its sign under rotation.
 TEST(Predicates, Permutations) {
-    Random random(7);
+    PointSource random(7);
     for (int n = 0; n < 20'000; ++n) {
         const Quadruple p = clamped(n % 2 == 0 ? symmetric(random) : lattice(random));
         const int turn = sign_of(orient2d(p[0], p[1], p[2]));
@@ -359,7 +362,7 @@ TEST(Predicates, Permutations) {
     }
 }
 
-// Every ordered choice of four points of a lattice.
+// The tie rule holds for every ordered choice of four points of a lattice.
 TEST(Predicates, TieRuleOnALattice) {
     std::vector<Point> points;
     for (int x = 0; x < 4; ++x)
@@ -380,10 +383,10 @@ TEST(Predicates, TieRuleOnALattice) {
     EXPECT_GT(ties, 2000);
 }
 
-// The fan from the lexicographically smallest vertex is the one triangulation of a cocircular polygon whose circles
-// are all empty, and every other triangle's circle holds that vertex.
+// In the sense of the tie rule, a triangle of a cocircular polygon has an empty circle if and only if it belongs to the
+// fan from the lexicographically smallest vertex.
 TEST(Predicates, CocircularPolygonsAreFannedFromTheSmallestVertex) {
-    // The integer points of the circle of radius 65, counter-clockwise from (65, 0).
+    // These are the integer points of the circle of radius 65, counter-clockwise from (65, 0).
     std::vector<Point> circle;
     for (int x = -65; x <= 65; ++x)
         for (int y = -65; y <= 65; ++y)
@@ -393,7 +396,7 @@ TEST(Predicates, CocircularPolygonsAreFannedFromTheSmallestVertex) {
         const bool p_low = p.y < 0, q_low = q.y < 0;
         return p_low != q_low ? q_low : p_low ? p.x < q.x : p.x > q.x;
     });
-    Random random(8);
+    PointSource random(8);
     for (int n = 0; n < 300; ++n) {
         std::vector<Point> polygon;
         for (const Point& p : circle)
@@ -410,7 +413,7 @@ TEST(Predicates, CocircularPolygonsAreFannedFromTheSmallestVertex) {
                     for (int l = 0; l < size; ++l)
                         if (l != i && l != j && l != k)
                             empty = empty && incircle_perturbed(vertex(i), vertex(j), vertex(k), vertex(l)) < 0;
-                    // In the fan: the smallest vertex and two that follow each other round the polygon.
+                    // A triangle of the fan has the smallest vertex and two that follow each other in the polygon.
                     const bool at_i = i == smallest && k == j + 1, at_k = k == smallest && j == i + 1;
                     const bool at_j = j == smallest && i == 0 && k == size - 1;
                     ASSERT_EQ(empty, at_i || at_j || at_k);

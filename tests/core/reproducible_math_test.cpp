@@ -1,9 +1,10 @@
+// The reproducible functions against those of the C library.
 #include "core/reproducible_math.hpp"
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 namespace lamina {
 namespace {
@@ -67,9 +68,9 @@ TEST(ReproducibleMath, FirstQuadrantAnglesAgreeWithTheLibrary) {
 TEST(ReproducibleMath, PowersAgreeWithTheLibrary) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> magnitude(-30, 30), exponent(0, 1);
-    for (double largest : {1e-3, 1.0, 4.0, 9.0}) {
+    for (double max_power : {1e-3, 1.0, 4.0, 9.0}) {
         for (int i = 0; i < 50000; ++i) {
-            const double base = std::pow(10.0, magnitude(random)), power = largest * exponent(random);
+            const double base = std::pow(10.0, magnitude(random)), power = max_power * exponent(random);
             const double expected = static_cast<double>(std::pow(static_cast<long double>(base), power));
             ASSERT_NEAR(core::pow_reproducible(base, power), expected, (2 + power) * 2.3e-16 * expected)
                 << base << ' ' << power;

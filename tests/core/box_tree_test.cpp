@@ -1,0 +1,107 @@
+// The tree of boxes against brute force.
+#include "core/box_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/random.hpp"
+
+namespace lamina {
+namespace {
+
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// Boxes of the edges of a random walk, as edges of an outline follow each other.
+std::vector<Box> walk_boxes(std::size_t n, core::Random& random) {
+    std::vector<Box> boxes(n);
+    Point p{0.5, 0.5};
+    for (Box& box : boxes) {
+        box.include(p);
+        p = p + 0.1 * Point{random.real(-1, 1), random.real(-1, 1)};
+        box.include(p);
+    }
+    return boxes;
+}
+
+/// Sizes round the powers of 4 at which the tree gets a new level.
+std::vector<std::size_t> sizes() { return {0, 1, 2, 3, 4, 5, 7, 15, 16, 17, 63, 64, 65, 200, 257}; }
+
+TEST(BoxTree, VisitsOverlappingItemsInAscendingOrder) {
+    core::Random random(1);
+    for (const std::size_t n : sizes()) {
+        const std::vector<Box> boxes = walk_boxes(n, random);
+        const core::BoxTree tree(boxes);
+        for (int k = 0; k < 50; ++k) {
+            Box query;
+            query.include({random.real(), random.real()});
+            query.include({random.real(), random.real()});
+            std::vector<std::size_t> expected, visited;
+            for (std::size_t i = 0; i < n; ++i)
+                if (boxes[i].overlaps(query)) expected.push_back(i);
+            tree.overlaps(query, [&](std::size_t i) { visited.push_back(i); });
+            EXPECT_EQ(visited, expected) << n;
+        }
+    }
+}
+
+TEST(BoxTree, VisitsOverlappingPairsOnce) {
+    core::Random random(2);
+    for (const std::size_t n : sizes()) {
+        const std::vector<Box> boxes = walk_boxes(n, random);
+        Pairs expected, visited;
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = i + 1; j < n; ++j)
+                if (boxes[i].overlaps(boxes[j])) expected.emplace_back(i, j);
+        core::BoxTree(boxes).overlapping_pairs([&](std::size_t i, std::size_t j) { visited.emplace_back(i, j); });
+        std::sort(visited.begin(), visited.end());
+        EXPECT_EQ(visited, expected) << n;
+    }
+}
+
+TEST(BoxTree, VisitsPairsWithinHalvesBeforePairsAcross) {
+    // All boxes overlap, so that the order alone counts.
+    const std::vector<Box> boxes(6, Box{{0, 0}, {1, 1}});
+    Pairs visited;
+    core::BoxTree(boxes).overlapping_pairs([&](std::size_t i, std::size_t j) { visited.emplace_back(i, j); });
+    EXPECT_EQ(visited, (Pairs{{0, 1},
+                              {2, 3},
+                              {0, 2},
+                              {0, 3},
+                              {1, 2},
+                              {1, 3},
+                              {4, 5},
+                              {0, 4},
+                              {0, 5},
+                              {1, 4},
+                              {1, 5},
+                              {2, 4},
+                              {2, 5},
+                              {3, 4},
+                              {3, 5}}));
+}
+
+TEST(BoxTree, FindsTheMinimumOfValueAndDistance) {
+    core::Random random(3);
+    for (const std::size_t n : sizes()) {
+        const std::vector<Box> boxes = walk_boxes(n, random);
+        std::vector<double> values(n);
+        for (double& value : values) value = random.real(0, 0.3);
+        const core::BoxTree tree(boxes);
+        const std::vector<std::vector<double>> minima = tree.group_minima(values);
+        for (int k = 0; k < 50; ++k) {
+            const Point p{random.real(), random.real()};
+            const double slope = random.real(0.1, 2);
+            const auto distance_to = [&](std::size_t i) { return std::sqrt(core::squared_distance(boxes[i], p)); };
+            double expected = 0.8;
+            for (std::size_t i = 0; i < n; ++i) expected = std::min(expected, values[i] + slope * distance_to(i));
+            EXPECT_EQ(tree.minimum(p, slope, 0.8, minima, distance_to), expected) << n;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina
