@@ -1,5 +1,5 @@
-// Writing a mesh of five million triangles in each format, beside writing as many bytes with nothing to work out.
-// The folder is LAMINA_BENCH_FOLDER, else the one for temporary files: what a disk does is measured with it.
+// Writes a mesh of five million triangles in each format, and as many bytes without any computation for comparison. The
+// files go to the folder LAMINA_BENCH_FOLDER, or else to the folder for temporary files, so the times include its disk.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -51,7 +51,7 @@ void plain_bytes(const fs::path& file, std::uintmax_t bytes) {
         out.write(block.data(), static_cast<std::streamsize>(block.size()));
 }
 
-/// The counter `plain` is the time for as many bytes, in seconds.
+/// The counter `plain` is the time to write as many bytes without any computation, in seconds.
 void write(benchmark::State& state, const MeshFormat& format) {
     const fs::path folder = make_folder();
     const std::string& extension = format.extensions.front();

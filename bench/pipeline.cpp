@@ -1,4 +1,4 @@
-// The whole way from a NACA name to a checked mesh.
+// The time from a NACA name to a checked mesh.
 #include <string>
 #include <vector>
 
@@ -11,7 +11,7 @@
 namespace lamina::bench {
 namespace {
 
-/// The thesis's case (Figs. 24 to 28).
+/// Returns the options of the case of the thesis (Figs. 24 to 28).
 CaseOptions naca0012_options(double gradation) {
     CaseOptions options;
     options.layer.first_height = 2.5e-5;
@@ -24,7 +24,7 @@ CaseOptions naca0012_options(double gradation) {
     return options;
 }
 
-/// By threads.
+/// Argument: number of threads.
 void naca0012(benchmark::State& state) {
     CaseOptions options = naca0012_options(0.1);
     options.threads = static_cast<unsigned>(state.range(0));
@@ -37,7 +37,7 @@ void naca0012(benchmark::State& state) {
 BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 #ifdef LAMINA_BENCH_TRIANGLE
-/// What lies between the layer and the far field, both divided as ours are.
+/// Triangle on the region between the layer and the far field, both divided as lamina divides them.
 Work triangle_outside_the_layer(const CaseOptions& options) {
     const std::vector<std::string> input{"naca:0012"};
     const LayerGrowth growth = layer_growth(options.layer, 1);
@@ -48,26 +48,26 @@ Work triangle_outside_the_layer(const CaseOptions& options) {
     const Decoupling outer = decouple(layer.points, layer.borders, field, far_field);
 
     std::vector<Point> points;
-    std::vector<VertexId> number(outer.points.size());
+    std::vector<VertexId> new_id(outer.points.size());
     std::vector<Segment> segments = outer.far_field;
     for (const auto& border : layer.borders)
         for (std::size_t i = 0; i < border.size(); ++i)
             segments.push_back({border[i], border[i + 1 < border.size() ? i + 1 : 0]});
     for (Segment& s : segments)
         for (VertexId* v : {&s.a, &s.b}) {
-            VertexId& mine = number[v->index()];
-            if (!mine.valid()) {
-                mine = VertexId{points.size()};
+            VertexId& id = new_id[v->index()];
+            if (!id.valid()) {
+                id = VertexId{points.size()};
                 points.push_back(outer.points[v->index()]);
             }
-            *v = mine;
+            *v = id;
         }
     return triangle_refine(points, segments, {0.5, 0}, field, options.refine.min_angle_deg);
 }
 #endif
 
-/// All of our run, layer and check included, on one thread, and Triangle for the region outside the layer alone.
-/// Argument: gradation in units of 1e-5.
+/// The whole run of lamina, layer and check included, on one thread, against Triangle, which meshes the region outside
+/// the layer alone. Argument: gradation in units of 1e-5.
 void whole_run(benchmark::State& state) {
     const CaseOptions options = naca0012_options(1e-5 * static_cast<double>(state.range(0)));
     std::vector<Reference> references;

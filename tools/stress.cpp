@@ -253,7 +253,7 @@ Outcome judge(const Configuration& c) {
         if (!findings.empty()) return {"unsound layer", findings.front()};
         const MeshResult result = generate_mesh(c.geometry, c.options);
         const MeshCheck check = check_mesh(result.mesh, {.min_angle_deg = c.options.refine.min_angle_deg});
-        if (!check.valid()) return {"invalid mesh", check.defects.front().what};
+        if (!check.valid()) return {"invalid mesh", check.defects.front().description};
         outcome.name = "meshed";
         outcome.min_angle_deg = check.isotropic.min_angle_deg;
         outcome.refused = result.refinement.refused;

@@ -1,4 +1,4 @@
-// Stage "check", and the mesh itself: what the program makes, checks, reads and writes.
+// The mesh, and stage "check", which proves that a mesh is valid and measures its quality.
 #pragma once
 
 #include <array>
@@ -14,27 +14,38 @@
 
 namespace lamina {
 
-enum class Region : std::uint8_t { layer, isotropic };
-enum class MarkerKind : std::uint8_t { wall, far_field, symmetry, other };
+/// The part of the mesh that a cell belongs to.
+enum class Region : std::uint8_t {
+    layer,     ///< the anisotropic cells next to the walls
+    isotropic  ///< all other cells
+};
 
-/// A named part of the boundary; its edges are directed with the mesh on their left.
+/// The boundary condition that a marker is meant for.
+enum class MarkerKind : std::uint8_t {
+    wall,       ///< the flow sticks to it
+    far_field,  ///< the outer boundary
+    symmetry,   ///< a line of symmetry
+    other       ///< unknown
+};
+
+/// A named part of the boundary.
 struct Marker {
-    std::string name;
-    MarkerKind kind = MarkerKind::other;
-    std::vector<Segment> edges;
+    std::string name;                     ///< of this marker alone
+    MarkerKind kind = MarkerKind::other;  ///< the boundary condition
+    std::vector<Segment> edges;           ///< directed with the mesh on their left
 };
 
 /// A conforming mesh of triangles and quadrilaterals. The vertices of the walls come first, in the order of the input,
 /// then those of the layer, then the rest. The arrays per cell are empty, or hold one entry per triangle followed by
 /// one per quadrilateral.
 struct Mesh {
-    std::vector<Point> points;
-    std::vector<Triangle> triangles;
-    std::vector<Quad> quads;
-    std::vector<Marker> markers;
-    std::vector<Region> region;
-    std::vector<std::uint32_t> piece;  ///< the subdomain that made the cell
-    std::vector<std::uint16_t> layer;  ///< the layer's number from the wall, from 1 on; 0 outside the layer
+    std::vector<Point> points;         ///< the vertices
+    std::vector<Triangle> triangles;   ///< indices into points, counter-clockwise
+    std::vector<Quad> quads;           ///< indices into points, counter-clockwise
+    std::vector<Marker> markers;       ///< together, all edges of the boundary
+    std::vector<Region> region;        ///< per cell: its region
+    std::vector<std::uint32_t> piece;  ///< per cell: the subdomain that made it
+    std::vector<std::uint16_t> layer;  ///< per cell: the number of its layer from the wall, from 1; 0 outside the layer
     /// Interior edges that the triangulation was constrained to, which are exempt from the Delaunay property: the outer
     /// borders of the layer. Each with the smaller vertex first; sorted.
     std::vector<Segment> constraints;
@@ -42,72 +53,80 @@ struct Mesh {
 
 /// One way in which a mesh is not valid.
 struct MeshDefect {
-    std::string what;  ///< "inverted triangle 17 (areas, indices ...)"
-    Point at;
+    std::string description;  ///< "clockwise or folded triangle 17 (3, 5, 9)"
+    Point at;                 ///< a vertex beside the defect; the origin where the defect has no place
 };
 
-/// The shapes of the cells of one region.
+/// Statistics of the cells of one region. All numbers are 0 where there are no cells.
 struct QualitySummary {
-    std::size_t cells = 0;
-    double min_angle_deg = 0;
-    double max_angle_deg = 0;
-    double mean_min_angle_deg = 0;
-    double mean_max_angle_deg = 0;
-    std::size_t angles_below_bound = 0;  ///< number of cells whose smallest angle is below the bound asked about
-    /// How many of those are isotropic cells that no refinement could mend: at a corner below 60 degrees between two
-    /// frozen edges (boundary, layer, another piece, constraints), as far as the mesh tells them.
+    std::size_t cells = 0;          ///< number of cells
+    double min_angle_deg = 0;       ///< smallest angle of all cells
+    double max_angle_deg = 0;       ///< largest angle of all cells
+    double mean_min_angle_deg = 0;  ///< mean of the smallest angles of the cells
+    double mean_max_angle_deg = 0;  ///< mean of the largest angles of the cells
+    /// Number of cells whose smallest angle is below MeshCheckOptions::min_angle_deg.
+    std::size_t angles_below_bound = 0;
+    /// The number of these cells that are exempt: isotropic cells at a corner below 60 degrees between two frozen
+    /// edges, which no refinement could mend. An edge counts as frozen where the mesh shows it: on the boundary,
+    /// between the regions, between two pieces, and on constraints.
     std::size_t exempt = 0;
-    double max_neighbour_area_ratio = 0;            ///< over edges between two isotropic cells; 0 for the layer
-    double p999_neighbour_area_ratio = 0;           ///< 99.9th percentile, within 0.2 %
-    double max_aspect_ratio = 0;                    ///< longest edge over the height on it
+    double max_neighbour_area_ratio = 0;   ///< over edges between two isotropic cells; 0 for the layer
+    double p999_neighbour_area_ratio = 0;  ///< 99.9th percentile, within 0.2 %
+    /// Longest edge over the height on it; for a quad, squared longest edge over area.
+    double max_aspect_ratio = 0;
     std::array<std::size_t, 18> angle_histogram{};  ///< number of smallest angles in [0, 5), [5, 10), ... degrees
 };
 
-/// The transition from the layer to the isotropic region: over all edges between the two, the area of the layer's cell
-/// divided by that of the isotropic cell (ideal: 1). All 0 without such edges.
+/// The transition from the layer to the isotropic region. The area ratio at an edge between the two is the area of the
+/// layer's cell divided by the area of the isotropic cell; 1 is ideal. All numbers are 0 where there is no edge.
 struct TransitionSummary {
-    std::size_t edges = 0;
-    double p01_area_ratio = 0;  ///< 1st percentile
-    double median_area_ratio = 0;
-    double p99_area_ratio = 0;  ///< 99th percentile
+    std::size_t edges = 0;         ///< number of edges between the two regions
+    double p01_area_ratio = 0;     ///< 1st percentile
+    double median_area_ratio = 0;  ///< median
+    double p99_area_ratio = 0;     ///< 99th percentile
 };
 
+/// The result of check_mesh().
 struct MeshCheck {
-    std::vector<MeshDefect> defects;  ///< the first 20; empty: the mesh is valid
-    std::size_t defect_count = 0;
-    double area = 0;
-    long euler_characteristic = 0;
-    std::size_t boundary_loops = 0;
-    QualitySummary layer;
-    QualitySummary isotropic;  ///< all cells where the mesh holds no regions
-    TransitionSummary transition;
+    std::vector<MeshDefect> defects;      ///< the first 20; empty: the mesh is valid
+    std::size_t defect_count = 0;         ///< number of all defects
+    double area = 0;                      ///< sum of the areas of the cells, in squared units of the input
+    long euler_characteristic = 0;        ///< vertices - edges + cells
+    std::size_t boundary_loops = 0;       ///< closed loops of boundary edges
+    QualitySummary layer;                 ///< of the cells of the layer
+    QualitySummary isotropic;             ///< of the other cells; of all cells where the mesh holds no regions
+    TransitionSummary transition;         ///< between the two
     std::size_t interior_edges = 0;       ///< number of edges between two isotropic triangles that are no constraints
     std::size_t delaunay_violations = 0;  ///< number of those with a vertex strictly inside the opposite circle (exact)
     /// Number of boundary edges of layer cells that reach beyond layer 1, where the first height is not kept.
     std::size_t edges_without_first_layer = 0;
 
+    /// Returns whether the mesh has no defects.
     bool valid() const { return defect_count == 0; }
 };
 
+/// Options of check_mesh().
 struct MeshCheckOptions {
-    double min_angle_deg = proved_min_angle_deg;  ///< for angles_below_bound
+    double min_angle_deg = proved_min_angle_deg;  ///< bound of QualitySummary::angles_below_bound
 };
 
+/// Returns the table of the options.
 LAMINA_EXPORT const OptionTable<MeshCheckOptions>& mesh_check_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const MeshCheckOptions& options);
 
-/// Checks a mesh exactly: indices in range; counter-clockwise cells of positive area; conforming (every directed edge
-/// used once); covers its domain once (signed areas, Euler characteristic, simple boundary loops, no vertex without
-/// cells, no pinched vertex); every boundary edge in exactly one marker and every marker edge on the boundary. The
-/// Delaunay property and the quality are measured, not demanded.
+/// Checks a mesh exactly. A mesh is valid if its indices are in range; its cells are counter-clockwise and have
+/// positive area; it is conforming (each directed edge is used once); it covers its domain once (signed areas, Euler
+/// characteristic, simple boundary loops, no vertex without cells, no vertex that the boundary passes twice); each
+/// boundary edge is in exactly one marker, and each edge of a marker is on the boundary. The Delaunay property and the
+/// quality are measured but not required. Throws OptionError for options out of range.
 LAMINA_EXPORT MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
 
-/// Returns a hash of the mesh that does not depend on numbering, and hence not on the file format: a sum modulo 2^128
-/// of one hash per cell and per marker edge, each over the IEEE bits of its vertices' coordinates (-0 as +0), cells
-/// rotated to their lexicographically smallest vertex, and the marker's name. 32 lower-case hexadecimal digits; the
-/// bytes that are hashed are spelt out in src/mesh/hash.cpp. Precondition: indices in range.
+/// Returns a hash of the mesh as 32 lower-case hexadecimal digits. It does not depend on the numbering, and hence not
+/// on the file format: it is the sum modulo 2^128 of one hash per cell and per marker edge. Each covers the IEEE bits
+/// of the vertices' coordinates (-0 as +0), from the lexicographically smallest vertex of a cell on, and the name of
+/// the marker. src/mesh/hash.cpp spells out the bytes. Precondition: all indices are in range.
 LAMINA_EXPORT std::string mesh_hash(const Mesh& mesh);
 
 }  // namespace lamina

@@ -1,5 +1,5 @@
-// The reading order of the whole program: airfoil in, viscous mesh out. Each stage is a free function from values to a
-// value and can be called by itself.
+// Stage "assemble", and all stages in their order: airfoils in, viscous mesh out. Each stage is a free function from
+// values to a value and can be called by itself.
 //
 //   read              geometry.hpp     read_geometry      files, NACA names            -> Geometry
 //   prepare           surface.hpp      prepare_surfaces   kept, resampled or smoothed  -> Geometry
@@ -32,22 +32,23 @@
 
 namespace lamina {
 
+/// Options of assemble().
 struct AssembleOptions {
-    bool base_marker = false;  ///< the base of a blunt trailing edge gets a marker of its own, NAME_base
+    bool base_marker = false;  ///< gives the base of a blunt trailing edge a marker of its own, NAME_base
 };
 
-/// Everything that decides a mesh: the options of the stages.
+/// The options of all stages. Together with the inputs they determine the mesh.
 struct CaseOptions {
-    GeometryOptions geometry;
-    SurfaceOptions surface;
-    LayerOptions layer;
-    SizingOptions sizing;
-    FarFieldOptions far_field;
-    DecouplingOptions decoupling;
-    DecompositionOptions decomposition;  ///< of the layer
-    RefineOptions refine;
-    AssembleOptions assemble;
-    unsigned threads = 0;  ///< 0: one per core; never changes the mesh
+    GeometryOptions geometry;            ///< read_geometry()
+    SurfaceOptions surface;              ///< prepare_surfaces()
+    LayerOptions layer;                  ///< grow_rays(), fill_layer()
+    SizingOptions sizing;                ///< gather_size_requests(), make_size_field()
+    FarFieldOptions far_field;           ///< place_far_field()
+    DecouplingOptions decoupling;        ///< decouple()
+    DecompositionOptions decomposition;  ///< fill_layer(): the pieces of the layer
+    RefineOptions refine;                ///< refine()
+    AssembleOptions assemble;            ///< assemble()
+    unsigned threads = 0;                ///< number of threads; 0: one per core. Never changes the mesh
 };
 
 /// Returns the table of all options. The defaults of CaseOptions are those of the command line.
@@ -56,61 +57,75 @@ LAMINA_EXPORT const OptionTable<CaseOptions>& case_option_table();
 /// Throws OptionError where an option of any stage is out of range.
 LAMINA_EXPORT void validate(const CaseOptions& options);
 
-/// Returns what the layer over the walls asks of their spacing: the argument of prepare_surfaces().
+/// Returns the limits that the layer over the walls sets on their spacing: an argument of prepare_surfaces().
 LAMINA_EXPORT SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth);
 
-/// Returns how the outer border of the layer is divided to suit sizes and refinement: the argument of close_border().
+/// Returns the options by which the outer border of the layer is divided to suit sizes and refinement: an argument of
+/// close_border().
 LAMINA_EXPORT BorderOptions border_options(const CaseOptions& options, std::span<const SizeSource> sources);
 
-/// Returns the bodies as the sizing stage wants them.
+/// Returns the bodies in the form that the sizing stage takes.
 LAMINA_EXPORT SizedBodies sized_bodies(const Geometry& geometry);
 
-/// Joins layer and refined subdomains to one mesh, without any search by coordinates. Vertices keep the numbers of the
-/// decoupling (walls, layer, separators); Steiner points follow, subdomain by subdomain. The triangles of the layer
-/// come first, then those of the subdomains, then the quadrilaterals of the layer. Pieces are numbered likewise. Throws
-/// MeshError from 2^32 vertices on.
+/// Joins the layer and the refined subdomains to one mesh, without any search by coordinates. Vertices keep the numbers
+/// of the decoupling (walls, layer, separators); Steiner points follow, subdomain by subdomain. The triangles of the
+/// layer come first, then those of the subdomains, then the quadrilaterals of the layer. Pieces are numbered in the
+/// same order. Throws MeshError from 2^32 vertices on.
 LAMINA_EXPORT Mesh assemble(const Geometry& geometry, const Layer& layer, LayerCells cells, Decoupling decoupling,
                             std::vector<Refinement> refinements, const AssembleOptions& options = {});
 
-/// Wall-clock seconds of each stage. Decomposition and triangulation of the layer and refinement run at the same time:
-/// their common time is divided among them in proportion to the time of the threads.
+/// Wall-clock seconds of the stages. The decomposition and triangulation of the layer and the refinement run at the
+/// same time: their common time is divided among them in proportion to the time of the threads.
 struct StageSeconds {
-    double geometry = 0, layers = 0, decomposition = 0, layer_triangulation = 0, sizing = 0, decoupling = 0,
-           refinement = 0, assembly = 0, check = 0, total = 0;
+    double geometry = 0;             ///< read, prepare
+    double layers = 0;               ///< grow rays, close the border
+    double decomposition = 0;        ///< fill the layer: division into pieces
+    double layer_triangulation = 0;  ///< fill the layer: the pieces
+    double sizing = 0;               ///< size
+    double decoupling = 0;           ///< decouple
+    double refinement = 0;           ///< refine
+    double assembly = 0;             ///< assemble
+    double check = 0;                ///< check
+    double total = 0;                ///< the whole run
 };
 
-/// What one thread did in the common time of these stages, in seconds.
+/// The seconds that one thread spent on each kind of work in the time that the three share.
 struct ThreadSeconds {
-    double decomposition = 0, layer_triangulation = 0, refinement = 0, idle = 0;
+    double decomposition = 0;        ///< dividing the layer into pieces
+    double layer_triangulation = 0;  ///< triangulating the pieces
+    double refinement = 0;           ///< refining subdomains
+    double idle = 0;                 ///< waiting
 };
 
+/// A mesh, and the facts about it that the report of a run tells.
 struct MeshResult {
-    Mesh mesh;
-    MeshCheck check;
-    Geometry geometry;
-    StageSeconds seconds;
-    std::vector<ThreadSeconds> thread_seconds;
-    unsigned threads = 1;
-    std::size_t layer_pieces = 0, inviscid_pieces = 0;
-    DecompositionStats decomposition;        ///< of the layer
-    std::size_t largest_inviscid_piece = 0;  ///< in triangles
-    double estimates_within_15_percent = 1;  ///< share of the subdomains whose number of triangles was foreseen so well
-    std::size_t surface_vertices = 0;
-    double first_height = 0;                      ///< of the layers; 0 without
-    std::optional<YPlus> y_plus;                  ///< the flow that the first height follows from, with its chord
+    Mesh mesh;                                  ///< always valid
+    MeshCheck check;                            ///< result of the last stage
+    Geometry geometry;                          ///< the bodies with the vertices of their walls
+    StageSeconds seconds;                       ///< times of the stages
+    std::vector<ThreadSeconds> thread_seconds;  ///< per thread
+    unsigned threads = 1;                       ///< number of threads used
+    std::size_t layer_pieces = 0;               ///< pieces that the layer was triangulated in
+    std::size_t inviscid_pieces = 0;            ///< subdomains outside the layer
+    DecompositionStats decomposition;           ///< of the layer
+    std::size_t largest_inviscid_piece = 0;     ///< triangles of the largest subdomain
+    double estimates_within_15_percent = 1;     ///< share of the subdomains whose estimate was within 15 % of the truth
+    std::size_t surface_vertices = 0;           ///< vertices of the walls
+    double first_height = 0;                    ///< of the layers; 0 without layers
+    std::optional<YPlus> y_plus;                ///< the flow that the first height follows from, with its chord
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     RefineStats refinement;                       ///< summed over the subdomains
 };
 
-/// A function that is called at the start of each stage with its name; may be empty.
+/// A function that is called with the name of each stage when the stage begins. It may be empty.
 using Progress = std::function<void(const std::string& stage)>;
 
-/// Runs every stage on bodies that are at hand. Throws OptionError, InputError, MeshError; never returns a mesh that is
-/// not valid. Precondition: check_simple(geometry).
+/// Runs all stages on bodies in memory. Never returns a mesh that is not valid. Throws OptionError, InputError and
+/// MeshError. Precondition: check_simple(geometry).
 LAMINA_EXPORT MeshResult generate_mesh(Geometry geometry, const CaseOptions& options = {},
                                        const Progress& progress = {});
 
-/// Reads the inputs and runs every stage. Throws IoError, too.
+/// Reads the inputs and runs all stages on them. Throws IoError, too.
 LAMINA_EXPORT MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options = {},
                                        const Progress& progress = {});
 

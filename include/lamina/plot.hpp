@@ -11,28 +11,31 @@
 
 namespace lamina {
 
-/// What cells are coloured by.
+/// The quantity that decides the colour of a cell.
 enum class PlotColor {
-    none,  ///< layers are tinted
-    quality,
-    size,
-    piece,
-    layer,
+    none,     ///< white; the layer has a tint
+    quality,  ///< smallest angle
+    size,     ///< square root of the area, on a logarithmic scale
+    piece,    ///< the subdomain that made the cell
+    layer,    ///< the number of the layer
 };
 
+/// Options of plot_mesh().
 struct PlotOptions {
-    PlotColor color = PlotColor::none;
-    std::optional<std::array<double, 4>> window{};  ///< x0, x1, y0, y1; empty: the whole mesh
-    int width_px = 1600;                            ///< of the longer side of the picture
+    PlotColor color = PlotColor::none;              ///< the quantity that the colours of the cells show
+    std::optional<std::array<double, 4>> window{};  ///< x0, x1, y0, y1 in units of the input; empty: the whole mesh
+    int width_px = 1600;                            ///< longer side of the picture, in pixels
 };
 
+/// Returns the table of the options.
 LAMINA_EXPORT const OptionTable<PlotOptions>& plot_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const PlotOptions& options);
 
-/// Draws the mesh as .png, .svg or .pdf, by the extension of the file. Walls are red. Writes to a temporary name beside
-/// the target and renames it. Throws IoError; UsageError for other extensions; OptionError for options out of range.
+/// Draws the mesh as .png, .svg or .pdf, by the extension of the file. Walls are red. The file gets a temporary name
+/// beside the target and is renamed. Throws IoError, UsageError for other extensions, OptionError for options out of
+/// range.
 LAMINA_EXPORT void plot_mesh(const Mesh& mesh, const std::filesystem::path& file, const PlotOptions& options = {});
 
 }  // namespace lamina

@@ -1,4 +1,4 @@
-// The files of J. R. Shewchuk's Triangle: .node (vertices), .ele (triangles), .poly (segments, holes, regions).
+// The files of J. R. Shewchuk's Triangle: .node (vertices), .ele (triangles), .poly (segments, holes, regions), .edge.
 // Source: https://www.cs.cmu.edu/~quake/triangle.html, "File formats".
 #pragma once
 
@@ -13,66 +13,64 @@
 
 namespace lamina {
 
-/// A regional attribute and, where positive, the largest area of a triangle in the region that holds the point.
+/// An attribute, and a bound on the area of triangles, for the region that holds a point.
 struct TriangleRegion {
-    Point at;
-    double attribute = 0;
-    double max_area = -1;
+    Point at;              ///< a point inside the region
+    double attribute = 0;  ///< given to each triangle of the region
+    double max_area = -1;  ///< largest area of a triangle; no bound unless positive
 };
 
-/// What a .node or .poly file holds. Indices are those of the arrays; the files count from `first_index`.
+/// The contents of a .node or .poly file. Indices are those of the arrays; the files count from `first_index`.
 struct TriangleInput {
-    std::size_t first_index = 1;  ///< 0 or 1
-    std::vector<Point> points;
-    std::size_t attribute_count = 0;
-    std::vector<double> attributes;  ///< attribute_count for each point
-    std::vector<long> markers;       ///< of the points; empty where the file has none
-    std::vector<Segment> segments;
-    std::vector<long> segment_markers;  ///< empty where the file has none
-    std::vector<Point> holes;
-    std::vector<TriangleRegion> regions;
+    std::size_t first_index = 1;          ///< 0 or 1
+    std::vector<Point> points;            ///< the vertices
+    std::size_t attribute_count = 0;      ///< number of attributes of each point
+    std::vector<double> attributes;       ///< attribute_count numbers per point
+    std::vector<long> markers;            ///< per point; empty where the file has none
+    std::vector<Segment> segments;        ///< constrained edges
+    std::vector<long> segment_markers;    ///< per segment; empty where the file has none
+    std::vector<Point> holes;             ///< a point inside each hole
+    std::vector<TriangleRegion> regions;  ///< of the last section of the file
 
-    std::filesystem::path point_file;    ///< the .node file where a .poly refers to it
-    std::vector<std::size_t> lines;      ///< of the points, in point_file
-    std::filesystem::path segment_file;  ///< empty for a .node file
-    std::vector<std::size_t> segment_lines;
-    std::vector<std::size_t> hole_lines;
+    std::filesystem::path point_file;        ///< the .node file where a .poly refers to it
+    std::vector<std::size_t> lines;          ///< per point: its line in point_file
+    std::filesystem::path segment_file;      ///< empty for a .node file
+    std::vector<std::size_t> segment_lines;  ///< per segment: its line in segment_file
+    std::vector<std::size_t> hole_lines;     ///< per hole: its line in segment_file
 };
 
-/// Reads a .poly or .node file, by extension. A .poly without vertices takes those of the .node file of its stem.
-/// Comments from # to
-/// the end of the line and blank lines are skipped. Throws IoError, InputError with file and line, UsageError for other
-/// extensions.
+/// Reads a .poly or .node file. A .poly file without vertices takes those of the .node file with its stem. Blank lines
+/// and comments, from # to the end of the line, are skipped. Throws IoError, InputError with file and line, UsageError
+/// for other extensions.
 LAMINA_EXPORT TriangleInput read_triangle_files(const std::filesystem::path& file);
 
-/// What is written; arrays as in TriangleInput.
+/// The contents of the files to write.
 struct TriangleOutput {
-    std::size_t first_index = 1;
-    std::vector<Point> points;
-    std::size_t attribute_count = 0;
-    std::vector<double> attributes;
-    std::vector<long> markers;
-    std::vector<Triangle> triangles;
-    std::vector<double> regional;  ///< one attribute a triangle; empty = none
-    std::vector<Segment> segments;
-    std::vector<long> segment_markers;
-    std::vector<Point> holes;
-    std::vector<TriangleRegion> regions;
-    std::vector<std::string> comments;  ///< lines at the head of the .poly file
-    std::vector<Segment> edges;         ///< of the .edge file; empty = none is written
-    std::vector<long> edge_markers;
+    std::size_t first_index = 1;              ///< 0 or 1: the number of the first point in the files
+    std::vector<Point> points;                ///< the vertices
+    std::size_t attribute_count = 0;          ///< number of attributes of each point
+    std::vector<double> attributes;           ///< attribute_count numbers per point
+    std::vector<long> markers;                ///< per point; empty: none are written
+    std::vector<Triangle> triangles;          ///< indices into points
+    std::vector<double> triangle_attributes;  ///< per triangle; empty: none are written
+    std::vector<Segment> segments;            ///< indices into points
+    std::vector<long> segment_markers;        ///< per segment; empty: none are written
+    std::vector<Point> holes;                 ///< a point inside each hole
+    std::vector<TriangleRegion> regions;      ///< of the .poly file
+    std::vector<std::string> comments;        ///< lines at the head of the .poly file
+    std::vector<Segment> edges;               ///< of the .edge file; empty: none is written
+    std::vector<long> edge_markers;           ///< per edge
 };
 
-/// The triangles of a .ele file over so many points. Throws IoError, InputError with file and line.
+/// Reads the triangles of a .ele file that refers to this many points. Throws IoError, InputError with file and line.
 LAMINA_EXPORT std::vector<Triangle> read_triangle_elements(const std::filesystem::path& file, std::size_t first_index,
                                                            std::size_t points);
 
-/// Gives the marker 1 to each vertex and segment on the boundary of the triangles that has no marker (marker 0), as
-/// Triangle does.
+/// Sets the marker of each vertex and segment on the boundary of the triangles to 1 where it is 0, as Triangle does.
 LAMINA_EXPORT void mark_boundary(TriangleOutput& output);
 
-/// Writes STEM.node and STEM.ele, STEM.poly if asked for, and STEM.edge if there are edges: numbers with 17 significant
-/// digits, no file before all are complete. Throws IoError.
+/// Writes STEM.node and STEM.ele, STEM.poly if with_poly is set, and STEM.edge if there are edges. Numbers have 17
+/// significant digits. No file gets its name before all are complete. Throws IoError.
 LAMINA_EXPORT void write_triangle_files(const TriangleOutput& output, const std::filesystem::path& stem,
                                         bool with_poly);
 

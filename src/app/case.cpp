@@ -15,8 +15,8 @@ MeshCase case_of_inputs(const std::vector<std::string>& inputs) {
         return std::filesystem::path(input).extension() == ".toml";
     };
     if (inputs.size() == 1 && is_case_file(inputs.front())) return read_case_file(inputs.front());
-    const auto beside = std::find_if(inputs.begin(), inputs.end(), is_case_file);
-    if (beside != inputs.end()) throw UsageError("case file " + *beside + " must be the only INPUT");
+    const auto case_file = std::find_if(inputs.begin(), inputs.end(), is_case_file);
+    if (case_file != inputs.end()) throw UsageError("case file " + *case_file + " must be the only INPUT");
 
     MeshCase mesh_case;
     mesh_case.inputs = inputs;

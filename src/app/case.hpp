@@ -1,4 +1,4 @@
-// One run of `lamina mesh`: what goes in, every option, what comes out.
+// One run of `lamina mesh`: its inputs, its options and its outputs.
 #pragma once
 
 #include <string>
@@ -8,24 +8,25 @@
 
 namespace lamina::app {
 
+/// When the names of the stages are printed on standard error. `automatic`: where it is a terminal.
 enum class ProgressShown { automatic, always, never };
 
 struct MeshCase {
-    std::vector<std::string> inputs;  ///< airfoil files and NACA names; never a case file
-    std::vector<std::string> outputs;
-    std::string format;          ///< of every output; empty: by extension
-    bool wall_distance = false;  ///< in VTU files
-    std::string wall_data;       ///< CSV file; empty: none
-    std::string report;          ///< empty: none
-    std::string background;      ///< mesh file with sizes; empty: none
-    CaseOptions options;         ///< without the background mesh, which is read when the work begins
+    std::vector<std::string> inputs;   ///< airfoil files and NACA names; never a case file
+    std::vector<std::string> outputs;  ///< mesh files
+    std::string format;                ///< of every mesh file; empty: by its extension
+    bool wall_distance = false;        ///< whether VTU files hold the distance to the nearest wall
+    std::string wall_data;             ///< CSV file of the wall vertices; empty: none
+    std::string report;                ///< JSON file; empty: none
+    std::string background;            ///< mesh file with sizes; empty: none
+    CaseOptions options;               ///< without the background mesh, which is read when the work begins
     ProgressShown progress = ProgressShown::automatic;
-    bool quiet = false;
+    bool quiet = false;              ///< whether the summary is left out
     std::vector<std::string> given;  ///< names of the options that a case file or the command line gave
 };
 
-/// Returns the case that the INPUT arguments of a command stand for: that of a case file if they are one, else the
-/// defaults with these inputs. Throws UsageError where a case file stands beside other inputs, and as read_case_file().
+/// Returns the case that the INPUT arguments of a command stand for: the contents of a case file, or the defaults with
+/// these inputs. Throws UsageError where a case file stands beside other inputs, and the errors of read_case_file().
 MeshCase case_of_inputs(const std::vector<std::string>& inputs);
 
 }  // namespace lamina::app

@@ -23,7 +23,7 @@ bool holds_paths(const Option<MeshCase>& option) {
     return option.kind == OptionKind::path || option.kind == OptionKind::paths;
 }
 
-/// Applies `change` to every path of the value; NACA names are none.
+/// Returns the value with `change` applied to each of its paths. NACA names are no paths.
 template <class Change>
 OptionValue with_paths(OptionValue value, Change change) {
     const auto apply = [&](std::string& text) {
@@ -56,12 +56,13 @@ toml::table parse(const std::filesystem::path& file) {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
         throw InputError({file.string(), error.source().begin.line, std::nullopt},
-                         "no TOML: " + std::string(error.description()));
+                         "not valid TOML: " + std::string(error.description()));
     }
 }
 
 std::string toml_text(const OptionValue& value) {
-    if (const auto* real = std::get_if<double>(&value)) return fmt::to_string(*real);  // the shortest that reads back
+    if (const auto* real = std::get_if<double>(&value))
+        return fmt::to_string(*real);  // the shortest text that reads back
     std::ostringstream out;
     if (const auto* texts = std::get_if<std::vector<std::string>>(&value)) {
         toml::array array;
@@ -81,10 +82,11 @@ MeshCase read_case_file(const std::filesystem::path& file) {
     const toml::table table = parse(file);
     MeshCase mesh_case;
     for (const auto& [key, node] : table) {
-        const std::string origin = fmt::format("{}:{}: {}", file.string(), key.source().begin.line, key.str());
+        const std::string_view name = key.str();
+        const std::string origin = fmt::format("{}:{}: {}", file.string(), key.source().begin.line, name);
         const auto& options = mesh_options();
-        const auto option = std::find_if(options.begin(), options.end(),
-                                         [&](const Option<MeshCase>& o) { return o.key() == key.str(); });
+        const auto option =
+            std::find_if(options.begin(), options.end(), [name](const Option<MeshCase>& o) { return o.key() == name; });
         if (option == options.end()) throw UsageError(origin + ": no such option");
 
         OptionValue value = value_of(node, origin);

@@ -1,4 +1,5 @@
-// case.toml: the options of `lamina mesh` under their own names, with underscores (docs/guide.md, "Case files").
+// Case files: the options of `lamina mesh` in TOML, under their own names with underscores for hyphens (docs/guide.md,
+// "Case files").
 #pragma once
 
 #include <filesystem>
@@ -8,11 +9,12 @@
 
 namespace lamina::app {
 
-/// Paths in the file are relative to its folder. Throws IoError where it cannot be read, InputError where it is no
-/// TOML, UsageError (file, line, key) for unknown keys and values out of range.
+/// Reads a case file. Paths in it are relative to its folder. Throws IoError where it cannot be read, InputError where
+/// it is no TOML, UsageError (with file, line and key) for unknown keys and values out of range.
 MeshCase read_case_file(const std::filesystem::path& file);
 
-/// The complete case as TOML; reading it back gives an equal case from any folder, since paths are made absolute.
+/// Returns the complete case as TOML. Paths are made absolute, so read_case_file() returns an equal case from any
+/// folder.
 std::string dump_case(const MeshCase& mesh_case);
 
 }  // namespace lamina::app

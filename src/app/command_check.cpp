@@ -1,7 +1,6 @@
-// lamina check: is a mesh file valid, and how good is it.
+// lamina check: checks whether a mesh file is valid, and measures its quality.
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 
 #include "app/commands.hpp"
 #include "app/report.hpp"
+#include "app/summary.hpp"
 #include "app/table_option.hpp"
 
 namespace lamina::app {
@@ -29,7 +29,7 @@ struct CheckArguments {
     std::string min_angle;
 };
 
-/// What the user demands beyond validity, and is not so.
+/// The requirements of the user, beyond validity, that the mesh does not meet.
 using Shortcomings = std::vector<std::string>;
 
 /// Gives the marker its kind, whatever the file says.
@@ -60,7 +60,7 @@ const char* kind_name(MarkerKind kind) {
 Json check_report(const Mesh& mesh, const MeshCheck& check, const Shortcomings& shortcomings) {
     Json defects = Json::array();
     for (const MeshDefect& defect : check.defects) {
-        defects.push_back({{"what", defect.what}, {"at", {defect.at.x, defect.at.y}}});
+        defects.push_back({{"what", defect.description}, {"at", {defect.at.x, defect.at.y}}});
     }
     Json markers = Json::array();
     for (const Marker& marker : mesh.markers) {
@@ -85,29 +85,28 @@ Json check_report(const Mesh& mesh, const MeshCheck& check, const Shortcomings& 
 std::string check_summary(const std::string& file, const Mesh& mesh, const MeshCheck& check,
                           const Shortcomings& shortcomings) {
     std::string text = fmt::format("{}: {}\n", file, check.valid() ? "valid" : "not valid");
-    for (const MeshDefect& defect : check.defects) {
-        text += fmt::format("  defect    {} at ({}, {})\n", defect.what, defect.at.x, defect.at.y);
-    }
-    if (check.defect_count > check.defects.size()) {
-        text += fmt::format("  defect    and {} more\n", check.defect_count - check.defects.size());
-    }
-    for (const std::string& shortcoming : shortcomings) text += "  demanded  " + shortcoming + "\n";
-    text += fmt::format("  mesh      {} vertices, {} triangles, {} quads, {} boundary loops\n", mesh.points.size(),
-                        mesh.triangles.size(), mesh.quads.size(), check.boundary_loops);
-    for (const Marker& marker : mesh.markers) {
-        text +=
-            fmt::format("  marker    {} ({}), {} edges\n", marker.name, kind_name(marker.kind), marker.edges.size());
-    }
-    if (mesh.region.empty()) text += "  regions   none in the file: every cell counts as isotropic, layers included\n";
+    for (const MeshDefect& defect : check.defects)
+        text += summary_line("defect", fmt::format("{} at ({}, {})", defect.description, defect.at.x, defect.at.y));
+    if (check.defect_count > check.defects.size())
+        text += summary_line("defect", fmt::format("and {} more", check.defect_count - check.defects.size()));
+    for (const std::string& shortcoming : shortcomings) text += summary_line("required", shortcoming);
+    text +=
+        summary_line("mesh", fmt::format("{} vertices, {} triangles, {} quads, {} boundary loops", mesh.points.size(),
+                                         mesh.triangles.size(), mesh.quads.size(), check.boundary_loops));
+    for (const Marker& marker : mesh.markers)
+        text += summary_line(
+            "marker", fmt::format("{} ({}), {} edges", marker.name, kind_name(marker.kind), marker.edges.size()));
+    if (mesh.region.empty())
+        text += summary_line("regions", "none in the file: every cell counts as isotropic, those of layers included");
     return text + quality_summary(check);
 }
 
-/// Corners below 60 degrees between frozen edges are excused, as long as they are few.
+/// Accepts exempt angles, which lie in sharp corners of frozen edges, as long as they are few.
 void require_angles(const QualitySummary& isotropic, double min_angle_deg, Shortcomings& shortcomings) {
-    constexpr double largest_exempt_share = 0.001;
+    constexpr double max_exempt_share = 0.001;
     if (const std::size_t narrow = isotropic.angles_below_bound - isotropic.exempt; narrow > 0)
         shortcomings.push_back(fmt::format("{} triangles have an angle below {} degrees", narrow, min_angle_deg));
-    if (static_cast<double>(isotropic.exempt) > largest_exempt_share * static_cast<double>(isotropic.cells))
+    if (static_cast<double>(isotropic.exempt) > max_exempt_share * static_cast<double>(isotropic.cells))
         shortcomings.push_back(
             fmt::format("{} of {} triangles have an angle below {} degrees at a sharp corner of frozen edges",
                         isotropic.exempt, isotropic.cells, min_angle_deg));
@@ -125,7 +124,8 @@ void check(const CheckArguments& arguments) {
     }
     const MeshCheck result = check_mesh(mesh, options);
     if (arguments.require_delaunay && result.delaunay_violations > 0) {
-        shortcomings.push_back(fmt::format("{} edges are not Delaunay", result.delaunay_violations));
+        shortcomings.push_back(fmt::format("{} edges between isotropic triangles violate the Delaunay property",
+                                           result.delaunay_violations));
     }
     if (!arguments.min_angle.empty()) require_angles(result.isotropic, options.min_angle_deg, shortcomings);
 
@@ -133,7 +133,7 @@ void check(const CheckArguments& arguments) {
                                     : check_summary(arguments.mesh, mesh, result, shortcomings));
     if (!result.valid()) {
         throw MeshError(fmt::format("{}: not valid, {} defects; the first: {}", arguments.mesh, result.defect_count,
-                                    result.defects.front().what));
+                                    result.defects.front().description));
     }
     if (!shortcomings.empty()) throw MeshError(arguments.mesh + ": " + shortcomings.front());
 }
@@ -141,15 +141,19 @@ void check(const CheckArguments& arguments) {
 }  // namespace
 
 void add_check_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("check", "validity, Delaunay property and quality; 0 only if valid");
+    CLI::App* command = app.add_subcommand("check", "check a mesh and measure its quality; exit code 0 only if valid");
     auto arguments = std::make_shared<CheckArguments>();
     command->add_option("MESH", arguments->mesh, "mesh file")->required();
-    command->add_flag("--json", arguments->json, "print one JSON object");
-    command->add_option("--wall", arguments->walls, "markers that must be there, as walls")->type_name("NAME");
-    command->add_option("--far", arguments->far_field, "marker that must be there, as far field")->type_name("NAME");
+    command->add_flag("--json", arguments->json, "print the result as one JSON object");
+    command->add_option("--wall", arguments->walls, "require a marker of this name, and take it for a wall")
+        ->type_name("NAME");
+    command->add_option("--far", arguments->far_field, "require a marker of this name, and take it for the far field")
+        ->type_name("NAME");
     command->add_flag("--require-delaunay", arguments->require_delaunay,
-                      "demand that every isotropic edge be Delaunay (exact test)");
-    command->add_option("--min-angle", arguments->min_angle, "demand this smallest angle of isotropic triangles")
+                      "require the Delaunay property of all edges between isotropic triangles (exact test)");
+    command
+        ->add_option("--min-angle", arguments->min_angle,
+                     "require this smallest angle of isotropic triangles, in degrees, but in sharp corners")
         ->type_name("DEG");
     command->callback([arguments] { check(*arguments); });
 }

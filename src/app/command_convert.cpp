@@ -1,4 +1,4 @@
-// lamina convert: a mesh from one format to another.
+// lamina convert: converts a mesh from one format to another.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -22,7 +22,7 @@ struct ConvertArguments {
     std::vector<std::string> walls, far_fields, symmetries;
 };
 
-/// For formats that hold kinds, from those that do not.
+/// Sets the kind of the markers of these names, since not all formats hold kinds.
 void set_kind(Mesh& mesh, const std::vector<std::string>& names, MarkerKind kind, const std::string& file) {
     for (const std::string& name : names) {
         const auto marker = std::find_if(mesh.markers.begin(), mesh.markers.end(),
@@ -44,22 +44,27 @@ void convert(const ConvertArguments& arguments) {
 }  // namespace
 
 void add_convert_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("convert", "a mesh from one format to another");
+    CLI::App* command = app.add_subcommand("convert", "convert a mesh from one format to another");
     auto arguments = std::make_shared<ConvertArguments>();
     command->add_option("IN", arguments->from, "mesh file")->required();
-    command->add_option("OUT", arguments->to, "mesh file; format by extension, or --format")->required();
+    command->add_option("OUT", arguments->to, "mesh file; its extension says the format, unless --format does")
+        ->required();
     command->add_option("--format", arguments->options.format, "format of OUT")->type_name("NAME");
-    command->add_option("--wall", arguments->walls, "markers that are walls")
+    command->add_option("--wall", arguments->walls, "set the kind of this marker to wall; may be given several times")
         ->type_name("NAME")
         ->allow_extra_args(false);
-    command->add_option("--far", arguments->far_fields, "markers that are far fields")
+    command
+        ->add_option("--far", arguments->far_fields,
+                     "set the kind of this marker to far field; may be given several times")
         ->type_name("NAME")
         ->allow_extra_args(false);
-    command->add_option("--symmetry", arguments->symmetries, "markers that are planes of symmetry")
+    command
+        ->add_option("--symmetry", arguments->symmetries,
+                     "set the kind of this marker to symmetry; may be given several times")
         ->type_name("NAME")
         ->allow_extra_args(false);
     command->add_flag("--wall-distance", arguments->options.wall_distance,
-                      "VTU: the distance to the nearest wall as point data");
+                      "write the distance to the nearest wall as point data, in VTU files");
     command->footer(format_help());
     command->callback([arguments] { convert(*arguments); });
 }

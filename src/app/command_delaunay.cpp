@@ -1,12 +1,8 @@
-// lamina delaunay: plain or constrained Delaunay triangulation of Triangle's files, refined where asked.
-#include <algorithm>
-#include <chrono>
-#include <cmath>
+// lamina delaunay: triangulates and refines the contents of Triangle's files.
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,13 +10,16 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/pipeline.hpp>
 #include <lamina/threads.hpp>
 #include <lamina/triangle_files.hpp>
 #include <lamina/version.hpp>
 
 #include "app/commands.hpp"
+#include "app/delaunay_run.hpp"
 #include "app/options.hpp"
 #include "app/report.hpp"
+#include "app/stopwatch.hpp"
 #include "app/table_option.hpp"
 
 namespace lamina::app {
@@ -34,48 +33,30 @@ struct DelaunayArguments {
     std::string stem;
     std::string min_angle, max_area, threads;
     std::string report;
-    bool keep_border = false;
-    bool keep_hull = false;
-    bool insert_crossings = false;
     bool quiet = false;
+    DelaunaySettings settings;  ///< the flags
 };
 
-struct Settings {
+/// The facts about a run that only the command knows.
+struct DelaunayRunFacts {
     fs::path stem;
-    RefineOptions refine{.min_angle_deg = 0};
-    double max_area = HUGE_VAL;
-    CaseOptions run;  ///< the number of threads
+    bool with_poly = false;
+    unsigned threads = 0;
+    double smallest_angle_deg = 0;
+    double read_seconds = 0, write_seconds = 0, total_seconds = 0;
 };
 
-/// What is written, with what the report says about it.
-struct Outcome {
-    TriangleOutput output;
-    double triangulation_seconds = 0, refinement_seconds = 0;
-    RefineStats stats;
-    Json decomposition, thread_seconds;  ///< of points without segments
-};
+/// Returns the stem of the output files: FILE.1 where none is given.
+fs::path output_stem(const DelaunayArguments& arguments) {
+    if (!arguments.stem.empty()) return arguments.stem;
+    fs::path stem = arguments.file;
+    stem.replace_extension();
+    return stem += ".1";
+}
 
-class Stopwatch {
-public:
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-Settings settings_of(const DelaunayArguments& arguments) {
-    Settings settings;
-    settings.stem = arguments.stem;
-    if (arguments.stem.empty()) {
-        settings.stem = arguments.file;
-        settings.stem.replace_extension();
-        settings.stem += ".1";
-    }
+DelaunaySettings settings_of(const DelaunayArguments& arguments) {
+    DelaunaySettings settings = arguments.settings;
     set_by_name(refine_option_table(), "min-angle", arguments.min_angle, settings.refine);
-    set_by_name(case_option_table(), "threads", arguments.threads, settings.run);
     if (!arguments.max_area.empty()) {
         settings.max_area = parse_real(arguments.max_area, "option --max-area");
         if (!positive_numbers.contains(settings.max_area))
@@ -84,182 +65,107 @@ Settings settings_of(const DelaunayArguments& arguments) {
     return settings;
 }
 
-/// Errors of the triangulation know points and segments by index: says in which file they are.
-template <class F>
-auto naming_file(const TriangleInput& input, F&& f) {
-    try {
-        return f();
-    } catch (const InputError& error) {
-        if (!error.place().file.empty()) throw;
-        InputPlace place = error.place();
-        place.file = (input.segment_file.empty() ? input.point_file : input.segment_file).string();
-        throw InputError(place, error.reason() + " (counted from 0)");
+unsigned threads_of(const DelaunayArguments& arguments) {
+    CaseOptions options;
+    set_by_name(case_option_table(), "threads", arguments.threads, options);
+    return options.threads;
+}
+
+Json thread_seconds_report(const std::vector<TriangulationThread>& threads) {
+    Json report = {{"decomposition", Json::array()}, {"triangulation", Json::array()}};
+    for (const TriangulationThread& thread : threads) {
+        report["decomposition"].push_back({{"busy", thread.cutting}});
+        report["triangulation"].push_back({{"busy", thread.triangulating}, {"idle", thread.idle}});
     }
+    return report;
 }
 
-/// The size field whose triangles have at most this area; without a bound, one coarser than anything.
-SizeField size_field(double max_area, const std::vector<Point>& points) {
-    Box extent;
-    for (Point p : points) extent.include(p);
-    const double whole = extent.width() * extent.width() + extent.height() * extent.height();
-    return SizeField(size_for_area(std::min(max_area, 16 * whole)));
+std::string hash_of(const TriangleOutput& output) {
+    Mesh mesh;
+    mesh.points = output.points;
+    mesh.triangles = output.triangles;
+    return mesh_hash(mesh);
 }
 
-ConstrainedRefinement refine_input(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
-                                   const Settings& settings, bool keep_border) {
-    ConstrainedRefineOptions options;
-    options.refine = settings.refine;
-    options.split_segments = !keep_border;
-    for (const TriangleRegion& region : input.regions)
-        options.regions.push_back(
-            {region.at,
-             size_field(region.max_area > 0 ? std::min(region.max_area, settings.max_area) : settings.max_area,
-                        input.points)});
-    return refine(input.points, triangulation, size_field(settings.max_area, input.points), options);
-}
-
-/// Points without segments are triangulated in pieces, on all threads.
-ConstrainedTriangulation triangulate_points(const TriangleInput& input, Outcome& outcome) {
-    Triangulation made = lamina::triangulate(input.points);
-    outcome.decomposition = decomposition_report(made.decomposition);
-    for (const TriangulationThread& thread : made.threads) {
-        outcome.thread_seconds["decomposition"].push_back({{"busy", thread.cutting}});
-        outcome.thread_seconds["triangulation"].push_back({{"busy", thread.triangulating}, {"idle", thread.idle}});
+Json delaunay_report(const DelaunayResult& result, const DelaunayRunFacts& facts) {
+    Json report = {{"version", LAMINA_VERSION},
+                   {"threads", facts.threads == 0 ? thread_count() : facts.threads},
+                   {"vertices", result.output.points.size()},
+                   {"triangles", result.output.triangles.size()},
+                   {"min_angle_deg", facts.smallest_angle_deg},
+                   {"angles_below_bound", result.refinement.below_bound},
+                   {"angles_exempt", result.refinement.exempt},
+                   {"oversized", result.refinement.oversized},
+                   {"seconds",
+                    {{"read", facts.read_seconds},
+                     {"triangulation", result.triangulation_seconds},
+                     {"refinement", result.refinement_seconds},
+                     {"write", facts.write_seconds},
+                     {"total", facts.total_seconds}}},
+                   {"hash", hash_of(result.output)}};
+    if (result.decomposition) {
+        report["decomposition"] = decomposition_report(*result.decomposition);
+        report["thread_seconds"] = thread_seconds_report(result.threads);
     }
-    ConstrainedTriangulation result;
-    result.triangles = std::move(made.triangles);
-    return result;
+    return report;
 }
 
-ConstrainedTriangulation triangulate_input(const DelaunayArguments& arguments, const TriangleInput& input,
-                                           Outcome& outcome) {
-    if (input.segments.empty() && input.holes.empty()) return triangulate_points(input, outcome);
-    ConstrainedOptions options;
-    options.holes = input.holes;
-    options.crossings = arguments.insert_crossings ? Crossings::insert : Crossings::refuse;
-    if (!input.segments.empty() && !arguments.keep_hull) options.keep = KeptRegion::inside_segments;
-    return lamina::triangulate(input.points, input.segments, options);
-}
-
-/// Attributes and markers of the input are kept; new vertices have attributes 0 and the marker of their segment.
-Outcome triangulate(const DelaunayArguments& arguments, const Settings& settings, TriangleInput input) {
-    Outcome outcome;
-    Stopwatch watch;
-    const ConstrainedTriangulation triangulation =
-        naming_file(input, [&] { return triangulate_input(arguments, input, outcome); });
-    outcome.triangulation_seconds = watch.lap();
-
-    TriangleOutput& output = outcome.output;
-    std::vector<Point> steiner_points = triangulation.steiner_points;
-    std::vector<std::uint32_t> parents = triangulation.parents;
-    output.triangles = triangulation.triangles;
-    output.segments = triangulation.segments;
-    const bool bounded_regions = std::any_of(input.regions.begin(), input.regions.end(),
-                                             [](const TriangleRegion& region) { return region.max_area > 0; });
-    const bool refined = settings.refine.min_angle_deg > 0 || std::isfinite(settings.max_area) || bounded_regions;
-    std::vector<std::uint32_t> regions;
-    if (refined || !input.regions.empty()) {
-        ConstrainedRefinement refinement =
-            naming_file(input, [&] { return refine_input(input, triangulation, settings, arguments.keep_border); });
-        steiner_points = std::move(refinement.steiner_points);
-        parents = std::move(refinement.parents);
-        output.triangles = std::move(refinement.triangles);
-        output.segments = std::move(refinement.segments);
-        regions = std::move(refinement.regions);
-        outcome.stats = refinement.stats;
-    }
-    outcome.refinement_seconds = watch.lap();
-
-    output.first_index = input.first_index;
-    output.points = std::move(input.points);
-    output.points.insert(output.points.end(), steiner_points.begin(), steiner_points.end());
-    output.attribute_count = input.attribute_count;
-    output.attributes = std::move(input.attributes);
-    output.attributes.resize(output.points.size() * output.attribute_count, 0.0);
-    output.markers = std::move(input.markers);
-    output.markers.resize(output.points.size(), 0);
-    for (std::size_t i = 0; i < output.segments.size(); ++i) {
-        const long marker = input.segment_markers.empty() ? 0 : input.segment_markers[parents[i]];
-        output.segment_markers.push_back(marker);
-        for (VertexId v : {output.segments[i].a, output.segments[i].b})
-            if (output.markers[v.index()] == 0) output.markers[v.index()] = marker;
-    }
-    mark_boundary(output);
-    for (std::uint32_t region : regions)
-        output.regional.push_back(region == ConstrainedRefinement::no_region ? 0 : input.regions[region].attribute);
-    if (input.regions.empty()) output.regional.clear();
-    output.holes = std::move(input.holes);
-    output.regions = std::move(input.regions);
-    return outcome;
+std::string delaunay_summary(const DelaunayResult& result, const DelaunayRunFacts& facts) {
+    const RefineStats& stats = result.refinement;
+    std::string text = fmt::format("{}.node, .ele{}: {} vertices, {} triangles, smallest angle {:.2f} degrees\n",
+                                   facts.stem.string(), facts.with_poly ? ", .poly" : "", result.output.points.size(),
+                                   result.output.triangles.size(), facts.smallest_angle_deg);
+    if (stats.below_bound > 0)
+        text += fmt::format(
+            "  {} triangles have an angle below the bound ({} of them in sharp corners of the input, where no "
+            "triangulation can keep it)\n",
+            stats.below_bound, stats.exempt);
+    if (stats.oversized > 0) text += fmt::format("  {} triangles are larger than asked for\n", stats.oversized);
+    return text;
 }
 
 void run(const DelaunayArguments& arguments) {
-    const Settings settings = settings_of(arguments);
-    check_folder_writable(settings.stem);
+    const DelaunaySettings settings = settings_of(arguments);
+    DelaunayRunFacts facts{.stem = output_stem(arguments), .threads = threads_of(arguments)};
+    check_folder_writable(facts.stem);
     if (!arguments.report.empty()) check_folder_writable(arguments.report);
 
     Stopwatch watch, total;
     TriangleInput input = read_triangle_files(arguments.file);
-    const bool with_poly = !input.segment_file.empty();
-    const double read_seconds = watch.lap();
-    Outcome outcome;
-    with_threads(settings.run.threads, [&] { outcome = triangulate(arguments, settings, std::move(input)); });
-    const TriangleOutput& output = outcome.output;
+    facts.with_poly = !input.segment_file.empty();
+    facts.read_seconds = watch.lap();
+    DelaunayResult result;
+    with_threads(facts.threads, [&] { result = run_delaunay(std::move(input), settings); });
     watch.lap();
-    write_triangle_files(output, settings.stem, with_poly);
-    const double write_seconds = watch.lap();
-    const double angle = smallest_angle_deg(output.points, output.triangles);
+    write_triangle_files(result.output, facts.stem, facts.with_poly);
+    facts.write_seconds = watch.lap();
+    facts.smallest_angle_deg = smallest_angle_deg(result.output.points, result.output.triangles);
+    facts.total_seconds = total.lap();
 
-    if (!arguments.report.empty()) {
-        Mesh mesh;
-        mesh.points = output.points;
-        mesh.triangles = output.triangles;
-        Json report = {{"version", LAMINA_VERSION},
-                       {"threads", settings.run.threads == 0 ? thread_count() : settings.run.threads},
-                       {"vertices", output.points.size()},
-                       {"triangles", output.triangles.size()},
-                       {"min_angle_deg", angle},
-                       {"angles_below_bound", outcome.stats.below_bound},
-                       {"angles_exempt", outcome.stats.exempt},
-                       {"oversized", outcome.stats.oversized},
-                       {"seconds",
-                        {{"read", read_seconds},
-                         {"triangulation", outcome.triangulation_seconds},
-                         {"refinement", outcome.refinement_seconds},
-                         {"write", write_seconds},
-                         {"total", total.lap()}}},
-                       {"hash", mesh_hash(mesh)}};
-        if (!outcome.decomposition.is_null()) {
-            report["decomposition"] = outcome.decomposition;
-            report["thread_seconds"] = outcome.thread_seconds;
-        }
-        write_file(arguments.report, to_text(report));
-    }
-    if (arguments.quiet) return;
-    fmt::print("{}.node, .ele{}: {} vertices, {} triangles, smallest angle {:.2f} degrees\n", settings.stem.string(),
-               with_poly ? ", .poly" : "", output.points.size(), output.triangles.size(), angle);
-    if (const auto& stats = outcome.stats; stats.below_bound + stats.oversized > 0)
-        fmt::print("  under the angle bound: {} triangles, {} of them at sharp corners of the input; too large: {}\n",
-                   stats.below_bound, stats.exempt, stats.oversized);
+    if (!arguments.report.empty()) write_file(arguments.report, to_text(delaunay_report(result, facts)));
+    if (!arguments.quiet) fmt::print("{}", delaunay_summary(result, facts));
 }
 
 }  // namespace
 
 void add_delaunay_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
-        "delaunay", "Delaunay triangulation of Triangle's files, constrained and refined where asked");
+        "delaunay", "triangulate the points and segments of Triangle's files, and refine the triangulation");
     auto a = std::make_shared<DelaunayArguments>();
     command->add_option("FILE", a->file, "FILE.poly (segments, holes, regions) or FILE.node (points)")->required();
-    command->add_option("-o,--output", a->stem, "writes STEM.node, STEM.ele, and STEM.poly for a .poly [FILE.1]")
+    command->add_option("-o,--output", a->stem, "write STEM.node, STEM.ele and, for a .poly file, STEM.poly [FILE.1]")
         ->type_name("STEM");
     add_table_option(*command, refine_option_table(), "min-angle", a->min_angle);
-    command->add_option("--max-area", a->max_area, "largest area of a triangle; > 0")->type_name("A");
-    command->add_flag("--keep-border", a->keep_border, "split no segment and no edge of the rim");
-    command->add_flag("--keep-hull", a->keep_hull, "fill the convex hull, concavities included");
-    command->add_flag("--insert-crossings", a->insert_crossings, "add a vertex where segments cross; else an error");
+    command->add_option("--max-area", a->max_area, "largest area of a triangle, in squared units of the input; > 0")
+        ->type_name("A");
+    command->add_flag("--keep-border", a->settings.keep_border, "split no segment and no edge of the boundary");
+    command->add_flag("--keep-hull", a->settings.keep_hull,
+                      "keep the triangles of the convex hull that lie outside the segments");
+    command->add_flag("--insert-crossings", a->settings.insert_crossings,
+                      "add a vertex where segments cross; else this is an error");
     add_table_option(*command, case_option_table(), "threads", a->threads);
-    command->add_option("--report", a->report, "JSON report of the run")->type_name("FILE");
-    command->add_flag("--quiet", a->quiet, "no summary");
+    command->add_option("--report", a->report, "JSON report of the run to write")->type_name("FILE");
+    command->add_flag("--quiet", a->quiet, "print no summary");
     command->callback([a] { run(*a); });
 }
 

@@ -1,4 +1,4 @@
-// lamina info: what was read, detected and repaired.
+// lamina info: describes airfoils as they were read, repaired and prepared.
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,7 +15,7 @@
 namespace lamina::app {
 
 void add_info_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("info", "what was read, detected and repaired");
+    CLI::App* command = app.add_subcommand("info", "describe airfoils: what was read, repaired and detected");
     auto inputs = std::make_shared<std::vector<std::string>>();
     command->add_option("INPUT", *inputs, "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)");
     command->callback([inputs] {

@@ -1,7 +1,6 @@
-// lamina mesh: airfoils in, mesh files out.
+// lamina mesh: makes a mesh round airfoils and writes it.
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -21,22 +20,21 @@
 #include "app/format_help.hpp"
 #include "app/options.hpp"
 #include "app/report.hpp"
+#include "app/stopwatch.hpp"
+#include "app/summary.hpp"
 
 namespace lamina::app {
 
 namespace {
 
-/// The options of the table, each with what the command line says about it.
+/// The options of the table, each with the option of CLI11 that reads it from the command line.
 using GivenOptions = std::vector<std::pair<const Option<MeshCase>*, CLI::Option*>>;
 
 CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
-    const std::optional<OptionValue> standard = option.get(MeshCase{});
-    const std::string text = standard && option.kind != OptionKind::flag ? to_text(*standard) : "";
-    const std::string range = option.range.empty() ? "" : "; " + option.range;
-    const std::string help = option.help + range + (text.empty() ? "" : " [" + text + "]");
+    const std::string help = help_text(option);
     if (option.kind == OptionKind::flag) return command.add_flag(command_line_name(option), help)->group(option.group);
 
-    // The texts are read from the option once the case file is known.
+    // The option is set only once the case file is read, so nothing is done with its value here.
     CLI::Option* given = command.add_option(
         command_line_name(option), [](const CLI::results_t&) { return true; }, help);
     given->group(option.group)->type_name(option.metavar);
@@ -47,8 +45,8 @@ CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
     return given->expected(1, -1)->allow_extra_args(given->get_positional());
 }
 
-/// The case file first, where the input is one; then the command line over it.
-MeshCase case_in_force(const GivenOptions& options) {
+/// Returns the case that the command line describes. Its options override those of the case file.
+MeshCase case_of_command_line(const GivenOptions& options) {
     MeshCase mesh_case;
     for (const auto& [option, given] : options) {
         if (given->get_positional()) {
@@ -73,7 +71,7 @@ WriteOptions write_options(const MeshCase& mesh_case) {
     return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance};
 }
 
-/// Everything that can be refused before the work begins.
+/// Throws where an output is missing or certainly cannot be written, before the work begins.
 void require_outputs(const MeshCase& mesh_case) {
     if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
     for (const std::string& output : mesh_case.outputs) check_writable(output, write_options(mesh_case));
@@ -89,36 +87,33 @@ void mesh(const MeshCase& mesh_case) {
         options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));
     const MeshResult result = generate_mesh(mesh_case.inputs, options, progress_printer(mesh_case));
 
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
+    Stopwatch watch;
     for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, write_options(mesh_case));
     if (!mesh_case.wall_data.empty()) write_wall_data(result.mesh, mesh_case.wall_data);
-    const double write_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double write_seconds = watch.lap();
 
-    if (!mesh_case.report.empty()) {
-        write_file(mesh_case.report, to_text(mesh_report(result, write_seconds)));
-    }
+    if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(mesh_report(result, write_seconds)));
     if (!mesh_case.quiet) fmt::print("{}", mesh_summary(result, mesh_case.outputs, write_seconds));
 }
 
 }  // namespace
 
 void add_mesh_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("mesh", "airfoils in, mesh files out");
+    CLI::App* command = app.add_subcommand("mesh", "make a mesh round airfoils and write it");
     auto options = std::make_shared<GivenOptions>();
     for (const Option<MeshCase>& option : mesh_options()) options->emplace_back(&option, add_option(*command, option));
     command->footer(format_help());
-    auto dump = std::make_shared<bool>(false);
-    command->add_flag("--dump-config", *dump, "print the configuration in force as a case file, and do nothing else")
+    auto dump = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
+    command->add_flag("--dump-config", *dump, "print the options in force as a case file, and do nothing else")
         ->group("Run");
-    command->callback([options, dump] {
-        const MeshCase mesh_case = case_in_force(*options);
-        if (*dump) {
-            require_consistent(mesh_case);
-            fmt::print("{}", dump_case(mesh_case));
-        } else {
-            mesh(mesh_case);
-        }
+    command->add_flag("--options-as-markdown", *markdown, "print a table of all options, and do nothing else")
+        ->group("Run");
+    command->callback([options, dump, markdown] {
+        if (*markdown) return fmt::print("{}", options_as_markdown());
+        const MeshCase mesh_case = case_of_command_line(*options);
+        if (!*dump) return mesh(mesh_case);
+        require_consistent(mesh_case);
+        fmt::print("{}", dump_case(mesh_case));
     });
 }
 

@@ -1,4 +1,4 @@
-// lamina plot: a picture of a mesh.
+// lamina plot: draws a picture of a mesh.
 #include <memory>
 #include <string>
 
@@ -21,10 +21,10 @@ struct PlotArguments {
 }  // namespace
 
 void add_plot_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("plot", "a picture of a mesh");
+    CLI::App* command = app.add_subcommand("plot", "draw a picture of a mesh");
     auto arguments = std::make_shared<PlotArguments>();
     command->add_option("MESH", arguments->mesh, "mesh file")->required();
-    command->add_option("-o,--output", arguments->picture, "picture: .png, .svg or .pdf")
+    command->add_option("-o,--output", arguments->picture, "picture; its extension says the format: .png, .svg or .pdf")
         ->required()
         ->type_name("FILE");
     add_table_option(*command, plot_option_table(), "window", arguments->window);

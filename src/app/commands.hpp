@@ -1,4 +1,5 @@
-// The commands of the program, one a file. Each adds itself to the command line and runs when it is named there.
+// The commands of the program, one per file. Each function adds a command to the command line; the command runs when it
+// is named there.
 #pragma once
 
 #include <CLI/CLI.hpp>

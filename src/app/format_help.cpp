@@ -14,10 +14,10 @@ std::string format_names() {
 }
 
 std::string format_help() {
-    std::string text = "Formats (an extension stands for the first that has it):";
+    std::string text = "Formats (an extension stands for the first format that has it):";
     for (const MeshFormat& format : mesh_formats())
-        text += fmt::format("\n  {:<15} {:<20} {}{}", format.name, fmt::join(format.extensions, " "), format.holds,
-                            format.readable ? "" : " (written only)");
+        text += fmt::format("\n  {:<15} {:<22} {}{}", format.name, fmt::to_string(fmt::join(format.extensions, " ")),
+                            format.description, format.readable ? "" : " (written only)");
     return text;
 }
 

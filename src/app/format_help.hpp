@@ -1,14 +1,14 @@
-// The table of mesh formats, as --help shows it.
+// The table of mesh formats in help texts.
 #pragma once
 
 #include <string>
 
 namespace lamina::app {
 
-/// "su2|cgns|...".
+/// Returns the names of all formats: "su2|cgns|...".
 std::string format_names();
 
-/// One line a format: name, extensions, what it is.
+/// Returns one line per format: its name, its extensions and its description.
 std::string format_help();
 
 }  // namespace lamina::app

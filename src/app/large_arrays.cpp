@@ -1,7 +1,7 @@
-// Memory of the program's large arrays, of which a mesh of a million triangles has a dozen: on huge pages where the
-// system offers them, since it otherwise takes longer to hand out the pages one by one than to fill them. Standard
-// containers allocate with operator new, which a program may replace (C++20, [new.delete.single]); the library does
-// not, and leaves the choice to whoever links it.
+// Replaces operator new, so that large arrays lie on huge pages where the system offers them. A mesh of a million
+// triangles has a dozen large arrays, and the system takes longer to hand out their pages one by one than lamina takes
+// to fill them. A program may replace operator new (C++20, [new.delete.single]). The library does not: it leaves the
+// choice to the program that links it.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -19,7 +19,8 @@ void* allocate(std::size_t bytes) {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
     if (bytes >= 2 * huge_page && bytes < PTRDIFF_MAX - huge_page) {
         void* const memory = std::aligned_alloc(huge_page, (bytes + huge_page - 1) / huge_page * huge_page);
-        // Advice only, and none for the last page unless it is full: an array takes no more memory than it is long.
+        // The last page is left out unless it is full, so that an array takes no more memory than its length. A refusal
+        // does no harm.
         if (memory != nullptr) (void)::madvise(memory, bytes / huge_page * huge_page, MADV_HUGEPAGE);
         return memory;
     }

@@ -1,4 +1,4 @@
-// The program: reads the command line, runs one command, and turns errors into one line and an exit code.
+// The program: reads the command line, runs one command, and turns an error into one line and an exit code.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -19,20 +19,21 @@ namespace lamina::app {
 
 namespace {
 
-int fail(ExitCode code, std::string line) {
+/// Prints an error as one line, and returns the exit code.
+int report_error(ExitCode code, std::string line) {
     std::replace(line.begin(), line.end(), '\n', ' ');
     std::fputs(("lamina: error: " + line + "\n").c_str(), stderr);
     return static_cast<int>(code);
 }
 
-/// The library names options as case files do.
+/// Returns the name on the command line of an option that the library names as case files do.
 std::string name_on_command_line(const std::string& key) {
     for (const auto& option : mesh_options())
         if (option.key() == key) return "option " + command_line_name(option);
     return key;
 }
 
-/// CLI11 would complain of a missing command.
+/// Throws UsageError for unknown commands, for which CLI11 would say that the command is missing.
 void require_known_command(const CLI::App& app, int argc, char** argv) {
     if (argc < 2) throw UsageError("no command (see lamina --help)");
     const std::string command = argv[1];
@@ -63,7 +64,7 @@ void run(CLI::App& app, int argc, char** argv) {
         if (error.get_exit_code() != 0) {
             throw UsageError(error.what() + help_hint(app));
         }
-        app.exit(error);  // --help or --version: prints it
+        app.exit(error);  // prints the answer to --help or --version
     }
     if (std::fflush(stdout) != 0) throw IoError("standard output", "cannot be written");
 }
@@ -75,14 +76,14 @@ void run(CLI::App& app, int argc, char** argv) {
 int main(int argc, char** argv) {
     using namespace lamina;
     using namespace lamina::app;
-    std::signal(SIGXFSZ, SIG_IGN);  // a file larger than the limit is an error like a full disk
+    std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the size limit then fails like a full disk
     try {
         CLI::App app("Two-dimensional viscous meshes round airfoils", "lamina");
         app.set_version_flag("--version", "lamina " LAMINA_VERSION);
         app.require_subcommand(1);
         app.footer(
-            "Exit codes: 0 done; 2 wrong usage; 3 bad input; 4 the mesh could not be made to the promised "
-            "standard; 5 reading or writing failed.");
+            "Exit codes: 0 done; 2 wrong usage; 3 bad input; 4 no valid mesh could be made, or a checked mesh is not "
+            "as required; 5 reading or writing failed.");
         add_mesh_command(app);
         add_check_command(app);
         add_plot_command(app);
@@ -92,16 +93,16 @@ int main(int argc, char** argv) {
         run(app, argc, argv);
         return static_cast<int>(ExitCode::done);
     } catch (const OptionError& error) {
-        return fail(error.exit_code(), name_on_command_line(error.option()) + ": " + error.reason());
+        return report_error(error.exit_code(), name_on_command_line(error.option()) + ": " + error.reason());
     } catch (const Error& error) {
-        return fail(error.exit_code(), error.what());
+        return report_error(error.exit_code(), error.what());
     } catch (const std::bad_alloc&) {
-        return fail(ExitCode::mesh_failed, "out of memory");
+        return report_error(ExitCode::mesh_failed, "out of memory");
     } catch (const std::system_error& error) {
-        return fail(ExitCode::io_failed, error.what());
+        return report_error(ExitCode::io_failed, error.what());
     } catch (const std::exception& error) {
-        return fail(ExitCode::mesh_failed, std::string("internal error: ") + error.what());
+        return report_error(ExitCode::mesh_failed, std::string("internal error: ") + error.what());
     } catch (...) {
-        return fail(ExitCode::mesh_failed, "internal error");
+        return report_error(ExitCode::mesh_failed, "internal error");
     }
 }

@@ -18,39 +18,41 @@ namespace lamina::app {
 
 namespace {
 
+/// The headings of the help, in their order.
 constexpr std::array<std::string_view, 5> groups{"Files", "Geometry", "Layer", "Outer region", "Run"};
 
 OptionTable<MeshCase> file_options() {
     OptionTableBuilder<MeshCase> table("Files");
-    const auto at = [](auto MeshCase::*member) { return member_at(member); };
     table.list("input", OptionKind::paths, "INPUT",
-               "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)", at(&MeshCase::inputs));
-    table.list("output", OptionKind::paths, "FILE", "mesh file; may be given several times", at(&MeshCase::outputs));
-    table.text("format", OptionKind::word, format_names(), "format of every mesh file; else each by its extension",
-               at(&MeshCase::format));
-    table.flag("wall-distance", "in VTU files: the distance to the nearest wall as point data", true,
-               at(&MeshCase::wall_distance));
+               "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)", member_at(&MeshCase::inputs));
+    table.list("output", OptionKind::paths, "FILE", "mesh file to write; may be given several times",
+               member_at(&MeshCase::outputs));
+    table.text("format", OptionKind::word, format_names(),
+               "format of every mesh file; else the extension of each says its format", member_at(&MeshCase::format));
+    table.flag("wall-distance", "write the distance to the nearest wall as point data, in VTU files", true,
+               member_at(&MeshCase::wall_distance));
     table.text("wall-data", OptionKind::path, "FILE",
-               "CSV of the wall's vertices in order: marker, vertex, x, y, arc length, normal, first height",
-               at(&MeshCase::wall_data));
-    table.text("report", OptionKind::path, "FILE", "JSON report of the run", at(&MeshCase::report));
+               "CSV file to write: the wall vertices in order with marker, vertex, x, y, arc length, normal and first "
+               "height",
+               member_at(&MeshCase::wall_data));
+    table.text("report", OptionKind::path, "FILE", "JSON report of the run to write", member_at(&MeshCase::report));
     return table.take();
 }
 
 OptionTable<MeshCase> other_options() {
     OptionTableBuilder<MeshCase> sizes("Outer region");
     sizes.text("background", OptionKind::path, "FILE",
-               "VTU or MSH mesh with an edge length at each vertex, point data 'size' or the only scalar one, linear "
-               "in its triangles",
+               "VTU or MSH mesh to read with an edge length at each vertex, in units of the input: the point data "
+               "'size', or the only scalar point data; linear in its triangles",
                member_at(&MeshCase::background));
     OptionTable<MeshCase> table = sizes.take();
     OptionTableBuilder<MeshCase> run("Run");
     run.choice(
-        "progress", "names of the stages on standard error; auto: where it is a terminal",
+        "progress", "print the names of the stages on standard error; auto: where it is a terminal",
         Choices<ProgressShown>{
             {"auto", ProgressShown::automatic}, {"always", ProgressShown::always}, {"never", ProgressShown::never}},
         member_at(&MeshCase::progress));
-    run.flag("quiet", "no summary", true, member_at(&MeshCase::quiet));
+    run.flag("quiet", "print no summary", true, member_at(&MeshCase::quiet));
     OptionTable<MeshCase> rows = run.take();
     std::move(rows.begin(), rows.end(), std::back_inserter(table));
     return table;
@@ -62,10 +64,10 @@ OptionTable<MeshCase> make_table() {
          {nested_table<MeshCase>(case_option_table(), member_at(&MeshCase::options)), other_options()})
         std::move(rows.begin(), rows.end(), std::back_inserter(table));
     std::erase_if(table, [](const Option<MeshCase>& option) { return option.library_only; });
-    const auto place = [](const Option<MeshCase>& option) {
+    const auto rank = [](const Option<MeshCase>& option) {
         return std::find(groups.begin(), groups.end(), option.group) - groups.begin();
     };
-    std::stable_sort(table.begin(), table.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    std::stable_sort(table.begin(), table.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     return table;
 }
 
@@ -73,14 +75,27 @@ bool is_given(const MeshCase& mesh_case, const std::string& name) {
     return std::find(mesh_case.given.begin(), mesh_case.given.end(), name) != mesh_case.given.end();
 }
 
-/// Reads a whole text as a number of this type.
+/// Reads a number of this type that fills the whole text; `type_name` names the type in errors.
 template <class Number>
-Number parse(const std::string& text, const std::string& origin, const char* what) {
+Number parse(const std::string& text, const std::string& origin, const char* type_name) {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size())
-        throw UsageError(fmt::format("{}: '{}' is not a {}", origin, text, what));
+        throw UsageError(fmt::format("{}: '{}' is not a {}", origin, text, type_name));
     return value;
+}
+
+/// Returns the default of an option as a person reads it; empty for flags and options without a default.
+std::string default_text(const Option<MeshCase>& option) {
+    const std::optional<OptionValue> value = option.get(MeshCase{});
+    return value && option.kind != OptionKind::flag ? to_text(*value) : "";
+}
+
+/// Returns what a command line holds for the option: "--first-height H".
+std::string usage_text(const Option<MeshCase>& option) {
+    if (option.name == "input") return option.metavar;
+    if (option.name == "output") return "-o, --output " + option.metavar;
+    return "--" + option.name + (option.metavar.empty() ? "" : " ") + option.metavar;
 }
 
 }  // namespace
@@ -119,6 +134,11 @@ void require_consistent(const MeshCase& mesh_case) {
 
 double parse_real(const std::string& text, const std::string& origin) { return parse<double>(text, origin, "number"); }
 
+std::string help_text(const Option<MeshCase>& option) {
+    const std::string value = default_text(option);
+    return help_with_range(option) + (value.empty() ? "" : " [" + value + "]");
+}
+
 OptionValue value_of_text(OptionKind kind, const std::vector<std::string>& texts, const std::string& origin) {
     if (kind == OptionKind::words || kind == OptionKind::repeated || kind == OptionKind::paths) return texts;
     const std::string& text = texts.back();
@@ -145,8 +165,8 @@ std::string to_text(const OptionValue& value) {
 std::string options_as_markdown() {
     std::string text =
         "# Options of `lamina mesh`\n\n"
-        "`lamina help mesh --markdown` prints this page. Case files use the same names with underscores for hyphens. "
-        "Lengths are in the units of the input unless an option says otherwise; angles are in degrees.\n";
+        "`lamina mesh --options-as-markdown` prints this page. Case files use the same names with underscores for "
+        "hyphens. Lengths are in the units of the input unless an option says otherwise; angles are in degrees.\n";
     std::string_view group;
     const auto escaped = [](std::string cell) {
         for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.replace(at, 1, "\\|");
@@ -157,14 +177,8 @@ std::string options_as_markdown() {
             group = option.group;
             text += fmt::format("\n## {}\n\n| option | default | meaning |\n|---|---|---|\n", group);
         }
-        const std::optional<OptionValue> value = option.get(MeshCase{});
-        const std::string standard = value && option.kind != OptionKind::flag ? to_text(*value) : "";
-        const std::string name = option.name == "input" ? option.metavar
-                                 : option.name == "output"
-                                     ? "-o, --output " + option.metavar
-                                     : "--" + option.name + (option.metavar.empty() ? "" : " ") + option.metavar;
-        text += fmt::format("| `{}` | {} | {}{} |\n", escaped(name), standard, escaped(option.help),
-                            option.range.empty() ? "" : "; " + option.range);
+        text += fmt::format("| `{}` | {} | {} |\n", escaped(usage_text(option)), default_text(option),
+                            escaped(help_with_range(option)));
     }
     return text;
 }

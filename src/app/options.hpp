@@ -1,4 +1,4 @@
-// The options of `lamina mesh`: those of the library's table, and those that say which files to read and write. The
+// The options of `lamina mesh`: those of the library's table, and those that name the files to read and write. The
 // command line, case files, help, --dump-config and docs/options.md all read this table.
 #pragma once
 
@@ -14,25 +14,35 @@ namespace lamina::app {
 /// Returns the table, sorted by the headings of the help. Options for the library alone are left out.
 const OptionTable<MeshCase>& mesh_options();
 
-/// Returns the option as CLI11 wants it: "--first-height", "-o,--output", "INPUT".
+/// Returns the name of the option in the form that CLI11 takes: "--first-height", "-o,--output", "INPUT".
 std::string command_line_name(const Option<MeshCase>& option);
 
-/// Sets the option and notes that it was given. Throws UsageError "origin: reason".
+/// Returns the description of an option with the range of its values.
+template <class Options>
+std::string help_with_range(const Option<Options>& option) {
+    return option.help + (option.range.empty() ? "" : "; " + option.range);
+}
+
+/// Returns the description of an option with the range of its values and its default in brackets.
+std::string help_text(const Option<MeshCase>& option);
+
+/// Sets the option and notes that it was given. `origin` says where, for errors. Throws UsageError "origin: reason".
 void assign(const Option<MeshCase>& option, MeshCase& mesh_case, const OptionValue& value, const std::string& origin);
 
 /// Throws UsageError where options were given that exclude or need each other.
 void require_consistent(const MeshCase& mesh_case);
 
-/// Returns the value that arguments from the command line spell. Throws UsageError "origin: reason".
+/// Returns the value of an option of this kind that arguments of the command line stand for. Throws UsageError "origin:
+/// reason".
 OptionValue value_of_text(OptionKind kind, const std::vector<std::string>& texts, const std::string& origin);
 
-/// Reads a number. Throws UsageError "origin: reason".
+/// Reads a number that fills the whole text. Throws UsageError "origin: reason".
 double parse_real(const std::string& text, const std::string& origin);
 
-/// Returns what a person reads: "0.1", "fan", "a,b"; an empty list gives an empty text.
+/// Returns the value as a person reads it: "0.1", "fan", "a,b". An empty list gives an empty text.
 std::string to_text(const OptionValue& value);
 
-/// Returns the table of the options in Markdown (docs/options.md).
+/// Returns the table of the options as a page in Markdown: docs/options.md.
 std::string options_as_markdown();
 
 }  // namespace lamina::app

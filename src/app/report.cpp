@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include <lamina/version.hpp>
+
+#include "app/coverage.hpp"
 
 namespace lamina::app {
 
@@ -14,17 +14,6 @@ std::size_t triangles_in(const Mesh& mesh, Region region) {
     const auto first = mesh.region.begin();
     const auto end = first + static_cast<std::ptrdiff_t>(std::min(mesh.region.size(), mesh.triangles.size()));
     return static_cast<std::size_t>(std::count(first, end, region));
-}
-
-double made_share(const LayerCoverage& coverage) {
-    if (coverage.requested_cells == 0) return 1;
-    return static_cast<double>(coverage.made_cells) / static_cast<double>(coverage.requested_cells);
-}
-
-ElementCoverage total_coverage(const MeshResult& result) {
-    ElementCoverage total;
-    for (const ElementCoverage& element : result.layer_coverage) total += element;
-    return total;
 }
 
 Json coverage_report(const LayerCoverage& coverage) {
@@ -90,7 +79,7 @@ Json threads_report(const std::vector<ThreadSeconds>& threads) {
     return report;
 }
 
-/// The first height in force, and the flow it was made for, if it was.
+/// Returns the first height and, where it follows from a y+, the flow that it was computed for.
 Json first_height_report(const MeshResult& result) {
     Json report = {{"height", result.first_height}};
     if (const auto& flow = result.y_plus; flow) {
@@ -131,7 +120,7 @@ Json quality_report(const MeshCheck& check) {
               {"max_angle_deg", layer.max_angle_deg},
               {"mean_max_angle_deg", layer.mean_max_angle_deg},
               {"edges_without_first_layer", check.edges_without_first_layer}}},
-            {"hand_over",
+            {"transition",
              {{"edges", check.transition.edges},
               {"p01_area_ratio", check.transition.p01_area_ratio},
               {"median_area_ratio", check.transition.median_area_ratio},
@@ -168,60 +157,5 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
 }
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-std::string quality_summary(const MeshCheck& check) {
-    std::string text;
-    if (check.isotropic.cells > 0) {
-        text += fmt::format(
-            "  isotropic {} cells, angles {:.2f} to {:.2f} deg, mean smallest {:.2f} deg, {} below bound ({} exempt), "
-            "neighbour areas within {:.2f}\n",
-            check.isotropic.cells, check.isotropic.min_angle_deg, check.isotropic.max_angle_deg,
-            check.isotropic.mean_min_angle_deg, check.isotropic.angles_below_bound, check.isotropic.exempt,
-            check.isotropic.max_neighbour_area_ratio);
-    }
-    if (check.layer.cells > 0) {
-        text += fmt::format(
-            "  layer     {} cells, aspect ratios up to {:.4g}, angles up to {:.2f} deg, mean largest {:.2f} deg\n",
-            check.layer.cells, check.layer.max_aspect_ratio, check.layer.max_angle_deg, check.layer.mean_max_angle_deg);
-        if (check.edges_without_first_layer > 0)
-            text += fmt::format("  layer     {} wall edges without a cell of first height (see --layer-topology)\n",
-                                check.edges_without_first_layer);
-    }
-    if (const TransitionSummary& to = check.transition; to.edges > 0) {
-        text +=
-            fmt::format("  hand-over {} edges, layer to isotropic areas {:.2f} (1 %), {:.2f} (median), {:.2f} (99 %)\n",
-                        to.edges, to.p01_area_ratio, to.median_area_ratio, to.p99_area_ratio);
-    }
-    return text + fmt::format("  delaunay  {} of {} edges violate the property\n", check.delaunay_violations,
-                              check.interior_edges);
-}
-
-std::string mesh_summary(const MeshResult& result, const std::vector<std::string>& outputs, double write_seconds) {
-    std::string text;
-    for (const Element& element : result.geometry.elements) {
-        text += fmt::format("{}: {} points of {} ({})\n", element.name, element.points.size(), element.file,
-                            element.format);
-        for (const std::string& repair : element.repairs) text += "  repaired  " + repair + "\n";
-        for (const std::string& note : element.surface_notes) text += "  surface   " + note + "\n";
-    }
-    const std::size_t quads = result.mesh.quads.size();
-    text += fmt::format("mesh: {} vertices, {} triangles, {}{} pieces\n", result.mesh.points.size(),
-                        result.mesh.triangles.size(), quads > 0 ? fmt::format("{} quads, ", quads) : "",
-                        result.layer_pieces + result.inviscid_pieces);
-    text += quality_summary(result.check);
-    if (const auto& flow = result.y_plus; flow) {
-        text += fmt::format("  y+        {} at Re {}, chord {}: first height {:.4g}\n", flow->y_plus, flow->reynolds,
-                            *flow->chord, result.first_height);
-    }
-    if (const auto [all, open] = total_coverage(result); all.requested_cells > 0) {
-        text += fmt::format(
-            "  rays      {} of {} cut short; {:.2f} % of the requested layer cells made, {:.2f} % in the open\n",
-            all.incomplete_rays, all.rays, 100 * made_share(all), 100 * made_share(open));
-    }
-    text += fmt::format("  time      {:.3f} s, and {:.3f} s for writing, on {} thread{}\n", result.seconds.total,
-                        write_seconds, result.threads, result.threads == 1 ? "" : "s");
-    for (const std::string& output : outputs) text += "  wrote     " + output + "\n";
-    return text;
-}
 
 }  // namespace lamina::app

@@ -1,8 +1,7 @@
-// What a run tells: the JSON report and the summary for people (docs/guide.md, "Report").
+// The JSON reports of runs (docs/guide.md, "Report").
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -13,21 +12,16 @@ namespace lamina::app {
 
 using Json = nlohmann::ordered_json;
 
-/// "quality" of the report without what only the pipeline knows; also that of `lamina check --json`.
+/// Returns the key "quality" of the reports, without the numbers that only the pipeline knows.
 Json quality_report(const MeshCheck& check);
 
-/// "decomposition" of the reports of `lamina mesh` and `lamina delaunay`.
+/// Returns the key "decomposition" of the reports.
 Json decomposition_report(const DecompositionStats& stats);
 
-/// The report of `lamina mesh`. write_seconds: spent in writing the mesh files; "total" includes them.
+/// Returns the report of `lamina mesh`. `write_seconds` is the time for writing the mesh files; "total" includes it.
 Json mesh_report(const MeshResult& result, double write_seconds);
 
-/// JSON as text with a final newline; text that is not UTF-8 is mended.
+/// Returns JSON as text that ends with a newline. Bytes that are not UTF-8 are replaced.
 std::string to_text(const Json& json);
-
-/// "isotropic: smallest angle 20.9 deg, ..." lines of a summary, indented.
-std::string quality_summary(const MeshCheck& check);
-
-std::string mesh_summary(const MeshResult& result, const std::vector<std::string>& outputs, double write_seconds);
 
 }  // namespace lamina::app

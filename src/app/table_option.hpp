@@ -1,4 +1,4 @@
-// Options of commands that take a few rows of an option table.
+// Options of commands that take single rows of an option table.
 #pragma once
 
 #include <algorithm>
@@ -12,27 +12,27 @@
 
 namespace lamina::app {
 
-/// Returns the row of this name. Precondition: there is one.
+/// Returns the row of this name. Precondition: the table has one.
 template <class Options>
-const Option<Options>& row_of(const OptionTable<Options>& table, const std::string& name) {
+const Option<Options>& find_row(const OptionTable<Options>& table, const std::string& name) {
     return *std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.name == name; });
 }
 
-/// Adds an option of a table to a command; `text` receives what the user gives.
+/// Adds an option of a table to a command. `text` receives the value that the user gives.
 template <class Options>
 CLI::Option* add_table_option(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
                               std::string& text) {
-    const Option<Options>& option = row_of(table, name);
-    const std::string range = option.range.empty() ? "" : "; " + option.range;
-    return command.add_option("--" + name, text, option.help + range)->type_name(option.metavar);
+    const Option<Options>& option = find_row(table, name);
+    return command.add_option("--" + name, text, help_with_range(option))->type_name(option.metavar);
 }
 
-/// Sets an option of a table from the command line, where it is given. Throws UsageError "option --name: reason".
+/// Sets an option of a table to a value from the command line; an empty text leaves the default. Throws UsageError
+/// "option --name: reason".
 template <class Options>
 void set_by_name(const OptionTable<Options>& table, const std::string& name, const std::string& text,
                  Options& options) {
     if (text.empty()) return;
-    const Option<Options>& option = row_of(table, name);
+    const Option<Options>& option = find_row(table, name);
     const std::string origin = "option --" + name;
     try {
         option.set(options, value_of_text(option.kind, {text}, origin));

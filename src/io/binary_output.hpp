@@ -1,4 +1,4 @@
-// Fast writing of binary formats: records of one size are filled in parallel blocks and sent in order.
+// Fast writing of binary formats: records of one size are filled in parallel and written in order.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "values are written as
 
 enum class ByteOrder { little, big };
 
-/// Puts the bytes of the value at p; returns what lies behind them.
+/// Stores the bytes of the value at p, and returns the position behind them.
 template <class T>
 char* store(char* p, T value, ByteOrder order = ByteOrder::little) {
     std::array<char, sizeof(T)> bytes;
@@ -34,7 +34,8 @@ void write_value(std::ostream& out, T value, ByteOrder order = ByteOrder::little
     out.write(bytes, sizeof value);
 }
 
-/// Record i is what fill(p, i) stores in the `size` bytes at p. A bounded number of blocks at a time.
+/// Writes n records. Record i is what fill(p, i) stores in the `size` bytes at p. Memory holds a bounded number of
+/// records at a time.
 template <class F>
 void write_records(std::ostream& out, std::size_t n, std::size_t size, F&& fill) {
     constexpr std::size_t grain = 1 << 14;

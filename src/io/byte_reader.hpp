@@ -1,10 +1,10 @@
-// Formats that hold the same numbers in ASCII or binary: one reader for both.
+// Reading of formats that hold the same numbers in ASCII or in binary: one reader serves both.
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,50 +14,51 @@
 #include <lamina/error.hpp>
 
 #include "io/binary_output.hpp"
+#include "io/number_text.hpp"
 
 namespace lamina::io {
 
-/// Words and numbers of a file that is ASCII or, from some place on, binary.
+/// The words and numbers of a file that is ASCII or, from some position on, binary.
 class ByteReader {
 public:
+    /// The bytes must outlive this object.
     ByteReader(const std::string& bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
 
-    void be_binary(ByteOrder order) {
+    /// From here on number() reads binary numbers.
+    void set_binary(ByteOrder order) {
         binary_ = true;
         order_ = order;
     }
     bool binary() const { return binary_; }
 
-    /// The next word, whatever the mode; empty at the end.
+    /// Reads a word, also from a binary file. Returns an empty text at the end.
     std::string_view word() {
-        skip_space();
+        skip_blanks();
         const std::size_t first = at_;
-        while (at_ < bytes_.size() && !is_space(bytes_[at_])) ++at_;
+        while (at_ < bytes_.size() && !is_blank(bytes_[at_])) ++at_;
         return std::string_view(bytes_).substr(first, at_ - first);
     }
-    /// The rest of the line without blanks round it; what follows is the next line's first byte.
+    /// Reads the rest of the line, and returns it without blanks round it.
     std::string_view rest_of_line() {
         const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
         std::string_view rest = std::string_view(bytes_).substr(at_, end - at_);
         at_ = std::min(end + 1, bytes_.size());
-        while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
-        while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
+        while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+        while (!rest.empty() && is_blank(rest.back())) rest.remove_suffix(1);
         return rest;
     }
-    /// A number in figures, whatever the mode.
+    /// Reads a number that is written in ASCII, also from a binary file; `meaning` names it in errors.
     template <class T>
-    T figures(const char* what) {
+    T ascii_number(const char* meaning) {
         const std::string_view text = word();
-        T value{};
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (text.empty() || error != std::errc{} || end != text.data() + text.size())
-            fail(fmt::format("{} expected, found '{}'", what, shown(text)));
-        return value;
+        const std::optional<T> value = parse_whole<T>(text);
+        if (!value) fail(fmt::format("{} expected, found '{}'", meaning, printable(text)));
+        return *value;
     }
     template <class T>
-    T number(const char* what) {
-        if (!binary_) return figures<T>(what);
-        if (bytes_.size() - at_ < sizeof(T)) fail(fmt::format("the file ends where {} is expected", what));
+    T number(const char* meaning) {
+        if (!binary_) return ascii_number<T>(meaning);
+        if (bytes_.size() - at_ < sizeof(T)) fail(fmt::format("the file ends where {} is expected", meaning));
         char stored[sizeof(T)];
         std::memcpy(stored, bytes_.data() + at_, sizeof stored);
         if (order_ == ByteOrder::big) std::reverse(stored, stored + sizeof stored);
@@ -66,16 +67,17 @@ public:
         at_ += sizeof value;
         return value;
     }
-    /// A number of things to come, each of at least this many bytes in a binary file and two in an ASCII one: absurd
-    /// counts are refused before memory is asked for.
-    std::size_t count(std::size_t value, std::size_t bytes_each, const char* what) {
+    /// Returns a count of things that follow in the file. Fails where the rest of the file is too short for that many
+    /// of at least `bytes_each` bytes in a binary file, or two in an ASCII file, so that no damaged count asks for
+    /// memory.
+    std::size_t checked_count(std::size_t value, std::size_t bytes_each, const char* meaning) const {
         if (value > (bytes_.size() - at_) / (binary_ ? bytes_each : 2) + 1)
-            fail(fmt::format("{}: {}, but the file is shorter than that", what, value));
+            fail(fmt::format("{}: {}, but the file is shorter than that", meaning, value));
         return value;
     }
     void expect(std::string_view expected) {
         if (const std::string_view found = word(); found != expected)
-            fail(fmt::format("{} expected, found '{}'", expected, shown(found)));
+            fail(fmt::format("{} expected, found '{}'", expected, printable(found)));
     }
     void skip_behind(const std::string& text) {
         const std::size_t found = bytes_.find(text, at_);
@@ -83,21 +85,20 @@ public:
         at_ = found + text.size();
     }
     bool at_end() {
-        if (!binary_) skip_space();
+        if (!binary_) skip_blanks();
         return at_ == bytes_.size();
     }
+    /// Throws InputError with the file and, for ASCII files, the line.
     [[noreturn]] void fail(const std::string& reason) const {
-        // Lines mean nothing behind binary data.
-        const auto line = 1 + std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
-        throw InputError({file_, binary_ ? 0 : static_cast<std::size_t>(line), {}}, reason);
+        throw InputError({file_, binary_ ? 0 : line_at(bytes_, at_), {}}, reason);
     }
 
 private:
-    static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-    void skip_space() {
-        while (at_ < bytes_.size() && is_space(bytes_[at_])) ++at_;
+    void skip_blanks() {
+        while (at_ < bytes_.size() && is_blank(bytes_[at_])) ++at_;
     }
-    static std::string shown(std::string_view text) {
+    /// Returns the beginning of a text with ? for control characters.
+    static std::string printable(std::string_view text) {
         std::string shown(text.substr(0, 30));
         for (char& c : shown)
             if (static_cast<unsigned char>(c) < ' ') c = '?';

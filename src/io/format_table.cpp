@@ -1,7 +1,10 @@
-// The table of formats.
+// The table of formats: the one place that lists them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
@@ -16,25 +19,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A writer of one file from one that sends to a stream.
+// --- Adapters between the functions of the formats and the columns of the table
+
+/// Writes one file by a function that writes to a stream.
 template <auto write_to_stream>
-void write_file(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+void write_one_file(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
     core::write_stream_atomically(file, [&](std::ostream& out) { write_to_stream(mesh, file, out); });
 }
 
+/// Writes several files by a function that sees to them itself.
+template <auto write>
+void write_files(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+    write(mesh, file);
+}
+
 template <auto parse>
-Mesh read_bytes_of(const fs::path& file) {
-    return parse(lamina::read_file(file), file);
+Mesh read_one_file(const fs::path& file) {
+    return parse(read_file(file), file);
 }
 
 template <bool version_4, bool binary>
 void write_msh_variant(const Mesh& mesh, const fs::path& file, std::ostream& out) {
     write_msh(mesh, file, {version_4, binary}, out);
-}
-
-template <bool adf, bool three_coordinates>
-void write_cgns_variant(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
-    write_cgns(mesh, file, {adf, three_coordinates});
 }
 
 template <bool compressed>
@@ -44,79 +50,174 @@ void write_vtu_variant(const Mesh& mesh, const fs::path& file, const WriteOption
     });
 }
 
-/// A writer that sees to its files itself.
-template <auto write>
-void write_files(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
-    write(mesh, file);
+#ifdef LAMINA_WITH_CGNS
+template <bool adf, bool three_coordinates>
+void write_cgns_variant(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+    write_cgns(mesh, file, {adf, three_coordinates});
+}
+#endif
+
+// --- The rows
+
+FormatRow su2_row() {
+    return {.name = "su2",
+            .extensions = {".su2"},
+            .description = "SU2 native mesh, ASCII",
+            .write = write_one_file<write_su2>,
+            .check = check_folder_writable,
+            .read = read_one_file<read_su2>};
 }
 
-std::vector<Format> make_table() {
-    std::vector<Format> table;
-    const auto add = [&](const char* name, std::vector<std::string> extensions, const char* holds, auto write,
-                         Mesh (*read)(const fs::path&), auto check) {
-        table.push_back({name, std::move(extensions), holds, write, read, true, check});
+/// Returns no rows where this build is without CGNS.
+std::vector<FormatRow> cgns_rows() {
+    std::vector<FormatRow> rows;
+#ifdef LAMINA_WITH_CGNS
+    const auto add = [&](const char* name, const char* description, auto write) {
+        rows.push_back({.name = name,
+                        .extensions = {".cgns"},
+                        .description = description,
+                        .write = write,
+                        .check = check_folder_writable,
+                        .read = read_cgns});
     };
-    constexpr auto msh = read_bytes_of<read_msh>;
-    add("su2", {".su2"}, "SU2 native mesh, ASCII", write_file<write_su2>, read_bytes_of<read_su2>,
-        check_folder_writable);
-    add("cgns", {".cgns"}, "CGNS, HDF5", write_cgns_variant<false, false>, read_cgns, check_folder_writable);
-    add("cgns-3d", {".cgns"}, "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>, read_cgns,
-        check_folder_writable);
-    add("cgns-adf", {".cgns"}, "CGNS, ADF", write_cgns_variant<true, false>, read_cgns, check_folder_writable);
-    add("msh41", {".msh"}, "Gmsh MSH 4.1, ASCII", write_file<write_msh_variant<true, false>>, msh,
-        check_folder_writable);
-    add("msh41-binary", {".msh"}, "Gmsh MSH 4.1, binary", write_file<write_msh_variant<true, true>>, msh,
-        check_folder_writable);
-    add("msh22", {".msh"}, "Gmsh MSH 2.2, ASCII", write_file<write_msh_variant<false, false>>, msh,
-        check_folder_writable);
-    add("msh22-binary", {".msh"}, "Gmsh MSH 2.2, binary", write_file<write_msh_variant<false, true>>, msh,
-        check_folder_writable);
-    add("msh22-extruded", {".msh"}, "Gmsh MSH 2.2, ASCII, one cell thick, for gmshToFoam",
-        write_file<write_msh_extruded>, nullptr, check_folder_writable);
-    add("vtu", {".vtu"}, "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>,
-        read_bytes_of<read_vtu>, check_folder_writable);
-    add("vtu-zlib", {".vtu"}, "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>,
-        read_bytes_of<read_vtu>, check_folder_writable);
-    add("openfoam", {"polyMesh"}, "OpenFOAM polyMesh folder, ASCII, one cell thick", write_files<write_openfoam>,
-        read_openfoam, check_openfoam_writable);
-    add("ugrid", {".ugrid"}, "UGRID, plane, ASCII, with .mapbc", write_files<write_ugrid>, read_bytes_of<read_ugrid>,
-        check_ugrid_writable);
-    add("fun3d", {".b8.ugrid", ".lb8.ugrid"}, "UGRID for FUN3D, one cell thick, with .mapbc", write_files<write_fun3d>,
-        read_bytes_of<read_ugrid>, check_ugrid_writable);
-    add("triangle", {".node", ".ele"}, "Triangle's .node, .ele, .edge and .poly", write_files<write_triangle_mesh>,
-        read_triangle_mesh, check_triangle_writable);
-    table.back().quads = false;
+    add("cgns", "CGNS, HDF5", write_cgns_variant<false, false>);
+    add("cgns-3d", "CGNS, HDF5, with CoordinateZ = 0", write_cgns_variant<false, true>);
+    add("cgns-adf", "CGNS, ADF", write_cgns_variant<true, false>);
+#endif
+    return rows;
+}
+
+std::vector<FormatRow> msh_rows() {
+    std::vector<FormatRow> rows;
+    const auto add = [&](const char* name, const char* description, auto write) {
+        rows.push_back({.name = name,
+                        .extensions = {".msh"},
+                        .description = description,
+                        .write = write,
+                        .check = check_folder_writable,
+                        .read = read_one_file<read_msh>,
+                        .read_sizes = read_msh_sizes});
+    };
+    add("msh41", "Gmsh MSH 4.1, ASCII", write_one_file<write_msh_variant<true, false>>);
+    add("msh41-binary", "Gmsh MSH 4.1, binary", write_one_file<write_msh_variant<true, true>>);
+    add("msh22", "Gmsh MSH 2.2, ASCII", write_one_file<write_msh_variant<false, false>>);
+    add("msh22-binary", "Gmsh MSH 2.2, binary", write_one_file<write_msh_variant<false, true>>);
+    rows.push_back({.name = "msh22-extruded",
+                    .extensions = {".msh"},
+                    .description = "Gmsh MSH 2.2, ASCII, one cell thick, for gmshToFoam",
+                    .write = write_one_file<write_msh_extruded>,
+                    .check = check_folder_writable});
+    return rows;
+}
+
+std::vector<FormatRow> vtu_rows() {
+    std::vector<FormatRow> rows;
+    const auto add = [&](const char* name, const char* description, auto write) {
+        rows.push_back({.name = name,
+                        .extensions = {".vtu"},
+                        .description = description,
+                        .write = write,
+                        .check = check_folder_writable,
+                        .read = read_one_file<read_vtu>,
+                        .read_sizes = read_vtu_sizes});
+    };
+    add("vtu", "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>);
+    add("vtu-zlib", "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>);
+    return rows;
+}
+
+FormatRow openfoam_row() {
+    return {.name = "openfoam",
+            .extensions = {"polyMesh"},
+            .description = "OpenFOAM polyMesh folder, ASCII, one cell thick",
+            .write = write_files<write_openfoam>,
+            .check = check_openfoam_writable,
+            .read = read_openfoam,
+            .recognizes = holds_openfoam_mesh};
+}
+
+std::vector<FormatRow> ugrid_rows() {
+    std::vector<FormatRow> rows;
+    const auto add = [&](const char* name, std::vector<std::string> extensions, const char* description, auto write) {
+        rows.push_back({.name = name,
+                        .extensions = std::move(extensions),
+                        .description = description,
+                        .write = write,
+                        .check = check_ugrid_writable,
+                        .read = read_one_file<read_ugrid>});
+    };
+    add("ugrid", {".ugrid"}, "UGRID, plane, ASCII, with .mapbc", write_files<write_ugrid>);
+    add("fun3d", {".b8.ugrid", ".lb8.ugrid"}, "UGRID for FUN3D, one cell thick, with .mapbc", write_files<write_fun3d>);
+    return rows;
+}
+
+FormatRow triangle_row() {
+    return {.name = "triangle",
+            .extensions = {".node", ".ele"},
+            .description = "Triangle's .node, .ele, .edge and .poly",
+            .write = write_files<write_triangle_mesh>,
+            .check = check_triangle_writable,
+            .read = read_triangle_mesh,
+            .quads = false};
+}
+
+std::vector<FormatRow> make_table() {
+    std::vector<FormatRow> table;
+    const auto add = [&](const std::vector<FormatRow>& rows) { table.insert(table.end(), rows.begin(), rows.end()); };
+    add({su2_row()});
+    add(cgns_rows());
+    add(msh_rows());
+    add(vtu_rows());
+    add({openfoam_row()});
+    add(ugrid_rows());
+    add({triangle_row()});
     return table;
+}
+
+// --- Formats that lamina knows but that this build may leave out
+
+/// Throws UsageError where a name, or the ending of a file's name, stands for CGNS and this build is without it.
+void refuse_missing_cgns(const fs::path& file, const std::string& name, const std::string& ending) {
+    constexpr std::array<const char*, 3> cgns_names{"cgns", "cgns-3d", "cgns-adf"};
+    const bool is_cgns =
+        ending.ends_with(".cgns") || std::find(cgns_names.begin(), cgns_names.end(), name) != cgns_names.end();
+    if (is_cgns && cgns_rows().empty())
+        throw UsageError(fmt::format("{}: this lamina was built without CGNS",
+                                     name.empty() ? file.string() : fmt::format("format '{}'", name)));
 }
 
 }  // namespace
 
-const std::vector<Format>& formats() {
-    static const std::vector<Format> table = make_table();
+const std::vector<FormatRow>& format_table() {
+    static const std::vector<FormatRow> table = make_table();
     return table;
 }
 
-const Format& format_of(const fs::path& file, const std::string& name) {
-    const fs::path last = file.has_filename() ? file : file.parent_path();  // of "case/polyMesh/", too
+const FormatRow& find_format(const fs::path& file, const std::string& name) {
+    for (const FormatRow& row : format_table())
+        if (name == row.name) return row;
+
+    // A path may end in a separator: "case/polyMesh/".
+    const fs::path last = file.has_filename() ? file : file.parent_path();
     const std::string ending = core::lower_case(name.empty() ? last.filename().string() : "." + name);
-    const Format* found = nullptr;
-    std::size_t longest = 0;
-    std::string names;
-    std::vector<std::string> extensions;
-    for (const Format& format : formats()) {
-        if (name == format.name) return format;
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
-        for (const std::string& extension : format.extensions) {
+    const FormatRow* found = nullptr;
+    std::size_t found_length = 0;
+    std::vector<std::string> names, extensions;
+    for (const FormatRow& row : format_table()) {
+        names.emplace_back(row.name);
+        for (const std::string& extension : row.extensions) {
             if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
                 extensions.push_back(extension);
-            if (ending.ends_with(core::lower_case(extension)) && extension.size() > longest) {
-                found = &format;
-                longest = extension.size();
+            if (ending.ends_with(core::lower_case(extension)) && extension.size() > found_length) {
+                found = &row;
+                found_length = extension.size();
             }
         }
     }
     if (found != nullptr) return *found;
-    if (!name.empty()) throw UsageError(fmt::format("no mesh format is named '{}' (known: {})", name, names));
+    refuse_missing_cgns(file, name, ending);
+    if (!name.empty())
+        throw UsageError(fmt::format("no mesh format is named '{}' (known: {})", name, fmt::join(names, ", ")));
     throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", file.string(),
                                  core::extension_of(file), fmt::join(extensions, ", ")));
 }

@@ -1,4 +1,4 @@
-// What the program asks of formats, by way of their table.
+// The public functions for mesh files. They choose a row of the table of formats and call its functions.
 #include <lamina/io.hpp>
 
 #include "io/formats.hpp"
@@ -11,21 +11,23 @@ namespace fs = std::filesystem;
 
 void write_mesh(const Mesh& mesh, const fs::path& file, const WriteOptions& options) {
     check_writable(file, options);
-    format_of(file, options.format).write(mesh, file, options);
+    find_format(file, options.format).write(mesh, file, options);
 }
 
 Mesh read_mesh(const fs::path& file) {
-    std::error_code ignored;
-    if (fs::exists(poly_mesh_folder(file) / "faces", ignored)) return read_openfoam(file);
-    return format_of(file).read(file);
+    for (const FormatRow& format : format_table())
+        if (format.recognizes != nullptr && format.recognizes(file)) return format.read(file);
+    return find_format(file).read(file);
 }
 
-void check_writable(const fs::path& file, const WriteOptions& options) { format_of(file, options.format).check(file); }
+void check_writable(const fs::path& file, const WriteOptions& options) {
+    find_format(file, options.format).check(file);
+}
 
 std::vector<MeshFormat> mesh_formats() {
     std::vector<MeshFormat> formats;
-    for (const Format& format : io::formats())
-        formats.push_back({format.name, format.extensions, format.holds, format.read != nullptr, format.quads});
+    for (const FormatRow& row : format_table())
+        formats.push_back({row.name, row.extensions, row.description, row.read != nullptr, row.quads});
     return formats;
 }
 

@@ -1,9 +1,10 @@
-// What several formats ask of a mesh, or of a file's contents before they become one.
+// Parts of a mesh that several formats need, and repairs of meshes that were read.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -11,34 +12,43 @@
 
 namespace lamina::io {
 
-/// Cells of one shape and region, which formats without cell data keep together.
+/// The cells of one shape and region. Formats without cell data keep them together.
 struct CellBlock {
-    std::string_view region;           ///< "layer", "isotropic"; "fluid" where the mesh has no regions
+    std::string_view region;           ///< "layer" or "isotropic"; "fluid" where the mesh has no regions
     std::size_t corners = 3;           ///< 3 or 4
     std::vector<std::uint32_t> cells;  ///< indices of mesh.triangles or mesh.quads, ascending
 
-    /// The vertices of cell i of the block.
+    /// Returns the vertices of cell i of the block.
     const VertexId* vertices(const Mesh& mesh, std::size_t i) const {
         return corners == 3 ? mesh.triangles[cells[i]].v : mesh.quads[cells[i]].v;
     }
 };
 
-/// Triangles before quads, the layer before the rest; no empty block.
+/// Returns the blocks of a mesh: triangles before quads, and the layer before the rest. No block is empty.
 std::vector<CellBlock> cell_blocks(const Mesh& mesh);
 
-/// The region of this name, for cells read from a format that names groups of cells. False for other names.
+/// Returns the number of edges of all markers.
+std::size_t count_marker_edges(const Mesh& mesh);
+
+/// Sets `region` to the region of this name, which is that of a group of cells in a file. Returns false for other
+/// names.
 bool region_of_name(std::string_view name, Region& region);
 
-/// Formats that hold no kinds: the one that the name says, whatever its case, punctuation and digits.
+/// Returns the kind of a marker that was read from a format without kinds, judged by its name. Case, punctuation and
+/// digits do not count.
 MarkerKind kind_of_name(std::string_view name);
 
-/// Throws UsageError unless every marker has a name of its own, at most `longest` bytes long and without control
-/// characters and those in `forbidden`.
+/// Throws UsageError unless every marker has a name of its own of at most `max_bytes` bytes, without control characters
+/// and without those in `forbidden`.
 void require_marker_names(const Mesh& mesh, const std::filesystem::path& file, const char* format,
-                          std::string_view forbidden, std::size_t longest);
+                          std::string_view forbidden, std::size_t max_bytes);
 
-/// Some programs write boundary edges either way round: turns those that no cell has in this direction, but one has
-/// in the other. Precondition: indices in range.
+/// Reverses the marker edges that no cell has in their direction but that one has in the other: some programs write
+/// edges of the boundary either way round. Precondition: all indices are in range.
 void orient_markers(Mesh& mesh);
+
+/// Finds the edge that a side face of a mesh one cell thick stands on: two successive corners in the lower plane, which
+/// are the valid ones. Returns false where these are not two successive ones of four corners.
+bool find_lower_edge(std::span<const VertexId> corners, Segment& edge);
 
 }  // namespace lamina::io

@@ -1,9 +1,9 @@
 // Reads Gmsh's MSH format, versions 2.0 to 2.2 and 4.1, ASCII and binary: plane meshes of lines (element type 1),
-// triangles (2) and quadrilaterals (3); points (15) and unknown sections are skipped.
+// triangles (2) and quadrilaterals (3). Points (15) and unknown sections are skipped.
 // Source: Gmsh reference manual, "Gmsh mesh file formats".
 //
-// The edges of a physical curve become a marker, named as the group is; lines without a group are left out. Where every
-// cell is in a physical surface 'layer' or 'isotropic', these become regions.
+// The lines of a physical curve become a marker with the name of the group; lines without a group are left out. Where
+// every cell is in a physical surface 'layer' or 'isotropic', these become regions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,33 +18,34 @@
 #include "io/byte_reader.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/msh_elements.hpp"
+#include "io/sizes.hpp"
 
 namespace lamina::io {
 
 namespace {
 
-enum ElementType : int { line_type = 1, triangle_type = 2, quad_type = 3, point_type = 15 };
-
+/// Returns the number of nodes of an element; 0 for types that cannot be read.
 std::size_t corners_of(int type) {
     switch (type) {
-        case point_type:
+        case msh_point:
             return 1;
-        case line_type:
+        case msh_line:
             return 2;
-        case triangle_type:
+        case msh_triangle:
             return 3;
-        case quad_type:
+        case msh_quad:
             return 4;
         default:
             return 0;
     }
 }
 
-/// Numbers of nodes -> their places in the file.
+/// Finds nodes by the numbers that the file gives them.
 class NodeNumbers {
 public:
     void add(std::size_t number) { numbers_.push_back({number, numbers_.size()}); }
-    /// False if a number stands twice.
+    /// Must be called once all numbers are added. Returns false where two nodes have the same number.
     bool sort() {
         in_order_ = true;
         for (std::size_t i = 0; i < numbers_.size() && in_order_; ++i) in_order_ = numbers_[i].first == i + 1;
@@ -53,6 +54,7 @@ public:
         return std::adjacent_find(numbers_.begin(), numbers_.end(),
                                   [](const auto& a, const auto& b) { return a.first == b.first; }) == numbers_.end();
     }
+    /// Returns the position of the node in the file; nothing where no node has this number.
     std::optional<VertexId> find(std::size_t number) const {
         if (in_order_) return number - 1 < numbers_.size() ? std::optional(VertexId(number - 1)) : std::nullopt;
         const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), std::pair(number, std::size_t{0}));
@@ -61,8 +63,8 @@ public:
     }
 
 private:
-    std::vector<std::pair<std::size_t, std::size_t>> numbers_;
-    bool in_order_ = false;
+    std::vector<std::pair<std::size_t, std::size_t>> numbers_;  ///< numbers and positions
+    bool in_order_ = false;                                     ///< whether the nodes are numbered 1, 2, 3 ...
 };
 
 class MshReader {
@@ -93,7 +95,7 @@ public:
         finish();
         return std::move(mesh_);
     }
-    /// After read().
+    /// Returns the sizes that the file holds. Precondition: read() was called.
     std::vector<double> sizes() {
         std::vector<std::string> names;
         for (const auto& [name, values] : node_data_) names.emplace_back(name);
@@ -101,7 +103,7 @@ public:
     }
 
 private:
-    using EntityKey = std::pair<int, int>;  ///< dimension, number
+    using EntityKey = std::pair<int, int>;  ///< dimension and number
 
     void read_header() {
         in_.expect("$MeshFormat");
@@ -109,12 +111,12 @@ private:
         version_4_ = version == "4.1";
         if (!version_4_ && version != "2" && version != "2.0" && version != "2.1" && version != "2.2")
             in_.fail(fmt::format("MSH version '{}': 2.2 and 4.1 can be read", version.substr(0, 30)));
-        const auto binary = in_.figures<int>("file type");
-        if (in_.figures<int>("data size") != 8 || binary < 0 || binary > 1)
+        const auto binary = in_.ascii_number<int>("file type");
+        if (in_.ascii_number<int>("data size") != 8 || binary < 0 || binary > 1)
             in_.fail("the header must say 0 or 1, and a data size of 8");
         in_.rest_of_line();
         if (binary == 1) {
-            in_.be_binary(ByteOrder::little);
+            in_.set_binary(ByteOrder::little);
             if (in_.number<std::int32_t>("the number 1") != 1)
                 in_.fail("binary data in the byte order of another machine cannot be read");
         }
@@ -122,10 +124,10 @@ private:
     }
 
     void read_names() {
-        const auto n = in_.figures<std::size_t>("number of physical names");
+        const auto n = in_.ascii_number<std::size_t>("number of physical names");
         for (std::size_t i = 0; i < n; ++i) {
-            const auto dimension = in_.figures<int>("dimension");
-            const auto number = in_.figures<int>("physical group");
+            const auto dimension = in_.ascii_number<int>("dimension");
+            const auto number = in_.ascii_number<int>("physical group");
             const std::string_view quoted = in_.rest_of_line();
             if (quoted.size() < 3 || quoted.front() != '"' || quoted.back() != '"')
                 in_.fail("name in quotation marks expected");
@@ -134,35 +136,37 @@ private:
         in_.expect("$EndPhysicalNames");
     }
 
-    /// Keeps the physical group of each entity: the first one, without its sign.
     void read_entities() {
         std::size_t counts[4];
         for (std::size_t& n : counts) n = in_.number<std::size_t>("number of entities");
         for (int dimension = 0; dimension < 4; ++dimension) {
-            in_.count(counts[dimension], 36, "number of entities");
-            for (std::size_t i = 0; i < counts[dimension]; ++i) {
-                const auto entity = in_.number<int>("entity");
-                for (int k = dimension == 0 ? 3 : 0; k < 6; ++k) in_.number<double>("bound");
-                const std::size_t groups = in_.count(in_.number<std::size_t>("number of groups"), 4, "groups");
-                for (std::size_t k = 0; k < groups; ++k) {
-                    const int group = std::abs(in_.number<int>("physical group"));
-                    if (k == 0) group_of_entity_[{dimension, entity}] = group;
-                }
-                if (dimension == 0) continue;
-                const std::size_t borders = in_.count(in_.number<std::size_t>("number of borders"), 4, "borders");
-                for (std::size_t k = 0; k < borders; ++k) in_.number<int>("border");
-            }
+            in_.checked_count(counts[dimension], 36, "number of entities");
+            for (std::size_t i = 0; i < counts[dimension]; ++i) read_entity(dimension);
         }
         in_.expect("$EndEntities");
+    }
+    /// Keeps the first physical group of the entity, without its sign.
+    void read_entity(int dimension) {
+        const auto entity = in_.number<int>("entity");
+        for (int k = dimension == 0 ? 3 : 0; k < 6; ++k) in_.number<double>("bound");
+        const std::size_t groups = in_.checked_count(in_.number<std::size_t>("number of groups"), 4, "groups");
+        for (std::size_t k = 0; k < groups; ++k) {
+            const int group = std::abs(in_.number<int>("physical group"));
+            if (k == 0) group_of_entity_[{dimension, entity}] = group;
+        }
+        if (dimension == 0) return;
+        const std::size_t borders = in_.checked_count(in_.number<std::size_t>("number of borders"), 4, "borders");
+        for (std::size_t k = 0; k < borders; ++k) in_.number<int>("border");
     }
 
     void read_nodes_2() {
         begin_nodes();
-        const std::size_t n = in_.count(in_.figures<std::size_t>("number of nodes"), 28, "number of nodes");
+        const std::size_t n =
+            in_.checked_count(in_.ascii_number<std::size_t>("number of nodes"), 28, "number of nodes");
         in_.rest_of_line();
         mesh_.points.reserve(n);
         for (std::size_t i = 0; i < n; ++i) {
-            add_node(static_cast<std::size_t>(in_.number<int>("node number")));
+            nodes_.add(static_cast<std::size_t>(in_.number<int>("node number")));
             read_point();
         }
         end_nodes();
@@ -174,8 +178,8 @@ private:
         for (std::size_t b = 0; b < blocks; ++b) {
             for (int k = 0; k < 2; ++k) in_.number<int>("entity");
             if (in_.number<int>("0") != 0) in_.fail("parametric nodes cannot be read");
-            const std::size_t n = in_.count(in_.number<std::size_t>("number of nodes"), 32, "number of nodes");
-            for (std::size_t i = 0; i < n; ++i) add_node(in_.number<std::size_t>("node number"));
+            const std::size_t n = in_.checked_count(in_.number<std::size_t>("number of nodes"), 32, "number of nodes");
+            for (std::size_t i = 0; i < n; ++i) nodes_.add(in_.number<std::size_t>("node number"));
             for (std::size_t i = 0; i < n; ++i) read_point();
         }
         end_nodes();
@@ -183,7 +187,6 @@ private:
     void begin_nodes() {
         if (std::exchange(has_nodes_, true)) in_.fail("a second $Nodes");
     }
-    void add_node(std::size_t number) { nodes_.add(number); }
     void read_point() {
         const auto x = in_.number<double>("coordinate"), y = in_.number<double>("coordinate"),
                    z = in_.number<double>("coordinate");
@@ -200,9 +203,10 @@ private:
 
     void read_elements_2() {
         begin_elements();
-        const std::size_t n = in_.count(in_.figures<std::size_t>("number of elements"), 8, "number of elements");
+        const std::size_t n =
+            in_.checked_count(in_.ascii_number<std::size_t>("number of elements"), 8, "number of elements");
         in_.rest_of_line();
-        // A block of a binary file has one header; in ASCII each element has its own.
+        // A binary file has one header for a block of elements; in ASCII each element has its own.
         for (std::size_t i = 0, block = 1; i < n; i += block) {
             if (!in_.binary()) in_.number<int>("element number");
             const int type = element_type(in_.number<int>("element type"));
@@ -230,7 +234,8 @@ private:
             const auto dimension = in_.number<int>("dimension");
             const auto entity = in_.number<int>("entity");
             const int type = element_type(in_.number<int>("element type"));
-            const std::size_t n = in_.count(in_.number<std::size_t>("number of elements"), 16, "number of elements");
+            const std::size_t n =
+                in_.checked_count(in_.number<std::size_t>("number of elements"), 16, "number of elements");
             const auto group = group_of_entity_.find({dimension, entity});
             for (std::size_t i = 0; i < n; ++i) {
                 in_.number<std::size_t>("element number");
@@ -252,60 +257,67 @@ private:
         return type;
     }
     template <class Number>
+    VertexId find_node(Number number) const {
+        const auto found = nodes_.find(static_cast<std::size_t>(number));
+        if (!found) in_.fail(fmt::format("node {} is not in $Nodes", number));
+        return *found;
+    }
+    template <class Number>
     void read_element(int type, int group) {
         VertexId v[4];
-        for (std::size_t k = 0; k < corners_of(type); ++k) {
-            const auto number = in_.number<Number>("node number");
-            const auto found = nodes_.find(static_cast<std::size_t>(number));
-            if (!found) in_.fail(fmt::format("node {} is not in $Nodes", number));
-            v[k] = *found;
-        }
-        if (type == line_type && group != 0) {
+        for (std::size_t k = 0; k < corners_of(type); ++k) v[k] = find_node(in_.number<Number>("node number"));
+        if (type == msh_line && group != 0) {
             edges_[group].push_back({v[0], v[1]});
-        } else if (type == triangle_type) {
+        } else if (type == msh_triangle) {
             mesh_.triangles.push_back({{v[0], v[1], v[2]}});
             triangle_groups_.push_back(group);
-        } else if (type == quad_type) {
+        } else if (type == msh_quad) {
             mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
             quad_groups_.push_back(group);
         }
     }
 
-    /// Keeps the values of one component; of several steps in time the last.
+    /// Keeps data of one component. Where there are several steps in time, the last one counts.
     void read_node_data() {
         if (!has_nodes_) in_.fail("$NodeData before $Nodes");
-        // The tags are text in binary files, too.
+        const NodeDataTags tags = read_node_data_tags();
+        if (tags.components != 1) return in_.skip_behind("$EndNodeData");
+
+        std::vector<double> values(mesh_.points.size(), std::nan(""));
+        const std::size_t n = in_.checked_count(tags.values, 12, "number of values");
+        for (std::size_t i = 0; i < n; ++i) {
+            const VertexId node = find_node(in_.number<int>("node number"));
+            values[node.index()] = in_.number<double>("value");
+        }
+        in_.expect("$EndNodeData");
+        node_data_[std::string(tags.name)] = std::move(values);
+    }
+    struct NodeDataTags {
         std::string_view name;
-        const auto strings = in_.figures<std::size_t>("number of string tags");
+        std::size_t components = 0, values = 0;
+    };
+    /// Reads the tags, which are ASCII in binary files, too.
+    NodeDataTags read_node_data_tags() {
+        NodeDataTags tags;
+        const auto strings = in_.ascii_number<std::size_t>("number of string tags");
         in_.rest_of_line();
         for (std::size_t i = 0; i < strings; ++i) {
             const std::string_view line = in_.rest_of_line();
             if (line.empty()) in_.fail("string tag expected");
-            if (i == 0) name = line;
+            if (i == 0) tags.name = line;
         }
-        if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-        const auto reals = in_.figures<std::size_t>("number of real tags");
-        for (std::size_t i = 0; i < reals; ++i) in_.figures<double>("real tag");
-        const auto integers = in_.figures<std::size_t>("number of integer tags");
+        if (tags.name.size() >= 2 && tags.name.front() == '"' && tags.name.back() == '"')
+            tags.name = tags.name.substr(1, tags.name.size() - 2);
+        const auto reals = in_.ascii_number<std::size_t>("number of real tags");
+        for (std::size_t i = 0; i < reals; ++i) in_.ascii_number<double>("real tag");
+        const auto integers = in_.ascii_number<std::size_t>("number of integer tags");
         if (integers < 3) in_.fail("$NodeData has three integer tags or more");
-        std::size_t tags[3] = {};  // step in time, components, values
-        for (std::size_t i = 0; i < integers; ++i) {
-            const auto tag = in_.figures<std::size_t>("integer tag");
-            if (i < 3) tags[i] = tag;
-        }
+        in_.ascii_number<std::size_t>("integer tag");  // the step in time
+        tags.components = in_.ascii_number<std::size_t>("integer tag");
+        tags.values = in_.ascii_number<std::size_t>("integer tag");
+        for (std::size_t i = 3; i < integers; ++i) in_.ascii_number<std::size_t>("integer tag");
         in_.rest_of_line();
-        if (tags[1] != 1) return in_.skip_behind("$EndNodeData");
-
-        std::vector<double> values(mesh_.points.size(), std::nan(""));
-        const std::size_t n = in_.count(tags[2], 12, "number of values");
-        for (std::size_t i = 0; i < n; ++i) {
-            const auto node = in_.number<int>("node number");
-            const auto found = nodes_.find(static_cast<std::size_t>(node));
-            if (!found) in_.fail(fmt::format("node {} is not in $Nodes", node));
-            values[found->index()] = in_.number<double>("value");
-        }
-        in_.expect("$EndNodeData");
-        node_data_[std::string(name)] = std::move(values);
+        return tags;
     }
 
     void finish() {
@@ -330,12 +342,12 @@ private:
     ByteReader in_;
     std::filesystem::path file_;
     bool version_4_ = true, has_nodes_ = false, has_elements_ = false;
-    double plane_ = 0;
+    double plane_ = 0;  ///< z of all nodes
     NodeNumbers nodes_;
-    std::map<EntityKey, std::string_view> names_;
+    std::map<EntityKey, std::string_view> names_;  ///< of the physical groups
     std::map<EntityKey, int> group_of_entity_;
-    std::map<int, std::vector<Segment>> edges_;
-    std::vector<int> triangle_groups_, quad_groups_;
+    std::map<int, std::vector<Segment>> edges_;       ///< lines by physical group
+    std::vector<int> triangle_groups_, quad_groups_;  ///< per cell: its physical group, or 0
     std::map<std::string, std::vector<double>, std::less<>> node_data_;
     Mesh mesh_;
 };

@@ -1,9 +1,10 @@
-// Gmsh's MSH format, versions 2.2 and 4.1, ASCII and binary.
+// Writes Gmsh's MSH format, versions 2.2 and 4.1, ASCII and binary.
 // Source: Gmsh reference manual, "Gmsh mesh file formats".
 //
-// Entities: a curve for each marker, a surface for each region. Physical groups carry the names; they have the numbers
-// of their entities, unique across dimensions, for readers that keep one list. Nodes are numbered 1..N in the order of
-// the mesh and all belong to the first surface; elements are numbered from the markers' edges on.
+// Each marker is a curve and each region a surface. Physical groups carry the names. A group has the number of its
+// entity, which is unique across dimensions, since some readers keep one list of groups. Nodes are numbered from 1 on
+// in the order of the mesh, and all belong to the first surface. Elements are numbered from 1 on: the edges of the
+// markers, then the cells.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -15,32 +16,33 @@
 #include "io/binary_output.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/msh_elements.hpp"
 #include "io/text_output.hpp"
 
 namespace lamina::io {
 
 namespace {
 
-enum ElementType : int { line_type = 1, triangle_type = 2, quad_type = 3 };
-
 /// The elements of one type on one entity.
 struct ElementBlock {
     int dimension, entity;
-    ElementType type;
+    MshElementType type;
     std::size_t corners, count, first_number;
-    const Marker* marker;    ///< of lines
-    const CellBlock* cells;  ///< of triangles and quadrilaterals
+    const Marker* marker;    ///< for lines, else null
+    const CellBlock* cells;  ///< for triangles and quadrilaterals, else null
 
+    /// Returns the number of node k of element i of the block.
     std::size_t node(const Mesh& mesh, std::size_t i, std::size_t k) const {
         if (marker != nullptr) return (k == 0 ? marker->edges[i].a : marker->edges[i].b).index() + 1;
         return cells->vertices(mesh, i)[k].index() + 1;
     }
 };
 
-struct Group {
+/// An entity and the physical group of the same number.
+struct PhysicalGroup {
     int dimension, entity;
     std::string name;
-    Box box;
+    Box box;  ///< bounds of the entity
 };
 
 class MshWriter {
@@ -62,7 +64,7 @@ public:
 private:
     void find_groups() {
         for (const Marker& marker : mesh_.markers) {
-            Group group{1, static_cast<int>(groups_.size() + 1), marker.name, {}};
+            PhysicalGroup group{1, static_cast<int>(groups_.size() + 1), marker.name, {}};
             for (const Segment& edge : marker.edges) {
                 group.box.include(mesh_.points[edge.a.index()]);
                 group.box.include(mesh_.points[edge.b.index()]);
@@ -75,9 +77,9 @@ private:
             if (surface_of(block) == 0)
                 groups_.push_back({2, static_cast<int>(groups_.size() + 1), std::string(block.region), box});
     }
-    /// The number of a region's entity, 0 if it has none.
+    /// Returns the number of the entity of a region; 0 where it has none yet.
     int surface_of(const CellBlock& block) const {
-        for (const Group& group : groups_)
+        for (const PhysicalGroup& group : groups_)
             if (group.dimension == 2 && group.name == block.region) return group.entity;
         return 0;
     }
@@ -90,85 +92,90 @@ private:
             elements_.push_back(block);
         };
         for (std::size_t m = 0; m < mesh_.markers.size(); ++m)
-            add({1, groups_[m].entity, line_type, 2, mesh_.markers[m].edges.size(), 0, &mesh_.markers[m], nullptr});
+            add({1, groups_[m].entity, msh_line, 2, mesh_.markers[m].edges.size(), 0, &mesh_.markers[m], nullptr});
         for (const CellBlock& block : cells_)
-            add({2, surface_of(block), block.corners == 3 ? triangle_type : quad_type, block.corners,
-                 block.cells.size(), 0, nullptr, &block});
+            add({2, surface_of(block), block.corners == 3 ? msh_triangle : msh_quad, block.corners, block.cells.size(),
+                 0, nullptr, &block});
         element_count_ = number - 1;
     }
 
     void write_header() {
         out_ << "$MeshFormat\n" << (variant_.version_4 ? "4.1 " : "2.2 ") << (variant_.binary ? "1 8\n" : "0 8\n");
         if (variant_.binary) {
-            write_value(out_, std::int32_t{1});  // tells the order of bytes
+            write_value(out_, std::int32_t{1});  // shows the byte order
             out_ << '\n';
         }
         out_ << "$EndMeshFormat\n";
     }
     void write_names() {
         out_ << "$PhysicalNames\n" << groups_.size() << '\n';
-        for (const Group& group : groups_)
+        for (const PhysicalGroup& group : groups_)
             out_ << fmt::format("{} {} \"{}\"\n", group.dimension, group.entity, group.name);
         out_ << "$EndPhysicalNames\n";
     }
 
     void write_entities() {
         std::size_t curves = 0;
-        for (const Group& group : groups_) curves += group.dimension == 1;
+        for (const PhysicalGroup& group : groups_) curves += group.dimension == 1;
+        const std::size_t surfaces = groups_.size() - curves;
         out_ << "$Entities\n";
         if (variant_.binary) {
-            for (const std::size_t n : {std::size_t{0}, curves, groups_.size() - curves, std::size_t{0}})
-                write_value(out_, n);
-            for (const Group& group : groups_) {
-                write_value(out_, group.entity);
-                for (const double bound :
-                     {group.box.lower.x, group.box.lower.y, 0.0, group.box.upper.x, group.box.upper.y, 0.0})
-                    write_value(out_, bound);
-                write_value(out_, std::size_t{1});
-                write_value(out_, group.entity);
-                write_value(out_, std::size_t{0});
-            }
+            for (const std::size_t n : {std::size_t{0}, curves, surfaces, std::size_t{0}}) write_value(out_, n);
+            for (const PhysicalGroup& group : groups_) write_binary_entity(group);
             out_ << '\n';
         } else {
-            out_ << fmt::format("0 {} {} 0\n", curves, groups_.size() - curves);
-            for (const Group& group : groups_)
+            out_ << fmt::format("0 {} {} 0\n", curves, surfaces);
+            for (const PhysicalGroup& group : groups_)
                 out_ << fmt::format("{0} {1} {2} 0 {3} {4} 0 1 {0} 0\n", group.entity, group.box.lower.x,
                                     group.box.lower.y, group.box.upper.x, group.box.upper.y);
         }
         out_ << "$EndEntities\n";
     }
+    /// Writes an entity with one physical group and no borders.
+    void write_binary_entity(const PhysicalGroup& group) {
+        write_value(out_, group.entity);
+        for (const double bound :
+             {group.box.lower.x, group.box.lower.y, 0.0, group.box.upper.x, group.box.upper.y, 0.0})
+            write_value(out_, bound);
+        write_value(out_, std::size_t{1});
+        write_value(out_, group.entity);
+        write_value(out_, std::size_t{0});
+    }
 
     void write_nodes() {
-        const std::size_t n = mesh_.points.size();
-        const auto put_point = [&](char* p, std::size_t i) {
-            p = store(p, mesh_.points[i].x);
-            p = store(p, mesh_.points[i].y);
-            return store(p, 0.0);
-        };
         out_ << "$Nodes\n";
-        if (variant_.version_4) {
-            const int surface = groups_.back().dimension == 2 ? surface_of(cells_.front()) : 1;
-            if (variant_.binary) {
-                for (const std::size_t value : {std::size_t{1}, n, std::size_t{1}, n}) write_value(out_, value);
-                for (const int value : {2, surface, 0}) write_value(out_, value);
-                write_value(out_, n);
-                write_records(out_, n, 8, [](char* p, std::size_t i) { store(p, i + 1); });
-                write_records(out_, n, 24, put_point);
-            } else {
-                out_ << fmt::format("1 {0} 1 {0}\n2 {1} 0 {0}\n", n, surface);
-                write_lines(out_, n, [](LineText& line, std::size_t i) { line << i + 1; });
-                write_lines(out_, n, [&](LineText& line, std::size_t i) { line << mesh_.points[i] << "0"; });
-            }
-        } else {
-            out_ << n << '\n';
-            if (variant_.binary)
-                write_records(out_, n, 28, [&](char* p, std::size_t i) {
-                    put_point(store(p, static_cast<std::int32_t>(i + 1)), i);
-                });
-            else
-                write_lines(out_, n, [&](LineText& line, std::size_t i) { line << i + 1 << mesh_.points[i] << "0"; });
-        }
+        variant_.version_4 ? write_nodes_4() : write_nodes_2();
         out_ << (variant_.binary ? "\n$EndNodes\n" : "$EndNodes\n");
+    }
+    /// Writes one block of nodes: all their numbers, then all their coordinates.
+    void write_nodes_4() {
+        const std::size_t n = mesh_.points.size();
+        const int surface = groups_.back().dimension == 2 ? surface_of(cells_.front()) : 1;
+        if (variant_.binary) {
+            for (const std::size_t value : {std::size_t{1}, n, std::size_t{1}, n}) write_value(out_, value);
+            for (const int value : {2, surface, 0}) write_value(out_, value);
+            write_value(out_, n);
+            write_records(out_, n, 8, [](char* p, std::size_t i) { store(p, i + 1); });
+            write_records(out_, n, 24, [&](char* p, std::size_t i) { store_point(p, i); });
+        } else {
+            out_ << fmt::format("1 {0} 1 {0}\n2 {1} 0 {0}\n", n, surface);
+            write_lines(out_, n, [](LineText& line, std::size_t i) { line << i + 1; });
+            write_lines(out_, n, [&](LineText& line, std::size_t i) { line << mesh_.points[i] << "0"; });
+        }
+    }
+    void write_nodes_2() {
+        const std::size_t n = mesh_.points.size();
+        out_ << n << '\n';
+        if (variant_.binary)
+            write_records(out_, n, 28,
+                          [&](char* p, std::size_t i) { store_point(store(p, static_cast<std::int32_t>(i + 1)), i); });
+        else
+            write_lines(out_, n, [&](LineText& line, std::size_t i) { line << i + 1 << mesh_.points[i] << "0"; });
+    }
+    void store_point(char* p, std::size_t i) const {
+        p = store(p, mesh_.points[i].x);
+        p = store(p, mesh_.points[i].y);
+        store(p, 0.0);
     }
 
     void write_elements() {
@@ -205,7 +212,7 @@ private:
             });
         }
     }
-    /// Tags are the physical group and the entity.
+    /// Each element has two tags: its physical group and its entity.
     void write_block_2(const ElementBlock& block) {
         if (variant_.binary) {
             for (const int value : {int{block.type}, static_cast<int>(block.count), 2}) write_value(out_, value);
@@ -228,7 +235,7 @@ private:
     MshVariant variant_;
     std::ostream& out_;
     std::vector<CellBlock> cells_;
-    std::vector<Group> groups_;  ///< numbered from 1 in this order: markers, then regions
+    std::vector<PhysicalGroup> groups_;  ///< markers, then regions, numbered from 1 in this order
     std::vector<ElementBlock> elements_;
     std::size_t element_count_ = 0;
 };
@@ -237,8 +244,9 @@ private:
 
 void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out) {
     require_marker_names(mesh, file, "MSH", "\"", 127);
-    constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 2;
-    if (!variant.version_4 && variant.binary && mesh.points.size() + mesh.triangles.size() + mesh.quads.size() > most)
+    constexpr std::size_t max_items = std::numeric_limits<std::int32_t>::max() / 2;
+    const std::size_t items = mesh.points.size() + mesh.triangles.size() + mesh.quads.size();
+    if (!variant.version_4 && variant.binary && items > max_items)
         throw UsageError(fmt::format("{}: binary MSH 2.2 numbers no more than 2^31 nodes and elements", file.string()));
     MshWriter(mesh, variant, out).write();
 }

@@ -1,15 +1,16 @@
-// Reads OpenFOAM's polyMesh, in ASCII, of a mesh one cell thick: prisms and hexahedra between two planes of constant z.
-// Source: OpenFOAM user guide, "Mesh description".
+// Reads an OpenFOAM polyMesh in ASCII that holds a mesh one cell thick: prisms and hexahedra between two planes of
+// constant z. Source: OpenFOAM user guide, "Mesh description".
 //
-// The faces with all points in the lower plane are the cells; the other faces of patches stand on the edges of markers.
-// Points of the lower plane keep their order, cells that of their numbers. Patches of type empty make no markers.
+// The faces with all points in the lower plane are the cells. The other faces of patches stand on the edges of markers.
+// Points of the lower plane keep their order, and cells the order of their numbers. Patches of type empty make no
+// markers.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@
 
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/number_text.hpp"
 
 namespace lamina::io {
 
@@ -27,12 +29,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The words of a file in OpenFOAM's syntax: brackets and semicolons stand alone, comments count as blanks.
+/// The words of a file in OpenFOAM's syntax. A bracket or a semicolon is a word by itself; comments count as blanks.
 class FoamWords {
 public:
     explicit FoamWords(const fs::path& file) : file_(file.string()), bytes_(read_file(file)) {}
 
-    /// The next word; empty at the end.
+    /// Reads a word. Returns an empty text at the end.
     std::string_view next() {
         skip_blanks();
         const std::size_t first = at_;
@@ -49,19 +51,19 @@ public:
         if (const std::string_view word = next(); word != expected)
             fail(fmt::format("'{}' expected, found '{}'", expected, word.substr(0, 30)));
     }
+    /// Reads a number; `meaning` names it in errors.
     template <class T>
-    T number(const char* what) {
+    T number(const char* meaning) {
         const std::string_view word = next();
-        T value{};
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (word.empty() || error != std::errc{} || end != word.data() + word.size())
-            fail(fmt::format("{} expected, found '{}'", what, word.substr(0, 30)));
-        return value;
+        const std::optional<T> value = parse_whole<T>(word);
+        if (!value) fail(fmt::format("{} expected, found '{}'", meaning, word.substr(0, 30)));
+        return *value;
     }
-    /// "N (", N refused where the rest of the file cannot hold as many.
-    std::size_t begin_list(const char* what) {
-        const auto n = number<std::size_t>(what);
-        if (n > bytes_.size() - at_) fail(fmt::format("{}: {}, but the file is shorter than that", what, n));
+    /// Reads "N (" and returns N. Fails where the rest of the file is too short for N entries, so that no damaged count
+    /// asks for memory.
+    std::size_t begin_list(const char* meaning) {
+        const auto n = number<std::size_t>(meaning);
+        if (n > bytes_.size() - at_) fail(fmt::format("{}: {}, but the file is shorter than that", meaning, n));
         expect("(");
         return n;
     }
@@ -69,8 +71,8 @@ public:
         expect(")");
         if (!next().empty()) fail("something follows the list");
     }
-    /// Skips "FoamFile { ... }" and demands ASCII.
-    void header(std::string_view type) {
+    /// Reads "FoamFile { ... }". Fails unless it announces ASCII and this class of contents.
+    void read_header(std::string_view type) {
         expect("FoamFile");
         expect("{");
         for (std::string_view key; (key = next()) != "}";) {
@@ -81,13 +83,12 @@ public:
             expect(";");
         }
     }
+    /// Throws InputError with the file and the line.
     [[noreturn]] void fail(const std::string& reason) const {
-        const auto line = 1 + std::count(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
-        throw InputError({file_, static_cast<std::size_t>(line), {}}, reason);
+        throw InputError({file_, line_at(bytes_, at_), {}}, reason);
     }
 
 private:
-    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
     static bool is_bracket(char c) { return c == '(' || c == ')' || c == '{' || c == '}' || c == ';'; }
     void skip_blanks() {
         while (at_ < bytes_.size()) {
@@ -107,12 +108,13 @@ private:
     std::size_t at_ = 0;
 };
 
-struct Patch {
+/// A part of the boundary: the faces [start, start + faces).
+struct FoamPatch {
     std::string name, type;
     std::size_t faces = 0, start = 0;
 };
 
-MarkerKind kind_of(const Patch& patch) {
+MarkerKind kind_of(const FoamPatch& patch) {
     if (patch.type == "wall") return MarkerKind::wall;
     if (patch.type == "symmetry" || patch.type == "symmetryPlane") return MarkerKind::symmetry;
     return kind_of_name(patch.name) == MarkerKind::far_field ? MarkerKind::far_field : MarkerKind::other;
@@ -136,10 +138,10 @@ public:
     }
 
 private:
-    /// Points of the lower plane become vertices.
+    /// Makes vertices of the points in the lower plane.
     void read_points() {
         FoamWords in(folder_ / "points");
-        in.header("vectorField");
+        in.read_header("vectorField");
         const std::size_t n = in.begin_list("number of points");
         std::vector<std::array<double, 3>> points(n);
         for (auto& point : points) {
@@ -165,10 +167,10 @@ private:
             mesh_.points.push_back({x, y});
         }
     }
-    /// One cell a face, of the file `owner` or `neighbour`.
+    /// Reads the file `owner` or `neighbour`: one cell per face.
     std::vector<std::uint32_t> read_cells(const char* name) {
         FoamWords in(folder_ / name);
-        in.header("labelList");
+        in.read_header("labelList");
         std::vector<std::uint32_t> cells(in.begin_list("number of faces"));
         for (std::uint32_t& cell : cells) cell = in.number<std::uint32_t>("cell");
         in.end_list();
@@ -176,71 +178,93 @@ private:
     }
     void read_patches() {
         FoamWords in(folder_ / "boundary");
-        in.header("polyBoundaryMesh");
+        in.read_header("polyBoundaryMesh");
         patches_.resize(in.begin_list("number of patches"));
-        for (Patch& patch : patches_) {
-            patch.name = in.next();
-            in.expect("{");
-            for (std::string_view key; (key = in.next()) != "}";) {
-                if (key == "type")
-                    patch.type = in.next();
-                else if (key == "nFaces")
-                    patch.faces = in.number<std::size_t>("nFaces");
-                else if (key == "startFace")
-                    patch.start = in.number<std::size_t>("startFace");
-                for (std::string_view rest; (rest = in.next()) != ";";)
-                    if (rest.empty()) in.fail("the patch does not end");
-            }
+        for (FoamPatch& patch : patches_) {
+            patch = read_patch(in);
             if (patch.start > owner_.size() || patch.faces > owner_.size() - patch.start)
                 in.fail(fmt::format("patch '{}' goes beyond the faces", patch.name));
         }
         in.end_list();
-        std::sort(patches_.begin(), patches_.end(), [](const Patch& a, const Patch& b) { return a.start < b.start; });
+        std::sort(patches_.begin(), patches_.end(),
+                  [](const FoamPatch& a, const FoamPatch& b) { return a.start < b.start; });
+    }
+
+    static FoamPatch read_patch(FoamWords& in) {
+        FoamPatch patch;
+        patch.name = in.next();
+        in.expect("{");
+        for (std::string_view key; (key = in.next()) != "}";) {
+            if (key == "type")
+                patch.type = in.next();
+            else if (key == "nFaces")
+                patch.faces = in.number<std::size_t>("nFaces");
+            else if (key == "startFace")
+                patch.start = in.number<std::size_t>("startFace");
+            for (std::string_view rest; (rest = in.next()) != ";";)
+                if (rest.empty()) in.fail("the patch does not end");
+        }
+        return patch;
     }
 
     void read_faces() {
         FoamWords in(folder_ / "faces");
-        in.header("faceList");
+        in.read_header("faceList");
         const std::size_t n = in.begin_list("number of faces");
         if (n != owner_.size()) in.fail(fmt::format("{} faces, but {} owners", n, owner_.size()));
         const std::size_t boundary = patches_.empty() ? n : patches_.front().start;
         std::size_t patch = 0;
         for (std::size_t f = 0; f < n; ++f) {
-            const auto corners = in.number<std::size_t>("number of corners");
-            if (corners != 3 && corners != 4) in.fail(fmt::format("face {} has {} corners, not 3 or 4", f, corners));
-            in.expect("(");
-            VertexId v[4];
-            for (std::size_t k = 0; k < corners; ++k) {
-                const auto point = in.number<std::size_t>("point");
-                if (point >= vertex_.size()) in.fail(fmt::format("point {} where there are {}", point, vertex_.size()));
-                v[k] = vertex_[point];
-            }
-            in.expect(")");
+            const Face face = read_face(in, f);
             if (f < boundary) continue;
             while (patch < patches_.size() && f >= patches_[patch].start + patches_[patch].faces) ++patch;
             if (patch == patches_.size() || f < patches_[patch].start)
                 in.fail(fmt::format("face {} is in no patch", f));
-            add_face(in, f, patches_[patch], v, corners);
+            add_face(in, f, patches_[patch], face);
         }
         in.end_list();
     }
-    /// Outward normals: the lower plane's faces run clockwise, the lower edge of a side has its cell on the left.
-    void add_face(const FoamWords& in, std::size_t f, const Patch& patch, VertexId* v, std::size_t corners) {
-        const auto low = std::count_if(v, v + corners, [](VertexId vertex) { return vertex.valid(); });
-        if (low == static_cast<std::ptrdiff_t>(corners)) {
-            std::reverse(v, v + corners);
-            if (corners == 3)
-                triangles_.push_back({owner_[f], {{v[0], v[1], v[2]}}});
+    /// The vertices of a face; those in the upper plane are invalid.
+    struct Face {
+        std::array<VertexId, 4> v;
+        std::size_t corners;
+
+        std::span<VertexId> vertices() { return {v.data(), corners}; }
+    };
+    Face read_face(FoamWords& in, std::size_t number) const {
+        const auto corners = in.number<std::size_t>("number of corners");
+        if (corners != 3 && corners != 4) in.fail(fmt::format("face {} has {} corners, not 3 or 4", number, corners));
+        in.expect("(");
+        Face face{{}, corners};
+        for (VertexId& v : face.vertices()) {
+            const auto point = in.number<std::size_t>("point");
+            if (point >= vertex_.size()) in.fail(fmt::format("point {} where there are {}", point, vertex_.size()));
+            v = vertex_[point];
+        }
+        in.expect(")");
+        return face;
+    }
+    /// Adds a face of the boundary as a cell, as an edge of a marker, or, in the upper plane, not at all. The normals
+    /// of faces point outward: faces in the lower plane run clockwise, and the lower edge of a side has its cell on the
+    /// left.
+    void add_face(const FoamWords& in, std::size_t number, const FoamPatch& patch, Face face) {
+        const auto& v = face.v;
+        const std::span<VertexId> vertices = face.vertices();
+        const auto is_lower = [](VertexId vertex) { return vertex.valid(); };
+        if (std::all_of(vertices.begin(), vertices.end(), is_lower)) {
+            std::reverse(vertices.begin(), vertices.end());
+            if (face.corners == 3)
+                triangles_.push_back({owner_[number], {{v[0], v[1], v[2]}}});
             else
-                quads_.push_back({owner_[f], {{v[0], v[1], v[2], v[3]}}});
-        } else if (low != 0) {
-            std::size_t k = 0;
-            while (k < 4 && !(v[k].valid() && v[(k + 1) % 4].valid())) ++k;
-            if (low != 2 || corners != 4 || k == 4) in.fail(fmt::format("face {} does not stand on an edge", f));
-            if (patch.type == "empty") in.fail(fmt::format("face {} is in patch '{}', of type empty", f, patch.name));
+                quads_.push_back({owner_[number], {{v[0], v[1], v[2], v[3]}}});
+        } else if (std::any_of(vertices.begin(), vertices.end(), is_lower)) {
+            Segment edge;
+            if (!find_lower_edge(vertices, edge)) in.fail(fmt::format("face {} does not stand on an edge", number));
+            if (patch.type == "empty")
+                in.fail(fmt::format("face {} is in patch '{}', of type empty", number, patch.name));
             if (mesh_.markers.empty() || mesh_.markers.back().name != patch.name)
                 mesh_.markers.push_back({patch.name, kind_of(patch), {}});
-            mesh_.markers.back().edges.push_back({v[k], v[(k + 1) % 4]});
+            mesh_.markers.back().edges.push_back(edge);
         }
     }
 
@@ -250,7 +274,7 @@ private:
         std::stable_sort(quads_.begin(), quads_.end(), by_number);
         for (const auto& [cell, triangle] : triangles_) mesh_.triangles.push_back(triangle);
         for (const auto& [cell, quad] : quads_) mesh_.quads.push_back(quad);
-        // An internal face of either plane, or a missing one, shows in the number of cells.
+        // Where a face of either plane is internal or missing, the number of cells does not fit.
         const std::size_t cells = owner_.empty() ? 0 : std::size_t{1} + *std::max_element(owner_.begin(), owner_.end());
         if (triangles_.size() + quads_.size() != cells)
             throw InputError({folder_.string(), 0, {}},
@@ -259,10 +283,10 @@ private:
     }
 
     fs::path folder_;
-    std::vector<VertexId> vertex_;  ///< of each point; invalid in the upper plane
-    std::vector<std::uint32_t> owner_;
-    std::vector<Patch> patches_;
-    std::vector<std::pair<std::uint32_t, Triangle>> triangles_;
+    std::vector<VertexId> vertex_;      ///< per point: its vertex; invalid in the upper plane
+    std::vector<std::uint32_t> owner_;  ///< per face: its cell, or the lower one of its two cells
+    std::vector<FoamPatch> patches_;
+    std::vector<std::pair<std::uint32_t, Triangle>> triangles_;  ///< with the numbers of the cells
     std::vector<std::pair<std::uint32_t, Quad>> quads_;
     Mesh mesh_;
 };

@@ -1,13 +1,14 @@
-// OpenFOAM's polyMesh: a folder with points, faces, owner, neighbour, boundary, in ASCII. The mesh lies in the x-y
-// plane and is one cell thick in z, with the patch `frontAndBack` of type empty. Source: OpenFOAM user guide, "Mesh
-// description".
+// Writes OpenFOAM's polyMesh: a folder with the files points, faces, owner, neighbour and boundary, in ASCII. The mesh
+// lies in the x-y plane and is one cell thick in z, with the patch `frontAndBack` of type empty. Source: OpenFOAM user
+// guide, "Mesh description".
 //
-//    b'------a'       A side face stands on an edge a -> b of its owner (the cell on the left): a, b, b', a', so that
-//   /|      /|        the normal points out of the owner. Points with z = 0 are numbered as in the mesh, those with
-//  b-+-----a |        z = 1 behind them.
+//    b'------a'       A side face stands on the edge a -> b of its owner, the cell on the left of the edge. Its corners
+//    |       |        are a, b, b', a', so that its normal points out of the owner. The points a, b ... with z = 0 are
+//    b-------a        numbered as in the mesh; the points a', b' ... with z = 1 follow.
 //
-// Internal faces come first, in upper-triangular order: by owner (the lower of the two cells), then by neighbour. Then
-// the patches: each marker's faces in the order of its edges, the back (z = 0) and the front of each cell.
+// Internal faces come first, in upper-triangular order: by owner (the lower of the two cells), then by neighbour. The
+// patches follow: the faces of each marker in the order of its edges, then the back (z = 0) of all cells, then the
+// front.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,14 +33,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Directed edges of cells, numbered as in CellEdges: each is a side face, seen from its owner.
-using EdgeList = std::vector<std::uint32_t>;
+/// Side faces, each given by the directed edge of its owner that it stands on (CellEdges).
+using SideFaces = std::vector<std::uint32_t>;
 
-/// By owner, then neighbour: each face once, on the edge of its lower cell.
-EdgeList internal_faces(const mesh::CellEdges& edges, const mesh::Adjacency& adjacency) {
+/// Returns each internal face once, on the edge of the lower cell, sorted by owner, then by neighbour.
+SideFaces internal_faces(const mesh::CellEdges& edges, const mesh::Adjacency& adjacency) {
     constexpr std::size_t grain = 1 << 14;
     const auto faces_of = [&](std::size_t begin, std::size_t end) {
-        EdgeList faces;
+        SideFaces faces;
         for (std::size_t cell = begin; cell < end; ++cell) {
             const auto first = static_cast<std::ptrdiff_t>(faces.size());
             for (std::size_t e = edges.first(cell); e < edges.first(cell) + edges.corners(cell); ++e)
@@ -51,18 +52,19 @@ EdgeList internal_faces(const mesh::CellEdges& edges, const mesh::Adjacency& adj
         }
         return faces;
     };
-    EdgeList all;
-    for (const EdgeList& faces : core::parallel_blocks(edges.cells(), grain, faces_of))
+    SideFaces all;
+    for (const SideFaces& faces : core::parallel_blocks(edges.cells(), grain, faces_of))
         all.insert(all.end(), faces.begin(), faces.end());
     return all;
 }
 
-/// The edges of the cells that the markers' edges are, marker by marker.
-EdgeList marker_faces(const Mesh& mesh, const mesh::CellEdges& edges, const mesh::Adjacency& adjacency,
-                      const fs::path& file) {
+/// Returns the faces on the edges of the markers, marker by marker. Throws MeshError where such an edge is not on the
+/// boundary or has its cell on the right.
+SideFaces marker_faces(const Mesh& mesh, const mesh::CellEdges& edges, const mesh::Adjacency& adjacency,
+                       const fs::path& file) {
     std::vector<Segment> marked;
     for (const Marker& marker : mesh.markers) marked.insert(marked.end(), marker.edges.begin(), marker.edges.end());
-    EdgeList faces = mesh::find_edges(mesh, marked);
+    SideFaces faces = mesh::find_edges(mesh, marked);
     std::size_t i = 0;
     for (const Marker& marker : mesh.markers)
         for (const Segment& edge : marker.edges) {
@@ -98,7 +100,7 @@ public:
             throw MeshError(fmt::format("{}: OpenFOAM cannot hold a mesh that is not conforming", file.string()));
         sides_ = internal_faces(edges_, adjacency_);
         internal_ = sides_.size();
-        const EdgeList marked = marker_faces(mesh, edges_, adjacency_, file);
+        const SideFaces marked = marker_faces(mesh, edges_, adjacency_, file);
         sides_.insert(sides_.end(), marked.begin(), marked.end());
         if (sides_.size() - internal_ != adjacency_.boundary.size())
             throw MeshError(
@@ -143,25 +145,30 @@ private:
         });
     }
     void write_faces(std::ostream& out, std::size_t faces) const {
-        const std::size_t n = mesh_.points.size(), cells = edges_.cells();
+        const std::size_t cells = edges_.cells();
         write_list(out, faces, [&](LineText& line, std::size_t f) {
-            std::size_t corner[4], corners = 4;
-            if (f < sides_.size()) {
-                const std::size_t a = edges_.origin(sides_[f]).index(), b = edges_.target(sides_[f]).index();
-                const std::size_t side[4] = {a, b, n + b, n + a};
-                std::copy(side, side + 4, corner);
-            } else {
-                const bool back = f < sides_.size() + cells;
-                const std::size_t cell = f - sides_.size() - (back ? 0 : cells);
-                corners = edges_.corners(cell);
-                for (std::size_t k = 0; k < corners; ++k)
-                    corner[k] =
-                        back ? edges_.corner(cell, corners - 1 - k).index() : n + edges_.corner(cell, k).index();
-            }
-            line.tight(corners == 3 ? "3(" : "4(");
-            for (std::size_t k = 0; k < corners; ++k) line << corner[k];
+            if (f < sides_.size())
+                put_side(line, sides_[f]);
+            else if (f < sides_.size() + cells)
+                put_back(line, f - sides_.size());
+            else
+                put_front(line, f - sides_.size() - cells);
             line.take_back() << ")";
         });
+    }
+    void put_side(LineText& line, std::size_t edge) const {
+        const std::size_t n = mesh_.points.size();
+        const std::size_t a = edges_.origin(edge).index(), b = edges_.target(edge).index();
+        line.tight("4(") << a << b << n + b << n + a;
+    }
+    void put_back(LineText& line, std::size_t cell) const {
+        line.tight(edges_.corners(cell) == 3 ? "3(" : "4(");
+        for (std::size_t k = edges_.corners(cell); k-- > 0;) line << edges_.corner(cell, k).index();
+    }
+    void put_front(LineText& line, std::size_t cell) const {
+        line.tight(edges_.corners(cell) == 3 ? "3(" : "4(");
+        for (std::size_t k = 0; k < edges_.corners(cell); ++k)
+            line << mesh_.points.size() + edges_.corner(cell, k).index();
     }
     void write_owners(std::ostream& out, std::size_t faces) const {
         const std::size_t cells = edges_.cells();
@@ -195,8 +202,8 @@ private:
     const fs::path& file_;
     mesh::CellEdges edges_;
     mesh::Adjacency adjacency_;
-    EdgeList sides_;  ///< internal ones, then those of the markers
-    std::size_t internal_ = 0;
+    SideFaces sides_;           ///< the internal faces, then those of the markers
+    std::size_t internal_ = 0;  ///< number of internal faces
 };
 
 }  // namespace
@@ -206,18 +213,24 @@ fs::path poly_mesh_folder(const fs::path& file) {
     return folder.filename().string().ends_with("polyMesh") ? folder : folder / "constant" / "polyMesh";
 }
 
+bool holds_openfoam_mesh(const fs::path& file) {
+    std::error_code ignored;
+    return fs::exists(poly_mesh_folder(file) / "faces", ignored);
+}
+
 void check_openfoam_writable(const fs::path& file) {
     const fs::path folder = poly_mesh_folder(file);
     std::error_code ignored;
     if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
         throw IoError(folder.string(), "cannot write: is a file, not a folder");
-    // It gives way to the new one with all that is in it: nothing but a mesh may be lost so.
+    // The folder is replaced with all that is in it, so it may hold nothing but a mesh.
     if (fs::is_directory(folder, ignored) && !fs::is_empty(folder, ignored) && !fs::exists(folder / "faces", ignored) &&
         !fs::exists(folder / "faces.gz", ignored))
         throw IoError(folder.string(), "cannot write: the folder holds something, but no mesh");
-    fs::path made = folder;  // the outermost folder that is missing
-    while (made.has_parent_path() && !fs::exists(made.parent_path(), ignored)) made = made.parent_path();
-    check_folder_writable(made == folder ? folder.parent_path() / "points" : made);
+    fs::path outermost_missing = folder;
+    while (outermost_missing.has_parent_path() && !fs::exists(outermost_missing.parent_path(), ignored))
+        outermost_missing = outermost_missing.parent_path();
+    check_folder_writable(outermost_missing == folder ? folder.parent_path() / "points" : outermost_missing);
 }
 
 void write_openfoam(const Mesh& mesh, const fs::path& file) {

@@ -1,6 +1,7 @@
-// The native ASCII format of the SU2 solver: NDIME, NELEM, NPOIN, NMARK, each followed by its lines.
-// Source: SU2 documentation, "Mesh File", and the behaviour of its reader. Cells are VTK types: 3 line, 5 triangle,
-// 9 quadrilateral; numbers are zero-based; indices at the ends of lines are optional.
+// Writes and reads the native ASCII format of the SU2 solver: the sections NDIME, NELEM, NPOIN and NMARK, each followed
+// by its lines. Source: SU2 documentation, "Mesh File", and the behaviour of SU2's reader. Types of cells have the
+// numbers of VTK: 3 line, 5 triangle, 9 quadrilateral. Vertices are numbered from 0. Indices at the ends of lines are
+// optional.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,16 +15,14 @@
 #include "io/mesh_parts.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_output.hpp"
+#include "io/vtk_cell_types.hpp"
 
 namespace lamina::io {
 
 namespace {
 
-enum CellType : unsigned { line_type = 3, triangle_type = 5, quad_type = 9 };
-
-// --- Reading
-
-/// Sections in any order; NPOIN is looked up first, so that a wrong index is reported with its line.
+/// Reads the sections in any order. It looks up NPOIN first, so that a vertex index out of range is reported with its
+/// line.
 class Su2Reader {
 public:
     Su2Reader(const std::string& bytes, const std::string& file)
@@ -40,19 +39,14 @@ public:
             else if (*key == "NPOIN")
                 read_points();
             else if (*key == "NMARK")
-                announced_ = count(announced_, "NMARK");
+                announced_markers_ = read_count(announced_markers_, "NMARK");
             else if (*key == "MARKER_TAG")
                 read_tag();
             else if (*key == "MARKER_ELEMS")
                 read_marker();
-            // Other keys (NZONE, AOA ...) say nothing about the mesh of one zone.
+            // Other keys (NZONE, AOA ...) are skipped: they say nothing about the mesh of one zone.
         }
-        for (const auto& [given, name] : {std::pair{dimension_, "NDIME"}, std::pair{cells_, "NELEM"},
-                                          std::pair{points_read_, "NPOIN"}, std::pair{announced_, "NMARK"}})
-            if (!given) in_.fail(fmt::format("the file ends without {}=", name));
-        if (open_tag_) in_.fail(fmt::format("marker '{}' has no MARKER_ELEMS=", mesh_.markers.back().name));
-        if (*announced_ != mesh_.markers.size())
-            in_.fail(fmt::format("NMARK= {}, but {} markers follow", *announced_, mesh_.markers.size()));
+        require_complete();
         orient_markers(mesh_);
         return std::move(mesh_);
     }
@@ -65,10 +59,20 @@ private:
         in.fail("the file ends without NPOIN=");
     }
 
-    std::size_t count(const std::optional<std::size_t>& before, const char* name) {
+    void require_complete() const {
+        for (const auto& [given, name] : {std::pair{dimension_, "NDIME"}, std::pair{cells_, "NELEM"},
+                                          std::pair{points_read_, "NPOIN"}, std::pair{announced_markers_, "NMARK"}})
+            if (!given) in_.fail(fmt::format("the file ends without {}=", name));
+        if (open_tag_) in_.fail(fmt::format("marker '{}' has no MARKER_ELEMS=", mesh_.markers.back().name));
+        if (*announced_markers_ != mesh_.markers.size())
+            in_.fail(fmt::format("NMARK= {}, but {} markers follow", *announced_markers_, mesh_.markers.size()));
+    }
+
+    /// Reads the number of lines of a section; `before` is the number of an earlier section of this name.
+    std::size_t read_count(const std::optional<std::size_t>& before, const char* name) {
         if (before) in_.fail(fmt::format("a second {}=", name));
         const auto n = in_.number<std::size_t>("count");
-        // A line has at least two bytes: refuse absurd counts before memory is asked for.
+        // A line has at least two bytes, so a damaged count is refused before memory is asked for.
         if (n > in_.bytes_left() / 2 + 1) in_.fail(fmt::format("{}= {}, but the file is shorter than that", name, n));
         return n;
     }
@@ -80,7 +84,7 @@ private:
         if (index >= points_) in_.fail(fmt::format("vertex index {} where NPOIN= {}", index, points_));
         return VertexId(index);
     }
-    /// The index at the end of a line is optional.
+    /// Reads the rest of a line: an index or nothing.
     void end_line() {
         if (!in_.at_end()) in_.number<std::size_t>("index or end of line");
         if (!in_.at_end()) in_.fail(fmt::format("end of line expected, found '{}'", in_.text().substr(0, 30)));
@@ -91,14 +95,14 @@ private:
         if (*dimension_ != 2) in_.fail(fmt::format("NDIME= {}: only two-dimensional meshes can be read", *dimension_));
     }
     void read_cells() {
-        cells_ = count(cells_, "NELEM");
+        cells_ = read_count(cells_, "NELEM");
         for (std::size_t i = 0; i < *cells_; ++i) {
             next_line(i, *cells_, "NELEM");
             const auto type = in_.number<unsigned>("cell type");
-            if (type == triangle_type) {
+            if (type == vtk_triangle) {
                 const VertexId a = vertex(), b = vertex(), c = vertex();
                 mesh_.triangles.push_back({{a, b, c}});
-            } else if (type == quad_type) {
+            } else if (type == vtk_quad) {
                 const VertexId a = vertex(), b = vertex(), c = vertex(), d = vertex();
                 mesh_.quads.push_back({{a, b, c, d}});
             } else {
@@ -108,7 +112,7 @@ private:
         }
     }
     void read_points() {
-        points_read_ = count(points_read_, "NPOIN");
+        points_read_ = read_count(points_read_, "NPOIN");
         mesh_.points.reserve(*points_read_);
         for (std::size_t i = 0; i < *points_read_; ++i) {
             next_line(i, *points_read_, "NPOIN");
@@ -127,10 +131,10 @@ private:
     void read_marker() {
         if (!open_tag_) in_.fail("MARKER_ELEMS= without a MARKER_TAG= before it");
         open_tag_ = false;
-        const std::size_t n = count({}, "MARKER_ELEMS");
+        const std::size_t n = read_count({}, "MARKER_ELEMS");
         for (std::size_t i = 0; i < n; ++i) {
             next_line(i, n, "MARKER_ELEMS");
-            if (const auto type = in_.number<unsigned>("type of boundary edge"); type != line_type)
+            if (const auto type = in_.number<unsigned>("type of boundary edge"); type != vtk_line)
                 in_.fail(fmt::format("boundary edge of type {}: only 3 (line) can be read", type));
             const VertexId a = vertex(), b = vertex();
             mesh_.markers.back().edges.push_back({a, b});
@@ -139,10 +143,10 @@ private:
     }
 
     TextLines in_;
-    std::size_t points_;
+    std::size_t points_;  ///< number of points that the file announces
     Mesh mesh_;
-    std::optional<std::size_t> dimension_, cells_, points_read_, announced_;
-    bool open_tag_ = false;
+    std::optional<std::size_t> dimension_, cells_, points_read_, announced_markers_;  ///< of the sections read so far
+    bool open_tag_ = false;  ///< whether the last marker has a name, but no edges yet
 };
 
 }  // namespace
@@ -153,7 +157,7 @@ void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream
     const std::size_t triangles = mesh.triangles.size(), cells = triangles + mesh.quads.size();
     out << "NDIME= 2\nNELEM= " << cells << '\n';
     write_lines(out, cells, [&](LineText& line, std::size_t i) {
-        line << std::size_t{i < triangles ? triangle_type : quad_type};
+        line << std::size_t{i < triangles ? vtk_triangle : vtk_quad};
         if (i < triangles)
             for (const VertexId v : mesh.triangles[i].v) line << v.index();
         else
@@ -166,7 +170,7 @@ void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream
     for (const Marker& marker : mesh.markers) {
         out << "MARKER_TAG= " << marker.name << "\nMARKER_ELEMS= " << marker.edges.size() << '\n';
         write_lines(out, marker.edges.size(), [&](LineText& line, std::size_t i) {
-            line << std::size_t{line_type} << marker.edges[i].a.index() << marker.edges[i].b.index();
+            line << std::size_t{vtk_line} << marker.edges[i].a.index() << marker.edges[i].b.index();
         });
     }
 }

@@ -1,4 +1,4 @@
-// Fast writing of text formats: lines are put together in parallel blocks and sent in order.
+// Fast writing of text formats: lines are formatted in parallel and written in order.
 #pragma once
 
 #include <charconv>
@@ -13,8 +13,7 @@
 
 namespace lamina::io {
 
-/// One line in the making: numbers and words, one blank between them, behind each other in a buffer that is long
-/// enough.
+/// One line in the making: numbers and words with one blank between them. The buffer must be long enough for them.
 class LineText {
 public:
     explicit LineText(char* at) : at_(at) {}
@@ -29,13 +28,13 @@ public:
         *at_++ = ' ';
         return *this;
     }
-    /// 17 significant digits: every double comes back as it was.
+    /// Adds a number with 17 significant digits, which every double is read back from exactly.
     LineText& operator<<(double value) {
         at_ = std::to_chars(at_, at_ + 30, value, std::chars_format::scientific, 16).ptr;
         *at_++ = ' ';
         return *this;
     }
-    /// The same, without an exponent where it is shorter so.
+    /// Adds a number with 17 significant digits, without an exponent where that is shorter.
     LineText& general(double value) {
         at_ = std::to_chars(at_, at_ + 30, value, std::chars_format::general, 17).ptr;
         *at_++ = ' ';
@@ -47,7 +46,7 @@ public:
         *at_++ = ' ';
         return *this;
     }
-    /// A word without a blank behind it.
+    /// Adds a word without a blank behind it.
     LineText& tight(std::string_view word) {
         at_ += word.copy(at_, word.size());
         return *this;
@@ -57,6 +56,7 @@ public:
         --at_;
         return *this;
     }
+    /// Replaces the last blank by the end of the line, and returns the position behind it.
     char* end_line() {
         at_[-1] = '\n';
         return at_;
@@ -66,18 +66,18 @@ private:
     char* at_;
 };
 
-/// Enough for eight indices, or an index and three coordinates.
-inline constexpr std::size_t longest_line = 128;
+/// Room for eight indices, or for an index and three coordinates.
+inline constexpr std::size_t default_line_bytes = 128;
 
-/// Line i is what put_line(LineText&, i) puts in, at most `longest` bytes with its end. Formatted in parallel, a
-/// bounded number of blocks at a time.
+/// Writes n lines. Line i is what put_line(LineText&, i) adds, at most `max_line_bytes` bytes with its end. Memory
+/// holds a bounded number of lines at a time.
 template <class F>
-void write_lines(std::ostream& out, std::size_t n, F&& put_line, std::size_t longest = longest_line) {
+void write_lines(std::ostream& out, std::size_t n, F&& put_line, std::size_t max_line_bytes = default_line_bytes) {
     constexpr std::size_t grain = 1 << 13;
     const std::size_t batch = grain * 4 * thread_count();
     for (std::size_t start = 0; start < n; start += batch) {
         const auto format_block = [&](std::size_t begin, std::size_t end) {
-            std::string text((end - begin) * longest, '\0');
+            std::string text((end - begin) * max_line_bytes, '\0');
             char* p = text.data();
             for (std::size_t i = start + begin; i < start + end; ++i) {
                 LineText line(p);

@@ -1,4 +1,4 @@
-// Reader and writer of Triangle's files; see triangle_files.hpp.
+// Reads and writes the files of Triangle.
 #include <lamina/triangle_files.hpp>
 
 #include <algorithm>
@@ -16,6 +16,7 @@
 #include <lamina/predicates.hpp>
 
 #include "core/atomic_file.hpp"
+#include "io/file_names.hpp"
 #include "io/text_lines.hpp"
 #include "io/text_output.hpp"
 #include "mesh/adjacency.hpp"
@@ -28,18 +29,19 @@ namespace {
 
 // --- Reading
 
-/// Lines of Triangle's files.
+/// The lines of one of Triangle's files.
 class NumberLines : public TextLines {
 public:
     NumberLines(std::string_view bytes, std::string file) : TextLines(bytes, std::move(file), '#', " \t\r,\f\v") {}
 
     using TextLines::next;
-    void next(const char* what) {
-        if (!next()) fail(fmt::format("the file ends where {} is expected", what));
+    /// Goes to the next line; `contents` names it in errors.
+    void next(const char* contents) {
+        if (!next()) fail(fmt::format("the file ends where {} is expected", contents));
     }
-    double real(const char* what) {
-        const auto value = number<double>(what);
-        if (!std::isfinite(value)) fail(fmt::format("{} is not a finite number", what));
+    double real(const char* meaning) {
+        const auto value = number<double>(meaning);
+        if (!std::isfinite(value)) fail(fmt::format("{} is not a finite number", meaning));
         return value;
     }
     Point point() {
@@ -48,14 +50,14 @@ public:
         return {x, y};
     }
     template <class T>
-    T number_or(T otherwise, const char* what) {
-        return at_end() ? otherwise : number<T>(what);
+    T number_or(T otherwise, const char* meaning) {
+        return at_end() ? otherwise : number<T>(meaning);
     }
-    /// A number of lines to come: each has at least two bytes, so that absurd counts are refused before memory is asked
-    /// for.
-    std::size_t count(const char* what) {
-        const auto n = number<std::size_t>(what);
-        if (n > bytes_left() / 2 + 1) fail(fmt::format("{}: {}, but the file is shorter than that", what, n));
+    /// Reads the number of lines that follow. A line has at least two bytes, so a damaged count is refused before
+    /// memory is asked for.
+    std::size_t count(const char* meaning) {
+        const auto n = number<std::size_t>(meaning);
+        if (n > bytes_left() / 2 + 1) fail(fmt::format("{}: {}, but the file is shorter than that", meaning, n));
         return n;
     }
     void end_line() {
@@ -63,7 +65,8 @@ public:
     }
 };
 
-/// "vertices dimension attributes markers", then "index x y [attributes] [marker]" each. False if there are none.
+/// Reads "vertices dimension attributes markers", and "index x y [attributes] [marker]" for each vertex. Returns
+/// whether there are any.
 bool read_vertices(NumberLines& in, TriangleInput& input) {
     in.next("the number of vertices");
     const std::size_t n = in.count("number of vertices");
@@ -151,7 +154,7 @@ void read_holes_and_regions(NumberLines& in, TriangleInput& input) {
         in.number<std::size_t>("region index");
         TriangleRegion region;
         region.at = in.point();
-        // With one number only, it is the attribute and the area bound at once, as Triangle reads it.
+        // A single number is the attribute and the area bound at once, as in Triangle.
         region.attribute = in.real("regional attribute");
         region.max_area = in.at_end() ? region.attribute : in.real("area bound");
         in.end_line();
@@ -162,9 +165,6 @@ void read_holes_and_regions(NumberLines& in, TriangleInput& input) {
 
 // --- Writing
 
-using io::LineText;
-using io::write_lines;
-
 LineText& put(LineText& line, Point p) { return line.general(p.x).general(p.y); }
 
 void write_node(const TriangleOutput& o, std::ostream& out) {
@@ -174,19 +174,19 @@ void write_node(const TriangleOutput& o, std::ostream& out) {
         for (std::size_t a = 0; a < o.attribute_count; ++a) line.general(o.attributes[i * o.attribute_count + a]);
         if (!o.markers.empty()) line << o.markers[i];
     };
-    write_lines(out, o.points.size(), put_vertex, io::longest_line + 30 * o.attribute_count);
+    write_lines(out, o.points.size(), put_vertex, default_line_bytes + 30 * o.attribute_count);
 }
 
 void write_ele(const TriangleOutput& o, std::ostream& out) {
-    out << fmt::format("{} 3 {}\n", o.triangles.size(), o.regional.empty() ? 0 : 1);
+    out << fmt::format("{} 3 {}\n", o.triangles.size(), o.triangle_attributes.empty() ? 0 : 1);
     write_lines(out, o.triangles.size(), [&](LineText& line, std::size_t i) {
         line << i + o.first_index;
         for (const VertexId v : o.triangles[i].v) line << v.index() + o.first_index;
-        if (!o.regional.empty()) line.general(o.regional[i]);
+        if (!o.triangle_attributes.empty()) line.general(o.triangle_attributes[i]);
     });
 }
 
-/// Lines "index a b [marker]", as segments and edges have them.
+/// Writes segments or edges: their number, and a line "index a b [marker]" for each.
 void write_pairs(const TriangleOutput& o, const std::vector<Segment>& pairs, const std::vector<long>& markers,
                  std::ostream& out) {
     out << fmt::format("{} {}\n", pairs.size(), markers.empty() ? 0 : 1);
@@ -196,7 +196,7 @@ void write_pairs(const TriangleOutput& o, const std::vector<Segment>& pairs, con
     });
 }
 
-/// Vertices stand in the .node file.
+/// Writes a .poly file without vertices, which are in the .node file.
 void write_poly(const TriangleOutput& o, std::ostream& out) {
     for (const std::string& comment : o.comments) out << "# " << comment << '\n';
     out << fmt::format("0 2 {} {}\n", o.attribute_count, o.markers.empty() ? 0 : 1);
@@ -209,12 +209,6 @@ void write_poly(const TriangleOutput& o, std::ostream& out) {
     write_lines(out, o.regions.size(), [&](LineText& line, std::size_t i) {
         put(line << i + o.first_index, o.regions[i].at).general(o.regions[i].attribute).general(o.regions[i].max_area);
     });
-}
-
-fs::path with_suffix(const fs::path& stem, const char* suffix) {
-    fs::path file = stem;
-    file += suffix;
-    return file;
 }
 
 }  // namespace
@@ -256,7 +250,7 @@ std::vector<Triangle> read_triangle_elements(const fs::path& file, std::size_t f
     NumberLines in(bytes, file.string());
     in.next("the number of triangles");
     const std::size_t n = in.count("number of triangles");
-    if (in.number_or<std::size_t>(3, "vertices a triangle") != 3)
+    if (in.number_or<std::size_t>(3, "number of vertices per triangle") != 3)
         in.fail("only triangles of three vertices can be read");
     const auto attributes = in.number_or<std::size_t>(0, "number of attributes");
     in.end_line();
@@ -286,9 +280,9 @@ void mark_boundary(TriangleOutput& output) {
     for (const std::uint32_t edge : adjacency.boundary)
         for (const VertexId v : {edges.origin(edge), edges.target(edge)})
             if (output.markers[v.index()] == 0) output.markers[v.index()] = 1;
-    const std::vector<std::uint32_t> edge_of_segment = mesh::find_edges(mesh, output.segments);
+    const std::vector<std::uint32_t> segment_edges = mesh::find_edges(mesh, output.segments);
     for (std::size_t i = 0; i < output.segments.size(); ++i) {
-        const std::uint32_t edge = edge_of_segment[i];
+        const std::uint32_t edge = segment_edges[i];
         if (output.segment_markers[i] == 0 && edge != mesh::no_edge && adjacency.twin[edge] == mesh::no_edge)
             output.segment_markers[i] = 1;
     }

@@ -1,6 +1,6 @@
-// Meshes as the files of Triangle: .node, .ele, .edge and .poly of one stem. Markers have numbers from 1; comments at
-// the head of the .poly file, "# marker NUMBER KIND NAME", hold their names. The .poly file has the segments of the
-// markers and no holes.
+// Writes and reads meshes as the files of Triangle: .node, .ele, .edge and .poly of one stem. Markers are numbered from
+// 1 on; comments at the head of the .poly file, "# marker NUMBER KIND NAME", hold their kinds and names. The .poly file
+// has the edges of the markers as segments, and no holes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +12,9 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
-
 #include <lamina/triangle_files.hpp>
+
+#include "io/file_names.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
 #include "mesh/adjacency.hpp"
@@ -24,13 +25,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<const char*, 4> kind_names{"wall", "far_field", "symmetry", "other"};  // as MarkerKind
+constexpr std::array<const char*, 4> kind_names{"wall", "far_field", "symmetry",
+                                                "other"};  // in the order of MarkerKind
 
 fs::path stem_of(const fs::path& file) { return fs::path(file).replace_extension(); }
 
-fs::path with_suffix(fs::path stem, const char* suffix) { return stem += suffix; }
-
-/// Each edge once, from its smaller vertex, with the number of its marker.
+/// Adds each edge of the mesh once, from its smaller vertex, with the number of its marker.
 void add_edges(const Mesh& mesh, TriangleOutput& output) {
     const mesh::Adjacency adjacency = mesh::find_adjacency(mesh);
     const mesh::CellEdges edges(mesh);
@@ -53,7 +53,7 @@ struct NamedMarker {
     MarkerKind kind = MarkerKind::other;
 };
 
-/// From the comments at the head of a .poly file.
+/// Reads the names and kinds of markers from the comments at the head of a .poly file.
 std::map<long, NamedMarker> read_names(const fs::path& file) {
     std::map<long, NamedMarker> names;
     const std::string bytes = read_file(file);
@@ -89,8 +89,8 @@ void write_triangle_mesh(const Mesh& mesh, const fs::path& file) {
     output.points = mesh.points;
     output.markers.assign(mesh.points.size(), 0);
     output.triangles = mesh.triangles;
-    for (const Region region : mesh.region) output.regional.push_back(static_cast<double>(region));
-    for (std::size_t m = mesh.markers.size(); m-- > 0;)  // the first one of a vertex counts
+    for (const Region region : mesh.region) output.triangle_attributes.push_back(static_cast<double>(region));
+    for (std::size_t m = mesh.markers.size(); m-- > 0;)  // a vertex gets the first of its markers
         for (const Segment& edge : mesh.markers[m].edges)
             output.markers[edge.a.index()] = output.markers[edge.b.index()] = static_cast<long>(m + 1);
     for (std::size_t m = 0; m < mesh.markers.size(); ++m) {
@@ -117,7 +117,7 @@ Mesh read_triangle_mesh(const fs::path& file) {
     std::map<long, std::size_t> marker_of;
     for (std::size_t i = 0; i < input.segment_markers.size(); ++i) {
         const long number = input.segment_markers[i];
-        if (number == 0) continue;  // inner segments
+        if (number == 0) continue;  // a segment inside the mesh
         const auto [found, is_new] = marker_of.try_emplace(number, mesh.markers.size());
         if (is_new) {
             const auto named = names.find(number);

@@ -1,11 +1,13 @@
 // Sources: VTK User's Guide, "VTK File Formats", XML; base64: RFC 4648.
 //
-// What is stored of a binary array, with numbers of the header's width:
+// A binary array is stored as follows; all numbers have the width of the header:
 //   plain         [bytes][data]
-//   compressed    [blocks][bytes of a block][bytes of the last, 0 = as the others][compressed bytes of each], then the
-//                 blocks, each a zlib stream
-// In base64 what is written at one go is encoded by itself and may end in padding: a plain array as a whole, headers
-// and the blocks behind them each. A decoder that begins anew behind padding needs not know which.
+//   compressed    [blocks][bytes of a block][bytes of the last block, 0 = as the others][compressed bytes of each],
+//   then
+//                 the blocks, each a zlib stream
+// In base64, VTK encodes each part that it writes at once by itself, and the part may end in padding: a plain array as
+// a whole, but the header of a compressed array and the blocks behind it each by themselves. A decoder that begins anew
+// behind padding need not know where the parts end.
 #include "io/vtk_xml.hpp"
 
 #include <fmt/format.h>
@@ -15,87 +17,21 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
 #include <lamina/error.hpp>
 
+#include "io/number_text.hpp"
+
 namespace lamina::io {
 
 namespace {
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
-/// An element's name and attributes; closing ones have a name that begins with '/'.
-struct Tag {
-    std::string_view name;
-    std::map<std::string_view, std::string_view> attributes;
-};
-
-/// Just enough XML for what VTK writes: tags with quoted attributes, comments, and text, which is skipped.
-class TagReader {
-public:
-    explicit TagReader(std::string_view text) : text_(text) {}
-
-    /// False at the end of the text, also where it ends within a tag.
-    bool next(Tag& tag) {
-        tag = {};
-        std::size_t start = text_.find('<', at_);
-        while (start != std::string_view::npos && text_.substr(start).starts_with("<!--")) {
-            const std::size_t end = text_.find("-->", start);
-            start = end == std::string_view::npos ? end : text_.find('<', end);
-        }
-        if (start == std::string_view::npos) return false;
-        at_ = start + 1;
-        tag.name = word();
-        while (at_ < text_.size()) {
-            skip_space();
-            if (at_ < text_.size() && (text_[at_] == '/' || text_[at_] == '?')) {
-                ++at_;
-            } else if (at_ < text_.size() && text_[at_] == '>') {
-                ++at_;
-                return true;
-            } else if (!attribute(tag)) {
-                return false;
-            }
-        }
-        return false;
-    }
-    /// Behind the last tag.
-    std::size_t position() const { return at_; }
-
-private:
-    void skip_space() {
-        while (at_ < text_.size() && is_space(text_[at_])) ++at_;
-    }
-    std::string_view word() {
-        const std::size_t start = at_;
-        if (at_ < text_.size() && (text_[at_] == '/' || text_[at_] == '?')) ++at_;
-        while (at_ < text_.size() && !is_space(text_[at_]) && text_[at_] != '=' && text_[at_] != '>' &&
-               text_[at_] != '/' && text_[at_] != '?')
-            ++at_;
-        return text_.substr(start, at_ - start);
-    }
-    bool attribute(Tag& tag) {
-        const std::string_view key = word();
-        skip_space();
-        if (key.empty() || at_ >= text_.size() || text_[at_] != '=') return false;
-        ++at_;
-        skip_space();
-        if (at_ >= text_.size() || (text_[at_] != '"' && text_[at_] != '\'')) return false;
-        const std::size_t start = at_ + 1, end = text_.find(text_[at_], start);
-        if (end == std::string_view::npos) return false;
-        tag.attributes[key] = text_.substr(start, end - start);
-        at_ = end + 1;
-        return true;
-    }
-
-    std::string_view text_;
-    std::size_t at_ = 0;
-};
-
 constexpr unsigned char no_digit = 0xff;
 
+/// Returns the value of each character of base64, and no_digit for all others.
 constexpr std::array<unsigned char, 256> base64_digits() {
     std::array<unsigned char, 256> digits{};
     digits.fill(no_digit);
@@ -105,28 +41,33 @@ constexpr std::array<unsigned char, 256> base64_digits() {
     return digits;
 }
 
+bool is_section(std::string_view tag_name) {
+    constexpr std::array<std::string_view, 5> sections{"FieldData", "PointData", "CellData", "Points", "Cells"};
+    return std::find(sections.begin(), sections.end(), tag_name) != sections.end();
+}
+
 }  // namespace
 
-/// The bytes stored for an array, one piece after the other.
-class VtkXmlFile::Stream {
+/// The bytes stored for an array, read part by part and decoded from base64 where needed.
+class VtkXmlFile::ByteStream {
 public:
-    Stream(const VtkXmlFile& file, const std::string& name, std::size_t at, Encoding encoding)
-        : file_(file), name_(name), at_(at), base64_(encoding == Encoding::base64) {}
+    ByteStream(const VtkXmlFile& file, const std::string& name, std::size_t at, ArrayEncoding encoding)
+        : file_(file), name_(name), at_(at), base64_(encoding == ArrayEncoding::base64) {}
 
-    /// Good until the next call.
-    std::string_view bytes(std::size_t count) {
+    /// Reads this number of bytes. The result is valid until the next call.
+    std::string_view read(std::size_t count) {
         const std::string& all = file_.bytes_;
-        // Three bytes of four figures, so there are never fewer bytes left than asked for.
+        // Four characters of base64 make three bytes, so the file must hold at least `count` bytes in either case.
         if (at_ > all.size() || all.size() - at_ + carried_.size() < count) fail();
-        if (base64_) return decoded(count);
+        if (base64_) return read_base64(count);
         at_ += count;
         return std::string_view(all).substr(at_ - count, count);
     }
-    /// A number of the header.
-    std::size_t number() {
+    /// Reads a number of the header.
+    std::size_t read_number() {
         char stored[8] = {};
-        const std::string_view bytes_of_number = bytes(file_.header_bytes_);
-        std::copy(bytes_of_number.begin(), bytes_of_number.end(), stored);
+        const std::string_view bytes = read(file_.header_bytes_);
+        std::copy(bytes.begin(), bytes.end(), stored);
         if (file_.order_ == ByteOrder::big) std::reverse(stored, stored + file_.header_bytes_);
         std::uint64_t value = 0;
         std::memcpy(&value, stored, sizeof value);
@@ -136,33 +77,36 @@ public:
 private:
     [[noreturn]] void fail() const { file_.fail(fmt::format("cut short within array '{}'", name_)); }
 
-    std::string_view decoded(std::size_t count) {
-        static constexpr std::array<unsigned char, 256> digits = base64_digits();
+    std::string_view read_base64(std::size_t count) {
         buffer_ = carried_;
         buffer_.reserve(count + 3);
-        while (buffer_.size() < count) {
-            unsigned quantum = 0, figures = 0, padding = 0;
-            while (figures + padding < 4) {
-                if (at_ == file_.bytes_.size()) fail();
-                const char c = file_.bytes_[at_++];
-                if (is_space(c)) continue;
-                const unsigned char digit = digits[static_cast<unsigned char>(c)];
-                if (digit == no_digit ? c != '=' || figures < 2 : padding > 0) fail();
-                (digit == no_digit ? padding : figures) += 1;
-                quantum = quantum << 6 | (digit == no_digit ? 0u : digit);
-            }
-            for (unsigned i = 0; i < 3 - padding; ++i) buffer_.push_back(static_cast<char>(quantum >> (16 - 8 * i)));
-        }
+        while (buffer_.size() < count) decode_quantum();
         carried_ = buffer_.substr(count);
         buffer_.resize(count);
         return buffer_;
+    }
+    /// Decodes four characters to three bytes, or to fewer where the characters end in padding.
+    void decode_quantum() {
+        static constexpr std::array<unsigned char, 256> digits = base64_digits();
+        unsigned quantum = 0, figures = 0, padding = 0;
+        while (figures + padding < 4) {
+            if (at_ == file_.bytes_.size()) fail();
+            const char c = file_.bytes_[at_++];
+            if (is_blank(c)) continue;
+            const unsigned digit = digits[static_cast<unsigned char>(c)];
+            if (digit == no_digit ? c != '=' || figures < 2 : padding > 0) fail();
+            (digit == no_digit ? padding : figures) += 1;
+            quantum = quantum << 6 | (digit == no_digit ? 0u : digit);
+        }
+        for (unsigned i = 0; i < 3 - padding; ++i) buffer_.push_back(static_cast<char>(quantum >> (16 - 8 * i)));
     }
 
     const VtkXmlFile& file_;
     const std::string& name_;
     std::size_t at_;
     bool base64_;
-    std::string buffer_, carried_;  ///< decoded: the last piece, and what is left of its last quantum
+    std::string buffer_;   ///< the decoded bytes of the last call
+    std::string carried_;  ///< decoded bytes behind them
 };
 
 VtkXmlFile::VtkXmlFile(const std::string& bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {
@@ -171,69 +115,85 @@ VtkXmlFile::VtkXmlFile(const std::string& bytes, std::string file) : bytes_(byte
 
 void VtkXmlFile::fail(const std::string& reason) const { throw InputError({file_, 0, {}}, reason); }
 
+// --- Tags
+
 void VtkXmlFile::read_tags() {
-    TagReader tags(bytes_);
-    Tag tag;
-    const auto value = [&](std::string_view attribute, std::string_view standard = {}) {
-        const auto found = tag.attributes.find(attribute);
-        return found == tag.attributes.end() ? standard : found->second;
-    };
-    const auto one_of = [&](std::string_view attribute, std::string_view standard,
-                            std::initializer_list<std::string_view> known) {
-        const std::string_view found = value(attribute, standard);
-        if (std::find(known.begin(), known.end(), found) == known.end())
-            fail(fmt::format("<{}> with {}=\"{}\" cannot be read", tag.name, attribute, found));
-        return found;
-    };
-    const auto number = [&](std::string_view attribute) {
-        const std::string_view text = value(attribute);
-        std::size_t result = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
-        if (error != std::errc{} || end != text.data() + text.size())
-            fail(fmt::format("no number in attribute '{}' of <{}>", attribute, tag.name));
-        return result;
-    };
+    VtkTagReader tags(bytes_);
+    VtkTag tag;
     std::string_view section;
     bool is_vtu = false, has_piece = false, has_appended = false, is_whole = false;
     while (!is_whole && tags.next(tag)) {
         if (tag.name == "VTKFile") {
-            one_of("type", {}, {"UnstructuredGrid"});
-            if (one_of("byte_order", "LittleEndian", {"LittleEndian", "BigEndian"}) == "BigEndian")
-                order_ = ByteOrder::big;
-            if (one_of("header_type", "UInt32", {"UInt32", "UInt64"}) == "UInt64") header_bytes_ = 8;
-            compressed_ = one_of("compressor", {}, {"", "vtkZLibDataCompressor"}) != "";
+            read_file_tag(tag);
             is_vtu = true;
-        } else if (tag.name == "/VTKFile") {
-            is_whole = true;
         } else if (tag.name == "Piece") {
             if (has_piece) fail("files of more than one piece cannot be read");
             has_piece = true;
-            points_ = number("NumberOfPoints");
-            cells_ = number("NumberOfCells");
-        } else if (tag.name == "FieldData" || tag.name == "PointData" || tag.name == "CellData" ||
-                   tag.name == "Points" || tag.name == "Cells") {
+            points_ = number_attribute(tag, "NumberOfPoints");
+            cells_ = number_attribute(tag, "NumberOfCells");
+        } else if (is_section(tag.name)) {
             section = tag.name;
         } else if (tag.name == "DataArray") {
-            const std::string_view format = one_of("format", "ascii", {"ascii", "binary", "appended"});
-            Array array{.type = std::string(value("type")),
-                        .encoding = format == "ascii" ? Encoding::ascii : Encoding::base64,
-                        .at = tags.position(),
-                        .appended = format == "appended",
-                        .components = value("NumberOfComponents", "1") == "1" ? 1 : number("NumberOfComponents")};
-            if (array.appended) array.at = number("offset");
-            arrays_[fmt::format("{}/{}", section, section == "Points" ? "" : value("Name"))] = std::move(array);
+            read_array_tag(tag, section, tags.position());
         } else if (tag.name == "AppendedData") {
-            if (one_of("encoding", "base64", {"raw", "base64"}) == "base64") appended_encoding_ = Encoding::base64;
-            const std::size_t underscore = bytes_.find('_', tags.position());
-            if (underscore == std::string::npos) break;
-            appended_ = underscore + 1;
-            has_appended = is_whole = true;
+            has_appended = is_whole = read_appended_tag(tag, tags.position());
+            if (!has_appended) break;
+        } else if (tag.name == "/VTKFile") {
+            is_whole = true;
         }
     }
     const bool needs_appended =
         std::any_of(arrays_.begin(), arrays_.end(), [](const auto& array) { return array.second.appended; });
     if (!is_vtu || !has_piece || !is_whole || (needs_appended && !has_appended)) fail("not a VTU file, or cut short");
 }
+
+void VtkXmlFile::read_file_tag(const VtkTag& tag) {
+    word_attribute(tag, "type", {}, {"UnstructuredGrid"});
+    if (word_attribute(tag, "byte_order", "LittleEndian", {"LittleEndian", "BigEndian"}) == "BigEndian")
+        order_ = ByteOrder::big;
+    if (word_attribute(tag, "header_type", "UInt32", {"UInt32", "UInt64"}) == "UInt64") header_bytes_ = 8;
+    compressed_ = !word_attribute(tag, "compressor", {}, {"", "vtkZLibDataCompressor"}).empty();
+}
+
+/// Notes an array of this section. `position` is the position behind the tag.
+void VtkXmlFile::read_array_tag(const VtkTag& tag, std::string_view section, std::size_t position) {
+    const std::string_view format = word_attribute(tag, "format", "ascii", {"ascii", "binary", "appended"});
+    ArrayHeader array{.type = std::string(tag.value("type")),
+                      .encoding = format == "ascii" ? ArrayEncoding::ascii : ArrayEncoding::base64,
+                      .appended = format == "appended",
+                      .at = position};
+    if (tag.value("NumberOfComponents", "1") != "1") array.components = number_attribute(tag, "NumberOfComponents");
+    if (array.appended) array.at = number_attribute(tag, "offset");
+    arrays_[fmt::format("{}/{}", section, section == "Points" ? "" : tag.value("Name"))] = std::move(array);
+}
+
+/// Finds the beginning of the appended data, behind an underscore. Returns false where there is none.
+bool VtkXmlFile::read_appended_tag(const VtkTag& tag, std::size_t position) {
+    if (word_attribute(tag, "encoding", "base64", {"raw", "base64"}) == "base64")
+        appended_encoding_ = ArrayEncoding::base64;
+    const std::size_t underscore = bytes_.find('_', position);
+    if (underscore == std::string::npos) return false;
+    appended_start_ = underscore + 1;
+    return true;
+}
+
+/// Returns the value of an attribute. Fails unless it is one of the known words.
+std::string_view VtkXmlFile::word_attribute(const VtkTag& tag, std::string_view attribute,
+                                            std::string_view default_value,
+                                            std::initializer_list<std::string_view> known) const {
+    const std::string_view found = tag.value(attribute, default_value);
+    if (std::find(known.begin(), known.end(), found) == known.end())
+        fail(fmt::format("<{}> with {}=\"{}\" cannot be read", tag.name, attribute, found));
+    return found;
+}
+
+std::size_t VtkXmlFile::number_attribute(const VtkTag& tag, std::string_view attribute) const {
+    const std::optional<std::size_t> number = parse_whole<std::size_t>(tag.value(attribute));
+    if (!number) fail(fmt::format("no number in attribute '{}' of <{}>", attribute, tag.name));
+    return *number;
+}
+
+// --- Arrays
 
 std::vector<std::string> VtkXmlFile::scalars(const std::string& section) const {
     std::vector<std::string> names;
@@ -242,40 +202,42 @@ std::vector<std::string> VtkXmlFile::scalars(const std::string& section) const {
     return names;
 }
 
-const VtkXmlFile::Array& VtkXmlFile::array(const std::string& name) const {
+const VtkXmlFile::ArrayHeader& VtkXmlFile::header_of(const std::string& name) const {
     const auto found = arrays_.find(name);
     if (found == arrays_.end()) fail(fmt::format("array '{}' is missing", name));
     return found->second;
 }
 
-std::size_t VtkXmlFile::start_of(const Array& array, const std::string& name) const {
+/// Returns the position of the first byte of an array.
+std::size_t VtkXmlFile::start_of(const ArrayHeader& array, const std::string& name) const {
     if (!array.appended) return array.at;
-    if (array.at > bytes_.size() - appended_) fail(fmt::format("cut short before array '{}'", name));
-    return appended_ + array.at;
+    if (array.at > bytes_.size() - appended_start_) fail(fmt::format("cut short before array '{}'", name));
+    return appended_start_ + array.at;
 }
 
+/// Returns the data of a binary array, decoded and decompressed.
 std::string VtkXmlFile::plain_bytes(const std::string& name) const {
-    const Array& stored = array(name);
-    Stream stream(*this, name, start_of(stored, name), stored.appended ? appended_encoding_ : stored.encoding);
-    return compressed_ ? inflated(stream, name) : std::string(stream.bytes(stream.number()));
+    const ArrayHeader& stored = header_of(name);
+    ByteStream stream(*this, name, start_of(stored, name), stored.appended ? appended_encoding_ : stored.encoding);
+    return compressed_ ? inflated_bytes(stream, name) : std::string(stream.read(stream.read_number()));
 }
 
-std::string VtkXmlFile::inflated(Stream& stream, const std::string& name) const {
-    const std::size_t blocks = stream.number();
+std::string VtkXmlFile::inflated_bytes(ByteStream& stream, const std::string& name) const {
+    const std::size_t blocks = stream.read_number();
     if (blocks == 0) return {};
-    const std::size_t block = stream.number(), last = stream.number();
-    const auto demand = [&](bool sound) {
+    const std::size_t block = stream.read_number(), last = stream.read_number();
+    const auto require_sound = [&](bool sound) {
         if (!sound) fail(fmt::format("array '{}' has a broken header", name));
     };
-    demand(blocks <= bytes_.size() / header_bytes_ && last <= block);
+    require_sound(blocks <= bytes_.size() / header_bytes_ && last <= block);
     std::vector<std::size_t> sizes(blocks);
-    for (std::size_t& compressed : sizes) compressed = stream.number();
+    for (std::size_t& compressed : sizes) compressed = stream.read_number();
     std::string whole;
     for (std::size_t i = 0; i < blocks; ++i) {
         const std::size_t expected = i + 1 == blocks && last > 0 ? last : block;
-        const std::string_view compressed = stream.bytes(sizes[i]);
-        // Nothing is compressed to less than a thousandth: no damaged number asks for more memory than that.
-        demand(expected / 2000 <= compressed.size());
+        const std::string_view compressed = stream.read(sizes[i]);
+        // zlib compresses nothing to less than a thousandth, so a damaged size is refused before memory is asked for.
+        require_sound(expected / 2000 <= compressed.size());
         const std::size_t so_far = whole.size();
         whole.resize(so_far + expected);
         uLongf length = expected;
@@ -288,24 +250,24 @@ std::string VtkXmlFile::inflated(Stream& stream, const std::string& name) const 
 }
 
 template <class T>
-std::vector<T> VtkXmlFile::in_figures(const std::string& name) const {
-    const std::size_t start = array(name).at, end = std::min(bytes_.find('<', start), bytes_.size());
+std::vector<T> VtkXmlFile::ascii_values(const std::string& name) const {
+    const std::size_t start = header_of(name).at, end = std::min(bytes_.find('<', start), bytes_.size());
     std::vector<T> result;
     const char* at = bytes_.data() + start;
     for (const char* const last = bytes_.data() + end;;) {
-        while (at < last && is_space(*at)) ++at;
+        while (at < last && is_blank(*at)) ++at;
         if (at == last) return result;
         T value{};
         const auto [behind, error] = std::from_chars(at, last, value);
-        if (error != std::errc{} || (behind < last && !is_space(*behind)))
-            fail(fmt::format("array '{}' holds what is no number, or out of range", name));
+        if (error != std::errc{} || (behind < last && !is_blank(*behind)))
+            fail(fmt::format("array '{}' holds something that is no number, or a number out of range", name));
         result.push_back(value);
         at = behind;
     }
 }
 
 template <class T, class Stored>
-std::vector<T> VtkXmlFile::converted(const std::string& name) const {
+std::vector<T> VtkXmlFile::binary_values(const std::string& name) const {
     const std::string plain = plain_bytes(name);
     if (plain.size() % sizeof(Stored) != 0) fail(fmt::format("array '{}' has a broken length", name));
     std::vector<T> result(plain.size() / sizeof(Stored));
@@ -320,6 +282,7 @@ std::vector<T> VtkXmlFile::converted(const std::string& name) const {
             if constexpr (std::is_integral_v<Stored>) fits = std::in_range<T>(value);
             if (!fits) fail(fmt::format("array '{}' holds a value that is out of range", name));
         }
+        // NOLINTNEXTLINE(bugprone-signed-char-misuse): the values of an Int8 array are numbers, not characters
         result[i] = static_cast<T>(value);
     }
     return result;
@@ -327,18 +290,18 @@ std::vector<T> VtkXmlFile::converted(const std::string& name) const {
 
 template <class T>
 std::vector<T> VtkXmlFile::values(const std::string& name) const {
-    const Array& stored = array(name);
-    if (stored.encoding == Encoding::ascii && !stored.appended) return in_figures<T>(name);
-    if (stored.type == "Float64") return converted<T, double>(name);
-    if (stored.type == "Float32") return converted<T, float>(name);
-    if (stored.type == "Int64") return converted<T, std::int64_t>(name);
-    if (stored.type == "UInt64") return converted<T, std::uint64_t>(name);
-    if (stored.type == "Int32") return converted<T, std::int32_t>(name);
-    if (stored.type == "UInt32") return converted<T, std::uint32_t>(name);
-    if (stored.type == "Int16") return converted<T, std::int16_t>(name);
-    if (stored.type == "UInt16") return converted<T, std::uint16_t>(name);
-    if (stored.type == "Int8") return converted<T, std::int8_t>(name);
-    if (stored.type == "UInt8") return converted<T, std::uint8_t>(name);
+    const ArrayHeader& stored = header_of(name);
+    if (stored.encoding == ArrayEncoding::ascii && !stored.appended) return ascii_values<T>(name);
+    if (stored.type == "Float64") return binary_values<T, double>(name);
+    if (stored.type == "Float32") return binary_values<T, float>(name);
+    if (stored.type == "Int64") return binary_values<T, std::int64_t>(name);
+    if (stored.type == "UInt64") return binary_values<T, std::uint64_t>(name);
+    if (stored.type == "Int32") return binary_values<T, std::int32_t>(name);
+    if (stored.type == "UInt32") return binary_values<T, std::uint32_t>(name);
+    if (stored.type == "Int16") return binary_values<T, std::int16_t>(name);
+    if (stored.type == "UInt16") return binary_values<T, std::uint16_t>(name);
+    if (stored.type == "Int8") return binary_values<T, std::int8_t>(name);
+    if (stored.type == "UInt8") return binary_values<T, std::uint8_t>(name);
     fail(fmt::format("array '{}' has the unknown type '{}'", name, stored.type));
 }
 

@@ -1,68 +1,82 @@
-// Files in VTK's XML formats: the tags, and the arrays of numbers in whichever way they are stored.
+// Files in VTK's XML formats: their tags, and their arrays of numbers in every encoding.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "io/binary_output.hpp"
+#include "io/vtk_tags.hpp"
 
 namespace lamina::io {
 
-/// An unstructured grid of one piece. Arrays are ASCII, or binary: inline or appended, raw or base64, plain or
-/// compressed by zlib, of either byte order, with headers of 32 or 64 bits. Throws InputError with the file's name.
+/// An unstructured grid of one piece. Its arrays are in ASCII or binary; binary ones are inline or appended, raw or in
+/// base64, plain or compressed by zlib, of either byte order, with headers of 32 or 64 bits. All functions throw
+/// InputError with the name of the file.
 class VtkXmlFile {
 public:
-    /// Reads the tags. `bytes` must stay.
+    /// Reads the tags. `bytes` must outlive this object.
     VtkXmlFile(const std::string& bytes, std::string file);
 
+    /// Return the numbers of points and cells that the file announces.
     std::size_t points() const { return points_; }
     std::size_t cells() const { return cells_; }
 
-    /// Arrays are named "section/name": PointData/size, Cells/types, Points/ (that one without a name).
+    /// Returns whether the file has an array. Arrays are named "section/name": PointData/size, Cells/types. The array
+    /// of the points is named "Points/".
     bool has(const std::string& name) const { return arrays_.contains(name); }
-    /// Names without the section of its arrays of one component.
+    /// Returns the names, without the section, of the arrays of one component in a section.
     std::vector<std::string> scalars(const std::string& section) const;
-    /// The values of an array, converted from whatever type they have. Integers that T cannot hold are refused.
+    /// Returns the values of an array, converted from the type that they are stored in. Fails for integers that T
+    /// cannot hold.
     template <class T>
     std::vector<T> values(const std::string& name) const;
+    /// Fails unless the array has this number of values.
     template <class T>
     std::vector<T> values(const std::string& name, std::size_t expected) const;
 
     [[noreturn]] void fail(const std::string& reason) const;
 
 private:
-    enum class Encoding { ascii, raw, base64 };
-    struct Array {
+    enum class ArrayEncoding { ascii, raw, base64 };
+    struct ArrayHeader {
         std::string type;
-        Encoding encoding = Encoding::ascii;
-        std::size_t at = 0;  ///< first byte of what is stored, counted from the appended data's where it is there
+        ArrayEncoding encoding = ArrayEncoding::ascii;
         bool appended = false;
+        std::size_t at =
+            0;  ///< first byte of the data; for appended arrays counted from the appended data's first byte
         std::size_t components = 1;
     };
-    class Stream;
+    class ByteStream;
 
     void read_tags();
-    const Array& array(const std::string& name) const;
-    std::size_t start_of(const Array& array, const std::string& name) const;
+    void read_file_tag(const VtkTag& tag);
+    void read_array_tag(const VtkTag& tag, std::string_view section, std::size_t position);
+    bool read_appended_tag(const VtkTag& tag, std::size_t position);
+    std::string_view word_attribute(const VtkTag& tag, std::string_view attribute, std::string_view default_value,
+                                    std::initializer_list<std::string_view> known) const;
+    std::size_t number_attribute(const VtkTag& tag, std::string_view attribute) const;
+
+    const ArrayHeader& header_of(const std::string& name) const;
+    std::size_t start_of(const ArrayHeader& array, const std::string& name) const;
     std::string plain_bytes(const std::string& name) const;
-    std::string inflated(Stream& stream, const std::string& name) const;
+    std::string inflated_bytes(ByteStream& stream, const std::string& name) const;
     template <class T>
-    std::vector<T> in_figures(const std::string& name) const;
+    std::vector<T> ascii_values(const std::string& name) const;
     template <class T, class Stored>
-    std::vector<T> converted(const std::string& name) const;
+    std::vector<T> binary_values(const std::string& name) const;
 
     const std::string& bytes_;
     std::string file_;
-    std::map<std::string, Array> arrays_;
-    std::size_t appended_ = 0;  ///< first byte of appended data
-    Encoding appended_encoding_ = Encoding::raw;
+    std::map<std::string, ArrayHeader> arrays_;
+    std::size_t appended_start_ = 0;  ///< first byte of the appended data
+    ArrayEncoding appended_encoding_ = ArrayEncoding::raw;
     ByteOrder order_ = ByteOrder::little;
-    std::size_t header_bytes_ = 4;
+    std::size_t header_bytes_ = 4;  ///< bytes of a number in the header of a binary array
     bool compressed_ = false;
     std::size_t points_ = 0, cells_ = 0;
 };

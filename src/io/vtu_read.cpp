@@ -1,6 +1,6 @@
-// Reads VTK XML unstructured grids: triangles (5), quads (9) and lines (3). z, vertices and polylines (1, 2, 4) and
-// arrays that lamina does not write are ignored, and lines with marker 0 or without the array, too. What the arrays
-// mean: vtu_write.cpp. Source: VTK User's Guide, "VTK File Formats", XML.
+// Reads VTK XML unstructured grids of triangles (5), quads (9) and lines (3). Ignores z, vertices and polylines (1, 2,
+// 4), arrays that lamina does not write, and lines that are in no marker. vtu_write.cpp describes the arrays. Source:
+// VTK User's Guide, "VTK File Formats", XML.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,28 +8,30 @@
 #include <limits>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include "io/formats.hpp"
+#include "io/sizes.hpp"
+#include "io/vtk_cell_types.hpp"
 #include "io/vtk_xml.hpp"
 
 namespace lamina::io {
 
 namespace {
 
-enum CellType : std::uint8_t {
-    vertex_type = 1,
-    vertices_type = 2,
-    line_type = 3,
-    polyline_type = 4,
-    triangle_type = 5,
-    quad_type = 9
-};
+/// Returns the number of corners of a type of cell; 0 for types that cannot be read or are ignored.
+std::int64_t corners_of(std::uint8_t type) {
+    if (type == vtk_triangle) return 3;
+    if (type == vtk_quad) return 4;
+    return type == vtk_line ? 2 : 0;
+}
+
+bool is_ignored(std::uint8_t type) { return type == vtk_vertex || type == vtk_poly_vertex || type == vtk_poly_line; }
 
 class VtuReader {
 public:
-    /// Of a mesh that others may have written only points and cells count: arrays of theirs may have the names of ours.
+    /// The program that wrote the file. Only points and cells are read from the files of others, since their arrays may
+    /// have the names of ours and other meanings.
     enum class Writer { lamina, anyone };
 
     VtuReader(const std::string& bytes, const std::filesystem::path& file, Writer writer)
@@ -41,6 +43,7 @@ public:
         read_cells();
         return std::move(mesh_);
     }
+    /// Returns the sizes that the file holds as point data.
     std::vector<double> sizes() const {
         const std::string section = "PointData";
         return xml_.values<double>(section + "/" + size_array(xml_.scalars(section), file_), xml_.points());
@@ -89,60 +92,65 @@ private:
 
     void read_cells() {
         if (xml_.cells() > bytes_) xml_.fail("NumberOfCells exceeds the file");
-        const auto types = xml_.values<std::uint8_t>("Cells/types", xml_.cells());
-        const auto offsets = xml_.values<std::int64_t>("Cells/offsets", xml_.cells());
-        const auto connectivity = xml_.values<std::int64_t>("Cells/connectivity");
+        types_ = xml_.values<std::uint8_t>("Cells/types", xml_.cells());
+        offsets_ = xml_.values<std::int64_t>("Cells/offsets", xml_.cells());
+        connectivity_ = xml_.values<std::int64_t>("Cells/connectivity");
         const bool has_markers = writer_ == Writer::lamina && xml_.has("CellData/marker");
-        const auto marker = has_markers ? xml_.values<std::uint32_t>("CellData/marker", xml_.cells())
-                                        : std::vector<std::uint32_t>(xml_.cells(), 0);
+        markers_ = has_markers ? xml_.values<std::uint32_t>("CellData/marker", xml_.cells())
+                               : std::vector<std::uint32_t>(xml_.cells(), 0);
+        for (std::size_t i = 0; i < xml_.cells(); ++i) read_cell(i);
 
-        std::vector<std::size_t> triangles, quads;  // where they stand in the file
-        std::int64_t first = 0;
-        for (std::size_t i = 0; i < xml_.cells(); ++i) {
-            if (types[i] == vertex_type || types[i] == vertices_type || types[i] == polyline_type) {
-                first = offsets[i];
-                if (first < 0 || static_cast<std::size_t>(first) > connectivity.size())
-                    xml_.fail(fmt::format("cell {} ends behind the last vertex", i));
-                continue;
-            }
-            const std::int64_t corners = types[i] == triangle_type ? 3 : types[i] == quad_type ? 4 : 2;
-            if (corners == 2 && types[i] != line_type)
-                xml_.fail(fmt::format("cell {} has the unknown type {}", i, types[i]));
-            if (offsets[i] != first + corners || static_cast<std::size_t>(offsets[i]) > connectivity.size())
-                xml_.fail(fmt::format("cell {} has not the {} vertices of its type", i, corners));
-            const auto corner = [&](std::int64_t k) {
-                return vertex(connectivity[static_cast<std::size_t>(first + k)]);
-            };
-            if (corners == 3) {
-                triangles.push_back(i);
-                mesh_.triangles.push_back({{corner(0), corner(1), corner(2)}});
-            } else if (corners == 4) {
-                quads.push_back(i);
-                mesh_.quads.push_back({{corner(0), corner(1), corner(2), corner(3)}});
-            } else if (marker[i] != 0) {
-                if (marker[i] > mesh_.markers.size()) xml_.fail(fmt::format("cell {} has a marker without a name", i));
-                mesh_.markers[marker[i] - 1].edges.push_back({corner(0), corner(1)});
-            }
-            first = offsets[i];
+        std::vector<std::size_t> cells = std::move(triangles_);
+        cells.insert(cells.end(), quads_.begin(), quads_.end());
+        read_cell_array("CellData/region", cells, static_cast<std::size_t>(Region::isotropic), mesh_.region);
+        read_cell_array("CellData/piece", cells, std::numeric_limits<std::uint32_t>::max(), mesh_.piece);
+        read_cell_array("CellData/layer", cells, std::numeric_limits<std::uint16_t>::max(), mesh_.layer);
+    }
+    void read_cell(std::size_t i) {
+        const std::int64_t first = i == 0 ? 0 : offsets_[i - 1], end = offsets_[i];
+        const std::int64_t corners = corners_of(types_[i]);
+        if (is_ignored(types_[i])) {
+            if (end < 0 || static_cast<std::size_t>(end) > connectivity_.size())
+                xml_.fail(fmt::format("cell {} ends behind the last vertex", i));
+            return;
         }
-        triangles.insert(triangles.end(), quads.begin(), quads.end());
-        const auto read_cell_array = [&](const char* name, auto& target, std::size_t limit) {
-            if (writer_ != Writer::lamina || !xml_.has(name)) return;
-            const auto all = xml_.values<std::uint32_t>(name, xml_.cells());
-            for (const std::size_t i : triangles) {
-                if (all[i] > limit) xml_.fail(fmt::format("array '{}' holds a value that is out of range", name));
-                target.push_back(static_cast<typename std::decay_t<decltype(target)>::value_type>(all[i]));
-            }
-        };
-        read_cell_array("CellData/region", mesh_.region, static_cast<std::size_t>(Region::isotropic));
-        read_cell_array("CellData/piece", mesh_.piece, std::numeric_limits<std::uint32_t>::max());
-        read_cell_array("CellData/layer", mesh_.layer, std::numeric_limits<std::uint16_t>::max());
+        if (corners == 0) xml_.fail(fmt::format("cell {} has the unknown type {}", i, types_[i]));
+        if (end != first + corners || static_cast<std::size_t>(end) > connectivity_.size())
+            xml_.fail(fmt::format("cell {} has not the {} vertices of its type", i, corners));
+        const auto corner = [&](std::int64_t k) { return vertex(connectivity_[static_cast<std::size_t>(first + k)]); };
+        if (corners == 3) {
+            triangles_.push_back(i);
+            mesh_.triangles.push_back({{corner(0), corner(1), corner(2)}});
+        } else if (corners == 4) {
+            quads_.push_back(i);
+            mesh_.quads.push_back({{corner(0), corner(1), corner(2), corner(3)}});
+        } else if (markers_[i] != 0) {
+            if (markers_[i] > mesh_.markers.size()) xml_.fail(fmt::format("cell {} has a marker without a name", i));
+            mesh_.markers[markers_[i] - 1].edges.push_back({corner(0), corner(1)});
+        }
+    }
+    /// Reads an array of cell data, where the file has it, for the triangles and quads. Fails for values above the
+    /// limit.
+    template <class T>
+    void read_cell_array(const char* name, const std::vector<std::size_t>& cells, std::size_t limit,
+                         std::vector<T>& target) const {
+        if (writer_ != Writer::lamina || !xml_.has(name)) return;
+        const auto all = xml_.values<std::uint32_t>(name, xml_.cells());
+        for (const std::size_t i : cells) {
+            if (all[i] > limit) xml_.fail(fmt::format("array '{}' holds a value that is out of range", name));
+            target.push_back(static_cast<T>(all[i]));
+        }
     }
 
     VtkXmlFile xml_;
     std::filesystem::path file_;
-    std::size_t bytes_;  ///< of the whole file
+    std::size_t bytes_;  ///< size of the file
     Writer writer_;
+    std::vector<std::uint8_t> types_;             ///< per cell of the file
+    std::vector<std::int64_t> offsets_;           ///< per cell of the file: the end of its vertices in connectivity_
+    std::vector<std::int64_t> connectivity_;      ///< the vertices of all cells
+    std::vector<std::uint32_t> markers_;          ///< per cell of the file: its marker, from 1, or 0
+    std::vector<std::size_t> triangles_, quads_;  ///< positions of the mesh's cells in the file
     Mesh mesh_;
 };
 

@@ -1,15 +1,16 @@
-// VTK XML unstructured grid with one piece, all arrays appended, offsets counted from behind the underscore. Raw:
-// [length, UInt64][bytes] each. Compressed: [blocks][bytes of a block][bytes of the last if it is shorter, else 0]
-// [compressed bytes of each block], all UInt64, then the blocks, each a zlib stream.
-// Source: VTK User's Guide, "VTK File Formats", XML.
+// Writes VTK XML unstructured grids with one piece. All arrays are appended, with offsets counted from behind the
+// underscore. A raw array is stored as [length, UInt64][bytes]. A compressed array is stored as [blocks][bytes of a
+// block] [bytes of the last block if it is shorter, else 0][compressed bytes of each block], all UInt64, followed by
+// the blocks, each a zlib stream. Source: VTK User's Guide, "VTK File Formats", XML.
 //
-// Beyond points and cells the files hold, so that a mesh comes back as it was:
-//   cell data    region (0 layer, 1 isotropic), piece, layer, where the mesh has them; marker; quality (1 for the
-//                equilateral triangle and the square, 0 for flat cells)
-//   cells        triangles, quads, then each marker's edges as lines: their `marker` is 1 for the first name, ...; 0 on
-//                triangles and quads. Lines repeat nothing else: their region is 2, their piece, layer and quality 0
-//   field data   marker_names (UTF-8, a zero byte behind each: not every reader knows strings), marker_kinds (as
-//                MarkerKind), constraints (pairs of points)
+// The files hold more than points and cells, so that a mesh is read back as it was:
+//   cells        triangles, quads, then the edges of each marker as lines
+//   cell data    region (0 layer, 1 isotropic, 2 lines), piece and layer (0 on lines) where the mesh has them; marker
+//   (0
+//                on triangles and quads, 1 on the lines of the first marker, ...); quality (1 for the equilateral
+//                triangle and the square, 0 for flat cells and lines)
+//   field data   marker_names (UTF-8, with a zero byte behind each name, since not every reader knows strings),
+//                marker_kinds (in the order of MarkerKind), constraints (pairs of points)
 //   point data   wall_distance where it is asked for
 #include <fmt/format.h>
 #include <zlib.h>
@@ -26,14 +27,13 @@
 #include "core/parallel.hpp"
 #include "io/binary_output.hpp"
 #include "io/formats.hpp"
+#include "io/vtk_cell_types.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/wall_distance.hpp"
 
 namespace lamina::io {
 
 namespace {
-
-enum CellType : std::uint8_t { line_type = 3, triangle_type = 5, quad_type = 9 };
 
 template <class T>
 constexpr const char* type_name() {
@@ -45,16 +45,17 @@ constexpr const char* type_name() {
     if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
 }
 
-/// The header, and behind it the arrays it announces; raw ones are made only when they are written.
+/// Collects the XML header and the arrays that it announces, and writes both. Raw arrays are computed only when they
+/// are written.
 class VtuWriter {
 public:
     explicit VtuWriter(bool compress) : compress_(compress) {}
 
     std::string xml;
 
-    /// value(i) for each of the tuples x components values.
+    /// Announces an array of tuples x components values; value(i) returns value i.
     template <class T, class F>
-    void array(const char* name, std::size_t tuples, std::size_t components, F value, bool in_field_data = false) {
+    void add_array(const char* name, std::size_t tuples, std::size_t components, F value, bool in_field_data = false) {
         xml += fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" ", type_name<T>(),
                            name, components);
         if (in_field_data) xml += fmt::format("NumberOfTuples=\"{}\" ", tuples);
@@ -78,7 +79,7 @@ public:
     }
 
 private:
-    /// The array as it stands in the file; moves the offset of the next one behind it.
+    /// Returns an array as it is stored in the file, and moves the offset of the next one behind it.
     template <class F>
     std::string compressed(std::size_t count, std::size_t size, F&& fill) {
         constexpr std::size_t block_bytes = 1 << 18;
@@ -106,19 +107,20 @@ private:
     }
 
     bool compress_;
-    std::vector<std::function<void(std::ostream&)>> appended_;
-    std::size_t offset_ = 0;
+    std::vector<std::function<void(std::ostream&)>> appended_;  ///< writers of the arrays
+    std::size_t offset_ = 0;                                    ///< offset of the next array
 };
 
-/// Triangles, quads, then the lines of all markers.
-struct Cells {
-    explicit Cells(const Mesh& m) : mesh(m), triangles(m.triangles.size()), quads(m.quads.size()) {
+/// The cells of the file: triangles, quads, then the lines of all markers.
+struct VtuCells {
+    explicit VtuCells(const Mesh& m) : mesh(m), triangles(m.triangles.size()), quads(m.quads.size()) {
         for (std::size_t i = 0; i < m.markers.size(); ++i)
             for (const Segment& edge : m.markers[i].edges) lines.push_back({edge, static_cast<std::uint32_t>(i + 1)});
     }
+    /// Returns the number of triangles and quads.
     std::size_t inner() const { return triangles + quads; }
     std::size_t count() const { return inner() + lines.size(); }
-    /// Vertex i of all cells' vertices behind each other.
+    /// Returns vertex i in the list of the vertices of all cells.
     VertexId vertex(std::size_t i) const {
         if (i < 3 * triangles) return mesh.triangles[i / 3].v[i % 3];
         i -= 3 * triangles;
@@ -126,13 +128,13 @@ struct Cells {
         i -= 4 * quads;
         return i % 2 == 0 ? lines[i / 2].edge.a : lines[i / 2].edge.b;
     }
-    /// The number of vertices of cell i and of all before it.
+    /// Returns the number of vertices of cell i and of all cells before it.
     std::size_t offset(std::size_t i) const {
         const std::size_t n = i + 1;
         return 3 * std::min(n, triangles) + 4 * (std::clamp(n, triangles, inner()) - triangles) +
                2 * (std::max(n, inner()) - inner());
     }
-    CellType type(std::size_t i) const { return i < triangles ? triangle_type : i < inner() ? quad_type : line_type; }
+    VtkCellType type(std::size_t i) const { return i < triangles ? vtk_triangle : i < inner() ? vtk_quad : vtk_line; }
     float quality(std::size_t i) const {
         const auto at = [&](VertexId v) { return mesh.points[v.index()]; };
         if (i < triangles) {
@@ -144,75 +146,75 @@ struct Cells {
         return static_cast<float>(mesh::shape_of_quad(at(v[0]), at(v[1]), at(v[2]), at(v[3])));
     }
 
-    struct Line {
+    struct MarkerLine {
         Segment edge;
         std::uint32_t marker;  ///< from 1
     };
     const Mesh& mesh;
     std::size_t triangles, quads;
-    std::vector<Line> lines;
+    std::vector<MarkerLine> lines;
 };
 
-void put_field_data(const Mesh& mesh, VtuWriter& vtu) {
+void add_field_data(const Mesh& mesh, VtuWriter& vtu) {
     std::string names;
     for (const Marker& marker : mesh.markers) names += marker.name + '\0';
     vtu.xml += "    <FieldData>\n";
     constexpr bool in_field_data = true;
-    vtu.array<std::uint8_t>(
+    vtu.add_array<std::uint8_t>(
         "marker_names", names.size(), 1, [names](std::size_t i) { return names[i]; }, in_field_data);
-    vtu.array<std::uint32_t>(
+    vtu.add_array<std::uint32_t>(
         "constraints", mesh.constraints.size(), 2,
         [&mesh](std::size_t i) {
             const Segment& edge = mesh.constraints[i / 2];
             return i % 2 == 0 ? edge.a.value : edge.b.value;
         },
         in_field_data);
-    vtu.array<std::uint8_t>(
+    vtu.add_array<std::uint8_t>(
         "marker_kinds", mesh.markers.size(), 1, [&mesh](std::size_t i) { return mesh.markers[i].kind; }, in_field_data);
     vtu.xml += "    </FieldData>\n";
 }
 
-void put_point_data(const std::vector<double>& wall_distance, VtuWriter& vtu) {
+void add_point_data(const std::vector<double>& wall_distance, VtuWriter& vtu) {
     if (wall_distance.empty()) return;
     vtu.xml += "      <PointData>\n";
-    vtu.array<double>("wall_distance", wall_distance.size(), 1,
-                      [&wall_distance](std::size_t i) { return wall_distance[i]; });
+    vtu.add_array<double>("wall_distance", wall_distance.size(), 1,
+                          [&wall_distance](std::size_t i) { return wall_distance[i]; });
     vtu.xml += "      </PointData>\n";
 }
 
-void put_cell_data(const Mesh& mesh, const Cells& cells, VtuWriter& vtu) {
-    const auto put = [&]<class T>(const char* name, const auto& values, T of_line) {
+void add_cell_data(const Mesh& mesh, const VtuCells& cells, VtuWriter& vtu) {
+    const auto put = [&]<class T>(const char* name, const auto& values, T value_on_lines) {
         if (values.empty()) return;
-        vtu.array<T>(name, cells.count(), 1, [&values, of_line](std::size_t i) {
-            return i < values.size() ? static_cast<T>(values[i]) : of_line;
+        vtu.add_array<T>(name, cells.count(), 1, [&values, value_on_lines](std::size_t i) {
+            return i < values.size() ? static_cast<T>(values[i]) : value_on_lines;
         });
     };
     vtu.xml += "      <CellData>\n";
     put("region", mesh.region, std::uint8_t{2});
     put("piece", mesh.piece, std::uint32_t{0});
     put("layer", mesh.layer, std::uint16_t{0});
-    vtu.array<std::uint32_t>("marker", cells.count(), 1, [&cells](std::size_t i) {
+    vtu.add_array<std::uint32_t>("marker", cells.count(), 1, [&cells](std::size_t i) {
         return i < cells.inner() ? 0 : cells.lines[i - cells.inner()].marker;
     });
-    vtu.array<float>("quality", cells.count(), 1, [&cells](std::size_t i) { return cells.quality(i); });
+    vtu.add_array<float>("quality", cells.count(), 1, [&cells](std::size_t i) { return cells.quality(i); });
     vtu.xml += "      </CellData>\n";
 }
 
-void put_points(const Mesh& mesh, VtuWriter& vtu) {
+void add_points(const Mesh& mesh, VtuWriter& vtu) {
     vtu.xml += "      <Points>\n";
-    vtu.array<double>("Points", mesh.points.size(), 3, [&mesh](std::size_t i) {
+    vtu.add_array<double>("Points", mesh.points.size(), 3, [&mesh](std::size_t i) {
         const Point p = mesh.points[i / 3];
         return i % 3 == 0 ? p.x : i % 3 == 1 ? p.y : 0.0;
     });
     vtu.xml += "      </Points>\n";
 }
 
-void put_cells(const Cells& cells, VtuWriter& vtu) {
+void add_cells(const VtuCells& cells, VtuWriter& vtu) {
     const std::size_t vertices = cells.count() == 0 ? 0 : cells.offset(cells.count() - 1);
     vtu.xml += "      <Cells>\n";
-    vtu.array<std::int64_t>("connectivity", vertices, 1, [&cells](std::size_t i) { return cells.vertex(i).value; });
-    vtu.array<std::int64_t>("offsets", cells.count(), 1, [&cells](std::size_t i) { return cells.offset(i); });
-    vtu.array<std::uint8_t>("types", cells.count(), 1, [&cells](std::size_t i) { return cells.type(i); });
+    vtu.add_array<std::int64_t>("connectivity", vertices, 1, [&cells](std::size_t i) { return cells.vertex(i).value; });
+    vtu.add_array<std::int64_t>("offsets", cells.count(), 1, [&cells](std::size_t i) { return cells.offset(i); });
+    vtu.add_array<std::uint8_t>("types", cells.count(), 1, [&cells](std::size_t i) { return cells.type(i); });
     vtu.xml += "      </Cells>\n";
 }
 
@@ -220,20 +222,20 @@ void put_cells(const Cells& cells, VtuWriter& vtu) {
 
 void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out) {
     const std::vector<double> distances = variant.wall_distance ? mesh::wall_distances(mesh) : std::vector<double>{};
-    const Cells cells(mesh);
+    const VtuCells cells(mesh);
     VtuWriter vtu(variant.compressed);
     vtu.xml = fmt::format(
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
         "  <UnstructuredGrid>\n",
         variant.compressed ? " compressor=\"vtkZLibDataCompressor\"" : "");
-    put_field_data(mesh, vtu);
+    add_field_data(mesh, vtu);
     vtu.xml +=
         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.size(), cells.count());
-    put_point_data(distances, vtu);
-    put_cell_data(mesh, cells, vtu);
-    put_points(mesh, vtu);
-    put_cells(cells, vtu);
+    add_point_data(distances, vtu);
+    add_cell_data(mesh, cells, vtu);
+    add_points(mesh, vtu);
+    add_cells(cells, vtu);
     vtu.xml += "    </Piece>\n  </UnstructuredGrid>\n";
     vtu.write(out);
 }

@@ -15,11 +15,11 @@ namespace lamina::mesh {
 
 namespace {
 
-/// Cells a block: what matching their edges takes stays in the second-level cache.
+/// Number of cells in a block. The arrays that matching the edges of one block takes stay in the second-level cache.
 constexpr std::size_t block_cells = 1 << 13;
 constexpr std::size_t vertex_grain = 1 << 16;
 
-/// f(edge, origin, target) for the edges of the cells [begin, end).
+/// Calls f(edge, origin, target) for the edges of the cells [begin, end).
 template <class F>
 void for_each_edge(const Mesh& mesh, std::size_t begin, std::size_t end, F&& f) {
     const std::size_t triangles = mesh.triangles.size();
@@ -33,12 +33,13 @@ void for_each_edge(const Mesh& mesh, std::size_t begin, std::size_t end, F&& f) 
     }
 }
 
-// --- Which block a vertex belongs to, if to one alone.
+// --- Which block owns a vertex
 
+/// The owner of a vertex is the block that all its cells are in. These stand for no cell and for several blocks.
 constexpr std::uint32_t unclaimed = 0xffffffff, shared = 0xfffffffe;
 
 void claim(std::uint32_t& owner, std::uint32_t block, bool concurrently) {
-    // Plain where no other thread can come: locked exchanges cost.
+    // Locked exchanges are slow, so a single thread does without.
     if (!concurrently) {
         owner = owner == unclaimed || owner == block ? block : shared;
         return;
@@ -50,7 +51,7 @@ void claim(std::uint32_t& owner, std::uint32_t block, bool concurrently) {
     claimed.store(shared, std::memory_order_relaxed);
 }
 
-/// For each vertex the block of all its cells, `shared` between blocks, or `unclaimed` by any cell.
+/// Returns for each vertex its owner, `shared` or `unclaimed`.
 core::UninitializedArray<std::uint32_t> vertex_owners(const Mesh& mesh, std::size_t cells) {
     core::UninitializedArray<std::uint32_t> owners(mesh.points.size());
     core::parallel_for(owners.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
@@ -65,61 +66,78 @@ core::UninitializedArray<std::uint32_t> vertex_owners(const Mesh& mesh, std::siz
     return owners;
 }
 
-// --- Matching a list of edges.
+std::vector<VertexId> find_orphans(const core::UninitializedArray<std::uint32_t>& owners) {
+    const auto orphans_among = [&](std::size_t begin, std::size_t end) {
+        std::vector<VertexId> orphans;
+        for (std::size_t v = begin; v < end; ++v)
+            if (owners[v] == unclaimed) orphans.emplace_back(v);
+        return orphans;
+    };
+    std::vector<VertexId> all;
+    for (const auto& orphans : core::parallel_blocks(owners.size(), vertex_grain, orphans_among))
+        all.insert(all.end(), orphans.begin(), orphans.end());
+    return all;
+}
 
-/// An edge of a cell, without its direction.
-struct Edge {
+// --- Matching a list of edges
+
+/// An edge of a cell without its direction.
+struct UndirectedEdge {
     VertexId low, high;  ///< its ends, low <= high
     std::uint32_t number = no_edge;
 };
 
-bool same_ends(const Edge& a, const Edge& b) { return a.low == b.low && a.high == b.high; }
+bool have_same_ends(const UndirectedEdge& a, const UndirectedEdge& b) { return a.low == b.low && a.high == b.high; }
 
-/// Edges that go up, from their lower vertex, at the front, the others at the back: cells of one orientation use an
-/// edge once each way. Sorted in without a branch, which would be guessed wrong half of the time.
-class EdgeList {
+/// A list of edges. Edges that ascend, from their lower vertex to the higher one, stand at the front and the others at
+/// the back: cells of one orientation use an edge once each way. Adding an edge takes no branch, which the processor
+/// would mispredict half of the time.
+class TwoWayEdgeList {
 public:
-    explicit EdgeList(std::size_t most) : edges_(most) {}
+    explicit TwoWayEdgeList(std::size_t capacity) : edges_(capacity) {}
 
-    std::size_t most() const { return edges_.size(); }
-    /// Precondition: fewer than `most` so far.
+    std::size_t capacity() const { return edges_.size(); }
+    /// Precondition: the list is not full.
     void add(VertexId origin, VertexId target, std::size_t number) {
-        const std::uint32_t up = origin.value < target.value;
-        const std::uint32_t flip = (origin.value ^ target.value) & (up - 1);
-        edges_[ups_] = edges_[edges_.size() - 1 - downs_] = {
+        const std::uint32_t ascends = origin.value < target.value;
+        const std::uint32_t flip = (origin.value ^ target.value) & (ascends - 1);
+        edges_[ascending_] = edges_[edges_.size() - 1 - descending_] = {
             VertexId{origin.value ^ flip}, VertexId{target.value ^ flip}, static_cast<std::uint32_t>(number)};
-        ups_ += up;
-        downs_ += 1 - up;
+        ascending_ += ascends;
+        descending_ += 1 - ascends;
     }
-    const Edge& operator[](std::size_t i) const { return edges_[i]; }
-    bool is_up(std::size_t i) const { return i < ups_; }
-    /// All edges, those that go up first: for (i = begin(); i < end(); i = after(i)).
+    const UndirectedEdge& operator[](std::size_t i) const { return edges_[i]; }
+    bool ascends(std::size_t i) const { return i < ascending_; }
+    /// Run through all edges, the ascending ones first: for (i = begin(); i < end(); i = after(i)).
     std::size_t begin() const { return after(std::size_t(-1)); }
     std::size_t end() const { return edges_.size(); }
-    std::size_t after(std::size_t i) const { return i + 1 == ups_ ? edges_.size() - downs_ : i + 1; }
+    std::size_t after(std::size_t i) const { return i + 1 == ascending_ ? edges_.size() - descending_ : i + 1; }
 
 private:
-    core::UninitializedArray<Edge> edges_;
-    std::size_t ups_ = 0, downs_ = 0;
+    core::UninitializedArray<UndirectedEdge> edges_;
+    std::size_t ascending_ = 0, descending_ = 0;
 };
 
-struct Matches {
+/// The results of match(), as in Adjacency.
+struct EdgeMatches {
     std::vector<std::uint32_t> boundary, overused;
     std::size_t edges = 0;
 };
 
-/// Finds the twins in a list that holds all directed edges of every undirected edge in it.
-void match(const EdgeList& list, core::UninitializedArray<std::uint32_t>& twin, Matches& matches) {
-    constexpr std::uint32_t empty = 0xffffffff, crowded = 0x80000000;  // crowded: more cells than two, or on one side
-    const std::size_t mask = std::bit_ceil(list.most() + list.most() / 3 + 8) - 1;
-    std::vector<std::uint32_t> table(mask + 1, empty);  // the first edge of each undirected edge
-    const auto slot_of = [&](const Edge& e) -> std::uint32_t& {
-        // Successive vertices have successive rows of 8 slots: neighbours, numbered alike, share cache lines. Edges of
-        // one vertex part at once where they meet: a hub may have all of them.
+/// Finds the twins in a list that holds all directed edges of each undirected edge in it.
+void match(const TwoWayEdgeList& list, core::UninitializedArray<std::uint32_t>& twin, EdgeMatches& matches) {
+    // An entry of the table is the first edge of an undirected edge. It is marked as crowded where more than two cells,
+    // or two cells on one side, share the edge.
+    constexpr std::uint32_t empty = 0xffffffff, crowded = 0x80000000;
+    const std::size_t mask = std::bit_ceil(list.capacity() + list.capacity() / 3 + 8) - 1;
+    std::vector<std::uint32_t> table(mask + 1, empty);
+    const auto slot_of = [&](const UndirectedEdge& e) -> std::uint32_t& {
+        // Successive vertices have successive rows of 8 slots, so that neighbours, which have similar numbers, share
+        // cache lines. The step depends on the other end, since all edges of a hub may meet in one row.
         const std::uint32_t row = e.low.value ^ (e.low.value >> 12) * 0x9e3779b1u, hash = e.high.value * 0x85ebca6bu;
         const std::size_t step = hash >> 8 | 1;
         std::size_t slot = (std::size_t{row} * 8 + (hash >> 29)) & mask;
-        while (table[slot] != empty && !same_ends(list[table[slot] & ~crowded], e)) slot = (slot + step) & mask;
+        while (table[slot] != empty && !have_same_ends(list[table[slot] & ~crowded], e)) slot = (slot + step) & mask;
         return table[slot];
     };
     std::size_t distinct = 0, pairs = 0;
@@ -134,7 +152,7 @@ void match(const EdgeList& list, core::UninitializedArray<std::uint32_t>& twin, 
         }
         const std::size_t first = slot & ~crowded;
         const std::uint32_t other = list[first].number, others_twin = twin[other];
-        if (!(slot & crowded) && others_twin == no_edge && list.is_up(first) && !list.is_up(i)) {
+        if (!(slot & crowded) && others_twin == no_edge && list.ascends(first) && !list.ascends(i)) {
             twin[other] = mine;
             twin[mine] = other;
             ++pairs;
@@ -155,43 +173,45 @@ void match(const EdgeList& list, core::UninitializedArray<std::uint32_t>& twin, 
         if (i != empty && !(i & crowded) && twin[list[i].number] == no_edge) matches.boundary.push_back(list[i].number);
 }
 
-// --- Blocks of cells first, then what lies between them.
+// --- Edges between blocks
 
-struct DirectedEdge {
+/// A directed edge whose ends are both shared between blocks.
+struct SharedEdge {
     VertexId origin, target;
     std::uint32_t number = no_edge;
 };
 
-/// Edges whose ends are both shared between blocks, dealt by their ends: bucket k is [start[k], start[k + 1]).
-struct Dealt {
-    std::vector<DirectedEdge> edges;
+/// Edges sorted into buckets by a hash of their ends: bucket k is [start[k], start[k + 1]).
+struct EdgeBuckets {
+    std::vector<SharedEdge> edges;
     std::vector<std::uint32_t> start;
 };
 
-Dealt deal(std::span<const DirectedEdge> edges, std::size_t buckets) {
-    const auto bucket_of = [&](const DirectedEdge& e) {
+EdgeBuckets sort_into_buckets(std::span<const SharedEdge> edges, std::size_t count) {
+    const auto bucket_of = [&](const SharedEdge& e) {
         const std::uint32_t hash = (e.origin.value ^ e.target.value) * 0x9e3779b1u;
-        return std::uint64_t{hash} * buckets >> 32;
+        return std::uint64_t{hash} * count >> 32;
     };
-    Dealt dealt{std::vector<DirectedEdge>(edges.size()), std::vector<std::uint32_t>(buckets + 2, 0)};
-    for (const DirectedEdge& e : edges) ++dealt.start[bucket_of(e) + 2];
-    for (std::size_t k = 2; k < dealt.start.size(); ++k) dealt.start[k] += dealt.start[k - 1];
-    // start[k + 1] runs through bucket k and ends as the start of k + 1.
-    for (const DirectedEdge& e : edges) dealt.edges[dealt.start[bucket_of(e) + 1]++] = e;
-    dealt.start.pop_back();
-    return dealt;
+    EdgeBuckets buckets{std::vector<SharedEdge>(edges.size()), std::vector<std::uint32_t>(count + 2, 0)};
+    for (const SharedEdge& e : edges) ++buckets.start[bucket_of(e) + 2];
+    for (std::size_t k = 2; k < buckets.start.size(); ++k) buckets.start[k] += buckets.start[k - 1];
+    // start[k + 1] runs through bucket k and ends as the start of bucket k + 1.
+    for (const SharedEdge& e : edges) buckets.edges[buckets.start[bucket_of(e) + 1]++] = e;
+    buckets.start.pop_back();
+    return buckets;
 }
 
-struct BlockResult {
-    Matches matches;
-    Dealt between;
+/// The matches within one block of cells, and its other edges.
+struct BlockMatches {
+    EdgeMatches matches;
+    EdgeBuckets between;  ///< its edges that may have a twin in another block
 };
 
 void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& part) {
     all.insert(all.end(), part.begin(), part.end());
 }
 
-void append(Adjacency& adjacency, const Matches& matches) {
+void append(Adjacency& adjacency, const EdgeMatches& matches) {
     append(adjacency.boundary, matches.boundary);
     append(adjacency.overused, matches.overused);
     adjacency.edges += matches.edges;
@@ -207,45 +227,38 @@ Adjacency find_adjacency(const Mesh& mesh) {
     Adjacency adjacency;
     adjacency.twin = core::UninitializedArray<std::uint32_t>(cell_edges.size());
 
-    constexpr std::size_t cells_a_bucket = 1 << 17, most_buckets = 256;
-    const std::size_t buckets = std::min(cells / cells_a_bucket + 1, most_buckets);
+    constexpr std::size_t cells_per_bucket = 1 << 17, max_buckets = 256;
+    const std::size_t buckets = std::min(cells / cells_per_bucket + 1, max_buckets);
     const auto match_block = [&](std::size_t begin, std::size_t end) {
-        EdgeList within(cell_edges.first(end) - cell_edges.first(begin));
-        std::vector<DirectedEdge> between;
+        TwoWayEdgeList within(cell_edges.first(end) - cell_edges.first(begin));
+        std::vector<SharedEdge> between;
         for_each_edge(mesh, begin, end, [&](std::size_t e, VertexId a, VertexId b) {
             if (owners[a.index()] == shared && owners[b.index()] == shared)
                 between.push_back({a, b, static_cast<std::uint32_t>(e)});
             else
                 within.add(a, b, e);
         });
-        BlockResult result{{}, deal(between, buckets)};
+        BlockMatches result{{}, sort_into_buckets(between, buckets)};
         match(within, adjacency.twin, result.matches);
         return result;
     };
-    const std::vector<BlockResult> blocks = core::parallel_blocks(cells, block_cells, match_block);
-    for (const BlockResult& block : blocks) append(adjacency, block.matches);
+    const std::vector<BlockMatches> blocks = core::parallel_blocks(cells, block_cells, match_block);
+    for (const BlockMatches& block : blocks) append(adjacency, block.matches);
 
     const auto match_bucket = [&](std::size_t bucket, std::size_t) {
-        std::size_t most = 0;
-        for (const auto& [_, between] : blocks) most += between.start[bucket + 1] - between.start[bucket];
-        EdgeList edges(most);
+        std::size_t size = 0;
+        for (const auto& [_, between] : blocks) size += between.start[bucket + 1] - between.start[bucket];
+        TwoWayEdgeList edges(size);
         for (const auto& [_, between] : blocks)
             for (std::size_t i = between.start[bucket]; i < between.start[bucket + 1]; ++i)
                 edges.add(between.edges[i].origin, between.edges[i].target, between.edges[i].number);
-        Matches matches;
+        EdgeMatches matches;
         match(edges, adjacency.twin, matches);
         return matches;
     };
-    for (const Matches& matches : core::parallel_blocks(buckets, 1, match_bucket)) append(adjacency, matches);
+    for (const EdgeMatches& matches : core::parallel_blocks(buckets, 1, match_bucket)) append(adjacency, matches);
 
-    const auto orphans_among = [&](std::size_t begin, std::size_t end) {
-        std::vector<VertexId> orphans;
-        for (std::size_t v = begin; v < end; ++v)
-            if (owners[v] == unclaimed) orphans.emplace_back(v);
-        return orphans;
-    };
-    for (const auto& orphans : core::parallel_blocks(owners.size(), vertex_grain, orphans_among))
-        adjacency.orphans.insert(adjacency.orphans.end(), orphans.begin(), orphans.end());
+    adjacency.orphans = find_orphans(owners);
     std::sort(adjacency.boundary.begin(), adjacency.boundary.end());
     std::sort(adjacency.overused.begin(), adjacency.overused.end());
     return adjacency;
@@ -253,33 +266,33 @@ Adjacency find_adjacency(const Mesh& mesh) {
 
 std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments) {
     if (segments.empty()) return {};
-    const auto undirected = [&](std::size_t i) { return std::minmax(segments[i].a, segments[i].b); };
+    const auto ends_of = [&](std::size_t i) { return std::minmax(segments[i].a, segments[i].b); };
     std::vector<std::uint32_t> order(segments.size()), found(segments.size(), no_edge);
     std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return undirected(i) < undirected(j); });
-    std::vector<std::uint8_t> sought(mesh.points.size(), 0);
-    for (const Segment& s : segments) sought[s.a.index()] = sought[s.b.index()] = 1;
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return ends_of(i) < ends_of(j); });
+    std::vector<std::uint8_t> is_end(mesh.points.size(), 0);
+    for (const Segment& s : segments) is_end[s.a.index()] = is_end[s.b.index()] = 1;
 
-    struct Hit {
+    struct FoundEdge {
         std::uint32_t edge;
-        std::size_t place;  // first in order
+        std::size_t rank;  ///< position in `order` of the first segment with these ends
     };
-    const auto hits_of = [&](std::size_t begin, std::size_t end) {
-        std::vector<Hit> hits;
+    const auto find_in_block = [&](std::size_t begin, std::size_t end) {
+        std::vector<FoundEdge> edges;
         for_each_edge(mesh, begin, end, [&](std::size_t e, VertexId a, VertexId b) {
-            if (!sought[a.index()] || !sought[b.index()]) return;
-            const auto key = std::minmax(a, b);
+            if (!is_end[a.index()] || !is_end[b.index()]) return;
+            const auto ends = std::minmax(a, b);
             const auto at =
-                std::partition_point(order.begin(), order.end(), [&](std::uint32_t i) { return undirected(i) < key; });
-            if (at != order.end() && undirected(*at) == key)
-                hits.push_back({static_cast<std::uint32_t>(e), static_cast<std::size_t>(at - order.begin())});
+                std::partition_point(order.begin(), order.end(), [&](std::uint32_t i) { return ends_of(i) < ends; });
+            if (at != order.end() && ends_of(*at) == ends)
+                edges.push_back({static_cast<std::uint32_t>(e), static_cast<std::size_t>(at - order.begin())});
         });
-        return hits;
+        return edges;
     };
-    for (const std::vector<Hit>& hits : core::parallel_blocks(CellEdges(mesh).cells(), block_cells, hits_of))
-        for (const auto [edge, place] : hits)
-            for (std::size_t i = place; i < order.size() && undirected(order[i]) == undirected(order[place]); ++i)
+    for (const std::vector<FoundEdge>& edges :
+         core::parallel_blocks(CellEdges(mesh).cells(), block_cells, find_in_block))
+        for (const auto [edge, rank] : edges)
+            for (std::size_t i = rank; i < order.size() && ends_of(order[i]) == ends_of(order[rank]); ++i)
                 found[order[i]] = std::min(found[order[i]], edge);
     return found;
 }

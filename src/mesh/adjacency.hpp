@@ -1,4 +1,4 @@
-// Which cells meet at which edge.
+// Neighbours in a mesh: which cells meet at which edge.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,27 @@
 
 namespace lamina::mesh {
 
-/// Numbers the directed edges of the cells: triangle t owns 3t, 3t+1, 3t+2, then quad q owns 3T+4q ... 3T+4q+3.
-/// Edge i of a cell goes from its vertex i to the next one, the cell on its left. Cells: triangles, then quads.
+/// Numbers the cells of a mesh and their directed edges. Cells are the triangles, then the quads. Triangle t of T has
+/// the edges 3t, 3t+1, 3t+2; quad q has the edges 3T+4q ... 3T+4q+3. Edge i of a cell goes from the cell's vertex i to
+/// the next one and has the cell on its left.
 class CellEdges {
 public:
+    /// The mesh must outlive this object.
     explicit CellEdges(const Mesh& mesh) : mesh_(mesh), triangle_edges_(3 * mesh.triangles.size()) {}
 
+    /// Returns the number of directed edges.
     std::size_t size() const { return triangle_edges_ + 4 * mesh_.quads.size(); }
     std::size_t cells() const { return mesh_.triangles.size() + mesh_.quads.size(); }
+    /// Returns the number of corners of a cell: 3 or 4.
     std::size_t corners(std::size_t cell) const { return cell < mesh_.triangles.size() ? 3 : 4; }
+    /// Returns the first edge of a cell; for cell = cells(), the number of edges.
     std::size_t first(std::size_t cell) const {
         return cell < mesh_.triangles.size() ? 3 * cell : 4 * cell - mesh_.triangles.size();
     }
     std::size_t cell_of(std::size_t edge) const {
         return edge < triangle_edges_ ? edge / 3 : mesh_.triangles.size() + (edge - triangle_edges_) / 4;
     }
-    /// Vertex i of a cell.
+    /// Returns vertex i of a cell.
     VertexId corner(std::size_t cell, std::size_t i) const {
         return cell < mesh_.triangles.size() ? mesh_.triangles[cell].v[i]
                                              : mesh_.quads[cell - mesh_.triangles.size()].v[i];
@@ -50,22 +55,25 @@ private:
 
 inline constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
 
+/// The neighbours of all cells. Edges are numbered by CellEdges.
 struct Adjacency {
-    core::UninitializedArray<std::uint32_t> twin;  ///< for each directed edge the opposite one, or no_edge
-    std::vector<std::uint32_t> boundary;           ///< directed edges on one cell alone, ascending
-    std::vector<std::uint32_t> overused;           ///< directed edges that meet others than their one twin, ascending
-    std::vector<VertexId> orphans;                 ///< vertices of no cell, ascending
-    std::size_t edges = 0;                         ///< undirected
+    core::UninitializedArray<std::uint32_t>
+        twin;                             ///< per directed edge: the opposite edge of the neighbour, or no_edge
+    std::vector<std::uint32_t> boundary;  ///< directed edges that one cell alone has, ascending
+    std::vector<std::uint32_t> overused;  ///< directed edges that share their ends with more than one other edge, or
+                                          ///< with one of the same direction; ascending
+    std::vector<VertexId> orphans;  ///< vertices of no cell, ascending
+    std::size_t edges = 0;          ///< number of undirected edges
 };
 
-/// Linear time. Blocks of successive cells match their own edges through a small hash table, in parallel; edges whose
-/// ends are both shared with other blocks, few where cells that follow one another are neighbours, are dealt by hash
-/// and matched in the same way. 12 to 14 bytes a triangle.
-/// Precondition: all indices in range. Throws MeshError from 2^32 directed edges on.
+/// Finds the neighbours of all cells in linear time. Blocks of successive cells match their own edges in parallel,
+/// through a small hash table each. Edges whose ends are both shared with other blocks, which are few where successive
+/// cells are neighbours, are distributed by hash and matched in the same way. Takes 12 to 14 bytes a triangle.
+/// Precondition: all indices are in range. Throws MeshError from 2^32 directed edges on.
 LAMINA_EXPORT Adjacency find_adjacency(const Mesh& mesh);
 
-/// For each segment the lowest directed edge between its ends, in either direction, or no_edge; linear time.
-/// Precondition: all indices in range.
+/// Returns for each segment the lowest directed edge between its ends, in either direction, or no_edge; takes linear
+/// time. Precondition: all indices are in range.
 LAMINA_EXPORT std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments);
 
 }  // namespace lamina::mesh

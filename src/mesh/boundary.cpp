@@ -15,12 +15,10 @@ namespace lamina::mesh {
 
 namespace {
 
-using Edge = std::uint32_t;  // index of a boundary edge, in the order of the loops
-
-/// Edges of each loop one after the other; loop l is [first[l], first[l + 1]).
-struct Loops {
+/// The edges of all loops, loop by loop; loop l is [first[l], first[l + 1]).
+struct BoundaryLoops {
     std::vector<Segment> edges;
-    std::vector<Edge> first;
+    std::vector<std::uint32_t> first;
 };
 
 Box box_of(std::span<const Point> points, const Segment& edge) {
@@ -30,7 +28,7 @@ Box box_of(std::span<const Point> points, const Segment& edge) {
     return box;
 }
 
-/// Over edges in the order of the loops, which is coherent in the plane.
+/// Returns a tree over the edges in the order of the loops, in which successive edges lie close together.
 core::BoxTree make_tree(std::span<const Point> points, std::span<const Segment> edges) {
     std::vector<Box> boxes;
     boxes.reserve(edges.size());
@@ -38,19 +36,19 @@ core::BoxTree make_tree(std::span<const Point> points, std::span<const Segment> 
     return core::BoxTree(std::move(boxes));
 }
 
-/// Follows the edges, which are sorted by their first vertex, each of which starts one edge. Loops come in the order of
-/// their lexicographically smallest points, so that neighbours in the list are near in the plane.
-Loops trace_loops(std::span<const Point> points, std::span<const Segment> edges) {
+/// Follows the edges round their loops. The loops are sorted by their lexicographically smallest points, so that
+/// neighbours in the list lie close together. Precondition: the edges are sorted, and no two begin at one vertex.
+BoundaryLoops trace_loops(std::span<const Point> points, std::span<const Segment> edges) {
     const auto next = [&](const Segment& edge) {
         const auto found = std::lower_bound(edges.begin(), edges.end(), Segment{edge.b, VertexId(0)});
         assert(found != edges.end() && found->a == edge.b);
         return static_cast<std::size_t>(found - edges.begin());
     };
-    struct Start {
+    struct LoopStart {
         std::size_t edge;
         Point smallest;
     };
-    std::vector<Start> starts;
+    std::vector<LoopStart> starts;
     std::vector<bool> seen(edges.size(), false);
     for (std::size_t start = 0; start < edges.size(); ++start) {
         if (seen[start]) continue;
@@ -61,34 +59,37 @@ Loops trace_loops(std::span<const Point> points, std::span<const Segment> edges)
             if (lexicographically_less(p, starts.back().smallest)) starts.back().smallest = p;
         }
     }
-    std::stable_sort(starts.begin(), starts.end(),
-                     [](const Start& a, const Start& b) { return lexicographically_less(a.smallest, b.smallest); });
+    std::stable_sort(starts.begin(), starts.end(), [](const LoopStart& a, const LoopStart& b) {
+        return lexicographically_less(a.smallest, b.smallest);
+    });
 
-    Loops loops;
+    BoundaryLoops loops;
     loops.edges.reserve(edges.size());
-    for (const Start& start : starts) {
-        loops.first.push_back(static_cast<Edge>(loops.edges.size()));
+    for (const LoopStart& start : starts) {
+        loops.first.push_back(static_cast<std::uint32_t>(loops.edges.size()));
         std::size_t e = start.edge;
         do {
             loops.edges.push_back(edges[e]);
             e = next(edges[e]);
         } while (e != start.edge);
     }
-    loops.first.push_back(static_cast<Edge>(loops.edges.size()));
+    loops.first.push_back(static_cast<std::uint32_t>(loops.edges.size()));
     return loops;
 }
 
+/// Returns 1, 0 or -1 for counter-clockwise, collinear and clockwise points. Exact.
 int orientation(Point a, Point b, Point c) {
     const double value = core::inline_orient2d(a, b, c);
     return (value > 0) - (value < 0);
 }
 
-/// Exact: have the segments more in common than one shared end vertex?
-bool improper_contact(std::span<const Point> points, const Segment& s, const Segment& t) {
+/// Returns whether the segments have more in common than one shared end vertex. Exact.
+bool have_improper_contact(std::span<const Point> points, const Segment& s, const Segment& t) {
     const Point a = points[s.a.index()], b = points[s.b.index()], c = points[t.a.index()], d = points[t.b.index()];
     if (s.b == t.a || s.a == t.b) {
         if (s.b == t.a && s.a == t.b) return true;
-        const auto [p, q, r] = s.b == t.a ? std::array{a, b, d} : std::array{b, a, c};  // q is shared
+        // q is the shared vertex.
+        const auto [p, q, r] = s.b == t.a ? std::array{a, b, d} : std::array{b, a, c};
         return orientation(p, q, r) == 0 && lexicographically_less(p, q) == lexicographically_less(r, q);
     }
     const int c_side = orientation(a, b, c), d_side = orientation(a, b, d);
@@ -98,14 +99,15 @@ bool improper_contact(std::span<const Point> points, const Segment& s, const Seg
            (b_side == 0 && box_of(points, t).contains(b));
 }
 
-void check_contacts(std::span<const Point> points, const Loops& loops, const core::BoxTree& tree, DefectList& defects) {
+void check_contacts(std::span<const Point> points, const BoundaryLoops& loops, const core::BoxTree& tree,
+                    DefectList& defects) {
     const auto check_edges = [&](std::size_t begin, std::size_t end) {
         DefectList found;
         for (std::size_t i = begin; i < end; ++i) {
             const Segment& s = loops.edges[i];
             tree.overlaps(box_of(points, s), [&](std::size_t j) {
                 const Segment& t = loops.edges[j];
-                if (j > i && improper_contact(points, s, t))
+                if (j > i && have_improper_contact(points, s, t))
                     found.add([&] {
                         return MeshDefect{fmt::format("boundary edges {}-{} and {}-{} cross, touch or overlap",
                                                       s.a.value, s.b.value, t.a.value, t.b.value),
@@ -119,8 +121,9 @@ void check_contacts(std::span<const Point> points, const Loops& loops, const cor
         defects.append(std::move(found));
 }
 
-/// Exact for a simple loop: at its lexicographically smallest vertex it turns the way it goes round.
-bool counter_clockwise(std::span<const Point> points, std::span<const Segment> loop) {
+/// Returns whether a simple loop is counter-clockwise. Exact: at its lexicographically smallest vertex a loop turns in
+/// the direction in which it goes round.
+bool is_counter_clockwise(std::span<const Point> points, std::span<const Segment> loop) {
     std::size_t smallest = 0;
     for (std::size_t i = 1; i < loop.size(); ++i)
         if (lexicographically_less(points[loop[i].a.index()], points[loop[smallest].a.index()])) smallest = i;
@@ -128,14 +131,16 @@ bool counter_clockwise(std::span<const Point> points, std::span<const Segment> l
     return orientation(points[before.a.index()], points[before.b.index()], points[loop[smallest].b.index()]) > 0;
 }
 
-/// Winding number, round a vertex of loop l, of all other loops: signed crossings of the ray to the right.
-long winding_of_others(std::span<const Point> points, const Loops& loops, const core::BoxTree& tree, std::size_t l) {
+/// Returns the winding number of all other loops round a vertex of loop l: the signed number of their crossings with
+/// the ray from the vertex to the right.
+long winding_of_others(std::span<const Point> points, const BoundaryLoops& loops, const core::BoxTree& tree,
+                       std::size_t l) {
     const Point p = points[loops.edges[loops.first[l]].a.index()];
     long winding = 0;
     tree.overlaps({p, {HUGE_VAL, p.y}}, [&](std::size_t e) {
         if (e >= loops.first[l] && e < loops.first[l + 1]) return;
         const Point a = points[loops.edges[e].a.index()], b = points[loops.edges[e].b.index()];
-        if ((a.y <= p.y) == (b.y <= p.y)) return;  // half open: each vertex on the ray counts once
+        if ((a.y <= p.y) == (b.y <= p.y)) return;  // half-open, so that a vertex on the ray counts once
         const int side = orientation(a, b, p);
         if (a.y <= p.y && side > 0) ++winding;
         if (b.y <= p.y && side < 0) --winding;
@@ -143,13 +148,13 @@ long winding_of_others(std::span<const Point> points, const Loops& loops, const 
     return winding;
 }
 
-/// Between the loops of a valid mesh the winding number is 0 (outside) or 1: a counter-clockwise loop lies outside all
-/// domains, a clockwise one inside exactly one.
-void check_nesting(std::span<const Point> points, const Loops& loops, const core::BoxTree& tree,
+/// Checks how the loops are nested. In a valid mesh a counter-clockwise loop lies outside all other domains, where the
+/// winding number of the other loops is 0, and a clockwise one inside exactly one domain, where it is 1.
+void check_nesting(std::span<const Point> points, const BoundaryLoops& loops, const core::BoxTree& tree,
                    BoundarySummary& summary) {
     for (std::size_t l = 0; l + 1 < loops.first.size(); ++l) {
         const std::span loop(loops.edges.data() + loops.first[l], loops.first[l + 1] - loops.first[l]);
-        const bool outer = counter_clockwise(points, loop);
+        const bool outer = is_counter_clockwise(points, loop);
         summary.outer_loops += outer;
         if (winding_of_others(points, loops, tree, l) != (outer ? 0 : 1))
             summary.defects.add([&] {
@@ -160,7 +165,7 @@ void check_nesting(std::span<const Point> points, const Loops& loops, const core
     }
 }
 
-void add_areas(std::span<const Point> points, const Loops& loops, BoundarySummary& summary) {
+void add_areas(std::span<const Point> points, const BoundaryLoops& loops, BoundarySummary& summary) {
     Box box;
     for (const Segment& e : loops.edges) box.include(points[e.a.index()]);
     const Point center = box.center();
@@ -183,9 +188,10 @@ BoundarySummary check_boundary(std::span<const Point> points, std::vector<Segmen
                 return MeshDefect{fmt::format("the boundary passes twice through vertex {}", edges[i].a.value),
                                   points[edges[i].a.index()]};
             });
-    if (!summary.defects.empty()) return summary;  // which edge follows which is not defined
+    // Where the boundary passes a vertex twice, it is not defined which edge follows which.
+    if (!summary.defects.empty()) return summary;
 
-    const Loops loops = trace_loops(points, edges);
+    const BoundaryLoops loops = trace_loops(points, edges);
     const core::BoxTree tree = make_tree(points, loops.edges);
     summary.loops = loops.first.size() - 1;
     add_areas(points, loops, summary);

@@ -1,4 +1,4 @@
-// The list of what is wrong with a mesh: all are counted, the first few kept.
+// The list of the defects of a mesh: it counts all and keeps the first few.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@
 namespace lamina::mesh {
 
 struct DefectList {
-    static constexpr std::size_t most_kept = 20;
+    static constexpr std::size_t max_kept = 20;
 
     std::vector<MeshDefect> kept;
     std::size_t count = 0;
 
     bool empty() const { return count == 0; }
-    /// describe() -> MeshDefect; called only where there is room.
+    /// Adds a defect. Calls describe(), which returns a MeshDefect, only where there is room to keep it.
     template <class F>
     void add(F&& describe) {
-        if (count++ < most_kept) kept.push_back(describe());
+        if (count++ < max_kept) kept.push_back(describe());
     }
     void append(DefectList&& other) {
         count += other.count;
         for (MeshDefect& defect : other.kept)
-            if (kept.size() < most_kept) kept.push_back(std::move(defect));
+            if (kept.size() < max_kept) kept.push_back(std::move(defect));
     }
 };
 

@@ -1,10 +1,11 @@
-// The recipe, for those who want to compute the hash of a mesh elsewhere:
-//  - a cell contributes the bytes of its vertices' x, y, x, y ..., 8 each, IEEE 754 binary64, little-endian, -0 written
-//    as +0, in counter-clockwise order from the lexicographically smallest vertex (x, then y);
-//  - a marker edge contributes the bytes of x, y of its first and its last vertex in the same way, in the edge's
-//    direction, then the bytes of the marker's name (UTF-8);
-//  - each such string of bytes is hashed by MurmurHash3_x64_128 with seed 0, giving h1 and h2;
-//  - the mesh's hash is the sum over all of h1 2^64 + h2, modulo 2^128, printed as 32 hexadecimal digits.
+// The hash of a mesh. Other programs can compute it by this recipe:
+//  - A cell contributes the coordinates x, y, x, y ... of its vertices as a string of bytes: 8 bytes each, IEEE 754
+//    binary64, little-endian, with -0 written as +0, in counter-clockwise order from the lexicographically smallest
+//    vertex (by x, then by y).
+//  - A marker edge contributes x, y of its first and its last vertex in the same way, in the direction of the edge, and
+//    then the bytes of the marker's name (UTF-8).
+//  - MurmurHash3_x64_128 with seed 0 turns each string of bytes into two numbers h1 and h2.
+//  - The hash of the mesh is the sum of h1 2^64 + h2 over all strings, modulo 2^128, printed as 32 hexadecimal digits.
 // Source: A. Appleby, MurmurHash3 (2011), public domain; the 128-bit variant for 64-bit machines.
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ namespace lamina::mesh {
 
 namespace {
 
-__extension__ using Sum = unsigned __int128;
+__extension__ using HashSum = unsigned __int128;
 
 std::uint64_t finalize(std::uint64_t k) {
     k = (k ^ (k >> 33)) * 0xff51afd7ed558ccdU;
@@ -28,9 +29,9 @@ std::uint64_t finalize(std::uint64_t k) {
     return k ^ (k >> 33);
 }
 
-/// MurmurHash3_x64_128 with seed 0 of `length` bytes, given as little-endian words and padded with zeros to a multiple
-/// of 16.
-Sum murmur3(std::span<const std::uint64_t> words, std::size_t length) {
+/// Returns MurmurHash3_x64_128 with seed 0 of `length` bytes. They are given as little-endian words and padded with
+/// zeros to a multiple of 16 bytes.
+HashSum murmur3(std::span<const std::uint64_t> words, std::size_t length) {
     constexpr std::uint64_t c1 = 0x87c37b91114253d5U, c2 = 0x4cf5ad432745937fU;
     const auto mix1 = [&](std::uint64_t k) { return std::rotl(k * c1, 31) * c2; };
     const auto mix2 = [&](std::uint64_t k) { return std::rotl(k * c2, 33) * c1; };
@@ -40,7 +41,7 @@ Sum murmur3(std::span<const std::uint64_t> words, std::size_t length) {
         h1 = (std::rotl(h1 ^ mix1(words[2 * i]), 27) + h2) * 5 + 0x52dce729;
         h2 = (std::rotl(h2 ^ mix2(words[2 * i + 1]), 31) + h1) * 5 + 0x38495ab5;
     }
-    if (length % 16 != 0) {  // zeros mix to zero
+    if (length % 16 != 0) {  // the padding has no effect, since zero is mixed to zero
         h1 ^= mix1(words[2 * blocks]);
         h2 ^= mix2(words[2 * blocks + 1]);
     }
@@ -52,14 +53,14 @@ Sum murmur3(std::span<const std::uint64_t> words, std::size_t length) {
     h2 = finalize(h2);
     h1 += h2;
     h2 += h1;
-    return Sum{h1} << 64 | h2;
+    return HashSum{h1} << 64 | h2;
 }
 
 std::uint64_t bits(double c) { return std::bit_cast<std::uint64_t>(c + 0.0); }  // -0 + 0 is +0
 
-/// The vertices of a cell from its smallest on.
+/// Hashes the vertices of a cell, starting with the lexicographically smallest one.
 template <std::size_t corners>
-Sum hash_cell(const Mesh& mesh, const VertexId (&v)[corners]) {
+HashSum hash_cell(const Mesh& mesh, const VertexId (&v)[corners]) {
     Point p[corners];
     std::size_t smallest = 0;
     for (std::size_t i = 0; i < corners; ++i) {
@@ -75,11 +76,12 @@ Sum hash_cell(const Mesh& mesh, const VertexId (&v)[corners]) {
     return murmur3(words, sizeof words);
 }
 
-Sum hash_marker(const Mesh& mesh, const Marker& marker) {
+HashSum hash_marker(const Mesh& mesh, const Marker& marker) {
     std::vector<std::uint64_t> words(4 + 2 * ((marker.name.size() + 15) / 16), 0);
-    static_assert(std::endian::native == std::endian::little, "words are taken from the name's bytes as they lie");
+    static_assert(std::endian::native == std::endian::little,
+                  "the bytes of the name are copied into the words as they lie in memory");
     std::memcpy(words.data() + 4, marker.name.data(), marker.name.size());
-    Sum sum = 0;
+    HashSum sum = 0;
     for (const Segment& edge : marker.edges) {
         const Point a = mesh.points[edge.a.index()], b = mesh.points[edge.b.index()];
         words[0] = bits(a.x);
@@ -92,14 +94,14 @@ Sum hash_marker(const Mesh& mesh, const Marker& marker) {
 }
 
 template <class Cell>
-Sum hash_cells(const Mesh& mesh, const std::vector<Cell>& cells) {
+HashSum hash_cells(const Mesh& mesh, const std::vector<Cell>& cells) {
     const auto hash_block = [&](std::size_t begin, std::size_t end) {
-        Sum sum = 0;
+        HashSum sum = 0;
         for (std::size_t i = begin; i < end; ++i) sum += hash_cell(mesh, cells[i].v);
         return sum;
     };
-    Sum sum = 0;
-    for (const Sum part : core::parallel_blocks(cells.size(), std::size_t{1} << 14, hash_block)) sum += part;
+    HashSum sum = 0;
+    for (const HashSum part : core::parallel_blocks(cells.size(), std::size_t{1} << 14, hash_block)) sum += part;
     return sum;
 }
 
@@ -112,7 +114,7 @@ namespace lamina {
 using namespace mesh;
 
 std::string mesh_hash(const Mesh& mesh) {
-    Sum sum = hash_cells(mesh, mesh.triangles) + hash_cells(mesh, mesh.quads);
+    HashSum sum = hash_cells(mesh, mesh.triangles) + hash_cells(mesh, mesh.quads);
     for (const Marker& marker : mesh.markers) sum += hash_marker(mesh, marker);
     return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(sum >> 64), static_cast<std::uint64_t>(sum));
 }

@@ -1,4 +1,4 @@
-// The table of the options of the check.
+// The table of the options of check_mesh().
 #include <lamina/mesh.hpp>
 
 #include <lamina/option_builders.hpp>
@@ -9,7 +9,7 @@ namespace {
 
 OptionTable<MeshCheckOptions> make_table() {
     OptionTableBuilder<MeshCheckOptions> table("Check");
-    table.number("min-angle", "DEG", "smallest angle that isotropic triangles are measured against, in degrees",
+    table.number("min-angle", "DEG", "bound on the smallest angle of isotropic triangles, in degrees",
                  numbers_from_to(0, 60), member_at(&MeshCheckOptions::min_angle_deg));
     return table.take();
 }

@@ -10,18 +10,17 @@ namespace lamina::mesh {
 
 namespace {
 
-/// Classes of ratios: floats by their leading bits, 512 to a factor of 2, up to 256.
-constexpr unsigned class_shift = 14;
+// The bin of an area ratio is given by the leading bits of the float: 512 bins per factor of 2, up to a ratio of 256.
+constexpr unsigned bin_shift = 14;
 constexpr std::uint32_t bits_of_one = std::bit_cast<std::uint32_t>(1.0f);
-constexpr std::size_t ratio_classes = 8 * 512;
+constexpr std::size_t ratio_bins = std::size_t{8} * 512;
 
-std::size_t class_of(float ratio) {
-    return std::min<std::size_t>((std::bit_cast<std::uint32_t>(ratio) - bits_of_one) >> class_shift, ratio_classes - 1);
+std::size_t bin_of(float ratio) {
+    return std::min<std::size_t>((std::bit_cast<std::uint32_t>(ratio) - bits_of_one) >> bin_shift, ratio_bins - 1);
 }
 
-/// The upper end of a class.
-double largest_of(std::size_t ratio_class) {
-    return std::bit_cast<float>(bits_of_one + ((static_cast<std::uint32_t>(ratio_class) + 1) << class_shift));
+double upper_end_of(std::size_t bin) {
+    return std::bit_cast<float>(bits_of_one + ((static_cast<std::uint32_t>(bin) + 1) << bin_shift));
 }
 
 }  // namespace
@@ -67,14 +66,15 @@ void QualityCollector::add(const CellShape& shape) {
     max_angle_sum_ += shape.max_angle_deg;
     max_aspect_ = std::max(max_aspect_, shape.aspect_ratio);
     below_bound_ += shape.min_angle_deg < bound_;
-    ++histogram_[std::min<std::size_t>(histogram_.size() - 1, static_cast<std::size_t>(shape.min_angle_deg / 5))];
+    ++angle_histogram_[std::min<std::size_t>(angle_histogram_.size() - 1,
+                                             static_cast<std::size_t>(shape.min_angle_deg / 5))];
 }
 
 void QualityCollector::add_neighbours(double area, double other_area) {
-    if (area_ratios_.empty()) area_ratios_.assign(ratio_classes, 0);
+    if (area_ratios_.empty()) area_ratios_.assign(ratio_bins, 0);
     const double ratio = std::max(area, other_area) / std::min(area, other_area);
     max_area_ratio_ = std::max(max_area_ratio_, ratio);
-    ++area_ratios_[class_of(static_cast<float>(ratio))];
+    ++area_ratios_[bin_of(static_cast<float>(ratio))];
 }
 
 void QualityCollector::append(const QualityCollector& part) {
@@ -85,19 +85,19 @@ void QualityCollector::append(const QualityCollector& part) {
     min_angle_sum_ += part.min_angle_sum_;
     max_angle_sum_ += part.max_angle_sum_;
     max_aspect_ = std::max(max_aspect_, part.max_aspect_);
-    for (std::size_t i = 0; i < histogram_.size(); ++i) histogram_[i] += part.histogram_[i];
+    for (std::size_t i = 0; i < angle_histogram_.size(); ++i) angle_histogram_[i] += part.angle_histogram_[i];
     max_area_ratio_ = std::max(max_area_ratio_, part.max_area_ratio_);
     if (area_ratios_.empty()) area_ratios_.assign(part.area_ratios_.size(), 0);
     for (std::size_t i = 0; i < part.area_ratios_.size(); ++i) area_ratios_[i] += part.area_ratios_[i];
 }
 
-double QualityCollector::percentile_999() const {
+double QualityCollector::area_ratio_percentile_999() const {
     const std::size_t n = std::accumulate(area_ratios_.begin(), area_ratios_.end(), std::size_t{0});
     if (n == 0) return 0;
     const std::size_t rank = (n - 1) - (n - 1) / 1000;
-    std::size_t ratio_class = 0;
-    for (std::size_t below = area_ratios_[0]; below <= rank; below += area_ratios_[ratio_class]) ++ratio_class;
-    return ratio_class + 1 < ratio_classes ? std::min(largest_of(ratio_class), max_area_ratio_) : max_area_ratio_;
+    std::size_t bin = 0;
+    for (std::size_t below = area_ratios_[0]; below <= rank; below += area_ratios_[bin]) ++bin;
+    return bin + 1 < ratio_bins ? std::min(upper_end_of(bin), max_area_ratio_) : max_area_ratio_;
 }
 
 QualitySummary QualityCollector::summary() const {
@@ -110,9 +110,9 @@ QualitySummary QualityCollector::summary() const {
     summary.mean_max_angle_deg = max_angle_sum_ / static_cast<double>(cells_);
     summary.angles_below_bound = below_bound_;
     summary.max_aspect_ratio = max_aspect_;
-    summary.angle_histogram = histogram_;
+    summary.angle_histogram = angle_histogram_;
     summary.max_neighbour_area_ratio = max_area_ratio_;
-    summary.p999_neighbour_area_ratio = percentile_999();
+    summary.p999_neighbour_area_ratio = area_ratio_percentile_999();
     return summary;
 }
 

@@ -1,4 +1,4 @@
-// Shape of cells, and its summary over many.
+// The shape of quadrilaterals, shape measures for VTK, and statistics of the shapes of many cells.
 #pragma once
 
 #include <algorithm>
@@ -15,34 +15,38 @@ namespace lamina::mesh {
 
 using core::CellShape;
 
-/// Measures a counter-clockwise quadrilateral; one whose area rounds to zero or less has core::core::flat_shape.
+/// Measures a counter-clockwise quadrilateral; one whose area rounds to zero or less has core::flat_shape.
 LAMINA_EXPORT CellShape measure_quad(Point a, Point b, Point c, Point d);
 
-/// Mean ratio: 1 for the equilateral triangle and the square, 0 for flat and inverted cells. + - * / alone.
-/// Source: P. M. Knupp, Algebraic mesh quality metrics for unstructured initial meshes (2003); "shape" of the Verdict
-/// library and VTK. Of a quadrilateral, the worst corner.
+/// Return the mean ratio: 1 for the equilateral triangle and the square, 0 for flat and inverted cells. The mean ratio
+/// of a quadrilateral is that of its worst corner. They use + - * / alone, so the result is the same on every machine.
+/// Source: P. M. Knupp, Algebraic mesh quality metrics for unstructured initial meshes (2003); it is the "shape" of the
+/// Verdict library and of VTK.
 LAMINA_EXPORT double shape_of_triangle(Point a, Point b, Point c);
 LAMINA_EXPORT double shape_of_quad(Point a, Point b, Point c, Point d);
 
-/// Collects shapes of a part of the cells; parts are added in a fixed order.
+/// Collects statistics of the shapes of cells. Several collectors that each hold a part of the cells are appended in a
+/// fixed order, so that sums do not depend on the number of threads.
 class QualityCollector {
 public:
     explicit QualityCollector(double min_angle_bound_deg) : bound_(min_angle_bound_deg) {}
 
     void add(const CellShape& shape);
+    /// Adds the areas of two cells with a common edge.
     void add_neighbours(double area, double other_area);
     void append(const QualityCollector& part);
     QualitySummary summary() const;
 
 private:
-    double percentile_999() const;
+    double area_ratio_percentile_999() const;
 
     double bound_;
     std::size_t cells_ = 0, below_bound_ = 0;
     double min_angle_ = 180, max_angle_ = 0, min_angle_sum_ = 0, max_angle_sum_ = 0, max_aspect_ = 0;
-    std::array<std::size_t, 18> histogram_{};
-    /// Ratios of neighbouring areas from 1 on, counted in classes 0.2 % wide, the last one open: a percentile needs no
-    /// sorting and no memory in proportion to the mesh. Empty until the first one comes.
+    std::array<std::size_t, 18> angle_histogram_{};  ///< smallest angles in bins of 5 degrees
+    /// Histogram of the ratios of neighbouring areas, from 1 on, in bins 0.2 % wide, the last of which has no upper
+    /// end. A percentile taken from it needs no sorting and no memory in proportion to the mesh. Empty until the first
+    /// ratio is added.
     std::vector<std::uint32_t> area_ratios_;
     double max_area_ratio_ = 0;
 };

@@ -10,10 +10,10 @@
 namespace lamina::mesh {
 
 std::vector<double> wall_distances(const Mesh& mesh) {
-    struct Edge {
+    struct WallEdge {
         Point a, b;
     };
-    std::vector<Edge> edges;
+    std::vector<WallEdge> edges;
     std::vector<Box> boxes;
     for (const Marker& marker : mesh.markers) {
         if (marker.kind != MarkerKind::wall) continue;

@@ -1,4 +1,4 @@
-// How far from the walls.
+// Distances to the walls.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace lamina::mesh {
 
-/// Distance of each point to the nearest edge of a marker of kind wall; infinite where there is none.
+/// Returns the distance of each point to the nearest edge of a marker of kind wall; infinite where there is none.
 LAMINA_EXPORT std::vector<double> wall_distances(const Mesh& mesh);
 
 }  // namespace lamina::mesh

@@ -1,4 +1,4 @@
-// Stage "assemble".
+// Stage "assemble": the layer and the refined subdomains become one mesh.
 #include <algorithm>
 #include <functional>
 #include <iterator>
@@ -14,8 +14,8 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// Takes the edges of the base out of the edges of an element's wall, which run clockwise, or in reverse order: edge i
-/// joins vertices i and i + 1 of the counter-clockwise wall.
+/// Takes the edges of the base out of the edges of an element's wall, and returns them. Edge i of the wall joins the
+/// vertices i and i + 1 of the counter-clockwise outline, and runs from the latter to the former.
 std::vector<Segment> take_base(const Element& element, std::span<const Point> points, std::vector<Segment>& wall) {
     const auto edge_at = [&](std::size_t corner) {
         const auto found = std::find_if(wall.begin(), wall.end(), [&](const Segment& edge) {
@@ -47,34 +47,36 @@ std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, s
     return markers;
 }
 
-/// Where the vertices and triangles of each refinement begin in the mesh, and where the last ones end.
-struct Places {
+/// The positions in the arrays of the mesh at which the vertices and triangles of each refinement begin, followed by
+/// the sizes of the arrays.
+struct MeshOffsets {
     std::vector<std::size_t> point, triangle;
 };
 
-Places places_of(std::span<const Refinement> refinements, std::size_t points, std::size_t triangles) {
-    Places places{{points}, {triangles}};
+/// Returns the offsets behind this many points and triangles.
+MeshOffsets mesh_offsets(std::span<const Refinement> refinements, std::size_t points, std::size_t triangles) {
+    MeshOffsets offsets{{points}, {triangles}};
     for (const Refinement& refinement : refinements) {
-        places.point.push_back(places.point.back() + refinement.steiner_points.size());
-        places.triangle.push_back(places.triangle.back() + refinement.triangles.size());
+        offsets.point.push_back(offsets.point.back() + refinement.steiner_points.size());
+        offsets.triangle.push_back(offsets.triangle.back() + refinement.triangles.size());
     }
-    if (places.point.back() >= VertexId{}.value)
+    if (offsets.point.back() >= VertexId{}.value)
         throw MeshError(fmt::format("the mesh would have {} vertices, more than 32-bit numbers can tell apart",
-                                    places.point.back()));
-    return places;
+                                    offsets.point.back()));
+    return offsets;
 }
 
-/// Makes the arrays of the mesh long enough for all cells and fills in what the layer knows.
-void make_arrays(LayerCells cells, const Places& places, Mesh& mesh) {
+/// Makes the arrays of the mesh long enough for all cells, and fills in the cells of the layer.
+void make_arrays(LayerCells cells, const MeshOffsets& offsets, Mesh& mesh) {
     const std::size_t layer_triangles = cells.triangles.size(), quads = cells.quads.size();
-    const std::size_t triangles = places.triangle.back(), all = triangles + quads;
+    const std::size_t triangles = offsets.triangle.back(), all = triangles + quads;
     mesh.triangles = std::move(cells.triangles);
     mesh.quads = std::move(cells.quads);
     mesh.layer = std::move(cells.triangle_layer);
-    // The system hands out pages as they are first written: one thread alone would wait for all of them.
+    // The system hands out memory page by page when it is first written. Several threads share the wait for it.
     const std::function<void()> arrays[] = {
         [&] { mesh.triangles.resize(triangles); },
-        [&] { mesh.points.resize(places.point.back()); },
+        [&] { mesh.points.resize(offsets.point.back()); },
         [&] { mesh.piece.resize(all); },
         [&] {
             mesh.layer.reserve(all);
@@ -96,9 +98,9 @@ void make_arrays(LayerCells cells, const Places& places, Mesh& mesh) {
                   mesh.piece.begin() + std::ptrdiff_t(cells.first_triangle[i + 1]), std::uint32_t(i));
 }
 
-/// Copies one refinement to its place; `border` are the ids of its border vertices in the mesh.
-void place(const Refinement& refinement, std::span<const VertexId> border, std::size_t first_point,
-           std::size_t first_triangle, Mesh& mesh) {
+/// Copies one refinement into the mesh. `border` are the ids of its border vertices in the mesh.
+void copy_refinement(const Refinement& refinement, std::span<const VertexId> border, std::size_t first_point,
+                     std::size_t first_triangle, Mesh& mesh) {
     std::copy(refinement.steiner_points.begin(), refinement.steiner_points.end(),
               mesh.points.begin() + std::ptrdiff_t(first_point));
     const std::size_t shift = first_point - border.size();
@@ -119,18 +121,18 @@ using namespace pipeline;
 
 Mesh assemble(const Geometry& geometry, const Layer& layer, LayerCells cells, Decoupling decoupling,
               std::vector<Refinement> refinements, const AssembleOptions& options) {
-    const Places places = places_of(refinements, decoupling.points.size(), cells.triangles.size());
+    const MeshOffsets offsets = mesh_offsets(refinements, decoupling.points.size(), cells.triangles.size());
     const std::size_t layer_pieces = cells.pieces();
     Mesh mesh;
     mesh.markers = make_markers(geometry, layer, std::move(decoupling.far_field), options);
     mesh.constraints = layer.edges.interfaces;
     mesh.points = std::move(decoupling.points);
-    make_arrays(std::move(cells), places, mesh);
+    make_arrays(std::move(cells), offsets, mesh);
     core::parallel_for(refinements.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Refinement refinement = std::move(refinements[i]);  // freed once it is copied
-            place(refinement, decoupling.subdomains[i].global, places.point[i], places.triangle[i], mesh);
-            std::fill_n(mesh.piece.begin() + std::ptrdiff_t(places.triangle[i]), refinement.triangles.size(),
+            const Refinement refinement = std::move(refinements[i]);  // is freed once it is copied
+            copy_refinement(refinement, decoupling.subdomains[i].global, offsets.point[i], offsets.triangle[i], mesh);
+            std::fill_n(mesh.piece.begin() + std::ptrdiff_t(offsets.triangle[i]), refinement.triangles.size(),
                         static_cast<std::uint32_t>(layer_pieces + i));
         }
     });

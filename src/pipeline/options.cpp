@@ -1,20 +1,22 @@
-// The table of all options, and what one stage's options ask of another stage.
+// The table of all options, and the options of one stage that follow from those of another.
 #include <lamina/pipeline.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include <lamina/option_builders.hpp>
+
 #include "core/reproducible_math.hpp"
 
 namespace lamina::pipeline {
 
 namespace {
 
-/// Spacings along walls follow those of the layer's border, but grow at least so fast: very slow gradations are for the
-/// outer region alone.
-constexpr double slowest_wall_gradation = 0.05;
+/// Smallest growth of the spacing along walls per unit of distance. Otherwise it follows the layer's border; slower
+/// gradations are for the outer region alone.
+constexpr double min_wall_gradation = 0.05;
 
+/// Adds the options of a stage to the table of all options.
 template <class Inner, class Member>
 void append(const OptionTable<Inner>& inner, Member member, OptionTable<CaseOptions>& table) {
     OptionTable<CaseOptions> rows = nested_table<CaseOptions>(inner, member_at(member));
@@ -36,7 +38,7 @@ OptionTable<CaseOptions> make_table() {
     files.flag("base-marker", "the base of a blunt trailing edge is a marker of its own, NAME_base", true,
                member_at(&CaseOptions::assemble, &AssembleOptions::base_marker));
     OptionTableBuilder<CaseOptions> run("Run");
-    run.count("threads", "N", "number of threads, 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
+    run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
               member_at(&CaseOptions::threads));
     for (auto* builder : {&files, &run}) {
         OptionTable<CaseOptions> rows = builder->take();
@@ -68,20 +70,22 @@ void validate(const CaseOptions& options) {
     validate(options.decomposition);
     validate(options.refine);
     if (options.refine.min_angle_deg == 0)
-        throw OptionError("min_angle", "must be > 0: the layer's border depends on it");
+        throw OptionError("min_angle",
+                          "must be > 0, since the edges of the layer's outer border are divided to suit it");
 }
 
 SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth) {
     SpacingLimits limits;
     limits.max_turning_deg = options.layer.max_ray_angle_deg;
     // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
-    // Where the wall's spacing exceeds that, border edges are divided and the rows below fan out to the division
+    // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division
     // points.
     constexpr double margin = 0.9;
-    limits.gradation = std::max(margin * border_gradation(options.sizing.field), slowest_wall_gradation);
+    limits.gradation = std::max(margin * border_gradation(options.sizing.field), min_wall_gradation);
     if (!options.layer.enabled) return limits;
+    // The height of automatic and adaptive layers follows from the spacing of the wall, so it sets no limit.
     const std::optional<double> height = requested_height(growth);
-    if (!height) return limits;  // layers that go by the wall's spacing are as high over it as that allows
+    if (!height) return limits;
     const double fan_edge = *height * core::radians(options.layer.max_ray_angle_deg);
     if (fan_edge > 0) limits.fan_spacing = fan_edge;
     return limits;
@@ -90,16 +94,17 @@ SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& grow
 BorderOptions border_options(const CaseOptions& options, std::span<const SizeSource> sources) {
     BorderOptions border;
     border.gradation = border_gradation(options.sizing.field);
-    border.ray_gradation = std::max(border.gradation, slowest_wall_gradation);
+    border.ray_gradation = std::max(border.gradation, min_wall_gradation);
     border.max_edge =
         frozen_share * std::min(options.sizing.wall_size.value_or(HUGE_VAL), options.sizing.field.max_size);
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
-    // (docs/decisions/0003); a tenth more saves many splits and is never seen to.
+    // (docs/decisions/0003). A tenth more saves many splits, and has never made a vertex encroach.
     const double bound = core::radians(options.refine.min_angle_deg);
     border.max_ratio = 1.1 * std::sqrt(2.0) / (2 * core::sin_reproducible(bound));
-    constexpr double shift_of_cuts = 1.08;
+    // Edges may exceed the size of a source by up to a tenth (BorderOptions::sources), usually by less than this.
+    constexpr double division_tolerance = 1.08;
     for (SizeSource source : sources) {
-        source.size *= frozen_share / shift_of_cuts;
+        source.size *= frozen_share / division_tolerance;
         border.sources.push_back(source);
     }
     return border;

@@ -1,4 +1,4 @@
-// The stages in their order. Each is a function that can be called by itself; here they are timed and announced.
+// Runs the stages in their order, times them and announces them.
 #include <lamina/pipeline.hpp>
 
 #include <chrono>
@@ -18,8 +18,8 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// Kinds of work that share the threads: those of delaunay::pieces in the layer, and refinement outside of it.
-enum Work : std::size_t {
+/// Kinds of work that share the threads: those of delaunay::pieces in the layer, and the refinement of subdomains.
+enum SharedWork : std::size_t {
     decomposition_work = delaunay::pieces::cutting,
     layer_work = delaunay::pieces::triangulating,
     refinement_work
@@ -29,10 +29,10 @@ double seconds_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Announces stages and takes their times.
-class Clock {
+/// Announces the stages and measures their times.
+class StageClock {
 public:
-    explicit Clock(const Progress& progress) : progress_(progress), start_(seconds_now()), last_(start_) {}
+    explicit StageClock(const Progress& progress) : progress_(progress), start_(seconds_now()), last_(start_) {}
     void begin(const std::string& stage) const {
         if (progress_) progress_(stage);
     }
@@ -48,8 +48,9 @@ private:
     double start_, last_;
 };
 
-/// Records the times of the threads in a stage that took `elapsed` seconds, and divides these among the kinds of work.
-void take_times(const core::BusyTimes& times, double elapsed, MeshResult& result) {
+/// Records the times of the threads over `elapsed` seconds in which they shared several kinds of work, and divides
+/// these seconds among the kinds.
+void record_shared_times(const core::BusyTimes& times, double elapsed, MeshResult& result) {
     ThreadSeconds sum;
     for (std::size_t i = 0; i < times.threads(); ++i) {
         const ThreadSeconds thread{times.seconds(i, decomposition_work), times.seconds(i, layer_work),
@@ -66,20 +67,21 @@ void take_times(const core::BusyTimes& times, double elapsed, MeshResult& result
     result.seconds.refinement = share * sum.refinement;
 }
 
-/// Records what the subdomains hold, against what was estimated.
+/// Records the results of the refinement, and how good the estimates of the numbers of triangles were.
 void summarize_refinement(std::span<const Subdomain> subdomains, std::span<const Refinement> refinements,
                           MeshResult& result) {
     result.inviscid_pieces = refinements.size();
-    std::size_t foreseen = 0;
+    std::size_t good_estimates = 0;
     for (std::size_t i = 0; i < refinements.size(); ++i) {
         result.refinement += refinements[i].stats;
         const std::size_t made = refinements[i].triangles.size();
         result.largest_inviscid_piece = std::max(result.largest_inviscid_piece, made);
-        const auto outcome = static_cast<double>(made);
-        foreseen += std::abs(subdomains[i].estimated_triangles - outcome) <= 0.15 * outcome;
+        const auto triangles = static_cast<double>(made);
+        good_estimates += std::abs(subdomains[i].estimated_triangles - triangles) <= 0.15 * triangles;
     }
     if (!refinements.empty())
-        result.estimates_within_15_percent = static_cast<double>(foreseen) / static_cast<double>(refinements.size());
+        result.estimates_within_15_percent =
+            static_cast<double>(good_estimates) / static_cast<double>(refinements.size());
 }
 
 void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOptions& options, double chord,
@@ -96,15 +98,16 @@ void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOpt
     }
 }
 
-void demand_valid(const MeshCheck& check) {
+void require_valid(const MeshCheck& check) {
     if (check.valid()) return;
     const MeshDefect& first = check.defects.front();
-    throw MeshError(fmt::format("the mesh made is not valid: {} near ({}, {}){}", first.what, first.at.x, first.at.y,
-                                check.defect_count > 1 ? fmt::format(", and {} more", check.defect_count - 1) : ""),
-                    first.at);
+    throw MeshError(
+        fmt::format("the mesh made is not valid: {} near ({}, {}){}", first.description, first.at.x, first.at.y,
+                    check.defect_count > 1 ? fmt::format(", and {} more", check.defect_count - 1) : ""),
+        first.at);
 }
 
-MeshResult run(Geometry geometry, const CaseOptions& options, Clock& clock, double geometry_seconds) {
+MeshResult run(Geometry geometry, const CaseOptions& options, StageClock& clock, double geometry_seconds) {
     MeshResult result;
     StageSeconds& seconds = result.seconds;
     clock.lap();
@@ -133,7 +136,7 @@ MeshResult run(Geometry geometry, const CaseOptions& options, Clock& clock, doub
     Decoupling decoupling = decouple(layer.points, layer.borders, size, far_field, options.decoupling, options.refine);
     seconds.decoupling = clock.lap();
 
-    // The layer's first cuts occupy one thread each: the others refine meanwhile (thesis 6.6).
+    // Each of the first cuts of the layer occupies one thread, so the other threads refine meanwhile (thesis 6.6).
     clock.begin("layer triangulation and refinement");
     LayerCells cells;
     std::vector<Refinement> refinements;
@@ -141,7 +144,7 @@ MeshResult run(Geometry geometry, const CaseOptions& options, Clock& clock, doub
     core::parallel_invoke(
         [&] { cells = layers::fill(layer, options.layer.topology, options.decomposition, &times); },
         [&] { refinements = decoupling::refine_all(decoupling.subdomains, &times, refinement_work); });
-    take_times(times, clock.lap(), result);
+    record_shared_times(times, clock.lap(), result);
 
     clock.begin("assembly");
     result.threads = thread_count();
@@ -153,7 +156,7 @@ MeshResult run(Geometry geometry, const CaseOptions& options, Clock& clock, doub
 
     clock.begin("check");
     result.check = check_mesh(result.mesh, {.min_angle_deg = options.refine.min_angle_deg});
-    demand_valid(result.check);
+    require_valid(result.check);
     seconds.check = clock.lap();
 
     result.geometry = std::move(geometry);
@@ -173,7 +176,7 @@ MeshResult generate_mesh(Geometry geometry, const CaseOptions& options, const Pr
     validate(options);
     MeshResult result;
     with_threads(options.threads, [&] {
-        Clock clock(progress);
+        StageClock clock(progress);
         result = run(std::move(geometry), options, clock, 0);
     });
     return result;
@@ -183,7 +186,7 @@ MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptio
     validate(options);
     MeshResult result;
     with_threads(options.threads, [&] {
-        Clock clock(progress);
+        StageClock clock(progress);
         clock.begin("geometry");
         Geometry geometry = read_geometry(inputs, options.geometry);
         const double geometry_seconds = clock.lap();

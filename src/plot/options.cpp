@@ -1,5 +1,7 @@
-// The table of the options of pictures.
+// The table of the options of plot_mesh().
 #include <lamina/plot.hpp>
+
+#include <cmath>
 
 #include <lamina/option_builders.hpp>
 
@@ -13,6 +15,7 @@ std::array<double, 4> parse_window(const std::string& text) {
     const std::vector<double> n = core::parse_numbers(text, ',');
     if (n.size() != 4) throw UsageError("'" + text + "' is not x0,x1,y0,y1");
     if (!(n[0] < n[1] && n[2] < n[3])) throw UsageError("x0 must be below x1, and y0 below y1");
+    if (!std::isfinite(n[1] - n[0]) || !std::isfinite(n[3] - n[2])) throw UsageError("the window is too large");
     return {n[0], n[1], n[2], n[3]};
 }
 
@@ -20,16 +23,17 @@ std::string window_text(const std::array<double, 4>& w) { return core::concat(w[
 
 OptionTable<PlotOptions> make_table() {
     OptionTableBuilder<PlotOptions> table("Picture");
-    table.choice("color", "what cells are coloured by",
+    table.choice("color", "quantity that the colours of the cells show",
                  Choices<PlotColor>{{"none", PlotColor::none},
                                     {"quality", PlotColor::quality},
                                     {"size", PlotColor::size},
                                     {"piece", PlotColor::piece},
                                     {"layer", PlotColor::layer}},
                  member_at(&PlotOptions::color));
-    table.spec("window", "X0,X1,Y0,Y1", "part of the plane to show, in units of the input; else all of the mesh",
+    table.spec("window", "X0,X1,Y0,Y1", "part of the plane to show, in units of the input; else the whole mesh",
                parse_window, window_text, member_at(&PlotOptions::window));
-    table.count("width", "PX", "longer side of the picture, in pixels", numbers_from_to(16, 32768),
+    constexpr int max_cairo_pixels = 32767;
+    table.count("width", "PX", "longer side of the picture, in pixels", numbers_from_to(16, max_cairo_pixels),
                 member_at(&PlotOptions::width_px));
     return table.take();
 }

@@ -1,4 +1,4 @@
-// Whatever cannot be meshed is refused: documented exit code, one clear line, nothing written.
+// Input that cannot be meshed is refused with the documented exit code and one clear line, and nothing is written.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// lamina convert, and what every format promises on the command line.
+// lamina convert, and the promises of every format on the command line.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -50,12 +50,12 @@ TEST(Convert, SetsKinds) {
     const TemporaryFolder folder;
     Mesh mesh = annulus();
     mesh.markers[0] = {"body", MarkerKind::other, mesh.markers[0].edges};
-    mesh.markers[1] = {"rim", MarkerKind::other, mesh.markers[1].edges};
+    mesh.markers[1] = {"outside", MarkerKind::other, mesh.markers[1].edges};
     write_mesh(mesh, folder / "m.su2");
-    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--wall", "body", "--far", "rim"}).exit_code, 0);
+    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--wall", "body", "--far", "outside"}).exit_code, 0);
     EXPECT_EQ(read_mesh(folder / "m.vtu").markers[0].kind, MarkerKind::wall);
     EXPECT_EQ(read_mesh(folder / "m.vtu").markers[1].kind, MarkerKind::far_field);
-    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--symmetry", "rim"}).exit_code, 0);
+    ASSERT_EQ(run_lamina(folder, {"convert", "m.su2", "m.vtu", "--symmetry", "outside"}).exit_code, 0);
     EXPECT_EQ(read_mesh(folder / "m.vtu").markers[1].kind, MarkerKind::symmetry);
 }
 
@@ -72,7 +72,8 @@ TEST(Convert, Refuses) {
     expect_refused(folder, {"convert", "m.su2", "none/m.vtu"}, 5, "none/m.vtu");
 }
 
-/// Files may grow no larger than this while it lives, in this program and those it starts: as on a full disk.
+/// Limits the size of files, in this program and in those that it starts, while the object lives: a full disk behaves
+/// alike.
 class FileSizeLimit {
 public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -104,7 +105,7 @@ TEST(Convert, ADiskThatIsFullLeavesNothingBehind) {
             expect_refused(folder, {"convert", "in.vtu", out, "--format", format.name}, 5, "cannot write");
         }
         EXPECT_TRUE(std::filesystem::is_empty(folder / format.name)) << format.name;
-        // What was there stays.
+        // A mesh that was there before stays.
         ASSERT_EQ(run_lamina(folder, {"convert", "in.vtu", out, "--format", format.name}).exit_code, 0);
         {
             const FileSizeLimit limit(100'000);
@@ -146,10 +147,10 @@ TEST(Formats, HelpAndGuideListThemAll) {
         std::string extensions;
         for (const std::string& extension : format.extensions)
             extensions += (extensions.empty() ? "`" : ", `") + extension + "`";
-        const std::string row = "| `" + format.name + "` | " + extensions + " | " + format.holds + " |";
+        const std::string row = "| `" + format.name + "` | " + extensions + " | " + format.description + " |";
         EXPECT_NE(guide.str().find(row), std::string::npos) << row;
         for (const std::string& help : {mesh_help, convert_help})
-            EXPECT_NE(help.find(format.holds), std::string::npos) << format.name;
+            EXPECT_NE(help.find(format.description), std::string::npos) << format.name;
     }
 }
 

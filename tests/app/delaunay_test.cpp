@@ -1,10 +1,11 @@
-// lamina delaunay as a user runs it.
+// lamina delaunay.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <lamina/triangle_files.hpp>
+
 #include "app/program.hpp"
 #include "support/point_sets.hpp"
 
@@ -83,7 +84,7 @@ TEST(DelaunayCommand, ConstrainedAndRefinedWithReport) {
     }
     EXPECT_TRUE(folder.read("out.ele").find(" 42\n") != std::string::npos);
 
-    // The same for any number of threads, and coarser without bounds but that of the region.
+    // The mesh is the same for any number of threads, and coarser where the region alone sets a bound.
     const auto again = report_of({"--min-angle", "28", "--max-area", "0.1", "--threads", "3"});
     EXPECT_EQ(again["hash"], report["hash"]);
     EXPECT_LT(report_of({})["triangles"].get<int>(), 120);

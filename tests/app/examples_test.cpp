@@ -1,11 +1,12 @@
-// The case files of examples/ as a reader of the documentation runs them.
+// The case files of examples/.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
 
@@ -54,7 +55,7 @@ TEST(Examples, TheLayerOfTheThesisInPieces) {
         EXPECT_LE(decomposition["largest_piece_vertices"].get<double>() * (1u << depth),
                   1.25 * decomposition["piece_vertices"].get<double>());
         const auto count = report["triangles"].get<double>();
-        EXPECT_EQ(triangles.try_emplace(file, count).first->second, count);  // whatever the depth
+        EXPECT_EQ(triangles.try_emplace(file, count).first->second, count);  // does not depend on the depth
     }
 }
 
@@ -64,7 +65,7 @@ TEST(Examples, TheDenseLayerOfTheThesisIsMeshed) {
     EXPECT_EQ(report["layer_cells"]["share"], 1);
 }
 
-/// Figs. 24 to 26, of 3.3 million triangles, are left to a person (docs/reproduction.md).
+/// Figs. 24 to 26, with 3.3 million triangles, take too long for a test (docs/reproduction.md).
 TEST(Examples, FiguresOfTheThesisHaveTheirNumberOfTriangles) {
     struct Figure {
         const char* file;

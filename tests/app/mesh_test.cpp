@@ -1,16 +1,19 @@
-// The judged case of the main job, through the program: report, validity, quality, thread counts.
+// lamina mesh and lamina check on the case of the thesis, NACA 0012 (Figs. 24 to 28): files, report, validity, quality
+// and numbers of threads.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <lamina/geometry.hpp>
-#include <lamina/io.hpp>
-#include <lamina/layers.hpp>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <lamina/geometry.hpp>
+#include <lamina/io.hpp>
+#include <lamina/layers.hpp>
 
 #include "app/program.hpp"
 #include "support/layers.hpp"
@@ -20,19 +23,19 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::vector<std::string> judged_case(const std::vector<std::string>& more) {
+std::vector<std::string> thesis_case(const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"mesh",     "naca:0012", "--first-height",  "2.5e-5", "--growth",    "1.15",
                                        "--layers", "30",        "--max-ray-angle", "4",      "--far-field", "50"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
 
-/// The judged case meshed once for all tests.
+/// The case of the thesis, meshed once for all tests.
 class MeshCommand : public testing::Test {
 protected:
     static void SetUpTestSuite() {
         folder_ = new TemporaryFolder;
-        run_ = new ProgramRun(run_lamina(*folder_, judged_case({"-o", "n.su2", "-o", "n.vtu", "--report", "r.json"})));
+        run_ = new ProgramRun(run_lamina(*folder_, thesis_case({"-o", "n.su2", "-o", "n.vtu", "--report", "r.json"})));
     }
     static void TearDownTestSuite() {
         delete run_;
@@ -107,7 +110,7 @@ TEST(MeshCommandTopology, QuadsGoThroughEveryFormatAndCommand) {
     const TemporaryFolder folder;
     for (const std::string topology : {"layered", "quads"}) {
         const ProgramRun run = run_lamina(
-            folder, judged_case({"--layer-topology", topology, "-o", "q.su2", "-o", "q.vtu", "--report", "q.json"}));
+            folder, thesis_case({"--layer-topology", topology, "-o", "q.su2", "-o", "q.vtu", "--report", "q.json"}));
         ASSERT_EQ(run.exit_code, 0) << run.err;
         const Json r = Json::parse(folder.read("q.json"));
         const auto quads = r["quads"].get<std::size_t>(), triangles = r["layer_triangles"].get<std::size_t>();
@@ -122,13 +125,13 @@ TEST(MeshCommandTopology, QuadsGoThroughEveryFormatAndCommand) {
             EXPECT_EQ(Json::parse(check.out)["quads"], quads);
             EXPECT_EQ(Json::parse(check.out)["hash"], r["hash"]);
         }
-        // Rows of the layer are no Delaunay triangles, and need not be: the file knows which region they are.
+        // The triangles of the layer are not Delaunay. They need not be, since the file says which region they are in.
         const ProgramRun demanding = run_lamina(folder, {"check", "q.vtu", "--require-delaunay"});
         EXPECT_EQ(demanding.exit_code, 0) << demanding.err;
         const ProgramRun plot = run_lamina(folder, {"plot", "q.vtu", "-o", "q.png", "--width", "300"});
         EXPECT_EQ(plot.exit_code, 0) << plot.err;
     }
-    const ProgramRun wrong = run_lamina(folder, judged_case({"--layer-topology", "hexes", "-o", "w.su2"}));
+    const ProgramRun wrong = run_lamina(folder, thesis_case({"--layer-topology", "hexes", "-o", "w.su2"}));
     EXPECT_EQ(wrong.exit_code, 2);
     EXPECT_NE(wrong.err.find("delaunay, layered, quads"), std::string::npos) << wrong.err;
 }
@@ -148,7 +151,7 @@ TEST_F(MeshCommand, CheckFindsBothFilesValidAndTheSameMesh) {
         EXPECT_EQ(c["markers"].size(), 2u);
     }
     EXPECT_EQ(Json::parse(vtu.out)["quality"]["delaunay"]["violations"], 0);
-    // Said where the file holds no regions, and only there.
+    // The summary says so where the file holds no regions, and only there.
     const auto says_so = [&](const char* file) {
         return run_lamina(folder(), {"check", file}).out.find("every cell counts as isotropic") != std::string::npos;
     };
@@ -156,7 +159,7 @@ TEST_F(MeshCommand, CheckFindsBothFilesValidAndTheSameMesh) {
     EXPECT_FALSE(says_so("n.vtu"));
 }
 
-/// Every vertex of the SU2 file, to look up exactly.
+/// Returns the coordinates of all vertices of a file.
 std::set<std::pair<double, double>> vertices_of(const std::filesystem::path& file) {
     std::set<std::pair<double, double>> vertices;
     for (const Point p : read_mesh(file).points) vertices.emplace(p.x, p.y);
@@ -203,7 +206,7 @@ TEST_F(MeshCommand, ThreadsDoNotChangeTheFiles) {
     for (const char* threads : {"1", "2", "4"}) {
         const std::string stem = std::string("t") + threads;
         const ProgramRun again = run_lamina(
-            folder(), judged_case({"-o", stem + ".su2", "-o", stem + ".vtu", "--threads", threads, "--quiet"}));
+            folder(), thesis_case({"-o", stem + ".su2", "-o", stem + ".vtu", "--threads", threads, "--quiet"}));
         ASSERT_EQ(again.exit_code, 0) << again.err;
         EXPECT_EQ(again.out, "");
         EXPECT_TRUE(folder().read(stem + ".su2") == folder().read("n.su2")) << threads;
@@ -233,7 +236,7 @@ TEST_F(MeshCommand, ACutFileIsNoMesh) {
     EXPECT_TRUE(run.err.starts_with("lamina: error: cut.su2")) << run.err;
 }
 
-/// Meshes with a layer of 30, and expects a valid, Delaunay mesh that keeps the angle bound.
+/// Meshes the input with 30 layers, and expects a valid Delaunay mesh that keeps the angle bound.
 void expect_good_mesh(const std::string& input) {
     SCOPED_TRACE(input);
     const TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// Runs the built program as a user would: in a folder, with arguments.
+// Runs the program in a folder, with arguments.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ struct ProgramRun {
 /// Runs `lamina ARGUMENTS...` with `folder` as its working directory.
 ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
-/// What every refusal promises: the exit code, one line "lamina: error: ..." that holds `said`, nothing on standard
-/// output, and the folder as it was before.
+/// Expects the program to refuse the arguments: with this exit code, one line "lamina: error: ..." that contains
+/// `said`, nothing on standard output, and a folder that did not change.
 void expect_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,
                     const std::string& said);
 

@@ -1,4 +1,4 @@
-// What stands in CGNS files, asked of the CGNS library.
+// The contents of CGNS files, as the CGNS library reads them.
 #include <cgnslib.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 using test::TemporaryFolder;
 using test::tiny;
 
-TEST(Cgns, HoldsWhatSolversLookFor) {
+TEST(Cgns, HoldsEverythingThatSolversLookFor) {
     const TemporaryFolder folder;
     Mesh mesh = tiny();
     mesh.region = {Region::isotropic, Region::layer};
@@ -53,8 +53,9 @@ TEST(Cgns, HoldsWhatSolversLookFor) {
         for (int s = 1; s <= count; ++s) {
             ElementType_t elements;
             cgsize_t first = 0, last = 0;
-            int rim = 0, parents = 0;
-            ASSERT_EQ(cg_section_read(file, 1, 1, s, name, &elements, &first, &last, &rim, &parents), CG_OK);
+            int boundary_elements = 0, parents = 0;
+            ASSERT_EQ(cg_section_read(file, 1, 1, s, name, &elements, &first, &last, &boundary_elements, &parents),
+                      CG_OK);
             EXPECT_EQ(std::tuple(std::string(name), elements, first, last), sections[std::size_t(s - 1)]);
         }
 

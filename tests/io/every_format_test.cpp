@@ -1,4 +1,5 @@
-// What every format promises: meshes come back as they were, broken files are refused, failures leave nothing behind.
+// The promises of every format: meshes are read back as they were written, broken files are refused, and failures leave
+// nothing behind.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -17,7 +18,7 @@
 
 namespace lamina {
 
-/// What GoogleTest calls a parameter in its messages.
+/// Prints the parameter of a test in the messages of GoogleTest.
 static void PrintTo(const MeshFormat& format, std::ostream* stream) { *stream << format.name; }
 
 namespace {
@@ -27,10 +28,11 @@ using test::box_with_hole;
 using test::shuffled;
 using test::TemporaryFolder;
 
-/// A mesh is one file or several: each written in a folder of its own.
+/// Tests of one format. A mesh is one file or several, so each mesh gets a folder of its own.
 class EveryFormat : public testing::TestWithParam<MeshFormat> {
 protected:
-    using Parts = std::map<std::filesystem::path, std::string>;  ///< name within the folder -> content
+    /// The files of a mesh: their names in its folder, and their contents.
+    using Parts = std::map<std::filesystem::path, std::string>;
 
     void SetUp() override {
         if (!GetParam().readable) GTEST_SKIP() << "cannot be read here";
@@ -57,7 +59,7 @@ protected:
             }
         return parts;
     }
-    /// The hash of what is read, empty where an InputError of one line is thrown.
+    /// Writes and reads a damaged mesh. Returns its hash, or an empty text where an InputError of one line is thrown.
     std::string hash_or_complaint(const Parts& parts) {
         for (const auto& [part, content] : parts) {
             const auto written = on_disk_.find(part);
@@ -65,12 +67,12 @@ protected:
             on_disk_[part] = content;
             const std::filesystem::path file = folder_ / "damaged" / part;
             std::filesystem::create_directories(file.parent_path());
-            std::filesystem::remove(file);  // some file systems wait for the disk where a file is overwritten
+            std::filesystem::remove(file);  // some file systems wait for the disk when a file is overwritten
             std::ofstream(file, std::ios::binary) << content;
         }
         try {
             const Mesh mesh = read("damaged");
-            check_mesh(mesh);  // whatever was read can be looked at
+            check_mesh(mesh);  // must not crash, whatever was read
             return mesh_hash(mesh);
         } catch (const InputError& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
@@ -79,7 +81,7 @@ protected:
     }
 
     TemporaryFolder folder_;
-    Parts on_disk_;  ///< of the damaged mesh
+    Parts on_disk_;  ///< the damaged mesh as it was last written
 };
 
 std::vector<Mesh> sample_meshes() {
@@ -105,14 +107,14 @@ TEST_P(EveryFormat, ComesBackAsItWas) {
         write(mesh);
         const Mesh back = read();
         EXPECT_EQ(mesh_hash(mesh), mesh_hash(back));
-        EXPECT_EQ(mesh.points, back.points);  // in their order: walls first
+        EXPECT_EQ(mesh.points, back.points);  // also in the same order, with the walls first
         EXPECT_EQ(check_mesh(mesh).valid(), check_mesh(back).valid());
         ASSERT_EQ(back.markers.size(), mesh.markers.size());
         for (std::size_t m = 0; m < mesh.markers.size(); ++m) {
             EXPECT_EQ(back.markers[m].name, mesh.markers[m].name);
             EXPECT_EQ(back.markers[m].edges, mesh.markers[m].edges);
         }
-        // Written once more, the file is the same.
+        // A mesh that was read back is written to the same files.
         write(back, "again");
         EXPECT_EQ(mesh_hash(read("again")), mesh_hash(mesh));
         EXPECT_EQ(parts().size(), parts("again").size());
@@ -133,10 +135,10 @@ TEST_P(EveryFormat, LosesNothingInSilenceWhereItIsCutShort) {
     const Parts whole = parts();
     EXPECT_EQ(hash_or_complaint(whole), mesh_hash(mesh));
     for (const auto& [part, content] : whole) {
-        if (part.extension() == ".edge") continue;  // follows from the triangles, and is not read
+        if (part.extension() == ".edge") continue;  // is not read, since it follows from the triangles
         const std::size_t step = 1 + content.size() / 1000;
         Parts cut = whole;
-        // The name that ends a .mapbc may be shortened: nothing tells.
+        // Nothing in a .mapbc file shows that the name at its end was shortened.
         const std::size_t end = part.extension() == ".mapbc" ? content.rfind(' ') : content.size();
         for (std::size_t length = 0; length < end; length += step) {
             cut[part] = content.substr(0, length);
@@ -151,7 +153,7 @@ TEST_P(EveryFormat, SurvivesRandomDamage) {
     std::mt19937 random(7);
     write(annulus({.around = 6, .rings = 2, .layer_rings = 1, .quads_in_layer = GetParam().quads}));
     const Parts whole = parts();
-    // The CGNS library keeps damaged files open, up to its limit.
+    // The CGNS library keeps damaged files open and limits the number of open files.
     const int trials = GetParam().name.starts_with("cgns") ? 30 : 1000;
     for (int trial = 0; trial < trials; ++trial) {
         Parts damaged_parts = whole;
@@ -182,7 +184,7 @@ TEST_P(EveryFormat, SurvivesRandomDamage) {
 TEST_P(EveryFormat, FailuresLeaveNothingBehind) {
     const Mesh mesh = annulus();
     folder_.write("file", "");
-    // A folder where the file should be, or a file where the folder should be.
+    // A folder stands in the place of the file, or a file in the place of the folder.
     std::filesystem::create_directory(folder_ / "taken");
     if (path("taken").has_extension())
         std::filesystem::create_directory(path("taken"));
@@ -191,8 +193,8 @@ TEST_P(EveryFormat, FailuresLeaveNothingBehind) {
     std::filesystem::create_directory(folder_ / "locked");
     std::filesystem::permissions(folder_ / "locked", std::filesystem::perms::owner_read);
     std::vector<std::filesystem::path> unwritable{path("file"), path("taken")};
-    if (path().has_extension()) unwritable.push_back(path("none"));  // folders are made for a folder
-    if (geteuid() != 0) unwritable.push_back(path("locked"));        // nothing is locked for root
+    if (path().has_extension()) unwritable.push_back(path("none"));  // for a polyMesh, missing folders are made
+    if (geteuid() != 0) unwritable.push_back(path("locked"));        // root may write everywhere
     const auto before = folder_.names();
     for (const std::filesystem::path& file : unwritable) {
         EXPECT_THROW(check_writable(file, {.format = GetParam().name}), IoError) << file;

@@ -1,4 +1,4 @@
-// Meshes to files and back, and files that are broken.
+// SU2 and VTU files: meshes are written and read back, and broken files are refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,6 @@
 #include <lamina/io.hpp>
 
 #include "core/parallel.hpp"
-#include "io/formats.hpp"
 #include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -93,7 +92,7 @@ TEST(MeshFiles, VtuHoldsEverything) {
     EXPECT_EQ(folder.read("m.vtu"), folder.read("again.vtu"));
 }
 
-/// Values of an array of doubles or floats from a raw VTU file.
+/// Returns the values of an array of doubles or floats from a raw VTU file.
 template <class T>
 std::vector<T> vtu_array(const std::string& file, const std::string& name, std::size_t count) {
     const std::size_t tag = file.find("Name=\"" + name + "\""), attribute = file.find("offset=\"", tag) + 8;
@@ -110,7 +109,7 @@ TEST(MeshFiles, VtuHoldsQualityAndWallDistance) {
     const std::string file = folder.read("m.vtu");
     const auto distance = vtu_array<double>(file, "wall_distance", mesh.points.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
-        ASSERT_NEAR(distance[i], length(mesh.points[i]) - 1, 2e-4) << i;  // a polygon, not a circle
+        ASSERT_NEAR(distance[i], length(mesh.points[i]) - 1, 2e-4) << i;  // the wall is a polygon, not a circle
     const auto quality = vtu_array<float>(file, "quality", mesh.triangles.size() + mesh.quads.size() + 400);
     for (std::size_t i = 0; i < mesh.triangles.size() + mesh.quads.size(); ++i) {
         ASSERT_GT(quality[i], 0);
@@ -123,7 +122,8 @@ TEST(MeshFiles, VtuHoldsQualityAndWallDistance) {
 
 TEST(Su2, ReadsOtherPrograms) {
     const TemporaryFolder folder;
-    // Sections in another order, comments, no trailing indices, CRLF, boundary edges the wrong way round.
+    // The sections have another order. There are comments, line ends of Windows, boundary edges in the wrong direction,
+    // and no indices at the ends of lines.
     const auto file = folder.write("m.su2",
                                    "% by hand\r\n"
                                    "NPOIN=5\r\n0 0\r\n1 0\r\n0.1 1e-5 \r\n+0 1\r\n-1 0.33333333333333331\r\n\r\n"
@@ -140,7 +140,7 @@ TEST(Su2, ReadsOtherPrograms) {
 TEST(Su2, SaysWhereAFileIsMalformed) {
     const TemporaryFolder folder;
     const auto expect_complaint = [&](const std::string& from, const std::string& to, std::size_t line,
-                                      const std::string& what) {
+                                      const std::string& said) {
         std::string text = tiny_su2;
         const std::size_t at = text.find(from);
         ASSERT_NE(at, std::string::npos) << from;
@@ -150,7 +150,7 @@ TEST(Su2, SaysWhereAFileIsMalformed) {
             ADD_FAILURE() << "no error for " << to;
         } catch (const InputError& error) {
             EXPECT_EQ(error.place().line, line) << error.what();
-            EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
         }
     };
     expect_complaint("NDIME= 2", "NDIME= 3", 1, "two-dimensional");

@@ -1,4 +1,4 @@
-// The bytes of MSH files, and files as other programs write them.
+// The bytes of MSH files, and MSH files as other programs write them.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -79,7 +79,8 @@ TEST(Msh, HoldsRegions) {
 
 TEST(Msh, ReadsOtherPrograms) {
     const TemporaryFolder folder;
-    // Nodes numbered at will, a plane z = 2, an element without tags, points, groups without a name, comments.
+    // Nodes have arbitrary numbers and lie in the plane z = 2. There is an element without tags, a point, a group
+    // without a name, and comments.
     const auto v2 =
         folder.write("m.msh",
                      "$MeshFormat\r\n2 0 8\r\n$EndMeshFormat\r\n$Comments\nby hand\n$EndComments\n"
@@ -92,7 +93,7 @@ TEST(Msh, ReadsOtherPrograms) {
     EXPECT_EQ(mesh_hash(read_mesh(v2)), mesh_hash(expected));
     EXPECT_EQ(read_mesh(v2).markers[0].kind, MarkerKind::far_field);
 
-    // Nodes on entities of every dimension, physical groups with a sign, entities with borders.
+    // Nodes lie on entities of every dimension. Physical groups have signs, and entities have borders.
     const auto v4 = folder.write(
         "n.msh",
         "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 7 \"wall\"\n1 8 \"farfield\"\n$EndPhysicalNames\n"
@@ -108,7 +109,7 @@ TEST(Msh, ReadsOtherPrograms) {
 TEST(Msh, SaysWhereAFileIsMalformed) {
     const TemporaryFolder folder;
     const auto expect_complaint = [&](std::string text, const std::string& from, const std::string& to,
-                                      std::size_t line, const std::string& what) {
+                                      std::size_t line, const std::string& said) {
         const std::size_t at = text.find(from);
         ASSERT_NE(at, std::string::npos) << from;
         text.replace(at, from.size(), to);
@@ -117,7 +118,7 @@ TEST(Msh, SaysWhereAFileIsMalformed) {
             ADD_FAILURE() << "no error for " << to;
         } catch (const InputError& error) {
             EXPECT_EQ(error.place().line, line) << error.what();
-            EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
         }
     };
     expect_complaint(tiny_msh22, "2.2 0 8", "3 0 8", 2, "version '3'");

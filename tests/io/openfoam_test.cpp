@@ -1,4 +1,4 @@
-// The bytes of a polyMesh, its order, and what is refused.
+// The bytes of a polyMesh, the order of its faces, and the meshes that it cannot hold.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -59,7 +59,7 @@ TEST(OpenFoam, WritesTheGoldenFolder) {
     EXPECT_EQ(mesh_hash(read_mesh(folder / "case")), mesh_hash(tiny()));
 }
 
-/// The numbers of a labelList.
+/// Returns the numbers of a labelList.
 std::vector<std::size_t> labels(const std::string& text) {
     std::istringstream in(text.substr(text.find("}\n") + 2));
     std::string bracket;
@@ -101,14 +101,14 @@ TEST(OpenFoam, ReplacesAMeshAndNothingElse) {
     EXPECT_EQ(folder.read("thesis/polyMesh/chapter1"), "precious");
 }
 
-TEST(OpenFoam, RefusesWhatItCannotHold) {
+TEST(OpenFoam, RefusesMeshesThatItCannotHold) {
     const TemporaryFolder folder;
-    const auto expect_refused = [&](const Mesh& mesh, const std::string& what) {
+    const auto expect_refused = [&](const Mesh& mesh, const std::string& said) {
         try {
             write_mesh(mesh, folder / "case", {.format = "openfoam"});
-            ADD_FAILURE() << "no error: " << what;
+            ADD_FAILURE() << "no error: " << said;
         } catch (const Error& error) {
-            EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
         }
     };
     Mesh mesh = tiny();

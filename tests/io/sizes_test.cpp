@@ -1,4 +1,4 @@
-// Sizes at the vertices of background meshes.
+// Background meshes: sizes at the vertices of VTU and MSH files.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -28,7 +28,7 @@ struct PointArray {
     std::size_t components = 1;
 };
 
-/// A VTU file of the mesh with arrays of point data put in.
+/// Returns a VTU file of the mesh with these arrays of point data.
 std::string vtu_with(const Mesh& mesh, const std::vector<PointArray>& arrays, const TemporaryFolder& folder) {
     write_mesh(mesh, folder / "plain.vtu");
     std::string bytes = folder.read("plain.vtu");
@@ -80,7 +80,7 @@ TEST(Sizes, AreReadFromPointDataOfVtu) {
     }
 }
 
-// ---- VTU as VTK, ParaView and meshio write it ----
+// --- VTU files as VTK, ParaView and meshio write them
 
 std::string base64(const std::string& bytes) {
     const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -96,12 +96,13 @@ std::string base64(const std::string& bytes) {
 }
 
 struct VtuEncoding {
-    std::string format = "ascii";  ///< binary, raw, base64
+    std::string format = "ascii";  ///< "ascii", "binary", "raw" or "base64"
     bool compressed = false, long_header = false, big_endian = false;
 };
 
-/// Two triangles on a square, sizes 0.1 to 0.4 in single precision, a vertex and a polyline as cells of their own, and
-/// scalars of cells, one with a name that lamina uses for something else.
+/// Writes a VTU file in an encoding. The file holds two triangles on a square, sizes from 0.1 to 0.4 in single
+/// precision, a vertex and a polyline as further cells, and cell data, one of which has a name that lamina uses for
+/// something else.
 class EncodedVtu {
 public:
     explicit EncodedVtu(VtuEncoding encoding) : encoding_(std::move(encoding)) {}
@@ -145,7 +146,7 @@ private:
             const std::string all = header(plain.size()) + plain;
             return in_base64 ? base64(all) : all;
         }
-        // Blocks of 13 bytes: the last is shorter, but where it is not.
+        // Blocks of 13 bytes, so that the last one is shorter in some arrays.
         constexpr std::size_t block = 13;
         const std::size_t blocks = (plain.size() + block - 1) / block;
         std::string sizes = header(blocks) + header(block) + header(plain.size() % block), packed;
@@ -205,7 +206,7 @@ TEST(Sizes, AreReadFromVtuInEveryEncoding) {
     }
 }
 
-// Cut short, with bytes changed or cut out: refused in one line or read, never a crash.
+// Files that are cut short, or have bytes changed or removed, are read or refused in one line, and never crash.
 TEST(Sizes, OfDamagedVtuInEveryEncodingAreReadOrRefused) {
     const TemporaryFolder folder;
     test::Random random(5);
@@ -234,11 +235,12 @@ TEST(Sizes, OfDamagedVtuInEveryEncodingAreReadOrRefused) {
     EXPECT_GT(refused, 200u);
 }
 
-// No number in a file asks for more memory than its bytes could hold.
+// No number in a file makes lamina ask for more memory than the bytes of the file could hold.
 TEST(Sizes, OfVtuWithAbsurdHeadersAreRefused) {
     const TemporaryFolder folder;
     const std::string whole = EncodedVtu({.format = "raw", .compressed = true}).file();
-    const std::size_t header = whole.find('_', whole.find("<AppendedData")) + 1;  // of the sizes: blocks, block, last
+    const std::size_t header = whole.find('_', whole.find("<AppendedData")) +
+                               1;  // of the array `size`: blocks, bytes of a block, bytes of the last one
     for (const auto& [blocks, block, last] : std::vector<std::array<std::uint32_t, 3>>{
              {1, 5'000'000, 0}, {1, 0xffffffff, 0xffffffff}, {0xffffffff, 13, 3}, {2, 13, 14}}) {
         std::string damaged = whole;
@@ -288,7 +290,7 @@ TEST(Sizes, AreReadFromNodeDataOfMsh) {
     const std::string other = node_data("mach", "7 -1\n", 1);
     for (const std::string& data : {velocity + size, other + size}) {
         const SizedMesh read = read_sizes(folder.write("a.msh", square + data));
-        // The node of no triangle is left out.
+        // The node that belongs to no triangle is left out.
         EXPECT_EQ(read.points, (std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
         EXPECT_EQ(read.sizes, (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
         EXPECT_EQ(read.triangles.size(), 2u);

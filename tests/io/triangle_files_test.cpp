@@ -1,10 +1,11 @@
-#include <cmath>
-
+// The files of Triangle.
 #include <gtest/gtest.h>
 
-#include <lamina/error.hpp>
+#include <cmath>
 
+#include <lamina/error.hpp>
 #include <lamina/triangle_files.hpp>
+
 #include "support/temporary_folder.hpp"
 
 namespace lamina::test {
@@ -42,7 +43,7 @@ TEST(TriangleFiles, VerticesMayStandInTheNodeFile) {
     EXPECT_TRUE(in.markers.empty());
 }
 
-TEST(TriangleFiles, WhatIsWrittenIsReadBackBitForBit) {
+TEST(TriangleFiles, AreReadBackBitForBit) {
     const TemporaryFolder folder;
     for (std::size_t first : {0u, 1u}) {
         TriangleOutput out;
@@ -56,7 +57,7 @@ TEST(TriangleFiles, WhatIsWrittenIsReadBackBitForBit) {
         out.holes = {{0.1, 0.2}};
         out.regions = {{{0.3, 0.4}, 5, -1}};
         out.triangles = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}}}};
-        out.regional = {5};
+        out.triangle_attributes = {5};
         write_triangle_files(out, folder / "b.1", true);
         const TriangleInput in = read_triangle_files(folder / "b.1.poly");
         EXPECT_EQ(in.first_index, first);

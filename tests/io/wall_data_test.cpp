@@ -1,4 +1,4 @@
-// Tables of walls.
+// The table of the walls.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ TEST(WallData, OfACircle) {
             EXPECT_EQ(rows[i].marker, "wall");
             EXPECT_EQ(rows[i].vertex, i);
             EXPECT_NEAR(rows[i].arc_length, edge * static_cast<double>(i), 1e-14);
-            EXPECT_NEAR(distance(rows[i].normal, rows[i].at), 0, 1e-14);  // radius 1
+            EXPECT_NEAR(distance(rows[i].normal, rows[i].at), 0, 1e-14);  // the circle has radius 1
             EXPECT_NEAR(rows[i].first_height, gap, 1e-14);
         }
     }

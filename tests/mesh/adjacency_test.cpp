@@ -1,4 +1,4 @@
-// Against a map of all edges, on meshes of several blocks, whole and damaged.
+// find_adjacency() and find_edges() against a map of all edges, on whole and damaged meshes of several blocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Expected {
     std::map<std::pair<VertexId, VertexId>, std::vector<std::uint32_t>> users;
 };
 
-Expected by_map(const Mesh& mesh) {
+Expected adjacency_by_map(const Mesh& mesh) {
     const CellEdges edges(mesh);
     Expected expected;
     std::vector<bool> used(mesh.points.size(), false);
@@ -51,8 +51,8 @@ Expected by_map(const Mesh& mesh) {
     return expected;
 }
 
-void expect_as_by_map(const Mesh& mesh) {
-    const Expected expected = by_map(mesh);
+void expect_agreement(const Mesh& mesh) {
+    const Expected expected = adjacency_by_map(mesh);
     for (const unsigned threads : {1u, 4u})
         with_threads(threads, [&] {
             const Adjacency adjacency = mesh::find_adjacency(mesh);
@@ -63,21 +63,21 @@ void expect_as_by_map(const Mesh& mesh) {
             EXPECT_EQ(adjacency.orphans, expected.orphans);
             EXPECT_EQ(adjacency.edges, expected.users.size());
 
-            std::vector<Segment> sought;
+            std::vector<Segment> segments;
             std::vector<std::uint32_t> lowest;
             for (const auto& [ends, users] : expected.users) {
                 if (users.front() % 7 != 0) continue;
-                sought.push_back(users.front() % 2 == 0 ? Segment{ends.first, ends.second}
-                                                        : Segment{ends.second, ends.first});
+                segments.push_back(users.front() % 2 == 0 ? Segment{ends.first, ends.second}
+                                                          : Segment{ends.second, ends.first});
                 lowest.push_back(users.front());
             }
-            sought.push_back({VertexId{0}, VertexId{0}});
+            segments.push_back({VertexId{0}, VertexId{0}});
             lowest.push_back(no_edge);
-            EXPECT_EQ(mesh::find_edges(mesh, sought), lowest);
+            EXPECT_EQ(mesh::find_edges(mesh, segments), lowest);
         });
 }
 
-/// Cells of several blocks.
+/// Meshes whose cells make several blocks.
 std::vector<Mesh> large_meshes() {
     const test::AnnulusOptions options{.around = 600, .rings = 25, .layer_rings = 5};
     test::AnnulusOptions with_quads = options;
@@ -85,15 +85,15 @@ std::vector<Mesh> large_meshes() {
     return {test::annulus(options), test::annulus(with_quads), test::shuffled(test::annulus(with_quads), 1)};
 }
 
-TEST(Adjacency, IsThatOfAMap) {
-    expect_as_by_map(test::annulus({.around = 5, .rings = 1, .layer_rings = 0}));
-    for (const Mesh& mesh : large_meshes()) expect_as_by_map(mesh);
-    Mesh wheel;  // all edges but the rim's have one end in common
+TEST(Adjacency, AgreesWithAMapOfAllEdges) {
+    expect_agreement(test::annulus({.around = 5, .rings = 1, .layer_rings = 0}));
+    for (const Mesh& mesh : large_meshes()) expect_agreement(mesh);
+    Mesh wheel;  // all edges that are not on its boundary have one end in common
     constexpr std::size_t spokes = 30000;
     wheel.points.resize(spokes + 1);
     for (std::size_t i = 0; i < spokes; ++i)
         wheel.triangles.push_back({{VertexId{0}, VertexId{1 + i}, VertexId{1 + (i + 1) % spokes}}});
-    expect_as_by_map(wheel);
+    expect_agreement(wheel);
 }
 
 TEST(Adjacency, FindsEveryDefect) {
@@ -101,19 +101,20 @@ TEST(Adjacency, FindsEveryDefect) {
     for (Mesh mesh : large_meshes()) {
         const std::size_t n = mesh.triangles.size();
         const auto any = [&] { return random() % n; };
-        mesh.points.push_back({9, 9});  // of no cell
+        mesh.points.push_back({9, 9});  // belongs to no cell
         for (int i = 0; i < 40; ++i) {
-            mesh.triangles.push_back(mesh.triangles[any()]);                    // twice, far apart
-            std::swap(mesh.triangles[any()].v[0], mesh.triangles[any()].v[1]);  // folds, edges used on one side
+            mesh.triangles.push_back(mesh.triangles[any()]);  // the same triangle twice, far apart
+            std::swap(mesh.triangles[any()].v[0],
+                      mesh.triangles[any()].v[1]);  // folds: edges with two cells on one side
             std::swap(mesh.triangles[any()], mesh.triangles.back());
         }
         for (int i = 0; i < 40; ++i) mesh.triangles.erase(mesh.triangles.begin() + std::ptrdiff_t(any() / 2));
-        expect_as_by_map(mesh);
+        expect_agreement(mesh);
     }
-    // Every cell twice, the copies in blocks of their own.
+    // Every cell is there twice, and the copies lie in other blocks.
     Mesh twice = test::annulus({.around = 600, .rings = 25});
     twice.triangles.insert(twice.triangles.end(), twice.triangles.begin(), twice.triangles.end());
-    expect_as_by_map(twice);
+    expect_agreement(twice);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// The hash of meshes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,7 +53,7 @@ TEST(MeshHash, SeesEveryChange) {
     changed = mesh;
     changed.markers[1].edges.pop_back();
     EXPECT_NE(mesh_hash(changed), hash);
-    changed = mesh;  // another diagonal
+    changed = mesh;  // the other diagonal of a trapezoid
     Triangle &s = changed.triangles[0], &t = changed.triangles[1];
     const VertexId a = s.v[0], b = s.v[1], c = s.v[2], d = t.v[2];
     s = {{a, b, d}};
@@ -61,7 +62,7 @@ TEST(MeshHash, SeesEveryChange) {
 }
 
 TEST(MeshHash, FollowsTheRecipe) {
-    // Sums of MurmurHash3_x64_128 values that an independent implementation computed from the recipe in hash.cpp.
+    // An independent implementation computed these sums of MurmurHash3_x64_128 values by the recipe in hash.cpp.
     Mesh mesh;
     mesh.points = {{1, 0}, {0, 1}, {-0.0, 0}};
     mesh.triangles = {{{VertexId(0), VertexId(1), VertexId(2)}}};

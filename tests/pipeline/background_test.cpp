@@ -1,4 +1,4 @@
-// Background meshes: sizes at vertices, linear in triangles.
+// Background meshes, whose sizes are linear in their triangles.
 #include "sizing/background.hpp"
 
 #include <gtest/gtest.h>
@@ -22,18 +22,20 @@ SizedMesh rectangle(const Box& box, const std::array<double, 4>& sizes) {
 
 std::shared_ptr<const SizedMesh> shared(SizedMesh mesh) { return std::make_shared<const SizedMesh>(std::move(mesh)); }
 
-/// What the mesh asks for at the weighted mean of a triangle's corners.
-struct Asked {
+/// A size that the background mesh requests at a point.
+struct RequestedSize {
     Point at;
     double size;
 };
-Asked interpolated(const SizedMesh& mesh, const Triangle& t, const std::array<double, 3>& weights) {
-    Asked asked{{0, 0}, 0};
+
+/// Interpolates at the weighted mean of the corners of a triangle.
+RequestedSize interpolated(const SizedMesh& mesh, const Triangle& t, const std::array<double, 3>& weights) {
+    RequestedSize request{{0, 0}, 0};
     for (int k = 0; k < 3; ++k) {
-        asked.at = asked.at + weights[k] * mesh.points[t.v[k].index()];
-        asked.size += weights[k] * mesh.sizes[t.v[k].index()];
+        request.at = request.at + weights[k] * mesh.points[t.v[k].index()];
+        request.size += weights[k] * mesh.sizes[t.v[k].index()];
     }
-    return asked;
+    return request;
 }
 
 TEST(Background, PointsAreWithinATenthOfTheInterpolation) {
@@ -49,10 +51,11 @@ TEST(Background, PointsAreWithinATenthOfTheInterpolation) {
         EXPECT_LT(sources.size(), 10000u);
         for (const Triangle& t : mesh.triangles)
             for (const auto& w : weights) {
-                const Asked asked = interpolated(mesh, t, w);
+                const RequestedSize request = interpolated(mesh, t, w);
                 double size = HUGE_VAL;
-                for (const SizeSource& s : sources) size = std::min(size, s.size + gradation * distance(s.a, asked.at));
-                EXPECT_LE(size, 1.1 * asked.size);
+                for (const SizeSource& s : sources)
+                    size = std::min(size, s.size + gradation * distance(s.a, request.at));
+                EXPECT_LE(size, 1.1 * request.size);
             }
     }
 }
@@ -93,10 +96,10 @@ TEST(Background, AUniformSizeFillsItsAreaAndNoMore) {
 TEST(Background, ClosesTheLoop) {
     CaseOptions options = quick_options(5);
     const MeshResult first = mesh_of({naca("2412")}, options);
-    // Linear: triangles of any size interpolate it exactly.
-    const auto wanted = [](Point p) { return 0.15 + 0.02 * p.x; };
+    // The size is linear, so triangles of any size interpolate it exactly.
+    const auto requested_size = [](Point p) { return 0.15 + 0.02 * p.x; };
     SizedMesh sizes{first.mesh.points, first.mesh.triangles, {}};
-    for (Point p : sizes.points) sizes.sizes.push_back(wanted(p));
+    for (Point p : sizes.points) sizes.sizes.push_back(requested_size(p));
     options.sizing.background = shared(sizes);
     const MeshResult second = mesh_of({naca("2412")}, options);
     expect_sound(second, options);
@@ -108,9 +111,9 @@ TEST(Background, ClosesTheLoop) {
         const Triangle& t = second.mesh.triangles[i];
         const Point p = second.mesh.points[t.v[0].index()];
         if (second.mesh.region[i] != Region::isotropic || std::abs(p.y) < 0.5 || std::abs(p.y) > 3) continue;
-        const double h = wanted(p), edge = mean_edge(second.mesh, t);
+        const double h = requested_size(p), edge = mean_edge(second.mesh, t);
         EXPECT_LT(edge, 1.5 * h);
-        if (std::abs(p.y) < 1.5) continue;  // nearer to the body the layer's border asks for less
+        if (std::abs(p.y) < 1.5) continue;  // the layer's border requests smaller sizes near the body
         ++all;
         follow += edge > 0.5 * h && edge < 2 * h;
     }

@@ -1,4 +1,4 @@
-// Markers of the bases of blunt trailing edges.
+// The option that gives the base of a blunt trailing edge a marker of its own.
 #include <gtest/gtest.h>
 
 #include <lamina/io.hpp>
@@ -34,9 +34,9 @@ TEST(BaseMarkers, OnlyForABluntTrailingEdge) {
         double length_of_base = 0;
         for (const Segment& edge : mesh.markers[1].edges)
             length_of_base += distance(mesh.points[edge.a.index()], mesh.points[edge.b.index()]);
-        EXPECT_NEAR(length_of_base, 0.00252, 1e-12);  // NACA 4-digit thickness at x = 1
+        EXPECT_NEAR(length_of_base, 0.00252, 1e-12);  // the thickness of the section at x = 1
 
-        // The table follows the whole outline nevertheless.
+        // The table of the walls still follows the whole outline.
         const TemporaryFolder folder;
         write_wall_data(mesh, folder / "w.csv");
         const auto rows = test::read_wall_rows(folder.read("w.csv"));

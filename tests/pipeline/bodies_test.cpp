@@ -1,4 +1,4 @@
-// Several elements, concavities, and sections as they were measured.
+// Meshes of several elements, of concavities and of measured sections.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -15,15 +15,15 @@ namespace {
 using shapes::Outline;
 
 CaseOptions options_with(std::uint32_t layers) {
-    CaseOptions options = judged_options();
+    CaseOptions options = thesis_options();
     options.far_field.size = 15;
     options.layer.layers = layers;
     return options;
 }
 
-/// A flap below and behind a main section of unit chord; the gap is about `gap` wide.
+/// Returns a flap below and behind a main element of unit chord. The slot between them is about `gap` wide.
 Outline flap(double gap) { return shapes::moved(naca("0012", 80), -0.4, 0.3, {1.0 - 0.02, -0.01 - gap}); }
-/// A slat before its nose.
+/// Returns a slat in front of the main element.
 Outline slat(double gap) { return shapes::moved(naca("0010", 60), 0.5, 0.15, {-0.13 - gap, -0.1}); }
 
 TEST(SeveralBodies, FarApart) {
@@ -92,19 +92,19 @@ std::filesystem::path shared_geometry() {
     return std::filesystem::path(shared != nullptr ? shared : LAMINA_SOURCE_DIR "/../shared") / "geometry";
 }
 
-TEST(MeasuredSections, TheJudgedOnes) {
+TEST(MeasuredSections, OfVariousThickness) {
     const auto folder = shared_geometry() / "uiuc/selig";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no collection of sections";
     for (const char* name : {"rae2822.dat", "e387.dat", "s1223.dat", "naca63a210.dat", "n0012.dat", "goe417a.dat"}) {
         SCOPED_TRACE(name);
-        const MeshResult result = generate_mesh({(folder / name).string()}, judged_options());
-        expect_sound(result, judged_options());
+        const MeshResult result = generate_mesh({(folder / name).string()}, thesis_options());
+        expect_sound(result, thesis_options());
         expect_nothing_left_over(result);
         EXPECT_LT(result.check.isotropic.p999_neighbour_area_ratio, 3.5);
     }
 }
 
-TEST(MeasuredSections, SeveralElementsAreMeshedOrRefusedInWords) {
+TEST(MeasuredSections, SeveralElementsAreMeshedOrRefusedWithAReason) {
     const auto folder = shared_geometry() / "multielement";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no collection of sections";
     std::size_t meshed = 0;

@@ -1,4 +1,4 @@
-// Meshes for the tests of the whole pipeline, and what every one of them must keep.
+// Cases for the tests of the whole pipeline, and the properties that every mesh must have.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,9 @@
 
 namespace lamina::test {
 
-/// The options of the judged case: the points as given, a layer of 30, growth 1.15, far field 50 chords away.
-inline CaseOptions judged_options() {
+/// Returns the options of the case of the thesis (Figs. 24 to 28): the points as given, 30 layers, growth 1.15, a far
+/// field 50 chords away.
+inline CaseOptions thesis_options() {
     CaseOptions options;
     options.surface.surface = Surface::keep;
     options.layer.first_height = 2.5e-5;
@@ -27,9 +28,9 @@ inline CaseOptions judged_options() {
     return options;
 }
 
-/// The same with a far field so near that a case takes little time.
+/// Returns these options with a nearer far field, which takes less time.
 inline CaseOptions quick_options(double far_field = 10) {
-    CaseOptions options = judged_options();
+    CaseOptions options = thesis_options();
     options.far_field.size = far_field;
     return options;
 }
@@ -43,7 +44,7 @@ inline MeshResult mesh_of(std::initializer_list<shapes::Outline> bodies, const C
     return generate_mesh(shapes::geometry(bodies), options);
 }
 
-/// Lexicographic, for sets of points.
+/// The lexicographic order, for sets of points.
 struct PointLess {
     bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
 };
@@ -54,7 +55,7 @@ inline double enclosed_area(std::span<const Point> loop) {
     return 0.5 * doubled;
 }
 
-/// The edges of a marker follow each other round one loop, in some order.
+/// Expects that the edges of a marker make one loop. They may stand in any order.
 inline void expect_one_loop(const Marker& marker) {
     std::vector<Segment> by_start = marker.edges;
     std::sort(by_start.begin(), by_start.end());
@@ -70,17 +71,18 @@ inline void expect_one_loop(const Marker& marker) {
     EXPECT_EQ(steps, by_start.size()) << marker.name;
 }
 
-/// Valid, markers complete, every wall point of the input a vertex of its wall exactly, the domain covered, Delaunay
-/// across the borders of pieces too, and no angle below the bound but at sharp corners of frozen edges.
+/// Expects that the mesh is valid and covers the domain, that its markers are complete, that every wall point of the
+/// input is exactly a vertex of its wall, that all edges are Delaunay, also between pieces, and that no angle is below
+/// the bound but at sharp corners of frozen edges.
 inline void expect_sound(const MeshResult& result, const CaseOptions& options) {
     const Mesh& mesh = result.mesh;
     const MeshCheck check = check_mesh(mesh, {.min_angle_deg = options.refine.min_angle_deg});
-    EXPECT_EQ(check.defect_count, 0u) << check.defects.front().what;
+    EXPECT_EQ(check.defect_count, 0u) << check.defects.front().description;
     EXPECT_EQ(check.boundary_loops, result.geometry.elements.size() + 1);
     EXPECT_EQ(check.delaunay_violations, 0u);
     EXPECT_EQ(check.isotropic.angles_below_bound, check.isotropic.exempt);
     EXPECT_LT(double(check.isotropic.exempt), 0.001 * double(check.isotropic.cells));
-    // Refinement and check judge alike.
+    // The refinement and the check count the same triangles.
     EXPECT_EQ(check.isotropic.exempt, result.refinement.exempt);
     EXPECT_EQ(check.isotropic.angles_below_bound, result.refinement.below_bound);
 
@@ -113,7 +115,7 @@ inline void expect_sound(const MeshResult& result, const CaseOptions& options) {
     EXPECT_NEAR(check.area, area, 1e-9 * side * side);
 }
 
-/// Nothing that refinement had to leave undone.
+/// Expects that refinement refused no point and left no triangle too large or too narrow.
 inline void expect_nothing_left_over(const MeshResult& result) {
     EXPECT_EQ(result.refinement.refused, 0u);
     EXPECT_EQ(result.refinement.oversized, 0u);

@@ -1,4 +1,4 @@
-// What asks for sizes: wakes, boxes, circles and lines, near walls and far from them.
+// Size sources (wakes, boxes, circles and lines) near walls and far from them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,14 +11,14 @@
 namespace lamina::test {
 namespace {
 
-/// What the sources ask for at p.
-double wanted(const std::vector<SizeSource>& sources, double gradation, Point p) {
+/// Returns the size that the sources request at p.
+double requested_size(const std::vector<SizeSource>& sources, double gradation, Point p) {
     double size = HUGE_VAL;
     for (const SizeSource& s : sources) size = std::min(size, s.size + gradation * distance_to(s, p));
     return size;
 }
 
-/// No triangle larger than the sources allow, and no edge of the layer's border too long to be frozen.
+/// Expects that no triangle is larger than the sources allow, and no edge of the layer's border too long to be frozen.
 void expect_sizes(const MeshResult& result, const std::vector<SizeSource>& sources, double gradation) {
     const auto& points = result.mesh.points;
     for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t) {
@@ -27,13 +27,13 @@ void expect_sizes(const MeshResult& result, const std::vector<SizeSource>& sourc
         const Point a = points[v[0].index()], b = points[v[1].index()], c = points[v[2].index()];
         const double area = 0.5 * cross(b - a, c - a);
         double h = 0;
-        for (Point p : {a, b, c}) h += wanted(sources, gradation, p) / 3;
+        for (Point p : {a, b, c}) h += requested_size(sources, gradation, p) / 3;
         h *= 1 + SizeField::relative_error;
         ASSERT_LE(area, 0.4330127018922193 * h * h) << a.x << ' ' << a.y;
     }
     for (const Segment& edge : result.mesh.constraints) {
         const Point a = points[edge.a.index()], b = points[edge.b.index()];
-        ASSERT_LE(distance(a, b), 1.02 * frozen_share * wanted(sources, gradation, midpoint(a, b)));
+        ASSERT_LE(distance(a, b), 1.02 * frozen_share * requested_size(sources, gradation, midpoint(a, b)));
     }
 }
 
@@ -99,7 +99,7 @@ TEST(SizeSources, WithoutLayersTheWallIsDivided) {
     expect_sizes(result, options.sizing.sources, options.sizing.field.gradation);
 }
 
-/// Refused in words that hold `said`, and before anything long runs: these would never end.
+/// Expects that the options are refused at once with a message that contains `said`; a run would never end.
 void expect_refused(const CaseOptions& options, const std::string& said) {
     try {
         mesh_of({naca("0012")}, options);
@@ -137,7 +137,7 @@ TEST(Sizes, TooSmallForAnyMeshAreRefusedByName) {
                        o.far_field.size = 500;
                    }),
                    "gradation: 1e-09");
-    // What lies outside the far field asks for nothing.
+    // Sources outside the far field have no effect.
     EXPECT_NO_THROW(mesh_of({naca("0012")}, with([](CaseOptions& o) {
                                 o.sizing.sources = {circle({30, 0}, 1, 1e-6)};
                             })));
@@ -169,7 +169,7 @@ TEST(Wake, StartsWithTheSizeOfTheBorderUnlessToldOtherwise) {
     const MeshResult with = mesh_of({blunt}, options);
     expect_sound(with, options);
     expect_nothing_left_over(with);
-    // The layer's border asks for nothing more than before, but near the wake.
+    // The layer's border is divided no further than before, but near the wake.
     EXPECT_LT(with.mesh.constraints.size(), 1.02 * double(without.mesh.constraints.size()));
     const Box window{{1.5, 0}, {2.5, 0.2}};
     EXPECT_GT(isotropic_triangles_in(with.mesh, window), 20 * isotropic_triangles_in(without.mesh, window));
@@ -186,7 +186,7 @@ TEST(Wake, EndsAtTheNextBody) {
         const MeshResult result = mesh_of({naca("0012"), flap}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
-        // Behind the flap only its own wake goes on, which starts lower.
+        // Behind the flap there is only the wake of the flap, which starts lower.
         EXPECT_GT(isotropic_triangles_in(result.mesh, {{2, -0.4}, {2.5, -0.25}}),
                   1.5 * isotropic_triangles_in(result.mesh, {{2, -0.25}, {2.5, -0.1}}));
     }

@@ -1,4 +1,4 @@
-// The three topologies of the layer: different cells between the same points, in a mesh that is otherwise the same.
+// The three topologies of the layer: they join the same points to different cells, and the rest of the mesh is equal.
 #include <gtest/gtest.h>
 
 #include "pipeline/cases.hpp"
@@ -11,7 +11,7 @@ using shapes::Outline;
 constexpr LayerTopology topologies[] = {LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads};
 
 CaseOptions options_with(LayerTopology topology) {
-    CaseOptions options = judged_options();
+    CaseOptions options = thesis_options();
     options.far_field.size = 10;
     options.layer.topology = topology;
     return options;
@@ -24,7 +24,7 @@ std::vector<Triangle> isotropic_triangles(const Mesh& mesh) {
     return triangles;
 }
 
-void expect_alike_but_for_the_layer(std::initializer_list<Outline> bodies) {
+void expect_equal_outside_the_layer(std::initializer_list<Outline> bodies) {
     const MeshResult delaunay = mesh_of(bodies, options_with(LayerTopology::delaunay));
     for (LayerTopology topology : topologies) {
         SCOPED_TRACE(static_cast<int>(topology));
@@ -42,7 +42,7 @@ void expect_alike_but_for_the_layer(std::initializer_list<Outline> bodies) {
         if (topology != LayerTopology::delaunay) {
             EXPECT_EQ(result.check.edges_without_first_layer, 0u);
         }
-        // A quad is two triangles.
+        // A quad takes the place of two triangles.
         EXPECT_EQ(mesh.triangles.size() + 2 * mesh.quads.size(), delaunay.mesh.triangles.size());
         EXPECT_EQ(mesh.quads.empty(), topology != LayerTopology::quads);
         EXPECT_EQ(mesh_hash(mesh) == mesh_hash(delaunay.mesh), topology == LayerTopology::delaunay);
@@ -50,13 +50,13 @@ void expect_alike_but_for_the_layer(std::initializer_list<Outline> bodies) {
 }
 
 TEST(Topology, SharpAndBluntSections) {
-    expect_alike_but_for_the_layer({naca("0012")});
-    expect_alike_but_for_the_layer({naca("4412", 101, TrailingEdge::blunt)});
+    expect_equal_outside_the_layer({naca("0012")});
+    expect_equal_outside_the_layer({naca("4412", 101, TrailingEdge::blunt)});
 }
 
 TEST(Topology, SlotsAndCoves) {
-    expect_alike_but_for_the_layer({naca("0012"), shapes::moved(naca("0012", 80), -0.4, 0.3, {0.98, -0.02})});
-    expect_alike_but_for_the_layer({shapes::refined(shapes::c_shape(0.05), 15)});
+    expect_equal_outside_the_layer({naca("0012"), shapes::moved(naca("0012", 80), -0.4, 0.3, {0.98, -0.02})});
+    expect_equal_outside_the_layer({shapes::refined(shapes::c_shape(0.05), 15)});
 }
 
 TEST(Topology, ThreadsDoNotMatter) {

@@ -1,4 +1,6 @@
-// Layers up to isotropy hand over to triangles of about their own size.
+// The transition from layers up to isotropy to the isotropic triangles: cells on both sides have about equal areas.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <map>
 
@@ -16,31 +18,31 @@ CaseOptions automatic(double growth) {
     return options;
 }
 
-/// Layer over isotropic area, edge by edge, sorted.
+/// Returns, for all edges between the regions, the area of the layer's cell over that of the isotropic cell, sorted.
 std::vector<double> area_ratios(const Mesh& mesh) {
-    struct Side {
+    struct EdgeSide {
         bool layer;
         double area;
     };
-    std::map<Segment, Side> sides;
+    std::map<Segment, EdgeSide> sides;
     std::vector<double> ratios;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const VertexId* v = mesh.triangles[t].v;
         const Point a = mesh.points[v[0].index()], b = mesh.points[v[1].index()], c = mesh.points[v[2].index()];
-        const Side here{mesh.region[t] == Region::layer, 0.5 * cross(b - a, c - a)};
+        const EdgeSide side{mesh.region[t] == Region::layer, 0.5 * cross(b - a, c - a)};
         for (int i = 0; i < 3; ++i) {
             const VertexId p = v[i], q = v[(i + 1) % 3];
-            const auto [there, first] = sides.emplace(Segment{std::min(p, q), std::max(p, q)}, here);
-            if (first || there->second.layer == here.layer) continue;
-            ratios.push_back(here.layer ? here.area / there->second.area : there->second.area / here.area);
+            const auto [other, is_first] = sides.emplace(Segment{std::min(p, q), std::max(p, q)}, side);
+            if (is_first || other->second.layer == side.layer) continue;
+            ratios.push_back(side.layer ? side.area / other->second.area : other->second.area / side.area);
         }
     }
     std::sort(ratios.begin(), ratios.end());
     return ratios;
 }
 
-/// The figures asked of every smooth section, and those of the check itself.
-void expect_hand_over(std::initializer_list<shapes::Outline> bodies, const CaseOptions& options) {
+/// Expects good area ratios, as every smooth section should have, and equal ones from check_mesh().
+void expect_good_transition(std::initializer_list<shapes::Outline> bodies, const CaseOptions& options) {
     const MeshResult result = mesh_of(bodies, options);
     expect_sound(result, options);
     const std::vector<double> ratios = area_ratios(result.mesh);
@@ -57,20 +59,20 @@ void expect_hand_over(std::initializer_list<shapes::Outline> bodies, const CaseO
     EXPECT_LT(percentile(99), 6);
 }
 
-TEST(HandOver, SymmetricCamberedBluntAndCoarseSections) {
+TEST(Transition, SymmetricCamberedBluntAndCoarseSections) {
     for (const double growth : {1.1, 1.2, 1.3}) {
         SCOPED_TRACE(growth);
-        expect_hand_over({naca("0012", 200)}, automatic(growth));
-        expect_hand_over({naca("4415", 120)}, automatic(growth));
-        expect_hand_over({naca("2412", 141, TrailingEdge::blunt)}, automatic(growth));
-        expect_hand_over({naca("23012", 60)}, automatic(growth));
-        expect_hand_over({shapes::joukowski(0.1, 0.1, 160)}, automatic(growth));
+        expect_good_transition({naca("0012", 200)}, automatic(growth));
+        expect_good_transition({naca("4415", 120)}, automatic(growth));
+        expect_good_transition({naca("2412", 141, TrailingEdge::blunt)}, automatic(growth));
+        expect_good_transition({naca("23012", 60)}, automatic(growth));
+        expect_good_transition({shapes::joukowski(0.1, 0.1, 160)}, automatic(growth));
     }
 }
 
-TEST(HandOver, TwoElements) {
+TEST(Transition, TwoElements) {
     const shapes::Outline flap = shapes::moved(naca("2412", 120), -0.5, 0.3, {1.005, -0.03});
-    expect_hand_over({naca("4412", 160), flap}, automatic(1.2));
+    expect_good_transition({naca("4412", 160), flap}, automatic(1.2));
 }
 
 }  // namespace

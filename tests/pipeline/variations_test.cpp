@@ -1,4 +1,4 @@
-// One section, many options and positions: what must hold for each, and what must stay alike between them.
+// One section with many options and in many positions: properties of each mesh, and likeness between them.
 #include <gtest/gtest.h>
 
 #include <lamina/error.hpp>
@@ -26,8 +26,8 @@ CaseOptions scaled(CaseOptions options, double scale) {
 TEST(Placement, HardlyChangesTheMesh) {
     const Outline body = naca("0012");
     const double count = double(triangles_of(body, quick_options()));
-    const auto expect_alike = [&](const char* what, const Outline& placed, double scale = 1) {
-        SCOPED_TRACE(what);
+    const auto expect_alike = [&](const char* placement, const Outline& placed, double scale = 1) {
+        SCOPED_TRACE(placement);
         EXPECT_NEAR(double(triangles_of(placed, scaled(quick_options(), scale))), count, 0.03 * count);
     };
     expect_alike("moved", shapes::moved(body, 0, 1, {3, -7}));
@@ -39,7 +39,7 @@ TEST(Placement, HardlyChangesTheMesh) {
     expect_alike("another start", shapes::started_at(body, 37));
 }
 
-/// Turned, the section's extent in x shrinks, and the far field with it.
+/// When the section is turned, its extent in x shrinks, and the far field shrinks with it.
 TEST(Placement, Turned) {
     const Outline body = naca("2412");
     for (double angle : {0.1, 0.7853981633974483, 1.5707963267948966, 2.0, 3.141592653589793, -0.3}) {
@@ -76,7 +76,7 @@ TEST(Pieces, AnyTargetGivesASoundMesh) {
     std::size_t whole = 0, before = 0;
     for (double target : {1e9, 50'000.0, 5'000.0, 800.0, 100.0}) {
         SCOPED_TRACE(target);
-        CaseOptions options = judged_options();
+        CaseOptions options = thesis_options();
         options.decoupling.pieces_target = target;
         const MeshResult result = mesh_of({body}, options);
         expect_sound(result, options);
@@ -93,12 +93,12 @@ TEST(Pieces, AnyTargetGivesASoundMesh) {
 TEST(Pieces, KRule) {
     for (double target : {1e9, 5'000.0, 1'000.0}) {
         SCOPED_TRACE(target);
-        CaseOptions options = judged_options();
+        CaseOptions options = thesis_options();
         options.decoupling.separators = SeparatorRule::k_rule;
         options.decoupling.pieces_target = target;
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
-        // Its segments are shorter than the border's edges that they meet, and refuse a few points.
+        // The rule makes segments that are shorter than the border's edges that they meet, so a few points are refused.
         EXPECT_LE(result.refinement.oversized, 5u);
     }
 }
@@ -129,7 +129,7 @@ TEST(Sizes, AngleBounds) {
     }
 }
 
-/// The longest edge between isotropic triangles within `reach` of the body, and anywhere.
+/// Returns the longest edge of isotropic triangles in the window.
 double longest_edge(const Mesh& mesh, const Box& window) {
     double longest = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -177,7 +177,7 @@ TEST(Sizes, FarSizeBoundsAllAreas) {
 TEST(FarField, AnyDistanceWithRoom) {
     for (double chords : {0.7, 1.0, 5.0, 50.0, 500.0}) {
         SCOPED_TRACE(chords);
-        CaseOptions options = judged_options();
+        CaseOptions options = thesis_options();
         options.far_field.size = chords;
         const MeshResult result = mesh_of({naca("0012")}, options);
         expect_sound(result, options);
@@ -189,7 +189,7 @@ TEST(FarField, Circle) {
     for (double chords : {0.8, 1.5, 5.0, 50.0, 500.0})
         for (double target : {50'000.0, 1'000.0}) {
             SCOPED_TRACE(chords);
-            CaseOptions options = judged_options();
+            CaseOptions options = thesis_options();
             options.far_field.size = chords;
             options.far_field.shape = FarFieldShape::circle;
             options.decoupling.pieces_target = target;
@@ -215,7 +215,7 @@ TEST(FarField, AnyConvexOutline) {
     for (const auto& outline : outlines)
         for (double target : {50'000.0, 1'000.0}) {
             SCOPED_TRACE(outline.size());
-            CaseOptions options = judged_options();
+            CaseOptions options = thesis_options();
             options.far_field.shape = FarFieldShape::outline;
             options.far_field.outline = outline;
             options.decoupling.pieces_target = target;
@@ -225,7 +225,7 @@ TEST(FarField, AnyConvexOutline) {
             EXPECT_NEAR(result.check.area, enclosed_area(outline) - enclosed_area(naca("0012")), 1e-9 * 3600);
             EXPECT_LT(double(result.largest_inviscid_piece), 2 * target);
         }
-    CaseOptions options = judged_options();
+    CaseOptions options = thesis_options();
     options.far_field.shape = FarFieldShape::outline;
     options.far_field.outline = {{-5, -5}, {5, -5}, {1, 0.5}, {5, 5}, {-5, 5}};
     EXPECT_THROW(mesh_of({naca("0012")}, options), UsageError);
@@ -235,7 +235,7 @@ TEST(FarField, AnyConvexOutline) {
 
 TEST(FarField, WithoutRoomIsRefused) {
     for (double chords : {0.0, -1.0, 0.1, 0.5, 0.55}) {
-        CaseOptions options = judged_options();
+        CaseOptions options = thesis_options();
         options.far_field.size = chords;
         EXPECT_THROW(mesh_of({naca("0012")}, options), UsageError) << chords;
     }

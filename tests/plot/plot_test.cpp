@@ -17,7 +17,7 @@ using test::annulus;
 using test::box_with_hole;
 using test::TemporaryFolder;
 
-/// Width and height from the header of a PNG file.
+/// Returns the width and the height that the header of a PNG file gives.
 std::pair<unsigned, unsigned> png_size(const std::string& png) {
     const auto number = [&](std::size_t at) {
         unsigned value = 0;
@@ -36,7 +36,7 @@ TEST(Plot, WritesEveryFormatAndColor) {
         plot_mesh(mesh, folder / "m.png", {.color = color, .width_px = 300});
         pictures.insert(folder.read("m.png"));
         EXPECT_EQ(png_size(folder.read("m.png")), std::pair(300u, 300u));
-        plot_mesh(box_with_hole(), folder / "plain.png", {.color = color, .width_px = 50});  // without any cell data
+        plot_mesh(box_with_hole(), folder / "plain.png", {.color = color, .width_px = 50});  // has no cell data
     }
     EXPECT_EQ(pictures.size(), 5u);
     plot_mesh(mesh, folder / "m.svg");
@@ -52,7 +52,7 @@ TEST(Plot, KeepsTheAspectOfTheWindow) {
     EXPECT_EQ(png_size(folder.read("m.png")), std::pair(400u, 100u));
     plot_mesh(mesh, folder / "m.png", {.window = {{0, 0.5, 0, 2}}, .width_px = 400});
     EXPECT_EQ(png_size(folder.read("m.png")), std::pair(100u, 400u));
-    // Far inside one cell, and far away from all.
+    // One window lies far inside a cell, the other far away from all.
     plot_mesh(mesh, folder / "m.png", {.window = {{1.1, 1.1 + 1e-12, 0.1, 0.1 + 1e-12}}, .width_px = 40});
     plot_mesh(mesh, folder / "m.png", {.window = {{1e6, 1e6 + 1, 0, 1}}, .width_px = 40});
     EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{1, 1, 0, 1}}}), UsageError);
@@ -61,7 +61,7 @@ TEST(Plot, KeepsTheAspectOfTheWindow) {
     EXPECT_NO_THROW(plot_mesh(Mesh{}, folder / "empty.png", {.width_px = 20}));
 }
 
-TEST(Plot, RefusesWhatItCannotWrite) {
+TEST(Plot, RefusesFilesItCannotWrite) {
     const TemporaryFolder folder;
     const Mesh mesh = annulus();
     EXPECT_THROW(plot_mesh(mesh, folder / "none/m.png"), IoError);

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Opens lamina's meshes with the programs that its users have, and compares what these report.
+"""Opens meshes of lamina with programs that read them, and compares what these programs report.
 
 usage: check_readers.py LAMINA FOLDER
 
@@ -51,9 +51,9 @@ ddtSchemes {{}} gradSchemes {{}} divSchemes {{}} laplacianSchemes {{}} interpola
 failures = 0
 
 
-def expect(condition, what, said=""):
+def expect(condition, claim, said=""):
     global failures
-    print(f"  {'ok    ' if condition else 'FAILED'}  {what}")
+    print(f"  {'ok    ' if condition else 'FAILED'}  {claim}")
     if not condition:
         failures += 1
         print("          " + str(said).strip()[-2000:].replace("\n", "\n          "))
@@ -101,20 +101,20 @@ def check_meshio(folder, reference):
         return found
 
     edges = sum(edges_of(reference).values())
-    wanted = {"triangle": reference["triangles"], "quad": reference["quads"], "line": edges}
-    wanted = {kind: n for kind, n in wanted.items() if n}
+    expected = {"triangle": reference["triangles"], "quad": reference["quads"], "line": edges}
+    expected = {kind: n for kind, n in expected.items() if n}
     for name in ["m.su2", "m.vtu", "z.vtu", "a41.msh", "b41.msh", "a22.msh", "b22.msh"]:
         mesh = meshio.read(folder / name)
-        same = counts(mesh) == wanted and len(mesh.points) == reference["vertices"]
-        expect(same, f"meshio reads {name}: {len(mesh.points)} points", (counts(mesh), wanted))
+        same = counts(mesh) == expected and len(mesh.points) == reference["vertices"]
+        expect(same, f"meshio reads {name}: {len(mesh.points)} points", (counts(mesh), expected))
         if name.endswith(".msh"):
             names = set(edges_of(reference)) | {"layer", "isotropic"}
             expect(set(mesh.field_data) == names, f"meshio finds the physical names of {name}", mesh.field_data)
     mesh = meshio.read(folder / "f.b8.ugrid")
-    wanted = {"wedge": reference["triangles"], "hexahedron": reference["quads"],
-              "triangle": 2 * reference["triangles"], "quad": edges + 2 * reference["quads"]}
-    wanted = {kind: n for kind, n in wanted.items() if n}
-    expect(counts(mesh) == wanted, "meshio reads f.b8.ugrid", (counts(mesh), wanted))
+    expected = {"wedge": reference["triangles"], "hexahedron": reference["quads"],
+                "triangle": 2 * reference["triangles"], "quad": edges + 2 * reference["quads"]}
+    expected = {kind: n for kind, n in expected.items() if n}
+    expect(counts(mesh) == expected, "meshio reads f.b8.ugrid", (counts(mesh), expected))
 
 
 def check_vtk(folder, reference):
@@ -128,8 +128,8 @@ def check_vtk(folder, reference):
         grid = reader.GetOutput()
         types = vtk_to_numpy(grid.GetCellTypesArray())
         found = [(types == t).sum() for t in (vtk.VTK_TRIANGLE, vtk.VTK_QUAD, vtk.VTK_LINE)]
-        wanted = [reference["triangles"], reference["quads"], sum(edges_of(reference).values())]
-        expect(found == wanted and grid.GetNumberOfPoints() == reference["vertices"], f"VTK reads {name}", found)
+        expected = [reference["triangles"], reference["quads"], sum(edges_of(reference).values())]
+        expect(found == expected and grid.GetNumberOfPoints() == reference["vertices"], f"VTK reads {name}", found)
         arrays = {grid.GetCellData().GetArrayName(i) for i in range(grid.GetCellData().GetNumberOfArrays())}
         expect({"region", "piece", "layer", "quality", "marker"} <= arrays, f"VTK finds the cell data of {name}", arrays)
         measure = vtk.vtkMeshQuality()
@@ -156,7 +156,7 @@ def check_vtk(folder, reference):
 
 
 def with_sizes(folder):
-    """The mesh with a size at each vertex, in every way that meshio, VTK and Gmsh write it."""
+    """Writes the mesh with a size at each vertex in every way that meshio, VTK and Gmsh can; yields the file names."""
     import meshio
     import numpy
     import vtk
@@ -203,7 +203,7 @@ def with_sizes(folder):
 
 
 def check_sizes(folder, arguments):
-    """Every program's file of sizes makes the same mesh."""
+    """Expects that the files of sizes of all programs give the same mesh."""
     hashes = {}
     for name in with_sizes(folder):
         code, said = run(LAMINA, "mesh", *arguments, *SMALL, "--background", folder / name, "-o", folder / "sized.su2")
@@ -216,7 +216,7 @@ def check_sizes(folder, arguments):
 def check_cgns(folder, reference):
     for name in ["m.cgns", "adf.cgns", "m3.cgns"]:
         code, said = run("cgnscheck", "-w3", folder / name)
-        if name == "m3.cgns":  # z = 0 throughout, as asked for
+        if name == "m3.cgns":  # cgnscheck warns that z = 0 everywhere, which this format is for
             said = re.sub("WARNING:coordinate range is 0|1 warnings.*", "", said)
         clean = code == 0 and "checking complete" in said and not re.search("error|warning", said, re.I)
         expect(clean, f"cgnscheck -w3 finds no error and no warning in {name}", said)
@@ -245,8 +245,8 @@ def check_openfoam(folder, reference):
     code, said = run("gmshToFoam", (folder / "extruded.msh").resolve(), "-case", case, env=OPENFOAM)
     expect(code == 0 and "FATAL" not in said, "gmshToFoam reads extruded.msh", said)
     back = facts(case)
-    wanted = (reference["triangles"], reference["quads"], edges_of(reference))
-    expect((back["triangles"], back["quads"], edges_of(back)) == wanted and back["hash"] == reference["hash"],
+    expected = (reference["triangles"], reference["quads"], edges_of(reference))
+    expect((back["triangles"], back["quads"], edges_of(back)) == expected and back["hash"] == reference["hash"],
            "gmshToFoam makes the same mesh and patches of it", back)
 
 
@@ -265,7 +265,7 @@ def main():
         print(f"  {reference['vertices']} vertices, {reference['triangles']} triangles, {reference['quads']} quads, "
               f"{edges_of(reference)}")
         expect(reference["valid"] and (name != "quads" or reference["quads"] > 0) and
-               (name != "blunt" or len(reference["markers"]) == 3), "the mesh is what it should be", reference)
+               (name != "blunt" or len(reference["markers"]) == 3), "the mesh is valid and has the expected parts", reference)
         check_gmsh(folder, reference)
         check_meshio(folder, reference)
         check_vtk(folder, reference)
@@ -278,7 +278,7 @@ def main():
 
 
 def three_elements(folder):
-    """The same section three times, each behind and below the one before."""
+    """Writes one section three times, each copy behind and below the one before; returns the names of the files."""
     files = []
     for k, (scale, x, y) in enumerate([(0.2, -0.25, -0.05), (1.0, 0.0, 0.0), (0.3, 1.05, -0.08)]):
         points = []

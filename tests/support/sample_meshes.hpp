@@ -1,4 +1,4 @@
-// Small meshes with every feature a mesh can have, for tests of whatever takes a mesh.
+// Small meshes for tests. Together they have every feature that a mesh can have.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +17,13 @@ namespace lamina::test {
 struct AnnulusOptions {
     std::size_t around = 24;
     std::size_t rings = 5;
-    std::size_t layer_rings = 2;  ///< the innermost ones: region `layer`, numbered from the wall
+    std::size_t layer_rings = 2;  ///< number of rings of the layer, from the wall
     bool quads_in_layer = false;
 };
 
-/// Annulus of inner radius 1 round the origin with markers 'wall' and 'farfield', regions, pieces (one a ring), layers,
-/// and the layer's outer border as constraints. Points ring by ring, the wall first.
+/// Returns an annulus of inner radius 1 round the origin. It has the markers 'wall' and 'farfield', regions, one piece
+/// per ring, one layer per ring of the layer, and the layer's outer border as constraints. Points are numbered ring by
+/// ring from the wall.
 inline Mesh annulus(const AnnulusOptions& options = {}) {
     Mesh mesh;
     const std::size_t n = options.around;
@@ -33,31 +34,31 @@ inline Mesh annulus(const AnnulusOptions& options = {}) {
             const double radius = std::pow(1.2, static_cast<double>(ring));
             mesh.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
         }
-    struct Attributes {
+    struct CellAttributes {
         Region region;
         std::uint32_t piece;
         std::uint16_t layer;
     };
-    std::vector<Attributes> of_triangles, of_quads;
+    std::vector<CellAttributes> triangle_attributes, quad_attributes;
     for (std::size_t ring = 0; ring < options.rings; ++ring) {
         const bool layer = ring < options.layer_rings;
-        const Attributes attributes{layer ? Region::layer : Region::isotropic, static_cast<std::uint32_t>(ring),
-                                    static_cast<std::uint16_t>(layer ? ring + 1 : 0)};
+        const CellAttributes attributes{layer ? Region::layer : Region::isotropic, static_cast<std::uint32_t>(ring),
+                                        static_cast<std::uint16_t>(layer ? ring + 1 : 0)};
         for (std::size_t i = 0; i < n; ++i) {
             const VertexId a = vertex(ring, i), b = vertex(ring + 1, i), c = vertex(ring + 1, i + 1),
                            d = vertex(ring, i + 1);
             if (layer && options.quads_in_layer) {
                 mesh.quads.push_back({{a, b, c, d}});
-                of_quads.push_back(attributes);
+                quad_attributes.push_back(attributes);
             } else {
                 mesh.triangles.push_back({{a, b, c}});
                 mesh.triangles.push_back({{a, c, d}});
-                of_triangles.insert(of_triangles.end(), 2, attributes);
+                triangle_attributes.insert(triangle_attributes.end(), 2, attributes);
             }
         }
     }
-    of_triangles.insert(of_triangles.end(), of_quads.begin(), of_quads.end());
-    for (const Attributes& attributes : of_triangles) {
+    triangle_attributes.insert(triangle_attributes.end(), quad_attributes.begin(), quad_attributes.end());
+    for (const CellAttributes& attributes : triangle_attributes) {
         mesh.region.push_back(attributes.region);
         mesh.piece.push_back(attributes.piece);
         mesh.layer.push_back(attributes.layer);
@@ -73,8 +74,8 @@ inline Mesh annulus(const AnnulusOptions& options = {}) {
     return mesh;
 }
 
-/// The square [0, n] x [0, n] of unit squares split in two, without the middle one (n odd): all coordinates integer,
-/// no regions, markers 'hole' and 'box'.
+/// Returns the square [0, n] x [0, n] of unit squares that are split in two, without the middle one. All coordinates
+/// are integers; there are no regions; the markers are 'hole' and 'box'. Precondition: n is odd.
 inline Mesh box_with_hole(std::size_t n = 5) {
     Mesh mesh;
     const auto vertex = [n](std::size_t i, std::size_t j) { return VertexId(j * (n + 1) + i); };
@@ -99,7 +100,7 @@ inline Mesh box_with_hole(std::size_t n = 5) {
     return mesh;
 }
 
-/// A triangle and a quadrilateral.
+/// Returns a mesh of a triangle and a quadrilateral.
 inline Mesh tiny() {
     Mesh mesh;
     mesh.points = {{0, 0}, {1, 0}, {0.1, 1e-5}, {-0.0, 1}, {-1, 1.0 / 3}};
@@ -112,7 +113,7 @@ inline Mesh tiny() {
     return mesh;
 }
 
-/// The same mesh with points and cells in another order and cells starting at other corners.
+/// Returns the mesh with points and cells in another order, and with cells that start at other corners.
 inline Mesh shuffled(const Mesh& mesh, unsigned seed) {
     std::mt19937 random(seed);
     const auto permutation = [&](std::size_t n) {
@@ -122,9 +123,9 @@ inline Mesh shuffled(const Mesh& mesh, unsigned seed) {
         return order;
     };
     Mesh result = mesh;
-    const std::vector<std::size_t> place = permutation(mesh.points.size());
-    for (std::size_t i = 0; i < place.size(); ++i) result.points[place[i]] = mesh.points[i];
-    const auto moved = [&](VertexId v) { return VertexId(place[v.index()]); };
+    const std::vector<std::size_t> new_index = permutation(mesh.points.size());
+    for (std::size_t i = 0; i < new_index.size(); ++i) result.points[new_index[i]] = mesh.points[i];
+    const auto moved = [&](VertexId v) { return VertexId(new_index[v.index()]); };
     const auto move_cells = [&](auto& to, const auto& from, std::size_t first) {
         const std::vector<std::size_t> order = permutation(from.size());
         for (std::size_t i = 0; i < order.size(); ++i) {

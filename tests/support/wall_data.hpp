@@ -1,4 +1,4 @@
-// Tables of walls, read back.
+// Reads the table of the walls.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 
 namespace lamina::test {
 
+/// A row of the table.
 struct WallRow {
     std::string marker;
     std::size_t vertex = 0;

@@ -1,4 +1,4 @@
-// The judged case through the library: NACA 0012, a layer of 30, far field 50 chords away.
+// The case of the thesis (Figs. 24 to 28) through the library: NACA 0012, 30 layers, far field 50 chords away.
 #include <gtest/gtest.h>
 
 #include <lamina/io.hpp>
@@ -11,9 +11,9 @@
 namespace lamina::test {
 namespace {
 
-class JudgedCase : public testing::Test {
+class ThesisCase : public testing::Test {
 protected:
-    static void SetUpTestSuite() { result_ = new MeshResult(generate_mesh({"naca:0012"}, judged_options())); }
+    static void SetUpTestSuite() { result_ = new MeshResult(generate_mesh({"naca:0012"}, thesis_options())); }
     static void TearDownTestSuite() { delete result_; }
     static const MeshResult& result() { return *result_; }
     static const Mesh& mesh() { return result_->mesh; }
@@ -22,28 +22,28 @@ private:
     static inline const MeshResult* result_ = nullptr;
 };
 
-TEST_F(JudgedCase, IsSoundAndLeavesNothingOver) {
-    expect_sound(result(), judged_options());
+TEST_F(ThesisCase, IsSoundAndLeavesNothingOver) {
+    expect_sound(result(), thesis_options());
     expect_nothing_left_over(result());
     EXPECT_GE(result().check.isotropic.min_angle_deg, 20.7);
     EXPECT_EQ(mesh().markers[0].name, "airfoil");
     EXPECT_EQ(mesh().markers[1].name, "farfield");
 }
 
-TEST_F(JudgedCase, NoCellIsInvertedOrFlat) {
+TEST_F(ThesisCase, NoCellIsInvertedOrFlat) {
     for (const Triangle& t : mesh().triangles)
         ASSERT_GT(orient2d(mesh().points[t.v[0].index()], mesh().points[t.v[1].index()], mesh().points[t.v[2].index()]),
                   0);
 }
 
-TEST_F(JudgedCase, WallPointsComeFirstInTheOrderOfTheInput) {
+TEST_F(ThesisCase, WallPointsComeFirstInTheOrderOfTheInput) {
     std::size_t next = 0;
     for (std::size_t v = 0; v < result().surface_vertices && next < 200; ++v)
         next += mesh().points[v] == result().geometry.elements[0].points[next];
     EXPECT_EQ(next, 200u);
 }
 
-TEST_F(JudgedCase, FarFieldIsTheSquareAskedFor) {
+TEST_F(ThesisCase, FarFieldIsTheSquareAskedFor) {
     Box box;
     for (const Segment& edge : mesh().markers.back().edges) box.include(mesh().points[edge.a.index()]);
     const Box body{{0, -0.1}, {1, 0.1}};
@@ -53,8 +53,8 @@ TEST_F(JudgedCase, FarFieldIsTheSquareAskedFor) {
     EXPECT_NEAR(box.upper.y, 50, 1e-9);
 }
 
-TEST_F(JudgedCase, HeightsAreTheRequestedOnesOnFullRays) {
-    const LayerOptions options = judged_options().layer;
+TEST_F(ThesisCase, HeightsAreTheRequestedOnesOnFullRays) {
+    const LayerOptions options = thesis_options().layer;
     const std::set<Point, PointLess> vertices(mesh().points.begin(), mesh().points.end());
     const Layer layer = test::make_layer(result().geometry, options);
     EXPECT_EQ(layer.coverage[0].all.incomplete_rays, result().layer_coverage[0].all.incomplete_rays);
@@ -72,10 +72,10 @@ TEST_F(JudgedCase, HeightsAreTheRequestedOnesOnFullRays) {
             below = p;
         }
     }
-    EXPECT_EQ(full, layer.rays[0].size());  // nothing is in the way of a convex section
+    EXPECT_EQ(full, layer.rays[0].size());  // nothing is in the way of the rays of a convex section
 }
 
-TEST_F(JudgedCase, LayerCellsKnowTheirLayer) {
+TEST_F(ThesisCase, LayerCellsKnowTheirLayer) {
     std::vector<std::size_t> cells(31, 0);
     for (std::size_t t = 0; t < mesh().triangles.size(); ++t) {
         ASSERT_EQ(mesh().region[t] == Region::layer, mesh().layer[t] > 0);
@@ -85,15 +85,15 @@ TEST_F(JudgedCase, LayerCellsKnowTheirLayer) {
     for (std::size_t n = 2; n <= 30; ++n) EXPECT_GT(cells[n], 300u) << n;
 }
 
-TEST_F(JudgedCase, NeighboursDifferLittleInSize) {
+TEST_F(ThesisCase, NeighboursDifferLittleInSize) {
     EXPECT_LT(result().check.isotropic.p999_neighbour_area_ratio, 3);
     EXPECT_LT(result().check.isotropic.max_neighbour_area_ratio, 4);
 }
 
-TEST_F(JudgedCase, ThreadsDoNotChangeAByte) {
+TEST_F(ThesisCase, ThreadsDoNotChangeAByte) {
     const TemporaryFolder folder;
     const auto bytes = [&](unsigned threads) {
-        CaseOptions options = judged_options();
+        CaseOptions options = thesis_options();
         options.threads = threads;
         const MeshResult again = generate_mesh({"naca:0012"}, options);
         std::vector<std::string> files;

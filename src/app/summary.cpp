@@ -1,0 +1,98 @@
+#include "app/summary.hpp"
+
+#include <fmt/format.h>
+
+#include "app/coverage.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+std::string isotropic_lines(const QualitySummary& isotropic, bool has_layer) {
+    std::string text = summary_line(
+        "isotropic",
+        fmt::format("{} cells{}: angles from {:.2f} to {:.2f} deg, mean smallest angle {:.2f} deg, areas of neighbours "
+                    "differ by a factor of at most {:.2f}",
+                    isotropic.cells, has_layer ? " outside the boundary layer" : "", isotropic.min_angle_deg,
+                    isotropic.max_angle_deg, isotropic.mean_min_angle_deg, isotropic.max_neighbour_area_ratio));
+    std::string below_bound =
+        fmt::format("{} isotropic cells have an angle below the bound (--min-angle)", isotropic.angles_below_bound);
+    if (isotropic.exempt > 0)
+        below_bound += fmt::format("; {} of them lie in sharp corners, where no mesh can keep it", isotropic.exempt);
+    return text + summary_line("angles", below_bound);
+}
+
+std::string layer_lines(const MeshCheck& check) {
+    const QualitySummary& layer = check.layer;
+    std::string text = summary_line(
+        "layer",
+        fmt::format("{} cells in the boundary layer: aspect ratios up to {:.4g}, angles up to {:.2f} deg, mean "
+                    "largest angle {:.2f} deg",
+                    layer.cells, layer.max_aspect_ratio, layer.max_angle_deg, layer.mean_max_angle_deg));
+    if (check.edges_without_first_layer > 0)
+        text += summary_line("layer", fmt::format("the first height is not kept on {} wall edges (--layer-topology "
+                                                  "layered or quads keeps it on all)",
+                                                  check.edges_without_first_layer));
+    return text;
+}
+
+std::string element_lines(const Element& element) {
+    std::string text = fmt::format("{}: {} points on the wall, from {} (format {})\n", element.name,
+                                   element.points.size(), element.file, element.format);
+    for (const std::string& repair : element.repairs) text += summary_line("repaired", repair);
+    for (const std::string& note : element.surface_notes) text += summary_line("surface", note);
+    return text;
+}
+
+std::string coverage_line(const ElementCoverage& coverage) {
+    const LayerCoverage& all = coverage.all;
+    return summary_line(
+        "coverage",
+        fmt::format("{:.2f} % of the requested layer cells were made, {:.2f} % outside slots and coves; {} of "
+                    "{} wall-normal rays are cut short for lack of room",
+                    100 * made_share(all), 100 * made_share(coverage.open), all.incomplete_rays, all.rays));
+}
+
+}  // namespace
+
+std::string summary_line(const std::string& label, const std::string& text) {
+    return fmt::format("  {:<11} {}\n", label, text);
+}
+
+std::string quality_summary(const MeshCheck& check) {
+    std::string text;
+    const bool has_layer = check.layer.cells > 0;
+    if (check.isotropic.cells > 0) text += isotropic_lines(check.isotropic, has_layer);
+    if (has_layer) text += layer_lines(check);
+    if (const TransitionSummary& transition = check.transition; transition.edges > 0)
+        text += summary_line(
+            "transition",
+            fmt::format("area ratio between the last layer cell and the first outer cell (ideal 1): "
+                        "{:.2f} (1st percentile), {:.2f} (median), {:.2f} (99th percentile)",
+                        transition.p01_area_ratio, transition.median_area_ratio, transition.p99_area_ratio));
+    return text + summary_line("delaunay",
+                               fmt::format("{} of {} edges between isotropic triangles violate the Delaunay property",
+                                           check.delaunay_violations, check.interior_edges));
+}
+
+std::string mesh_summary(const MeshResult& result, const std::vector<std::string>& outputs, double write_seconds) {
+    std::string text;
+    for (const Element& element : result.geometry.elements) text += element_lines(element);
+    const std::size_t quads = result.mesh.quads.size();
+    text += fmt::format("mesh: {} vertices, {} triangles, {}made in {} pieces\n", result.mesh.points.size(),
+                        result.mesh.triangles.size(), quads > 0 ? fmt::format("{} quads, ", quads) : "",
+                        result.layer_pieces + result.inviscid_pieces);
+    text += quality_summary(result.check);
+    if (const auto& flow = result.y_plus; flow)
+        text += summary_line("y+", fmt::format("{} at Reynolds number {} based on the chord {}: first height {:.4g}",
+                                               flow->y_plus, flow->reynolds, *flow->chord, result.first_height));
+    if (const ElementCoverage coverage = total_coverage(result); coverage.all.requested_cells > 0)
+        text += coverage_line(coverage);
+    text += summary_line(
+        "time", fmt::format("{:.3f} s to make and check the mesh, {:.3f} s to write it, on {} thread{}",
+                            result.seconds.total, write_seconds, result.threads, result.threads == 1 ? "" : "s"));
+    for (const std::string& output : outputs) text += summary_line("wrote", output);
+    return text;
+}
+
+}  // namespace lamina::app

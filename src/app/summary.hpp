@@ -1,0 +1,21 @@
+// The summaries of runs for people.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <lamina/mesh.hpp>
+#include <lamina/pipeline.hpp>
+
+namespace lamina::app {
+
+/// Returns one line of a summary: the label, indented and padded, the text, and a newline.
+std::string summary_line(const std::string& label, const std::string& text);
+
+/// Returns the lines about the quality of a mesh.
+std::string quality_summary(const MeshCheck& check);
+
+/// Returns the summary of `lamina mesh`.
+std::string mesh_summary(const MeshResult& result, const std::vector<std::string>& outputs, double write_seconds);
+
+}  // namespace lamina::app

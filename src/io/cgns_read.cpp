@@ -1,0 +1,272 @@
+// Reads CGNS files with one base and one unstructured zone whose sections are of the types TRI_3, QUAD_4 and BAR_2 and
+// have any names. An edge belongs to the boundary condition that lists it; an edge in none belongs to a marker that its
+// section makes. Source: CGNS Standard Interface Data Structures 3.4; the CGNS mid-level library.
+#include <cgnslib.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lamina/error.hpp>
+
+#include "io/cgns_lock.hpp"
+#include "io/formats.hpp"
+#include "io/mesh_parts.hpp"
+
+namespace lamina::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+MarkerKind kind_of(BCType_t condition) {
+    switch (condition) {
+        case BCWall:
+        case BCWallInviscid:
+        case BCWallViscous:
+        case BCWallViscousHeatFlux:
+        case BCWallViscousIsothermal:
+            return MarkerKind::wall;
+        case BCFarfield:
+            return MarkerKind::far_field;
+        case BCSymmetryPlane:
+            return MarkerKind::symmetry;
+        default:
+            return MarkerKind::other;
+    }
+}
+
+class CgnsReader {
+public:
+    explicit CgnsReader(const fs::path& file) : name_(file.string()) {
+        // Where this fails within a damaged file, the library keeps the file open, since it cannot close what it has
+        // read in part.
+        require(cg_open(file.c_str(), CG_MODE_READ, &file_));
+    }
+    ~CgnsReader() { cg_close(file_); }
+    CgnsReader(const CgnsReader&) = delete;
+    CgnsReader& operator=(const CgnsReader&) = delete;
+
+    Mesh read() {
+        read_zone();
+        read_coordinates();
+        read_sections();
+        read_boundary_conditions();
+        make_markers();
+        make_regions();
+        orient_markers(mesh_);
+        return std::move(mesh_);
+    }
+
+private:
+    using Name = char[33];
+
+    /// A section of edges.
+    struct BarSection {
+        std::string name;
+        cgsize_t first;  ///< number of its first element
+        std::vector<Segment> bars;
+        std::vector<int> condition;  ///< per bar: the number of its boundary condition, from 1; 0 where it is in none
+    };
+
+    [[noreturn]] void fail(const std::string& reason) const { throw InputError({name_, 0, {}}, reason); }
+    void require(int status) const {
+        if (status != CG_OK) fail(cg_get_error());
+    }
+
+    void read_zone() {
+        int bases = 0, zones = 0, cell_dimension = 0;
+        Name name;
+        ZoneType_t type;
+        require(cg_nbases(file_, &bases));
+        if (bases != 1) fail(fmt::format("{} bases: only files with one can be read", bases));
+        require(cg_base_read(file_, 1, name, &cell_dimension, &dimension_));
+        if (cell_dimension != 2 || dimension_ < 2 || dimension_ > 3)
+            fail(fmt::format("cells of dimension {} in {} dimensions: only plane meshes can be read", cell_dimension,
+                             dimension_));
+        require(cg_nzones(file_, 1, &zones));
+        if (zones != 1) fail(fmt::format("{} zones: only files with one can be read", zones));
+        require(cg_zone_type(file_, 1, 1, &type));
+        if (type != Unstructured) fail("the zone is structured: only unstructured ones can be read");
+        cgsize_t sizes[9] = {};
+        require(cg_zone_read(file_, 1, 1, name, sizes));
+        // A point takes more than one byte, so a damaged number of points is refused before memory is asked for.
+        std::error_code ignored;
+        const auto bytes = fs::file_size(name_, ignored);
+        if (sizes[0] < 0 || sizes[1] < 0 || static_cast<std::uintmax_t>(sizes[0]) > bytes)
+            fail("absurd size of the zone");
+        points_ = static_cast<std::size_t>(sizes[0]);
+        bytes_ = bytes;
+    }
+
+    std::vector<double> read_axis(const char* name) {
+        std::vector<double> values(points_);
+        const cgsize_t first = 1, last = static_cast<cgsize_t>(points_);
+        if (points_ > 0) require(cg_coord_read(file_, 1, 1, name, RealDouble, &first, &last, values.data()));
+        return values;
+    }
+    void read_coordinates() {
+        const std::vector<double> x = read_axis("CoordinateX"), y = read_axis("CoordinateY");
+        mesh_.points.resize(points_);
+        for (std::size_t i = 0; i < points_; ++i) {
+            if (!std::isfinite(x[i]) || !std::isfinite(y[i])) fail(fmt::format("point {} is not finite", i + 1));
+            mesh_.points[i] = {x[i], y[i]};
+        }
+        if (dimension_ == 2) return;
+        std::optional<double> plane;
+        for (const double z : read_axis("CoordinateZ")) {
+            if (z != plane.value_or(z))
+                fail(fmt::format("points in the planes z = {} and z = {}: the mesh is not plane", *plane, z));
+            plane = z;
+        }
+    }
+
+    void read_sections() {
+        int sections = 0;
+        require(cg_nsections(file_, 1, 1, &sections));
+        for (int s = 1; s <= sections; ++s) {
+            Name name;
+            ElementType_t type;
+            cgsize_t first = 0, last = 0, size = 0;
+            int boundary_elements = 0, has_parents = 0;
+            require(cg_section_read(file_, 1, 1, s, name, &type, &first, &last, &boundary_elements, &has_parents));
+            if (type == NODE) continue;
+            if (type != TRI_3 && type != QUAD_4 && type != BAR_2)
+                fail(fmt::format("section '{}' has elements {}: only TRI_3, QUAD_4 and BAR_2 can be read", name,
+                                 cg_ElementTypeName(type)));
+            require(cg_ElementDataSize(file_, 1, 1, s, &size));
+            const cgsize_t corners = type == TRI_3 ? 3 : type == QUAD_4 ? 4 : 2;
+            if (first < 1 || last < first || size < 0 || static_cast<std::uintmax_t>(size) > bytes_ ||
+                size / corners != last - first + 1 || size % corners != 0)
+                fail(fmt::format("section '{}' has not the elements {} to {}", name, first, last));
+            std::vector<cgsize_t> nodes(static_cast<std::size_t>(size));
+            require(cg_elements_read(file_, 1, 1, s, nodes.data(), nullptr));
+            add_section(name, type, first, nodes);
+        }
+    }
+    void add_section(const std::string& name, ElementType_t type, cgsize_t first, const std::vector<cgsize_t>& nodes) {
+        const auto vertex = [&](std::size_t i) {
+            if (nodes[i] < 1 || static_cast<std::size_t>(nodes[i]) > points_)
+                fail(fmt::format("section '{}': vertex {} where there are {}", name, nodes[i], points_));
+            return VertexId(static_cast<std::size_t>(nodes[i] - 1));
+        };
+        if (type == TRI_3) {
+            for (std::size_t i = 0; i < nodes.size(); i += 3)
+                mesh_.triangles.push_back({{vertex(i), vertex(i + 1), vertex(i + 2)}});
+            triangle_sections_.emplace_back(name, nodes.size() / 3);
+        } else if (type == QUAD_4) {
+            for (std::size_t i = 0; i < nodes.size(); i += 4)
+                mesh_.quads.push_back({{vertex(i), vertex(i + 1), vertex(i + 2), vertex(i + 3)}});
+            quad_sections_.emplace_back(name, nodes.size() / 4);
+        } else {
+            BarSection section{name, first, {}, {}};
+            for (std::size_t i = 0; i < nodes.size(); i += 2) section.bars.push_back({vertex(i), vertex(i + 1)});
+            section.condition.resize(section.bars.size(), 0);
+            bar_sections_.push_back(std::move(section));
+        }
+    }
+
+    /// Makes a marker without edges of each boundary condition, and notes for each bar the condition that lists it.
+    void read_boundary_conditions() {
+        int count = 0;
+        require(cg_nbocos(file_, 1, 1, &count));
+        for (int c = 1; c <= count; ++c) {
+            Name name;
+            BCType_t type;
+            PointSetType_t set;
+            cgsize_t points = 0, normals = 0;
+            int normal_index[3] = {}, data_sets = 0;
+            DataType_t normal_type;
+            require(cg_boco_info(file_, 1, 1, c, name, &type, &set, &points, normal_index, &normals, &normal_type,
+                                 &data_sets));
+            conditions_.push_back({name, kind_of(type == FamilySpecified ? condition_of_family(c) : type), {}});
+            GridLocation_t location;
+            require(cg_boco_gridlocation_read(file_, 1, 1, c, &location));
+            const bool lists_elements =
+                set == ElementRange || set == ElementList || location == EdgeCenter || location == FaceCenter;
+            if (!lists_elements) continue;
+            if (points < 0 || static_cast<std::uintmax_t>(points) > bytes_) fail("absurd size of a boundary condition");
+            std::vector<cgsize_t> elements(static_cast<std::size_t>(points));
+            require(cg_boco_read(file_, 1, 1, c, elements.data(), nullptr));
+            if (set == PointRange || set == ElementRange) {
+                if (elements.size() == 2) mark_bars(elements[0], elements[1], c);
+            } else {
+                for (const cgsize_t element : elements) mark_bars(element, element, c);
+            }
+        }
+    }
+    BCType_t condition_of_family(int boundary_condition) {
+        Name family, name;
+        require(cg_goto(file_, 1, "Zone_t", 1, "ZoneBC_t", 1, "BC_t", boundary_condition, "end"));
+        int families = 0;
+        if (cg_famname_read(family) != CG_OK || cg_nfamilies(file_, 1, &families) != CG_OK) return BCGeneral;
+        for (int f = 1; f <= families; ++f) {
+            int conditions = 0, geometries = 0;
+            BCType_t type;
+            require(cg_family_read(file_, 1, f, name, &conditions, &geometries));
+            if (std::string(name) != family || conditions == 0) continue;
+            require(cg_fambc_read(file_, 1, f, 1, name, &type));
+            return type;
+        }
+        return BCGeneral;
+    }
+    /// Notes the boundary condition of the elements first to last, as far as they are bars.
+    void mark_bars(cgsize_t first, cgsize_t last, int condition) {
+        for (BarSection& section : bar_sections_) {
+            const auto size = static_cast<cgsize_t>(section.bars.size());
+            const cgsize_t begin = std::max<cgsize_t>(first - section.first, 0);
+            const cgsize_t end = std::min<cgsize_t>(last - section.first + 1, size);
+            for (cgsize_t i = begin; i < end; ++i) section.condition[static_cast<std::size_t>(i)] = condition;
+        }
+    }
+
+    void make_markers() {
+        for (BarSection& section : bar_sections_) {
+            Marker rest{section.name, kind_of_name(section.name), {}};
+            for (std::size_t i = 0; i < section.bars.size(); ++i) {
+                const int c = section.condition[i];
+                (c == 0 ? rest : conditions_[static_cast<std::size_t>(c - 1)]).edges.push_back(section.bars[i]);
+            }
+            if (!rest.edges.empty()) conditions_.push_back(std::move(rest));
+        }
+        for (Marker& marker : conditions_)
+            if (!marker.edges.empty()) mesh_.markers.push_back(std::move(marker));
+    }
+    void make_regions() {
+        triangle_sections_.insert(triangle_sections_.end(), quad_sections_.begin(), quad_sections_.end());
+        for (const auto& [name, count] : triangle_sections_) {
+            Region region;
+            if (!region_of_name(name.substr(0, name.rfind('_')), region)) {
+                mesh_.region.clear();
+                return;
+            }
+            mesh_.region.insert(mesh_.region.end(), count, region);
+        }
+    }
+
+    std::string name_;
+    int file_ = 0, dimension_ = 2;
+    std::size_t points_ = 0;
+    std::uintmax_t bytes_ = 0;                                                            ///< size of the file
+    std::vector<std::pair<std::string, std::size_t>> triangle_sections_, quad_sections_;  ///< names, numbers of cells
+    std::vector<BarSection> bar_sections_;
+    std::vector<Marker> conditions_;  ///< one marker per boundary condition, then the markers of sections
+    Mesh mesh_;
+};
+
+}  // namespace
+
+Mesh read_cgns(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) throw IoError(file.string(), "cannot read: no such file");
+    const std::lock_guard lock(cgns_lock());
+    return CgnsReader(file).read();
+}
+
+}  // namespace lamina::io

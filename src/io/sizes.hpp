@@ -1,0 +1,32 @@
+// Sizes at the vertices of a mesh, as the readers of formats find them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <lamina/mesh.hpp>
+
+namespace lamina::io {
+
+/// A mesh and a number at each point; NaN where the file has none.
+struct PointValues {
+    Mesh mesh;
+    std::vector<double> values;
+};
+
+/// Returns the name of the array that holds the sizes: `size`, or else the only scalar array. Throws InputError where
+/// there is neither.
+std::string size_array(const std::vector<std::string>& scalar_arrays, const std::filesystem::path& file);
+
+/// Reads a mesh and its sizes. `reader` has two members, called in this order: read() returns the mesh, sizes() returns
+/// the sizes.
+template <class Reader>
+PointValues read_point_values(Reader reader) {
+    PointValues result;
+    result.mesh = reader.read();
+    result.values = reader.sizes();
+    return result;
+}
+
+}  // namespace lamina::io

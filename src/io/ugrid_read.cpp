@@ -1,0 +1,207 @@
+// Reads UGRID files, plane or one cell thick, in ASCII or binary. Markers take their names and kinds from the .mapbc
+// file where there is one. ugrid.hpp describes the format.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+
+#include "io/byte_reader.hpp"
+#include "io/formats.hpp"
+#include "io/mesh_parts.hpp"
+#include "io/ugrid.hpp"
+
+namespace lamina::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A line of a .mapbc file.
+struct BoundaryCondition {
+    std::string name;
+    MarkerKind kind = MarkerKind::other;
+};
+
+MarkerKind kind_of_code(int code) {
+    if (code == mapbc_viscous_wall || code == mapbc_wall) return MarkerKind::wall;
+    if (code == mapbc_far_field) return MarkerKind::far_field;
+    if (code >= mapbc_symmetry_x && code <= mapbc_symmetry_z) return MarkerKind::symmetry;
+    return MarkerKind::other;
+}
+
+/// Returns the boundary conditions by their numbers; none where the file does not exist.
+std::map<int, BoundaryCondition> read_mapbc(const fs::path& file) {
+    std::map<int, BoundaryCondition> conditions;
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return conditions;
+    const std::string bytes = read_file(file);
+    ByteReader in(bytes, file.string());
+    const auto n = in.ascii_number<std::size_t>("number of boundaries");
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto number = in.ascii_number<int>("number of a boundary");
+        const auto code = in.ascii_number<int>("boundary condition");
+        const BoundaryCondition condition{std::string(in.rest_of_line()), kind_of_code(code)};
+        if (condition.name.empty()) in.fail("name of the boundary expected");
+        if (!conditions.emplace(number, condition).second) in.fail(fmt::format("boundary {} stands twice", number));
+    }
+    if (!in.at_end()) in.fail("something follows the last boundary");
+    return conditions;
+}
+
+class UgridReader {
+public:
+    UgridReader(const std::string& bytes, const fs::path& file)
+        : in_(bytes, file.string()), conditions_(read_mapbc(mapbc_of(file))) {
+        const UgridEncoding encoding = encoding_of(file);
+        if (encoding != UgridEncoding::ascii)
+            in_.set_binary(encoding == UgridEncoding::big_endian ? ByteOrder::big : ByteOrder::little);
+    }
+
+    Mesh read() {
+        std::array<std::size_t, 7> counts;
+        for (std::size_t& count : counts) {
+            const auto value = in_.number<std::int32_t>("count");
+            if (value < 0) in_.fail("negative count");
+            count = in_.checked_count(static_cast<std::size_t>(value), 4, "count");
+        }
+        const auto [nodes, triangles, quads, tetrahedra, pyramids, prisms, hexahedra] = counts;
+        if (tetrahedra + pyramids > 0) in_.fail("tetrahedra and pyramids: the mesh is not one cell thick");
+        read_nodes(nodes);
+        const std::vector<Face> faces = read_faces(triangles, quads);
+        if (prisms + hexahedra == 0)
+            gather_plane(faces);
+        else
+            gather_one_cell_thick(faces, prisms, hexahedra);
+        if (!in_.at_end()) in_.fail("something follows the last number");
+        name_markers();
+        orient_markers(mesh_);
+        return std::move(mesh_);
+    }
+
+private:
+    struct Face {
+        std::size_t corners = 3;
+        std::array<std::uint32_t, 4> nodes{};
+        int surface = 0;  ///< number of its marker or plane
+    };
+    /// The vertices of a face; invalid in the upper plane.
+    using FaceVertices = std::array<VertexId, 4>;
+
+    void read_nodes(std::size_t count) {
+        in_.checked_count(count, 24, "number of nodes");
+        for (std::size_t i = 0; i < count; ++i)
+            for (double& c : nodes_.emplace_back()) {
+                c = in_.number<double>("coordinate");
+                if (!std::isfinite(c)) in_.fail("coordinate is not a finite number");
+            }
+    }
+    std::uint32_t read_node_number() {
+        const auto number = in_.number<std::int32_t>("node");
+        if (number < 1 || static_cast<std::size_t>(number) > nodes_.size())
+            in_.fail(fmt::format("node {} where there are {}", number, nodes_.size()));
+        return static_cast<std::uint32_t>(number - 1);
+    }
+    std::vector<Face> read_faces(std::size_t triangles, std::size_t quads) {
+        std::vector<Face> faces;
+        for (std::size_t i = 0; i < triangles + quads; ++i) {
+            Face& face = faces.emplace_back();
+            face.corners = i < triangles ? 3 : 4;
+            for (std::size_t k = 0; k < face.corners; ++k) face.nodes[k] = read_node_number();
+        }
+        for (Face& face : faces) face.surface = in_.number<std::int32_t>("number of a surface");
+        return faces;
+    }
+    FaceVertices vertices_of(const Face& face) const {
+        FaceVertices v;
+        for (std::size_t k = 0; k < face.corners; ++k) v[k] = vertex_[face.nodes[k]];
+        return v;
+    }
+    void add_cell(const FaceVertices& v, std::size_t corners) {
+        if (corners == 3)
+            mesh_.triangles.push_back({{v[0], v[1], v[2]}});
+        else
+            mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
+    }
+
+    void gather_plane(const std::vector<Face>& faces) {
+        for (const auto& [x, y, z] : nodes_) {
+            vertex_.emplace_back(mesh_.points.size());
+            mesh_.points.push_back({x, y});
+        }
+        for (const Face& face : faces) add_cell(vertices_of(face), face.corners);
+        const auto edges = in_.number<std::int32_t>("number of edges of the boundary");
+        for (std::int32_t i = 0; i < edges; ++i) {
+            const std::uint32_t a = read_node_number(), b = read_node_number();
+            edges_[in_.number<std::int32_t>("number of a boundary")].push_back({vertex_[a], vertex_[b]});
+        }
+    }
+
+    /// Makes cells of the faces in the lower plane, and edges of the boundary of the faces that stand on it.
+    void gather_one_cell_thick(const std::vector<Face>& faces, std::size_t prisms, std::size_t hexahedra) {
+        for (std::size_t i = 0; i < 6 * prisms + 8 * hexahedra; ++i) read_node_number();
+        gather_lower_plane();
+        for (const Face& face : faces) add_face(face);
+        if (mesh_.triangles.size() != prisms || mesh_.quads.size() != hexahedra)
+            in_.fail("the mesh is not one cell thick in y");
+    }
+    /// Makes vertices of the nodes with the lower y.
+    void gather_lower_plane() {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (const auto& [x, y, z] : nodes_) low = std::min(low, y), high = std::max(high, y);
+        vertex_.resize(nodes_.size());
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            const auto& [x, y, z] = nodes_[i];
+            if (y != low && y != high) in_.fail(fmt::format("node {} lies between the planes of the mesh", i + 1));
+            if (y == high) continue;
+            vertex_[i] = VertexId(mesh_.points.size());
+            mesh_.points.push_back({x, z});
+        }
+    }
+    void add_face(const Face& face) {
+        FaceVertices v = vertices_of(face);
+        const std::span<VertexId> vertices(v.data(), face.corners);
+        const auto is_lower = [](VertexId vertex) { return vertex.valid(); };
+        if (std::all_of(vertices.begin(), vertices.end(), is_lower)) {
+            // Inward normals make the face clockwise, but not all programs follow this rule.
+            const auto at = [&](std::size_t k) { return mesh_.points[v[k].index()]; };
+            if (cross(at(1) - at(0), at(2) - at(0)) < 0) std::reverse(vertices.begin(), vertices.end());
+            add_cell(v, face.corners);
+        } else if (std::any_of(vertices.begin(), vertices.end(), is_lower)) {
+            Segment edge;
+            if (!find_lower_edge(vertices, edge)) in_.fail("a face that does not stand on an edge");
+            edges_[face.surface].push_back(edge);
+        }
+    }
+
+    void name_markers() {
+        for (auto& [number, edges] : edges_) {
+            const auto found = conditions_.find(number);
+            BoundaryCondition condition{fmt::format("boundary{}", number), MarkerKind::other};
+            if (found != conditions_.end()) condition = found->second;
+            mesh_.markers.push_back({condition.name, condition.kind, std::move(edges)});
+        }
+    }
+
+    ByteReader in_;
+    std::map<int, BoundaryCondition> conditions_;
+    std::vector<std::array<double, 3>> nodes_;
+    std::vector<VertexId> vertex_;               ///< per node: its vertex; invalid in the upper plane
+    std::map<int, std::vector<Segment>> edges_;  ///< edges of the boundary by the number of their marker
+    Mesh mesh_;
+};
+
+}  // namespace
+
+Mesh read_ugrid(const std::string& bytes, const fs::path& file) { return UgridReader(bytes, file).read(); }
+
+}  // namespace lamina::io

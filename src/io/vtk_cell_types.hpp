@@ -1,0 +1,17 @@
+// The numbers of VTK for the types of cells. SU2 uses them, too. Source: VTK User's Guide, "VTK File Formats".
+#pragma once
+
+#include <cstdint>
+
+namespace lamina::io {
+
+enum VtkCellType : std::uint8_t {
+    vtk_vertex = 1,
+    vtk_poly_vertex = 2,
+    vtk_line = 3,
+    vtk_poly_line = 4,
+    vtk_triangle = 5,
+    vtk_quad = 9
+};
+
+}  // namespace lamina::io

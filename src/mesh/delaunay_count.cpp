@@ -1,0 +1,45 @@
+#include "mesh/delaunay_count.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "mesh/cell_text.hpp"
+#include "mesh/regions.hpp"
+
+namespace lamina::mesh {
+
+std::vector<Segment> sorted_constraints(const Mesh& mesh) {
+    std::vector<Segment> constraints = mesh.constraints;
+    for (Segment& edge : constraints)
+        if (edge.b < edge.a) std::swap(edge.a, edge.b);
+    std::sort(constraints.begin(), constraints.end());
+    constraints.erase(std::unique(constraints.begin(), constraints.end()), constraints.end());
+    return constraints;
+}
+
+void subtract_constraints(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
+                          DelaunayCount& count, DefectList& defects) {
+    const CellEdges edges(mesh);
+    const std::vector<std::uint32_t> edge_of = find_edges(mesh, constraints);
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+        const Segment& constraint = constraints[i];
+        const std::uint32_t found = edge_of[i];
+        if (found == no_edge) {
+            defects.add([&] {
+                return MeshDefect{fmt::format("constraint {} is no edge of the mesh", edge_text(constraint)),
+                                  mesh.points[constraint.a.index()]};
+            });
+            continue;
+        }
+        if (adjacency.twin[found] == no_edge) continue;
+        const std::size_t edge = std::min(found, adjacency.twin[found]), twin = adjacency.twin[edge];
+        if (!is_isotropic_triangle(mesh, edges.cell_of(edge)) || !is_isotropic_triangle(mesh, edges.cell_of(twin)))
+            continue;
+        --count.edges;
+        count.violations -= violates_delaunay(mesh, edge, twin);
+    }
+}
+
+}  // namespace lamina::mesh

@@ -1,0 +1,37 @@
+// Drawing on a Cairo surface.
+#pragma once
+
+#include <cairo.h>
+
+#include <memory>
+
+#include <lamina/point.hpp>
+
+#include "plot/color.hpp"
+#include "plot/view.hpp"
+
+namespace lamina::plot {
+
+/// Draws cells and lines. Coordinates are those of the mesh, widths are in pixels. Everything is clipped to the window
+/// and a few pixels round it beforehand, because the numbers of Cairo end at 2^23 pixels.
+class Canvas {
+public:
+    Canvas(cairo_surface_t* surface, const PictureView& view);
+
+    /// Fills the whole picture.
+    void paint(Color color);
+    /// Fills a cell, without antialiasing: neighbouring cells would otherwise leave pale seams where both cover a pixel
+    /// in part.
+    void fill(const VisibleCell& cell, Color color);
+    void stroke(Point a, Point b, Color color, double alpha, double width);
+
+private:
+    void set_color(Color color, double alpha);
+    bool clip_segment(Point& a, Point& b) const;
+
+    std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cr_;
+    PictureView view_;
+    Box bounds_;  ///< the window and a few pixels round it
+};
+
+}  // namespace lamina::plot

@@ -1,0 +1,24 @@
+// Colours and scales of colours.
+#pragma once
+
+#include <cstdint>
+
+namespace lamina::plot {
+
+/// Red, green and blue, each from 0 to 1.
+struct Color {
+    double r, g, b;
+};
+
+/// Returns a for t = 0, b for t = 1, and a mixture between.
+Color mix(Color a, Color b, double t);
+
+/// Returns a colour of a scale from dark blue (t = 0) over green to yellow (t = 1). Equal steps look equal, in grey and
+/// to the colour-blind as well. Source: viridis, S. van der Walt and N. Smith, matplotlib (2015), nine of its entries.
+Color viridis(double t);
+
+/// Returns a soft colour that differs clearly from those of the neighbouring numbers: the hues are multiples of the
+/// golden ratio.
+Color distinct_color(std::uint32_t number);
+
+}  // namespace lamina::plot

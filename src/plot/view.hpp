@@ -1,0 +1,40 @@
+// The part of the plane that a picture shows, and the cells in it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <lamina/mesh.hpp>
+#include <lamina/plot.hpp>
+
+namespace lamina::plot {
+
+/// Maps a window of the plane to the pixels of the picture, whose y runs downwards.
+struct PictureView {
+    Box window;
+    double scale = 1;              ///< pixels per unit of length
+    double width = 0, height = 0;  ///< of the picture, in pixels
+
+    double x(Point p) const { return (p.x - window.lower.x) * scale; }
+    double y(Point p) const { return (window.upper.y - p.y) * scale; }
+};
+
+/// Returns the view of the window of the options, or of the whole mesh with a margin of 1 %.
+PictureView make_view(const Mesh& mesh, const PlotOptions& options);
+
+/// A cell that overlaps the window.
+struct VisibleCell {
+    std::size_t cell;     ///< its number: triangles, then quads
+    std::size_t corners;  ///< 3 or 4
+    std::array<VertexId, 4> vertex;
+    std::array<Point, 4> corner;
+
+    double area() const;
+    /// Returns area over longest edge: half the distance between two opposite edges of a thin cell.
+    double thickness() const;
+};
+
+std::vector<VisibleCell> visible_cells(const Mesh& mesh, const Box& window);
+
+}  // namespace lamina::plot
