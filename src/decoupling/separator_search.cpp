@@ -28,7 +28,7 @@ constexpr double max_cosine = 0.5;
 /// Neither side of a separator holds less than this share of the work.
 constexpr double min_share = 0.15;
 /// Number of segments of a separator that divides a subdomain.
-constexpr std::size_t min_segments = 4;
+constexpr std::size_t min_separator_segments = 4;
 /// Number of segments of a separator that joins two loops. It is larger, so that narrow gaps are left alone.
 constexpr std::size_t min_joining_segments = 8;
 /// Separators are tried from every n-th vertex of a border, n being chosen so that there are this many or up to twice
@@ -165,7 +165,7 @@ private:
         const Point p = border_.point(line.from), q = border_.point(line.to);
         std::vector<Point> interior = divide_separator(p, q, spacing_);
         const bool joins = line.from.loop != line.to.loop;
-        if (interior.size() + 1 < (joins ? min_joining_segments : min_segments)) return std::nullopt;
+        if (interior.size() + 1 < (joins ? min_joining_segments : min_separator_segments)) return std::nullopt;
         if (!is_like_edges_at(line.from, distance(p, interior.front())) ||
             !is_like_edges_at(line.to, distance(q, interior.back())))
             return std::nullopt;

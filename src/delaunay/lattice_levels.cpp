@@ -12,13 +12,13 @@ std::vector<double> level_edges(double low, double high, std::vector<SizeBin> bi
     std::sort(bins.begin(), bins.end(), [](const SizeBin& a, const SizeBin& b) {
         return a.low != b.low ? a.low < b.low : a.triangles < b.triangles;
     });
-    double commonest = low, max_triangles = 0;
+    double commonest = low, count_of_commonest = 0;
     for (std::size_t i = 0; i < bins.size();) {
         const double first = bins[i].low;
         double triangles = 0;
         for (; i < bins.size() && bins[i].low <= (1 + alike) * first; ++i) triangles += bins[i].triangles;
-        if (triangles <= max_triangles) continue;
-        max_triangles = triangles;
+        if (triangles <= count_of_commonest) continue;
+        count_of_commonest = triangles;
         commonest = (1 - rounding) * first;
     }
     double first_size = commonest;

@@ -25,7 +25,7 @@ namespace {
 /// Two or three rounds are usual. After `exact_rounds` the tolerance, at first an ulp of the extent, doubles each
 /// round.
 constexpr int exact_rounds = 6;
-constexpr int max_rounds = 32;
+constexpr int max_planarize_rounds = 32;
 
 struct Lexicographic {
     bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
@@ -265,7 +265,7 @@ PlanarSegments planarize(std::span<const Point> points, std::span<const Segment>
     Box extent;
     for (Point p : points) extent.include(p);
     double tolerance = 0;
-    for (int round = 0; round < max_rounds; ++round) {
+    for (int round = 0; round < max_planarize_rounds; ++round) {
         const std::vector<PieceEdge> edges = edges_of(all, pieces);
         const PieceEdgeTree tree(all, edges);
         if (round >= exact_rounds)

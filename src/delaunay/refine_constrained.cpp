@@ -24,7 +24,7 @@ namespace lamina::delaunay {
 
 namespace {
 
-constexpr int max_rounds = 60;
+constexpr int max_refinement_rounds = 60;
 
 /// A part's refinement, in the numbers of the part alone.
 struct RefinedPart {
@@ -118,7 +118,7 @@ public:
 
     void run() {
         if (options_.split_segments) splitter_.split_by_size();
-        for (int round = 0; round < max_rounds; ++round) {
+        for (int round = 0; round < max_refinement_rounds; ++round) {
             if (options_.split_segments)
                 while (splitter_.split_encroached()) {
                 }

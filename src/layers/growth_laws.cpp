@@ -77,7 +77,7 @@ constexpr GrowthBySpacing adaptive_growth{.min_growth = min_adaptive_ratio,
                                           .on_rays = adaptive_ratios,
                                           .expected = expected_adaptive_ratio};
 
-constexpr GrowthLawEntry table[] = {
+constexpr GrowthLawEntry growth_laws[] = {
     {.law = GrowthLaw::geometric,
      .name = "geometric",
      .formula = "H (R^n - 1) / (R - 1)",
@@ -111,10 +111,10 @@ constexpr GrowthLawEntry table[] = {
 
 }  // namespace
 
-std::span<const GrowthLawEntry> growth_law_table() { return table; }
+std::span<const GrowthLawEntry> growth_law_table() { return growth_laws; }
 
 const GrowthLawEntry& growth_law_entry(GrowthLaw law) {
-    for (const GrowthLawEntry& entry : table)
+    for (const GrowthLawEntry& entry : growth_laws)
         if (entry.law == law) return entry;
     throw OptionError("growth_law", "is not known");
 }

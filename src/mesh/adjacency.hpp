@@ -55,6 +55,9 @@ private:
 
 inline constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
 
+/// Number of cells that a thread takes at a time.
+inline constexpr std::size_t cells_per_block = 1 << 13;
+
 /// The neighbours of all cells. Edges are numbered by CellEdges.
 struct Adjacency {
     core::UninitializedArray<std::uint32_t>
@@ -62,8 +65,8 @@ struct Adjacency {
     std::vector<std::uint32_t> boundary;  ///< directed edges that one cell alone has, ascending
     std::vector<std::uint32_t> overused;  ///< directed edges that share their ends with more than one other edge, or
                                           ///< with one of the same direction; ascending
-    std::vector<VertexId> orphans;  ///< vertices of no cell, ascending
-    std::size_t edges = 0;          ///< number of undirected edges
+    std::vector<VertexId> orphans;        ///< vertices of no cell, ascending
+    std::size_t edges = 0;                ///< number of undirected edges
 };
 
 /// Finds the neighbours of all cells in linear time. Blocks of successive cells match their own edges in parallel,

@@ -12,8 +12,6 @@ namespace lamina::mesh {
 
 namespace {
 
-constexpr std::size_t grain = 1 << 13;
-
 /// Calls check_one(i, defects) for all i below n, in parallel, and appends the defects in the order of i.
 template <class F>
 void check_blocks(std::size_t n, DefectList& defects, F&& check_one) {
@@ -22,7 +20,7 @@ void check_blocks(std::size_t n, DefectList& defects, F&& check_one) {
         for (std::size_t i = begin; i < end; ++i) check_one(i, found);
         return found;
     };
-    for (DefectList& found : core::parallel_blocks(n, grain, check_block)) defects.append(std::move(found));
+    for (DefectList& found : core::parallel_blocks(n, cells_per_block, check_block)) defects.append(std::move(found));
 }
 
 void check_lengths(const Mesh& mesh, std::size_t cells, DefectList& defects) {

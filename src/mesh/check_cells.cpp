@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesh/cell_text.hpp"
 #include "mesh/regions.hpp"
 
@@ -15,8 +16,6 @@ namespace lamina::mesh {
 namespace {
 
 /// Number of cells in a block. The data of one block of cells stays in the second-level cache.
-constexpr std::size_t grain = 1 << 13;
-
 /// Returns a number that is > 0 for a counter-clockwise cell and 0 for a flat one. A quad is simple and
 /// counter-clockwise if one of its diagonals splits it in two counter-clockwise triangles.
 double cell_orientation(const Point* p, std::size_t corners) {
@@ -77,7 +76,7 @@ std::vector<std::uint32_t> first_of_pairs(const Adjacency& adjacency, std::size_
     std::size_t n = 0;
     for (std::size_t e = begin; e < end; ++e) {
         firsts[n] = static_cast<std::uint32_t>(e);
-        n += (adjacency.twin[e] > e) & (adjacency.twin[e] != no_edge);
+        n += static_cast<unsigned>(adjacency.twin[e] > e) & static_cast<unsigned>(adjacency.twin[e] != no_edge);
     }
     firsts.resize(n);
     return firsts;
@@ -115,12 +114,12 @@ CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, double mi
     constexpr std::size_t blocks = 4;
     const auto check_blocks = [&](std::size_t begin, std::size_t end) {
         CellsSummary summary(min_angle_deg);
-        for (; begin < end; begin += grain)
-            check_block(mesh, adjacency, begin, std::min(end, begin + grain), min_angle_deg, summary);
+        for (; begin < end; begin += cells_per_block)
+            check_block(mesh, adjacency, begin, std::min(end, begin + cells_per_block), min_angle_deg, summary);
         return summary;
     };
     CellsSummary all(min_angle_deg);
-    for (CellsSummary& part : core::parallel_blocks(CellEdges(mesh).cells(), blocks * grain, check_blocks))
+    for (CellsSummary& part : core::parallel_blocks(CellEdges(mesh).cells(), blocks * cells_per_block, check_blocks))
         all.append(std::move(part));
     return all;
 }

@@ -4,13 +4,12 @@
 
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
+#include "mesh/adjacency.hpp"
 #include "mesh/regions.hpp"
 
 namespace lamina::mesh {
 
 namespace {
-
-constexpr std::size_t grain = 1 << 13;
 
 /// Finds the two frozen edges between which a corner of an isotropic cell lies.
 class FrozenCorners {
@@ -84,7 +83,8 @@ std::size_t count_exempt(const Mesh& mesh, const Adjacency& adjacency, const std
                              [&](std::uint32_t cell) { return corners.has_sharp_corner(cell); });
     };
     std::size_t exempt = 0;
-    for (const auto part : core::parallel_blocks(cells.size(), grain, count)) exempt += static_cast<std::size_t>(part);
+    for (const auto part : core::parallel_blocks(cells.size(), cells_per_block, count))
+        exempt += static_cast<std::size_t>(part);
     return exempt;
 }
 

@@ -10,7 +10,7 @@ namespace lamina::surface {
 namespace {
 
 /// No vertex that turns by less is a corner.
-constexpr double min_turning = core::radians(10);
+constexpr double min_corner_turning = core::radians(10);
 /// A vertex that turns by more is a corner even if only one of its neighbours is straight.
 constexpr double min_one_sided_turning = core::radians(35);
 /// A vertex that turns by more is a corner, since nothing tells how round the body is between the samples.
@@ -64,7 +64,7 @@ std::vector<std::size_t> find_corners(std::span<const Point> outline) {
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < n; ++i) {
         const double angle = std::abs(turning[i]);
-        if (angle < min_turning) continue;
+        if (angle < min_corner_turning) continue;
         const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
         const bool straight_before = is_straight(i, before), straight_after = is_straight(i, after);
         // Two neighbouring vertices may share a nose. The outline is then round beyond the other vertex, which it is

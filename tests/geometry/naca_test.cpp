@@ -101,8 +101,8 @@ TEST(Naca, MeanLinesPeakWhereTheDigitsSay) {
 }
 
 TEST(Naca, ReflexedMeanLinesRiseAtTheTail) {
-    const auto [upper, lower] = surfaces(naca_airfoil("23112", 400), 200);
-    const auto mean = [&](double x) { return 0.5 * (interpolate(upper, x) + interpolate(lower, x)); };
+    const auto sides = surfaces(naca_airfoil("23112", 400), 200);
+    const auto mean = [&](double x) { return 0.5 * (interpolate(sides.upper, x) + interpolate(sides.lower, x)); };
     EXPECT_LT(mean(0.75), 0.5 * (mean(0.5) + mean(1)) - 1e-4);
     EXPECT_NEAR(mean(1), 0, 1e-15);
 }

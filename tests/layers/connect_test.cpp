@@ -21,16 +21,6 @@ using shapes::Outline;
 
 constexpr LayerTopology topologies[] = {LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads};
 
-LayerOptions thin(Corners corners = Corners::fan) {
-    LayerOptions options;
-    options.first_height = 2.5e-5;
-    options.growth = 1.15;
-    options.layers = 30;
-    options.max_ray_angle_deg = 4;
-    options.corners = corners;
-    return options;
-}
-
 /// Calls f(corners, layer) for each cell: triangles, then quads.
 template <class F>
 void for_each_cell(const LayerCells& cells, F&& f) {
@@ -148,7 +138,7 @@ TEST(Connect, CoversTheLayerOfAnySection) {
           shapes::diamond(), shapes::box(), shapes::refined(shapes::l_shape(), 9),
           shapes::refined(shapes::v_notch(0.4), 12), shapes::refined(shapes::c_shape(0.02), 12),
           shapes::refined(shapes::comb(4, 0.1), 5)})
-        for (Corners corners : {Corners::fan, Corners::refine}) expect_connected(outline, thin(corners));
+        for (Corners corners : {Corners::fan, Corners::refine}) expect_connected(outline, test::thesis_layer(corners));
 }
 
 TEST(Connect, CoversTruncatedLayers) {
@@ -158,7 +148,7 @@ TEST(Connect, CoversTruncatedLayers) {
         const Outline outline =
             shapes::refined(shapes::star(3 + random() % 20, 0.05 + 0.009 * static_cast<double>(random() % 100), random),
                             1 + random() % 5);
-        LayerOptions options = thin(random() % 2 == 0 ? Corners::fan : Corners::refine);
+        LayerOptions options = test::thesis_layer(random() % 2 == 0 ? Corners::fan : Corners::refine);
         options.first_height = std::pow(10, -5 + 0.04 * static_cast<double>(random() % 100));
         options.growth = 1.05 + 0.005 * static_cast<double>(random() % 100);
         options.layers = 1 + random() % 40;
@@ -173,12 +163,12 @@ TEST(Connect, CoversTheLayersOfSeveralBodies) {
     const Outline main = shapes::section(0.12, 0, 40);
     for (double gap : {0.1, 0.01, 1e-4}) {
         const Outline flap = shapes::moved(shapes::section(0.12, 0.01, 30), -0.5, 0.3, {1 + gap, -0.01});
-        expect_connected(shapes::geometry({main, flap}), thin());
+        expect_connected(shapes::geometry({main, flap}), test::thesis_layer());
     }
 }
 
 TEST(Connect, MakesNothingWhereTheLayerIsDisabled) {
-    LayerOptions options = thin();
+    LayerOptions options = test::thesis_layer();
     options.enabled = false;
     const Layer layer = test::make_layer(shapes::geometry({shapes::box()}), options);
     for (LayerTopology topology : topologies) {
@@ -188,7 +178,7 @@ TEST(Connect, MakesNothingWhereTheLayerIsDisabled) {
 }
 
 TEST(Connect, QuadsFillTheGridWhereTheBorderIsNotDivided) {
-    const Layer layer = test::make_layer(shapes::geometry({shapes::circle(0.5, 100)}), thin());
+    const Layer layer = test::make_layer(shapes::geometry({shapes::circle(0.5, 100)}), test::thesis_layer());
     ASSERT_EQ(divided_tops(layer), 0u);
     const std::size_t columns = layer.rays[0].size();
     const LayerCells quads = layers::connect_layer(layer, layers::GridCells::whole),
@@ -197,7 +187,7 @@ TEST(Connect, QuadsFillTheGridWhereTheBorderIsNotDivided) {
     EXPECT_TRUE(quads.triangles.empty());
     EXPECT_EQ(split.triangles.size(), 60 * columns);
 
-    const Layer fans = test::make_layer(shapes::geometry({shapes::section(0.12, 0, 80)}), thin());
+    const Layer fans = test::make_layer(shapes::geometry({shapes::section(0.12, 0, 80)}), test::thesis_layer());
     std::size_t in_fans = 0;
     for (std::size_t i = 0; i + 1 < fans.rays[0].size(); ++i)
         in_fans += fans.rays[0][i].origin == fans.rays[0][i + 1].origin;
@@ -208,7 +198,7 @@ TEST(Connect, QuadsFillTheGridWhereTheBorderIsNotDivided) {
 }
 
 TEST(Connect, GentleCurvatureHasTheRowsOfTheDelaunayTriangulation) {
-    LayerOptions options = thin();
+    LayerOptions options = test::thesis_layer();
     options.layers = 20;
     for (const Outline& outline : {shapes::circle(0.5, 300), shapes::ellipse(1, 0.6, 600)}) {
         const Layer layer = test::make_layer(shapes::geometry({outline}), options);
@@ -236,7 +226,7 @@ double largest_angle(const Layer& layer, VertexId a, VertexId b, VertexId c) {
 
 TEST(Connect, TheOtherDiagonalIsNoBetter) {
     for (const Outline& outline : {shapes::joukowski(0.1, 0.3, 100), shapes::refined(shapes::c_shape(0.3), 11)}) {
-        const Layer layer = test::make_layer(shapes::geometry({outline}), thin());
+        const Layer layer = test::make_layer(shapes::geometry({outline}), test::thesis_layer());
         const LayerCells split = layers::connect_layer(layer, layers::GridCells::split),
                          whole = layers::connect_layer(layer, layers::GridCells::whole);
         std::map<Segment, VertexId> opposite;
@@ -254,7 +244,7 @@ TEST(Connect, TheOtherDiagonalIsNoBetter) {
 }
 
 TEST(Connect, SymmetricSectionHasMirroredDiagonals) {
-    const Layer layer = test::make_layer(shapes::geometry({shapes::section(0.12, 0, 70)}), thin());
+    const Layer layer = test::make_layer(shapes::geometry({shapes::section(0.12, 0, 70)}), test::thesis_layer());
     std::vector<Point> centers, mirrored;
     for (const Triangle& t : layers::connect_layer(layer, layers::GridCells::split).triangles) {
         Point sum;
@@ -275,8 +265,8 @@ TEST(Connect, SymmetricSectionHasMirroredDiagonals) {
 }
 
 TEST(Connect, DoesNotDependOnThreads) {
-    const Layer layer =
-        test::make_layer(shapes::geometry({shapes::section(0.12, 0, 900), shapes::circle(0.1, 2000)}), thin());
+    const Layer layer = test::make_layer(shapes::geometry({shapes::section(0.12, 0, 900), shapes::circle(0.1, 2000)}),
+                                         test::thesis_layer());
     for (layers::GridCells form : {layers::GridCells::split, layers::GridCells::whole}) {
         LayerCells one;
         with_threads(1, [&] { one = layers::connect_layer(layer, form); });

@@ -23,15 +23,6 @@ namespace {
 using shapes::Outline;
 using test::checked_layer;
 
-LayerOptions thin() {
-    LayerOptions options;
-    options.first_height = 2.5e-5;
-    options.growth = 1.15;
-    options.layers = 30;
-    options.max_ray_angle_deg = 4;
-    return options;
-}
-
 LayerOptions scaled(LayerOptions options, double scale) {
     options.first_height = test::first_height(options) * scale;
     if (options.thickness) *options.thickness *= scale;
@@ -68,7 +59,7 @@ std::size_t full_rays(const Layer& layer) {
 }
 
 TEST(LayerHeight, IsTheGeometricSum) {
-    const LayerGrowth growth = test::growth_of(thin());
+    const LayerGrowth growth = test::growth_of(test::thesis_layer());
     EXPECT_EQ(layer_height(growth, 0), 0);
     EXPECT_EQ(layer_height(growth, 1), growth.first_height);
     for (std::uint32_t n = 1; n < 60; ++n) {
@@ -84,18 +75,18 @@ TEST(Layer, SmoothSectionsCarryAllLayers) {
     for (const Outline& outline : {shapes::section(0.12, 0, 100), shapes::section(0.12, 0.01, 80),
                                    shapes::joukowski(0.1, 0, 200), shapes::joukowski(0.08, 0.15, 200),
                                    shapes::circle(0.5, 60), shapes::ellipse(1, 0.05, 150), shapes::plate(0.05, 16)}) {
-        const Layer layer = checked_layer(outline, thin());
+        const Layer layer = checked_layer(outline, test::thesis_layer());
         EXPECT_EQ(layer.coverage[0].all.incomplete_rays, 0u);
         EXPECT_EQ(layer.coverage[0].all.made_cells, layer.coverage[0].all.requested_cells);
         EXPECT_EQ(full_rays(layer), layer.rays[0].size());
-        expect_heights(layer, thin());
+        expect_heights(layer, test::thesis_layer());
     }
 }
 
 TEST(Layer, KeepsEveryVertexOfTheWallInOrder) {
     for (const Outline& outline : {shapes::section(0.12, 0, 60), shapes::l_shape(), shapes::c_shape(0.05)}) {
         for (Corners corners : {Corners::fan, Corners::refine}) {
-            LayerOptions options = thin();
+            LayerOptions options = test::thesis_layer();
             options.corners = corners;
             const Layer layer = checked_layer(outline, options);
             std::size_t found = 0;
@@ -109,13 +100,13 @@ TEST(Layer, KeepsEveryVertexOfTheWallInOrder) {
 }
 
 TEST(Layer, FansStandAtSharpCornersOnly) {
-    const Layer fans = checked_layer(shapes::box(), thin());
+    const Layer fans = checked_layer(shapes::box(), test::thesis_layer());
     std::set<VertexId> origins;
     for (const Ray& ray : fans.rays[0]) origins.insert(ray.origin);
     EXPECT_EQ(origins.size(), 4u);
     EXPECT_EQ(fans.rays[0].size(), 4u * 24u);  // 90 degrees by steps of at most 4
 
-    LayerOptions refine = thin();
+    LayerOptions refine = test::thesis_layer();
     refine.corners = Corners::refine;
     const Layer refined = checked_layer(shapes::box(), refine);
     origins.clear();
@@ -124,7 +115,7 @@ TEST(Layer, FansStandAtSharpCornersOnly) {
     EXPECT_GT(refined.wall_points, 4u * 20u);
 
     // A polygon of 10 corners turns by 36 degrees at each of them, which is too little for fans.
-    const Layer smooth = checked_layer(shapes::circle(1, 10), thin());
+    const Layer smooth = checked_layer(shapes::circle(1, 10), test::thesis_layer());
     origins.clear();
     for (const Ray& ray : smooth.rays[0]) origins.insert(ray.origin);
     EXPECT_EQ(origins.size(), smooth.rays[0].size());
@@ -133,7 +124,7 @@ TEST(Layer, FansStandAtSharpCornersOnly) {
 TEST(Layer, AngleBetweenRaysKeepsItsLimitForAnyLimit) {
     for (double limit : {0.7, 4.0, 10.0, 36.0, 90.0}) {
         for (Corners corners : {Corners::fan, Corners::refine}) {
-            LayerOptions options = thin();
+            LayerOptions options = test::thesis_layer();
             options.max_ray_angle_deg = limit;
             options.corners = corners;
             checked_layer(shapes::section(0.12, 0, 30), options);  // check_layer() looks at the angles
@@ -143,7 +134,7 @@ TEST(Layer, AngleBetweenRaysKeepsItsLimitForAnyLimit) {
 }
 
 TEST(Layer, ThicknessLimitsTheNumberOfLayers) {
-    LayerOptions options = thin();
+    LayerOptions options = test::thesis_layer();
     options.thickness = layer_height(test::growth_of(options), 12);
     Layer layer = checked_layer(shapes::circle(1, 50), options);
     for (const Ray& ray : layer.rays[0]) EXPECT_EQ(ray.layers, 12u);
@@ -155,7 +146,7 @@ TEST(Layer, ThicknessLimitsTheNumberOfLayers) {
 
 TEST(Layer, MovesWithItsInput) {
     const Outline outline = shapes::refined(shapes::l_shape(), 8);
-    LayerOptions options = thin();
+    LayerOptions options = test::thesis_layer();
     options.first_height = 1e-3;
     options.layers = 15;
     const Layer layer = checked_layer(outline, options);
@@ -178,7 +169,7 @@ TEST(Layer, MirroredInputGivesMirroredPoints) {
     std::mt19937 random(7);
     for (const Outline& outline : {shapes::section(0.12, 0, 60), shapes::section(0.12, 0.02, 60),
                                    shapes::joukowski(0.1, 0.1, 90), shapes::refined(shapes::star(9, 0.3, random), 5)}) {
-        LayerOptions options = thin();
+        LayerOptions options = test::thesis_layer();
         options.layers = 45;
         const Layer layer = checked_layer(outline, options);
         const Layer mirror = checked_layer(shapes::mirrored(outline), options);
@@ -189,13 +180,13 @@ TEST(Layer, MirroredInputGivesMirroredPoints) {
 }
 
 TEST(Layer, SymmetricSectionHasSymmetricLayer) {
-    const Layer layer = checked_layer(shapes::section(0.12, 0, 70), thin());
+    const Layer layer = checked_layer(shapes::section(0.12, 0, 70), test::thesis_layer());
     EXPECT_LT(test::set_distance(test::sorted_mirror(layer.points), test::sorted(layer.points)), 1e-12);
 }
 
 TEST(Layer, StartOfTheLoopDoesNotMatter) {
     const Outline outline = shapes::refined(shapes::l_shape(), 6);
-    LayerOptions options = thin();
+    LayerOptions options = test::thesis_layer();
     options.first_height = 2e-3;
     const auto reference = test::sorted(checked_layer(outline, options).points);
     for (std::size_t first : {1u, 7u, 20u, 35u}) {
@@ -206,7 +197,7 @@ TEST(Layer, StartOfTheLoopDoesNotMatter) {
 }
 
 TEST(Layer, ThinsInAVNotchAndRecovers) {
-    LayerOptions options = thin();
+    LayerOptions options = test::thesis_layer();
     options.first_height = 1e-3;
     const Layer layer = checked_layer(shapes::refined(shapes::v_notch(0.4), 20), options);
     EXPECT_GT(layer.coverage[0].all.incomplete_rays, 0u);
@@ -222,7 +213,7 @@ TEST(Layer, ThinsInAVNotchAndRecovers) {
 
 TEST(Layer, LipsThatNearlyTouchKeepSpaceBetweenTheirFronts) {
     for (double lips : {0.2, 0.02, 1e-3}) {
-        LayerOptions options = thin();
+        LayerOptions options = test::thesis_layer();
         options.first_height = 1e-4;
         const Layer layer = checked_layer(shapes::refined(shapes::c_shape(lips), 20), options);
         // The slot runs along y = 1; no point comes nearer to its middle than an eighth of its width.
@@ -236,7 +227,7 @@ TEST(Layer, LipsThatNearlyTouchKeepSpaceBetweenTheirFronts) {
 
 TEST(Layer, VeryThickLayersStayValid) {
     for (std::uint32_t layers : {40u, 60u}) {
-        LayerOptions options = thin();
+        LayerOptions options = test::thesis_layer();
         options.layers = layers;
         options.first_height = 1e-4;
         for (const Outline& outline :
@@ -274,7 +265,7 @@ TEST(Layer, RandomStarsStayValid) {
 }
 
 TEST(Layer, SeveralBodiesKeepApart) {
-    LayerOptions options = thin();
+    LayerOptions options = test::thesis_layer();
     options.first_height = 1e-4;
     for (double gap : {1.0, 0.1, 0.01, 1e-4}) {
         const Outline main = shapes::section(0.12, 0, 40);
@@ -304,7 +295,7 @@ TEST(Layer, WithoutLayersTheBorderIsTheWall) {
 
 TEST(Layer, SourcesDivideTheBorder) {
     const Outline outline = shapes::section(0.12, 0.01, 40);
-    const std::size_t whole = checked_layer(outline, thin()).borders[0].size();
+    const std::size_t whole = checked_layer(outline, test::thesis_layer()).borders[0].size();
     BorderOptions options;
     const std::vector<SizeSource> sources{
         {.a = {0.3, 0}, .b = {0.4, 0.3}, .size = 1e-3, .shape = SizeSource::Shape::box},
@@ -312,7 +303,7 @@ TEST(Layer, SourcesDivideTheBorder) {
         {.a = {1, 0}, .b = {2, 0.1}, .size = 5e-4}};
     for (std::size_t n = 0; n <= sources.size(); ++n) {
         options.sources.assign(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(n));
-        const Layer layer = checked_layer(outline, thin(), options);
+        const Layer layer = checked_layer(outline, test::thesis_layer(), options);
         const auto& border = layer.borders[0];
         EXPECT_GE(border.size(), whole + 30 * n);
         for (std::size_t k = 0; k < border.size(); ++k) {
@@ -330,7 +321,7 @@ TEST(Layer, BorderIsGradedBesideAFineFan) {
     BorderOptions options;
     for (double gradation : {0.05, 0.1, 0.2}) {
         options.gradation = gradation;
-        const Layer layer = checked_layer(shapes::box(), thin(), options);
+        const Layer layer = checked_layer(shapes::box(), test::thesis_layer(), options);
         const auto& border = layer.borders[0];
         double shortest = HUGE_VAL, longest = 0;
         for (std::size_t k = 0; k < border.size(); ++k) {
@@ -347,7 +338,7 @@ TEST(Layer, BorderIsGradedBesideAFineFan) {
 TEST(Layer, RefusesOptionsOutOfRange) {
     const Geometry circle = shapes::geometry({shapes::circle(1, 20)});
     const auto refused = [&](auto change) {
-        LayerOptions options = thin();
+        LayerOptions options = test::thesis_layer();
         change(options);
         EXPECT_THROW(test::make_layer(circle, options), UsageError);
     };
@@ -363,13 +354,13 @@ TEST(Layer, RefusesOptionsOutOfRange) {
     refused([](LayerOptions& o) { o.max_ray_angle_deg = 0; });
     refused([](LayerOptions& o) { o.max_ray_angle_deg = 180; });
     refused([](LayerOptions& o) { o.thickness = 1e-6; });
-    EXPECT_THROW(test::make_layer(circle, thin(), {.max_ratio = 1}), OptionError);
-    EXPECT_THROW(test::make_layer(circle, thin(), {.gradation = 0}), OptionError);
-    EXPECT_THROW(test::make_layer(circle, thin(), {.max_edge = NAN}), OptionError);
+    EXPECT_THROW(test::make_layer(circle, test::thesis_layer(), {.max_ratio = 1}), OptionError);
+    EXPECT_THROW(test::make_layer(circle, test::thesis_layer(), {.gradation = 0}), OptionError);
+    EXPECT_THROW(test::make_layer(circle, test::thesis_layer(), {.max_edge = NAN}), OptionError);
 }
 
 TEST(CheckLayer, FindsDefects) {
-    const LayerOptions options = thin();
+    const LayerOptions options = test::thesis_layer();
     const Layer valid = checked_layer(shapes::circle(1, 40), options);
     const auto expect_finding = [&](auto spoil) {
         Layer layer = valid;
@@ -399,7 +390,7 @@ TEST(Layer, RealSections) {
         SCOPED_TRACE(name);
         const std::vector<std::string> inputs{(folder / (std::string(name) + ".dat")).string()};
         const Geometry geometry = read_geometry(inputs);
-        LayerOptions options = thin();
+        LayerOptions options = test::thesis_layer();
         const Layer layer = checked_layer(geometry, options);
         expect_heights(layer, options);
         // The file of naca63a210 holds a step of 0.3 % chord at mid-chord; the others are smooth.

@@ -11,6 +11,7 @@
 #include <lamina/geometry.hpp>
 #include <lamina/pipeline.hpp>
 
+#include "support/layers.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina::test {
@@ -20,10 +21,7 @@ namespace lamina::test {
 inline CaseOptions thesis_options() {
     CaseOptions options;
     options.surface.surface = Surface::keep;
-    options.layer.first_height = 2.5e-5;
-    options.layer.growth = 1.15;
-    options.layer.layers = 30;
-    options.layer.max_ray_angle_deg = 4;
+    options.layer = thesis_layer();
     options.far_field.size = 50;
     return options;
 }

@@ -12,6 +12,7 @@ int main() {
     mesh.markers.push_back(
         {"wall", MarkerKind::wall, {{id(0), id(1)}, {id(1), id(2)}, {id(2), id(3)}, {id(3), id(0)}}});
     const MeshCheck check = check_mesh(mesh);
-    std::printf("%s %s\n", check.valid() ? "valid" : check.defects.front().description.c_str(), mesh_hash(mesh).c_str());
+    std::printf("%s %s\n", check.valid() ? "valid" : check.defects.front().description.c_str(),
+                mesh_hash(mesh).c_str());
     return check.valid() ? 0 : 1;
 }
