@@ -30,7 +30,7 @@ struct FarFieldOptions {
     std::vector<Point> outline{};              ///< corners of the polygon, counter-clockwise, in units of the input
 };
 
-/// Returns the table of the options.
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<FarFieldOptions>& far_field_option_table();
 
 /// Throws OptionError where an option is out of range, and where the outline is no convex polygon.
@@ -67,7 +67,7 @@ struct DecouplingOptions {
     double pieces_target = 50'000;                              ///< target number of triangles per subdomain
 };
 
-/// Returns the table of the options.
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<DecouplingOptions>& decoupling_option_table();
 
 /// Throws OptionError where an option is out of range.

@@ -27,13 +27,15 @@ struct DecompositionOptions {
     std::size_t leaf_vertices = 5'000;  ///< pieces with at most this many vertices are not cut further
 };
 
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<DecompositionOptions>& decomposition_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const DecompositionOptions& options);
 
+/// The numbers of pieces, cuts and fallbacks of a decomposition.
 struct DecompositionStats {
-    std::size_t pieces = 0;
+    std::size_t pieces = 0;  ///< number of pieces
     /// Number of vertices, summed over pieces: a vertex on a dividing path counts in every piece that it belongs to.
     std::size_t piece_vertices = 0;
     std::size_t largest_piece = 0;    ///< in vertices
@@ -45,13 +47,15 @@ struct DecompositionStats {
 
 /// The time that one thread spent while points were triangulated in pieces, in seconds.
 struct TriangulationThread {
-    double cutting = 0, triangulating = 0, idle = 0;
+    double cutting = 0;        ///< time in which the thread cut pieces
+    double triangulating = 0;  ///< time in which it triangulated pieces
+    double idle = 0;           ///< time in which it had nothing to do
 };
 
 /// A triangulation. The triangles hold indices into the points of the input.
 struct Triangulation {
-    std::vector<Triangle> triangles;  ///< counter-clockwise
-    DecompositionStats decomposition{};
+    std::vector<Triangle> triangles;             ///< counter-clockwise
+    DecompositionStats decomposition{};          ///< how the points were cut into pieces
     std::vector<TriangulationThread> threads{};  ///< one entry per thread
 };
 
@@ -86,9 +90,10 @@ enum class Crossings {
              ///< stay planar
 };
 
+/// Options of constrained triangulation.
 struct ConstrainedOptions {
-    KeptRegion keep = KeptRegion::convex_hull;
-    Crossings crossings = Crossings::refuse;
+    KeptRegion keep = KeptRegion::convex_hull;  ///< the triangles that are kept
+    Crossings crossings = Crossings::refuse;    ///< what happens where segments cross
     /// One point in each hole. Triangles that can be reached from it without crossing a segment are removed. Points
     /// outside the hull have no effect; a point on a vertex or a segment is an InputError.
     std::vector<Point> holes{};
@@ -115,6 +120,7 @@ LAMINA_EXPORT ConstrainedTriangulation triangulate(std::span<const Point> points
 
 // ---- refinement ----
 
+/// Options of refinement.
 struct RefineOptions {
     /// Smallest angle of a triangle; 0: no bound. Refinement is proved to end up to the default, and has ended in all
     /// trials up to max_min_angle_deg.
@@ -128,25 +134,28 @@ struct RefineOptions {
     std::size_t expected_triangles = 0;
 };
 
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<RefineOptions>& refine_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const RefineOptions& options);
 
+/// The numbers of triangles that could not be refined as requested.
 struct RefineStats {
     std::size_t refused = 0;      ///< points that were not placed because they would encroach upon the frozen border
     std::size_t below_bound = 0;  ///< triangles that stayed below the angle bound
     std::size_t exempt = 0;       ///< those of them at a corner below 60 degrees between two border edges
     std::size_t oversized = 0;    ///< triangles that stayed above the size bound
 
+    /// Adds the numbers of another region.
     LAMINA_EXPORT RefineStats& operator+=(const RefineStats& other);
 };
 
 /// A refined region. Triangles index the points of the input, followed by `steiner_points`.
 struct Refinement {
-    std::vector<Point> steiner_points;
-    std::vector<Triangle> triangles;
-    RefineStats stats;
+    std::vector<Point> steiner_points;  ///< the points that refinement placed
+    std::vector<Triangle> triangles;    ///< counter-clockwise
+    RefineStats stats;                  ///< what could not be refined
 };
 
 /// Refines the region on the left of `segments` to a size field and a minimum angle. The border is frozen: no segment
@@ -160,12 +169,13 @@ LAMINA_EXPORT Refinement refine(std::span<const Point> points, std::span<const S
 
 /// A size field that replaces the general one in the region that holds the seed.
 struct RegionSize {
-    Point seed;
-    SizeField size;
+    Point seed;      ///< a point inside the region
+    SizeField size;  ///< the size field there
 };
 
+/// Options of the refinement of a constrained triangulation.
 struct ConstrainedRefineOptions {
-    RefineOptions refine{};
+    RefineOptions refine{};  ///< the options of every region
     /// Whether segments and the boundary are split where the angle or size bound demands it. If not, triangles beside
     /// long segments may stay beyond the bounds.
     bool split_segments = true;
@@ -176,13 +186,14 @@ struct ConstrainedRefineOptions {
 struct ConstrainedRefinement {
     /// The Steiner points of the triangulation, then those on segments and the boundary, then the rest.
     std::vector<Point> steiner_points;
-    std::size_t on_segments = 0;  ///< number of Steiner points on segments and the boundary
-    std::vector<Triangle> triangles;
+    std::size_t on_segments = 0;         ///< number of Steiner points on segments and the boundary
+    std::vector<Triangle> triangles;     ///< counter-clockwise
     std::vector<std::uint32_t> regions;  ///< for each triangle the index of its RegionSize, or no_region
     std::vector<Segment> segments;       ///< the segments of the triangulation, split
     std::vector<std::uint32_t> parents;  ///< as in ConstrainedTriangulation
-    RefineStats stats;
+    RefineStats stats;                   ///< what could not be refined
 
+    /// The entry of `regions` for a triangle in no region with a size field of its own.
     static constexpr std::uint32_t no_region = 0xffffffffu;
 };
 
@@ -199,6 +210,7 @@ LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const 
 
 // ---- checks ----
 
+/// Options of check_triangulation().
 struct TriangulationCheckOptions {
     bool require_delaunay = true;  ///< whether edges that are no constraints must be locally Delaunay by the tie rule
 };

@@ -26,7 +26,9 @@ enum class ExitCode : int {
 /// The base of all errors that lamina throws.
 class LAMINA_EXPORT Error : public std::runtime_error {
 public:
+    /// Makes an error whose what() is this line.
     Error(ExitCode code, const std::string& line) : std::runtime_error(line), code_(code) {}
+    /// Returns the kind of the error.
     ExitCode exit_code() const noexcept { return code_; }
 
 private:
@@ -36,6 +38,7 @@ private:
 /// Arguments that contradict each other or that lamina does not know.
 class LAMINA_EXPORT UsageError : public Error {
 public:
+    /// Makes an error whose what() is this line.
     explicit UsageError(const std::string& line) : Error(ExitCode::usage, line) {}
 };
 
@@ -46,6 +49,7 @@ public:
     OptionError(const std::string& option, const std::string& reason);
     /// Returns the name of the option as case files write it: "first_height".
     const std::string& option() const noexcept { return option_; }
+    /// Returns what is wrong with its value.
     const std::string& reason() const noexcept { return reason_; }
 
 private:
@@ -54,7 +58,7 @@ private:
 
 /// A place in the input where something is wrong. Parts that do not apply stay empty.
 struct InputPlace {
-    std::string file{};
+    std::string file{};                   ///< path or name of the input
     std::size_t line = 0;                 ///< counts from 1; 0: not tied to one line
     std::optional<Point> at{};            ///< coordinates of the place
     std::string element{};                ///< name of the body
@@ -67,7 +71,9 @@ class LAMINA_EXPORT InputError : public Error {
 public:
     /// Makes an error whose what() reads "file:line: reason (at x, y)", without the parts that are empty.
     InputError(InputPlace place, const std::string& reason);
+    /// Returns where the input is wrong.
     const InputPlace& place() const noexcept { return place_; }
+    /// Returns what is wrong, without the place.
     const std::string& reason() const noexcept { return reason_; }
 
 private:
@@ -78,6 +84,7 @@ private:
 /// A mesh of the promised standard that could not be made, or a mesh that was read and is not valid.
 class LAMINA_EXPORT MeshError : public Error {
 public:
+    /// Makes an error whose what() is this line.
     explicit MeshError(const std::string& line, std::optional<Point> at = std::nullopt)
         : Error(ExitCode::mesh_failed, line), at_(at) {}
     /// Returns the place of the first defect where it is known.
@@ -92,7 +99,9 @@ class LAMINA_EXPORT IoError : public Error {
 public:
     /// Makes an error whose what() reads "file: reason".
     IoError(const std::string& file, const std::string& reason);
+    /// Returns the path of the file.
     const std::string& file() const noexcept { return file_; }
+    /// Returns why it could not be read or written.
     const std::string& reason() const noexcept { return reason_; }
 
 private:

@@ -21,7 +21,8 @@ inline constexpr double sharp_corner_deg = 60;
 
 /// The base of a blunt trailing edge: the indices of its two corners in the outline, in the order of the outline.
 struct Base {
-    std::size_t first, last;
+    std::size_t first;  ///< the corner at which the base begins
+    std::size_t last;   ///< the corner at which it ends
 };
 
 /// Places of an outline that later stages need to know.
@@ -51,18 +52,20 @@ struct Element {
 
 /// Bodies that are closed, simple and pairwise disjoint.
 struct Geometry {
-    std::vector<Element> elements;
+    std::vector<Element> elements;  ///< in the order of the inputs
 };
 
 /// Returns the box round all elements.
 LAMINA_EXPORT Box bounding_box(const Geometry& geometry);
 
+/// Options of read_geometry().
 struct GeometryOptions {
     std::vector<std::string>
         names{};                    ///< marker names, one per element; empty: file stems, or "airfoil" for one element
     std::size_t naca_points = 200;  ///< surface points of `naca:` inputs that do not give their number
 };
 
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 
 /// Throws OptionError where an option is out of range.

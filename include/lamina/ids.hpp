@@ -11,12 +11,17 @@ namespace lamina {
 /// An index into an array of the things that Tag names. An id that is made without an index is not valid.
 template <class Tag>
 struct Id {
+    /// The index; the largest number where the id is not valid.
     std::uint32_t value = std::numeric_limits<std::uint32_t>::max();
 
     constexpr Id() = default;
+    /// Makes a valid id. Precondition: the index is less than 2^32 - 1.
     constexpr explicit Id(std::size_t index) : value(static_cast<std::uint32_t>(index)) {}
+    /// Returns whether the id has an index.
     constexpr bool valid() const { return value != std::numeric_limits<std::uint32_t>::max(); }
+    /// Returns the index. Precondition: valid().
     constexpr std::size_t index() const { return value; }
+    /// Orders ids by their indices.
     // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 of the defaulted comparison for a null pointer
     friend constexpr auto operator<=>(Id, Id) = default;
 };
@@ -26,18 +31,21 @@ using TriangleId = Id<struct TriangleTag>;  ///< index into an array of triangle
 
 /// A triangle; the vertices run counter-clockwise unless a comment says otherwise.
 struct Triangle {
-    VertexId v[3];
+    VertexId v[3];  ///< its corners
+    /// Returns whether two triangles list the same corners in the same order.
     friend constexpr bool operator==(const Triangle&, const Triangle&) = default;
 };
 
 /// A quadrilateral; the vertices run counter-clockwise.
 struct Quad {
-    VertexId v[4];
+    VertexId v[4];  ///< its corners
 };
 
 /// A segment that is directed from a to b.
 struct Segment {
-    VertexId a, b;
+    VertexId a;  ///< where it begins
+    VertexId b;  ///< where it ends
+    /// Orders segments by a, then by b.
     // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 of the defaulted comparison for a null pointer
     friend constexpr auto operator<=>(const Segment&, const Segment&) = default;
 };

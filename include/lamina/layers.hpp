@@ -46,27 +46,29 @@ enum class LayerTopology {
 
 /// A first height that follows from the flow: the top of the first layer lies at this y+ on a flat plate.
 struct YPlus {
-    double y_plus = 1;
+    double y_plus = 1;              ///< height of the first layer in units of the viscous length
     double reynolds = 0;            ///< Reynolds number of the free stream, based on the chord
     std::optional<double> chord{};  ///< in units of the input; empty: the extent in x of the whole configuration
 };
 
+/// Options of the layer.
 struct LayerOptions {
-    bool enabled = true;
+    bool enabled = true;  ///< false: the outer region begins at the walls
     /// Height of the first layer along the ray in units of the input, or the flow that it follows from.
     std::variant<double, YPlus> first_height = 1e-5;
     /// Ratio of the heights of successive layers, or the power of the polynomial law. The other laws do not use it.
     double growth = 1.2;
-    GrowthLaw growth_law = GrowthLaw::geometric;
+    GrowthLaw growth_law = GrowthLaw::geometric;  ///< the law by which heights grow
     /// Number of layers on each ray. Empty: each ray gets layers up to isotropy, where the spacing reaches the distance
     /// to the neighbouring rays.
     std::optional<std::uint32_t> layers = 30;
     std::optional<double> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
     double max_ray_angle_deg = 5;       ///< largest angle between neighbouring rays
-    Corners corners = Corners::fan;
-    LayerTopology topology = LayerTopology::delaunay;
+    Corners corners = Corners::fan;     ///< the rays at sharp convex corners
+    LayerTopology topology = LayerTopology::delaunay;  ///< how points are joined to cells
 };
 
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<LayerOptions>& layer_option_table();
 
 /// Throws OptionError where an option is out of range, or where the growth law lacks a number that it needs
@@ -75,7 +77,7 @@ LAMINA_EXPORT void validate(const LayerOptions& options);
 
 /// The growth law and its numbers, with the first height as a length.
 struct LayerGrowth {
-    GrowthLaw law = GrowthLaw::geometric;
+    GrowthLaw law = GrowthLaw::geometric;   ///< LayerOptions::growth_law
     double first_height = 0;                ///< in units of the input
     double growth = 1.2;                    ///< LayerOptions::growth
     std::optional<std::uint32_t> layers{};  ///< LayerOptions::layers
@@ -102,7 +104,7 @@ LAMINA_EXPORT std::optional<double> requested_height(const LayerGrowth& growth);
 
 /// The origin and the direction of a ray.
 struct RayLine {
-    Point origin;
+    Point origin;     ///< a point of the wall
     Point direction;  ///< unit vector
 };
 
@@ -118,9 +120,11 @@ struct HeightColumn {
 class LayerHeights {
 public:
     LayerHeights() = default;
+    /// Makes heights of their parts. Precondition: the columns lie within the table.
     LayerHeights(std::vector<double> table, std::vector<HeightColumn> columns)
         : table_(std::move(table)), columns_(std::move(columns)) {}
 
+    /// Returns the column of a ray.
     const HeightColumn& column(std::size_t ray) const { return columns_[ray]; }
     /// Returns the heights on a ray. Entry n is the height of layer n; entry 0 is 0, and the last entry belongs to the
     /// last layer requested.
@@ -132,6 +136,7 @@ public:
     double full_height(std::size_t ray) const { return of(ray).back(); }
     /// Returns the largest full height of all rays.
     LAMINA_EXPORT double max_height() const;
+    /// Returns the heights of all columns, one column after the other.
     const std::vector<double>& table() const { return table_; }
 
 private:
@@ -142,9 +147,10 @@ private:
 /// The rays of all elements, one element after the other. Element e owns the rays [begin[e], begin[e + 1]) in
 /// counter-clockwise order; the first one follows the last.
 struct LAMINA_EXPORT RaySet {
-    std::vector<RayLine> lines;
-    std::vector<std::size_t> begin{0};
+    std::vector<RayLine> lines;         ///< the rays
+    std::vector<std::size_t> begin{0};  ///< the first ray of each element, then the number of rays
 
+    /// Returns the number of elements.
     std::size_t elements() const { return begin.size() - 1; }
     /// Returns, for each ray, the index of the ray that follows counter-clockwise round its element.
     std::vector<std::size_t> following() const;
@@ -153,10 +159,10 @@ struct LAMINA_EXPORT RaySet {
 /// The rays and the number of layers on each. If the layer is disabled, each wall vertex has one ray without a
 /// direction and without layers.
 struct Rays {
-    RaySet set;
-    std::vector<char> resampled;  ///< one per element: Element::resampled
-    bool enabled = true;          ///< LayerOptions::enabled
-    LayerGrowth growth;
+    RaySet set;                         ///< origins and directions
+    std::vector<char> resampled;        ///< one per element: Element::resampled
+    bool enabled = true;                ///< LayerOptions::enabled
+    LayerGrowth growth;                 ///< the growth that was requested
     LayerHeights heights;               ///< as the growth law makes them
     LayerHeights fitted;                ///< stretched, where rays are cut short, to end at their limits
     std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
@@ -222,10 +228,10 @@ struct Ray {
 
 /// The numbers of rays and cells on some part of the walls. Cells lie between neighbouring rays, one per layer.
 struct LayerCoverage {
-    std::size_t rays = 0;
+    std::size_t rays = 0;             ///< number of rays
     std::size_t incomplete_rays = 0;  ///< rays with fewer layers than requested
-    std::size_t requested_cells = 0;
-    std::size_t made_cells = 0;
+    std::size_t requested_cells = 0;  ///< number of cells if every ray had all its layers
+    std::size_t made_cells = 0;       ///< number of cells made
 };
 
 /// Opposing layers and the triangles between them fit into a gap that is this many times as wide as one layer is high.
@@ -233,12 +239,13 @@ inline constexpr double open_space = 3;
 
 /// The coverage of one element.
 struct LAMINA_EXPORT ElementCoverage {
-    LayerCoverage all;
+    LayerCoverage all;  ///< the whole wall
     /// The part outside slots, coves and tight concave curvature. It consists of the rays at whose origin an empty
     /// circle touches the wall, open_space x (height of all layers requested) in diameter, and of the cells between two
     /// of these rays.
     LayerCoverage open;
 
+    /// Adds the numbers of another element.
     ElementCoverage& operator+=(const ElementCoverage& other);
 };
 
@@ -270,8 +277,8 @@ struct Layer {
     /// edge that they divide.
     std::vector<std::uint16_t> layer_of_point;
     std::vector<ElementCoverage> coverage;  ///< one per element; empty if the layer is disabled
-    LayerGrowth growth;
-    LayerEdges edges;
+    LayerGrowth growth;                     ///< the growth that was requested
+    LayerEdges edges;                       ///< layer_edges() of this layer
 };
 
 /// Returns the edges of the walls and borders of a layer: Layer::edges.
@@ -286,12 +293,14 @@ LAMINA_EXPORT std::vector<std::vector<Point>> border_loops(const Layer& layer);
 
 /// The cells between walls and outer borders, all counter-clockwise, and the pieces that they were made in.
 struct LayerCells {
-    std::vector<Triangle> triangles;
-    std::vector<Quad> quads;
-    std::vector<std::uint16_t> triangle_layer, quad_layer;  ///< one per cell: its layer from the wall, from 1 on
-    std::vector<std::size_t> first_triangle;  ///< of each piece, then the end; empty where there is no layer
-    DecompositionStats decomposition;         ///< for LayerTopology::delaunay
+    std::vector<Triangle> triangles;            ///< counter-clockwise
+    std::vector<Quad> quads;                    ///< counter-clockwise
+    std::vector<std::uint16_t> triangle_layer;  ///< one per triangle: its layer from the wall, from 1 on
+    std::vector<std::uint16_t> quad_layer;      ///< one per quad: its layer from the wall, from 1 on
+    std::vector<std::size_t> first_triangle;    ///< of each piece, then the end; empty where there is no layer
+    DecompositionStats decomposition;           ///< for LayerTopology::delaunay
 
+    /// Returns the number of pieces.
     std::size_t pieces() const { return first_triangle.empty() ? 0 : first_triangle.size() - 1; }
 };
 

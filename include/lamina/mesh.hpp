@@ -110,7 +110,7 @@ struct MeshCheckOptions {
     double min_angle_deg = proved_min_angle_deg;  ///< bound of QualitySummary::angles_below_bound
 };
 
-/// Returns the table of the options.
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<MeshCheckOptions>& mesh_check_option_table();
 
 /// Throws OptionError where an option is out of range.

@@ -34,7 +34,7 @@ enum class OptionKind {
 
 /// A range of the numbers that an option may take. They are always finite.
 struct LAMINA_EXPORT OptionRange {
-    double lower = -HUGE_VAL;
+    double lower = -HUGE_VAL;     ///< lower bound
     double upper = HUGE_VAL;      ///< belongs to the range
     bool includes_lower = false;  ///< whether the lower bound belongs to the range
 
@@ -44,9 +44,13 @@ struct LAMINA_EXPORT OptionRange {
     std::string text() const;
 };
 
+/// All numbers above 0.
 inline constexpr OptionRange positive_numbers{0, HUGE_VAL, false};
+/// Returns the range of the numbers above a bound.
 constexpr OptionRange numbers_above(double bound) { return {bound, HUGE_VAL, false}; }
+/// Returns the range of the numbers above `lower` and up to `upper`.
 constexpr OptionRange numbers_above_up_to(double lower, double upper) { return {lower, upper, false}; }
+/// Returns the range of the numbers from `lower` to `upper`.
 constexpr OptionRange numbers_from_to(double lower, double upper) { return {lower, upper, true}; }
 
 /// Returns the name of an option as case files and scripts write it: "first_height" for "first-height".
@@ -55,8 +59,8 @@ LAMINA_EXPORT std::string option_key(const std::string& name);
 /// One option of an options struct.
 template <class Options>
 struct Option {
-    std::string name;  ///< as on the command line, without hyphens in front: "first-height"
-    OptionKind kind;
+    std::string name;     ///< as on the command line, without hyphens in front: "first-height"
+    OptionKind kind;      ///< the kind of its values
     std::string metavar;  ///< what stands for the value in help: "H"
     std::string help;     ///< one sentence on the option's effect, with its unit
     std::string range;    ///< the values that it takes, in words; empty where the metavar says it
@@ -73,6 +77,7 @@ struct Option {
     std::string key() const { return option_key(name); }
 };
 
+/// The options of one struct, in the order of the help.
 template <class Options>
 using OptionTable = std::vector<Option<Options>>;
 

@@ -24,8 +24,11 @@ using Choices = std::vector<std::pair<std::string, Choice>>;
 
 /// Returns a number, which may have been written as a whole number.
 LAMINA_EXPORT double as_number(const OptionValue& value, const std::string& option);
+/// Returns the value as a whole number.
 LAMINA_EXPORT std::int64_t as_count(const OptionValue& value, const std::string& option);
+/// Returns the value as true or false.
 LAMINA_EXPORT bool as_flag(const OptionValue& value, const std::string& option);
+/// Returns the value as a word.
 LAMINA_EXPORT std::string as_word(const OptionValue& value, const std::string& option);
 /// Returns a word, or the text of a number, for words that may be numbers.
 LAMINA_EXPORT std::string as_word_or_number(const OptionValue& value, const std::string& option);
@@ -39,6 +42,7 @@ LAMINA_EXPORT void require_in_range(const OptionRange& range, double value, cons
 template <class Options>
 class OptionTableBuilder {
 public:
+    /// Begins a table under this heading.
     explicit OptionTableBuilder(std::string group) : group_(std::move(group)) {}
 
     /// Adds an option that takes a number; member(options) is a double or an optional of one.

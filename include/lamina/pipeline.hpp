@@ -39,19 +39,20 @@ struct AssembleOptions {
 
 /// The options of all stages. Together with the inputs they determine the mesh.
 struct CaseOptions {
-    GeometryOptions geometry;            ///< read_geometry()
-    SurfaceOptions surface;              ///< prepare_surfaces()
-    LayerOptions layer;                  ///< grow_rays(), fill_layer()
-    SizingOptions sizing;                ///< gather_size_requests(), make_size_field()
-    FarFieldOptions far_field;           ///< place_far_field()
-    DecouplingOptions decoupling;        ///< decouple()
-    DecompositionOptions decomposition;  ///< fill_layer(): the pieces of the layer
-    RefineOptions refine;                ///< refine()
-    AssembleOptions assemble;            ///< assemble()
-    unsigned threads = 0;                ///< number of threads; 0: one per core. Never changes the mesh
+    GeometryOptions geometry{};            ///< read_geometry()
+    SurfaceOptions surface{};              ///< prepare_surfaces()
+    LayerOptions layer{};                  ///< grow_rays(), fill_layer()
+    SizingOptions sizing{};                ///< gather_size_requests(), make_size_field()
+    FarFieldOptions far_field{};           ///< place_far_field()
+    DecouplingOptions decoupling{};        ///< decouple()
+    DecompositionOptions decomposition{};  ///< fill_layer(): the pieces of the layer
+    RefineOptions refine{};                ///< refine()
+    AssembleOptions assemble{};            ///< assemble()
+    unsigned threads = 0;                  ///< number of threads; 0: one per core. Never changes the mesh
 };
 
-/// Returns the table of all options. The defaults of CaseOptions are those of the command line.
+/// Returns the table of the options of all stages, with names, ranges and help. The defaults of CaseOptions are those
+/// of the command line.
 LAMINA_EXPORT const OptionTable<CaseOptions>& case_option_table();
 
 /// Throws OptionError where an option of any stage is out of range.

@@ -27,7 +27,7 @@ struct PlotOptions {
     int width_px = 1600;                            ///< longer side of the picture, in pixels
 };
 
-/// Returns the table of the options.
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<PlotOptions>& plot_option_table();
 
 /// Throws OptionError where an option is out of range.

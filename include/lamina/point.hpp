@@ -6,27 +6,37 @@
 #include <array>
 #include <cmath>
 
+/// Two-dimensional viscous meshes round airfoils, and the Delaunay kernel that makes them.
 namespace lamina {
 
 /// A point of the plane, or the vector to it from the origin.
 struct Point {
-    double x = 0;
-    double y = 0;
+    double x = 0;  ///< abscissa
+    double y = 0;  ///< ordinate
+    /// Returns whether both coordinates are equal.
     friend constexpr bool operator==(Point a, Point b) { return a.x == b.x && a.y == b.y; }
 };
 
+/// Returns the sum of two vectors.
 constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+/// Returns the vector from b to a.
 constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+/// Returns the opposite vector.
 constexpr Point operator-(Point a) { return {-a.x, -a.y}; }
+/// Returns the vector scaled by s.
 constexpr Point operator*(double s, Point a) { return {s * a.x, s * a.y}; }
 
 /// Returns the scalar product, rounded.
 constexpr double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 /// Returns the cross product, rounded. A decision that hangs on its sign needs orient2d().
 constexpr double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+/// Returns the squared length of a vector.
 constexpr double squared_length(Point a) { return dot(a, a); }
+/// Returns the length of a vector.
 inline double length(Point a) { return std::sqrt(squared_length(a)); }
+/// Returns the distance between two points.
 inline double distance(Point a, Point b) { return length(b - a); }
+/// Returns the point halfway between two points, rounded.
 constexpr Point midpoint(Point a, Point b) { return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}; }
 /// Returns the vector turned by 90 degrees counter-clockwise.
 constexpr Point perpendicular(Point a) { return {-a.y, a.x}; }
@@ -39,17 +49,19 @@ constexpr bool lexicographically_less(Point a, Point b) { return a.x < b.x || (a
 
 /// An axis-parallel box that includes its border. It is empty, as a new box is, where lower exceeds upper.
 struct Box {
-    Point lower{HUGE_VAL, HUGE_VAL};
-    Point upper{-HUGE_VAL, -HUGE_VAL};
+    Point lower{HUGE_VAL, HUGE_VAL};    ///< smallest x and y
+    Point upper{-HUGE_VAL, -HUGE_VAL};  ///< largest x and y
 
     /// Enlarges the box to hold a point.
     constexpr void include(Point p) {
         lower = {p.x < lower.x ? p.x : lower.x, p.y < lower.y ? p.y : lower.y};
         upper = {p.x > upper.x ? p.x : upper.x, p.y > upper.y ? p.y : upper.y};
     }
+    /// Returns whether a point lies in the box or on its border.
     constexpr bool contains(Point p) const {
         return p.x >= lower.x && p.x <= upper.x && p.y >= lower.y && p.y <= upper.y;
     }
+    /// Returns whether two boxes have a point in common.
     constexpr bool overlaps(const Box& o) const {
         return lower.x <= o.upper.x && o.lower.x <= upper.x && lower.y <= o.upper.y && o.lower.y <= upper.y;
     }
@@ -60,8 +72,11 @@ struct Box {
     }
     /// Returns the corners counter-clockwise, from the lower left one on.
     constexpr std::array<Point, 4> corners() const { return {lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}; }
+    /// Returns the extent in x.
     constexpr double width() const { return upper.x - lower.x; }
+    /// Returns the extent in y.
     constexpr double height() const { return upper.y - lower.y; }
+    /// Returns the middle of the box.
     constexpr Point center() const { return midpoint(lower, upper); }
 };
 

@@ -12,6 +12,7 @@ namespace lamina {
 /// max_exact_coordinate]: no product of four differences of them over- or underflows (docs/decisions/0005). Every entry
 /// into the library refuses other coordinates by in_exact_range().
 inline constexpr double min_exact_coordinate = 1e-60;
+/// Upper end of the range that begins at min_exact_coordinate.
 inline constexpr double max_exact_coordinate = 1e60;
 
 /// Returns whether both coordinates are 0 or in the range of exact predicates; false for NaN and infinities.

@@ -143,7 +143,7 @@ struct SizingOptions {
     std::shared_ptr<const SizedMesh> background{};
 };
 
-/// Returns the table of the options.
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<SizingOptions>& sizing_option_table();
 
 /// Throws OptionError where an option is out of range.

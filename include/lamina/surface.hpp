@@ -19,15 +19,15 @@ enum class Surface {
 
 /// Lengths are shares of the element's length, the longer side of its box, unless a comment says otherwise.
 struct SurfaceOptions {
-    Surface surface = Surface::automatic;
+    Surface surface = Surface::automatic;  ///< whether points are kept or replaced
     /// Wall vertices per element, about; all spacings below keep their proportions. Makes `automatic` resample.
     std::optional<std::size_t> points{};
     /// The points are smoothed first; each moves by at most this many units of the input. Empty: no smoothing.
     std::optional<double> smooth{};
-    double max_turning_deg = 10;  ///< largest turning at a vertex between two corners
-    double max_ratio = 1.2;       ///< largest ratio of neighbouring spacings, where none is below min_spacing
-    double gradation = 0.18;      ///< growth of the spacing per unit of arc length, within max_ratio
-    double max_spacing = 0.02;
+    double max_turning_deg = 10;          ///< largest turning at a vertex between two corners
+    double max_ratio = 1.2;               ///< largest ratio of neighbouring spacings, where none is below min_spacing
+    double gradation = 0.18;              ///< growth of the spacing per unit of arc length, within max_ratio
+    double max_spacing = 0.02;            ///< largest spacing
     double sharp_corner_spacing = 0.001;  ///< at sharp corners (sharp_corner_deg)
     double corner_spacing = 0.004;        ///< at all other corners
     double gap_spacing = 1;               ///< as a share of the distance to the next element, or across a cove
@@ -35,6 +35,7 @@ struct SurfaceOptions {
     double tolerance = 5e-5;              ///< largest distance of an edge from the curve
 };
 
+/// Returns the table of these options, with names, ranges and help.
 LAMINA_EXPORT const OptionTable<SurfaceOptions>& surface_option_table();
 
 /// Throws OptionError where an option is out of range.
@@ -63,18 +64,18 @@ LAMINA_EXPORT Geometry prepare_surfaces(Geometry geometry, const SurfaceOptions&
 
 /// Facts about one element for a person to read (`lamina info`).
 struct ElementSummary {
-    Box box;
-    double chord = 0;  ///< extent in x
-    double area = 0;
-    double perimeter = 0;
-    double min_spacing = 0;
-    double max_spacing = 0;
-    double max_spacing_ratio = 0;   ///< largest ratio of the lengths of neighbouring edges
-    double max_turning_deg = 0;     ///< largest exterior angle
-    Point max_turning_at;           ///< a vertex with that angle
-    std::size_t sharp_corners = 0;  ///< number of convex vertices that turn by more than sharp_corner_deg
-    Point trailing_edge;            ///< as in OutlineFeatures
-    bool blunt_trailing_edge = false;
+    Box box;                           ///< the box round the element
+    double chord = 0;                  ///< extent in x
+    double area = 0;                   ///< area of the body
+    double perimeter = 0;              ///< length of the outline
+    double min_spacing = 0;            ///< length of the shortest edge
+    double max_spacing = 0;            ///< length of the longest edge
+    double max_spacing_ratio = 0;      ///< largest ratio of the lengths of neighbouring edges
+    double max_turning_deg = 0;        ///< largest exterior angle
+    Point max_turning_at;              ///< a vertex with that angle
+    std::size_t sharp_corners = 0;     ///< number of convex vertices that turn by more than sharp_corner_deg
+    Point trailing_edge;               ///< as in OutlineFeatures
+    bool blunt_trailing_edge = false;  ///< whether the trailing edge is a base with two corners
 };
 
 /// Measures an element.

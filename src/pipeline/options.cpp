@@ -16,34 +16,56 @@ namespace {
 /// gradations are for the outer region alone.
 constexpr double min_wall_gradation = 0.05;
 
+/// Makes the rows that belong to no stage, or that are stricter here than in their stage.
+OptionTable<CaseOptions> make_pipeline_rows() {
+    OptionTableBuilder<CaseOptions> outer("Outer region"), files("Files"), run("Run");
+    // Without a bound there would be nothing to suit the edges of the layer's outer border to.
+    outer.number("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees",
+                 numbers_above_up_to(0, max_min_angle_deg),
+                 member_at(&CaseOptions::refine, &RefineOptions::min_angle_deg));
+    files.flag("base-marker", "the base of a blunt trailing edge is a marker of its own, NAME_base", true,
+               member_at(&CaseOptions::assemble, &AssembleOptions::base_marker));
+    run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
+              member_at(&CaseOptions::threads));
+    OptionTable<CaseOptions> rows;
+    for (auto* builder : {&outer, &files, &run})
+        for (Option<CaseOptions>& option : builder->take()) rows.push_back(std::move(option));
+    return rows;
+}
+
+const OptionTable<CaseOptions>& pipeline_rows() {
+    static const OptionTable<CaseOptions> rows = make_pipeline_rows();
+    return rows;
+}
+
+/// Adds an option to the table. It replaces an option of the same name.
+void add_row(const Option<CaseOptions>& option, OptionTable<CaseOptions>& table) {
+    const auto same_name = [&](const Option<CaseOptions>& other) { return other.name == option.name; };
+    const auto row = std::find_if(table.begin(), table.end(), same_name);
+    if (row == table.end())
+        table.push_back(option);
+    else
+        *row = option;
+}
+
 /// Adds the options of a stage to the table of all options.
 template <class Inner, class Member>
-void append(const OptionTable<Inner>& inner, Member member, OptionTable<CaseOptions>& table) {
-    OptionTable<CaseOptions> rows = nested_table<CaseOptions>(inner, member_at(member));
-    std::move(rows.begin(), rows.end(), std::back_inserter(table));
+void add_stage(const OptionTable<Inner>& inner, Member member, OptionTable<CaseOptions>& table) {
+    for (const Option<CaseOptions>& option : nested_table<CaseOptions>(inner, member_at(member)))
+        add_row(option, table);
 }
 
 OptionTable<CaseOptions> make_table() {
     OptionTable<CaseOptions> table;
-    append(surface_option_table(), &CaseOptions::surface, table);
-    append(geometry_option_table(), &CaseOptions::geometry, table);
-    append(layer_option_table(), &CaseOptions::layer, table);
-    append(far_field_option_table(), &CaseOptions::far_field, table);
-    append(sizing_option_table(), &CaseOptions::sizing, table);
-    append(refine_option_table(), &CaseOptions::refine, table);
-    append(decoupling_option_table(), &CaseOptions::decoupling, table);
-    append(decomposition_option_table(), &CaseOptions::decomposition, table);
-
-    OptionTableBuilder<CaseOptions> files("Files");
-    files.flag("base-marker", "the base of a blunt trailing edge is a marker of its own, NAME_base", true,
-               member_at(&CaseOptions::assemble, &AssembleOptions::base_marker));
-    OptionTableBuilder<CaseOptions> run("Run");
-    run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
-              member_at(&CaseOptions::threads));
-    for (auto* builder : {&files, &run}) {
-        OptionTable<CaseOptions> rows = builder->take();
-        std::move(rows.begin(), rows.end(), std::back_inserter(table));
-    }
+    add_stage(surface_option_table(), &CaseOptions::surface, table);
+    add_stage(geometry_option_table(), &CaseOptions::geometry, table);
+    add_stage(layer_option_table(), &CaseOptions::layer, table);
+    add_stage(far_field_option_table(), &CaseOptions::far_field, table);
+    add_stage(sizing_option_table(), &CaseOptions::sizing, table);
+    add_stage(refine_option_table(), &CaseOptions::refine, table);
+    add_stage(decoupling_option_table(), &CaseOptions::decoupling, table);
+    add_stage(decomposition_option_table(), &CaseOptions::decomposition, table);
+    for (const Option<CaseOptions>& option : pipeline_rows()) add_row(option, table);
     return table;
 }
 
@@ -69,9 +91,7 @@ void validate(const CaseOptions& options) {
     validate(options.decoupling);
     validate(options.decomposition);
     validate(options.refine);
-    if (options.refine.min_angle_deg == 0)
-        throw OptionError("min_angle",
-                          "must be > 0, since the edges of the layer's outer border are divided to suit it");
+    require_in_range(pipeline_rows(), options);
 }
 
 SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth) {
