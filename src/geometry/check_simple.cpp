@@ -75,13 +75,15 @@ bool is_between(Point p, Point a, Point b) {
 /// Throws InputError where edges without a common vertex meet.
 void check_apart(const OutlineEdge& e, const OutlineEdge& f) {
     const Point a = e.a(), b = e.b(), c = f.a(), d = f.b();
-    const double oa = orient2d(c, d, a), ob = orient2d(c, d, b), oc = orient2d(a, b, c), od = orient2d(a, b, d);
-    if (((oa > 0 && ob < 0) || (oa < 0 && ob > 0)) && ((oc > 0 && od < 0) || (oc < 0 && od > 0)))
+    const double a_side = orient2d(c, d, a), b_side = orient2d(c, d, b), c_side = orient2d(a, b, c),
+                 d_side = orient2d(a, b, d);
+    if (((a_side > 0 && b_side < 0) || (a_side < 0 && b_side > 0)) &&
+        ((c_side > 0 && d_side < 0) || (c_side < 0 && d_side > 0)))
         refuse(e, f, crossing_point(e, f), "crosses");
-    if (oa == 0 && is_between(a, c, d)) refuse(e, f, a, "touches");
-    if (ob == 0 && is_between(b, c, d)) refuse(e, f, b, "touches");
-    if (oc == 0 && is_between(c, a, b)) refuse(e, f, c, "touches");
-    if (od == 0 && is_between(d, a, b)) refuse(e, f, d, "touches");
+    if (a_side == 0 && is_between(a, c, d)) refuse(e, f, a, "touches");
+    if (b_side == 0 && is_between(b, c, d)) refuse(e, f, b, "touches");
+    if (c_side == 0 && is_between(c, a, b)) refuse(e, f, c, "touches");
+    if (d_side == 0 && is_between(d, a, b)) refuse(e, f, d, "touches");
 }
 
 /// Throws InputError where consecutive edges a-b and b-c share more than b.

@@ -12,8 +12,8 @@ namespace lamina::geometry {
 
 /// A point with the numbers of its row.
 struct RowPoint : SourcePoint {
-    std::size_t columns = 2;  ///< number of the row's numbers
-    double third = 0;         ///< the third of them; 0 where there are two
+    std::size_t columns = 2;  ///< how many numbers the row has
+    double third = 0;         ///< the third number; 0 where there are two
 };
 
 using PointRun = std::vector<RowPoint>;
@@ -27,6 +27,7 @@ struct CoordinateBlock {
 /// The blocks between two separators, which are rows "999 999".
 using CoordinateSection = std::vector<CoordinateBlock>;
 
+/// All coordinates of a file, and what the text round them says.
 struct CoordinateDocument {
     std::vector<CoordinateSection> sections{1};
     bool csv = false;               ///< a row has commas or semicolons between its fields

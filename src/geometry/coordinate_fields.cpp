@@ -67,6 +67,7 @@ struct SplitLine {
     bool has_separators = false;
 };
 
+/// Splits a line at white space, at semicolons and, if `comma_separates`, at commas.
 SplitLine split(std::string_view s, bool comma_separates) {
     SplitLine result;
     const auto is_separator = [&](char c) { return c == ';' || (comma_separates && c == ','); };

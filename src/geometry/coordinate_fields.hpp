@@ -15,6 +15,7 @@ enum class FieldKind {
     word,
 };
 
+/// A number or a word of a line.
 struct Field {
     std::string text;
     FieldKind kind = FieldKind::word;

@@ -59,8 +59,8 @@ bool starts_comment(std::string_view line) {
     return line[0] == '#' || line[0] == '!' || line[0] == ';' || line[0] == '%' || line.starts_with("//");
 }
 
-/// Reads a row that is neither blank nor a comment.
-void read_fields_of(std::string_view line, bool is_first_row, TextRow& row) {
+/// Reads the fields of a line that is neither blank nor a comment into `row`.
+void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row) {
     const FieldList list = read_fields(trimmed(line.substr(0, line.find_first_of("#!"))));
     const std::vector<Field>& fields = list.fields;
     while (row.number_count < fields.size() && fields[row.number_count].kind == FieldKind::number) {
@@ -94,7 +94,7 @@ TextRow read_row(std::string_view line, std::size_t number, bool is_first_row) {
         const std::size_t start = line.find_first_not_of("#!;%/ \t");
         if (start != std::string_view::npos) row.text = printable(line.substr(start));
     } else {
-        read_fields_of(line, is_first_row, row);
+        read_text_or_numbers(line, is_first_row, row);
     }
     return row;
 }

@@ -52,8 +52,8 @@ void check_extent(const SourcePoints& points, const std::string& file) {
 }
 
 /// Merges neighbours that are too near to each other to be seen apart and whose other edges cross. Rounding to a few
-/// digits makes them where the two surfaces meet. The second of the two is removed, but never the first point of the
-/// outline.
+/// digits makes such pairs where the two surfaces meet. The second of the two is removed, but never the first point of
+/// the outline.
 ///
 ///       ---___                       ---___
 ///     ___---==x=-- first     ->     ___---===- first

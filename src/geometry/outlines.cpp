@@ -41,9 +41,10 @@ std::optional<SurfaceCounts> read_counts(const PointRun& points, const std::stri
     Box box;
     for (const RowPoint& q : rest) box.include(q.at);
     if (rest.empty() || box.contains(p)) return std::nullopt;
-    const double beyond = std::max({box.lower.x - p.x, p.x - box.upper.x, box.lower.y - p.y, p.y - box.upper.y});
-    if (total == available || (total < available && beyond > extent(rest))) return counts;
-    if (total > available && beyond > 2 * extent(rest))
+    const double distance_outside =
+        std::max({box.lower.x - p.x, p.x - box.upper.x, box.lower.y - p.y, p.y - box.upper.y});
+    if (total == available || (total < available && distance_outside > extent(rest))) return counts;
+    if (total > available && distance_outside > 2 * extent(rest))
         throw InputError({file, points[0].line, {}}, fmt::format("the counts {} + {} announce {} points, but {} follow",
                                                                  counts.upper, counts.lower, total, available));
     return std::nullopt;

@@ -1,4 +1,4 @@
-// The reader without files: text -> elements -> geometry.
+// What the reader does once a file is in memory: text -> elements -> geometry.
 #pragma once
 
 #include <string>

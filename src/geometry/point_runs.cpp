@@ -23,8 +23,9 @@ bool are_two_surfaces(const PointRun& a, const PointRun& b) {
     if (a.size() < 2 || b.size() < 2) return false;
     const double size = std::max(extent(a), extent(b));
     if (end_gap(a) <= 0.5 * size || end_gap(b) <= 0.5 * size) return false;
-    const double at_start = distance(a.front().at, b.front().at), at_end = distance(a.back().at, b.back().at);
-    return std::min(at_start, at_end) <= 0.1 * size && std::max(at_start, at_end) <= 0.5 * size;
+    const double start_distance = distance(a.front().at, b.front().at),
+                 end_distance = distance(a.back().at, b.back().at);
+    return std::min(start_distance, end_distance) <= 0.1 * size && std::max(start_distance, end_distance) <= 0.5 * size;
 }
 
 PointRun join_surfaces(const PointRun& upper, const PointRun& lower) {

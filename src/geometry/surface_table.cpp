@@ -29,6 +29,7 @@ std::optional<SurfaceTable> read_surface_table(const PointRun& points, const std
     const bool lower_first = names_lower_first(heading);
     const auto upper_at = [&](const RowPoint& p) { return lower_first ? p.third : p.at.y; };
     const auto lower_at = [&](const RowPoint& p) { return lower_first ? p.at.y : p.third; };
+    // Tells whether the surfaces meet at the ends alone; `sign` is -1 if lower ordinates count downward, else 1.
     const auto are_apart = [&](double sign) {
         const auto thickness = [&](const RowPoint& p) { return upper_at(p) - sign * lower_at(p); };
         return std::abs(thickness(points.front())) <= 0.01 * chord &&

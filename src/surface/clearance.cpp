@@ -21,7 +21,7 @@ ClearanceSearch::ClearanceSearch(const Geometry& geometry) {
     zeros_ = tree_.group_minima(std::vector<double>(edges_.size(), 0.0));
 }
 
-double ClearanceSearch::clearance(std::size_t element, Point p, Point normal, double min_own,
+double ClearanceSearch::clearance(std::size_t element, Point p, Point normal, double min_own_clearance,
                                   double max_clearance) const {
     return tree_.minimum(p, 1, max_clearance, zeros_, [&](std::size_t i) {
         const WallEdge& edge = edges_[i];
@@ -32,7 +32,7 @@ double ClearanceSearch::clearance(std::size_t element, Point p, Point normal, do
         const Point towards = midpoint(edge.a, edge.b) - p, edge_normal = unit(-perpendicular(edge.b - edge.a));
         const bool faces_p =
             dot(towards, normal) > 0 && dot(towards, edge_normal) < 0 && dot(normal, edge_normal) < -0.5;
-        return faces_p ? std::max(d, min_own) : HUGE_VAL;
+        return faces_p ? std::max(d, min_own_clearance) : HUGE_VAL;
     });
 }
 

@@ -16,9 +16,9 @@ public:
     explicit ClearanceSearch(const Geometry& geometry);
 
     /// Returns the distance from a point p of an element to the other elements and to walls of the same element that
-    /// face p across a cove. The latter count as at least `min_own` away. The result is at most `max_clearance`.
-    /// `normal` is the outward unit normal at p.
-    double clearance(std::size_t element, Point p, Point normal, double min_own, double max_clearance) const;
+    /// face p across a cove. The latter count as at least `min_own_clearance` away. The result is at most
+    /// `max_clearance`. `normal` is the outward unit normal at p.
+    double clearance(std::size_t element, Point p, Point normal, double min_own_clearance, double max_clearance) const;
 
 private:
     struct WallEdge {

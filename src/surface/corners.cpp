@@ -70,8 +70,9 @@ std::vector<std::size_t> find_corners(std::span<const Point> outline) {
         // Two neighbouring vertices may share a nose. The outline is then round beyond the other vertex, which it is
         // not at a base.
         const std::size_t partner = straight_before ? after : before;
-        const std::size_t beyond = straight_before ? (i + 2) % n : (i + n - 2) % n;
-        const bool shares_nose = std::abs(turning[partner]) > min_one_sided_turning && !is_straight(partner, beyond);
+        const std::size_t beyond_partner = straight_before ? (i + 2) % n : (i + n - 2) % n;
+        const bool shares_nose =
+            std::abs(turning[partner]) > min_one_sided_turning && !is_straight(partner, beyond_partner);
         const bool one_sided = straight_before != straight_after && angle > min_one_sided_turning && !shares_nose;
         if ((straight_before && straight_after) || one_sided || angle > min_certain_turning || is_polygon_corner[i])
             corners.push_back(i);

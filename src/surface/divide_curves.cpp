@@ -37,11 +37,13 @@ double integrate(const CurveSamples& samples) {
 
 /// The edges that a curve is divided into.
 struct EdgeCount {
-    double integral;                   ///< of ds / spacing along the curve
+    double integral;                   ///< integral of ds / spacing along the curve
     double edges;                      ///< a whole number
     double first_length, last_length;  ///< lengths of the first and the last edge
 };
 
+/// Counts the edges of a curve: at least min_edges and as many as its spacings ask for, made even where the
+/// curve turns by more than 90 degrees.
 EdgeCount count_edges(const SplineCurve& curve, const CurveSamples& samples, double min_edges) {
     constexpr double slack = 1e-6;  // of an edge, so that rounding does not decide
     double turning = 0;

@@ -32,19 +32,19 @@ struct CorneredOutline {
 
 /// Replaces each pair of samples that are much closer to each other than to the next ones by one point, since such a
 /// pair tells little but its rounding. Pairs whose point would be a corner stay, as at a narrow base, and so do pairs
-/// that are `max_pair` apart or more, where one of the two is misplaced.
-CorneredOutline merge_close_pairs(const Element& element, double max_pair) {
+/// that are `max_pair_length` apart or more, where one of the two is misplaced.
+CorneredOutline merge_close_pairs(const Element& element, double max_pair_length) {
     const std::vector<Point>& points = element.points;
     const std::size_t n = points.size();
     const auto length_after = [&](std::size_t i) { return distance(points[i % n], points[(i + 1) % n]); };
-    std::vector<bool> is_merged(n);  // with the point after
+    std::vector<bool> is_merged(n);  // whether a point is merged with the next one
     for (std::size_t i = 0; n >= 5 && i < n; ++i)
-        is_merged[i] = length_after(i) <
-                       std::min(max_pair, max_close_share * std::min(length_after(i + n - 1), length_after(i + 1)));
+        is_merged[i] = length_after(i) < std::min(max_pair_length, max_close_share * std::min(length_after(i + n - 1),
+                                                                                              length_after(i + 1)));
     if (std::find(is_merged.begin(), is_merged.end(), true) == is_merged.end())
         return {points, element.features.corners};
 
-    std::vector<std::size_t> origins;  // of the kept points
+    std::vector<std::size_t> origins;  // indices in `points` of the kept points
     const auto kept_points = [&] {
         std::vector<Point> kept;
         origins.clear();
@@ -90,9 +90,9 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, double scale, st
         {margin * 2 * (options.max_ratio - 1) / (options.max_ratio + 1), options.gradation, request.limits.gradation});
     rule.max_corner_ratio = options.max_ratio;
     rule.clearance_share = options.gap_spacing;
-    rule.clearance = [&walls = request.walls, element, min_own = options.corner_spacing * scale,
+    rule.clearance = [&walls = request.walls, element, min_own_clearance = options.corner_spacing * scale,
                       max_clearance = rule.max_spacing / options.gap_spacing](Point p, Point normal) {
-        return walls.clearance(element, p, normal, min_own, max_clearance);
+        return walls.clearance(element, p, normal, min_own_clearance, max_clearance);
     };
     return rule;
 }
@@ -102,26 +102,28 @@ std::vector<double> corner_spacings(const CorneredOutline& outline, const Resamp
     if (outline.corners.empty()) return {HUGE_VAL};
     const SurfaceOptions& options = request.options;
     const std::vector<double> turning = turning_angles(outline.points);
-    const double by_share = options.sharp_corner_spacing * scale;
+    const double spacing_by_options = options.sharp_corner_spacing * scale;
     const std::optional<double>& fan_spacing = request.limits.fan_spacing;
-    const double at_sharp =
-        fan_spacing ? std::clamp(*fan_spacing, 0.25 * by_share, options.corner_spacing * scale) : by_share;
+    const double sharp_spacing =
+        fan_spacing ? std::clamp(*fan_spacing, 0.25 * spacing_by_options, options.corner_spacing * scale)
+                    : spacing_by_options;
     std::vector<double> spacings;
     for (std::size_t c : outline.corners)
-        spacings.push_back(turning[c] > core::radians(sharp_corner_deg) ? at_sharp : options.corner_spacing * scale);
+        spacings.push_back(turning[c] > core::radians(sharp_corner_deg) ? sharp_spacing
+                                                                        : options.corner_spacing * scale);
     return spacings;
 }
 
 /// Returns, per new point, the line of the file if a given point stands there, as at corners, else 0.
 std::vector<std::size_t> lines_of(const Element& given, const std::vector<Point>& points) {
-    std::vector<std::pair<Point, std::size_t>> known;
-    for (std::size_t i = 0; i < given.lines.size(); ++i) known.emplace_back(given.points[i], given.lines[i]);
+    std::vector<std::pair<Point, std::size_t>> given_lines;
+    for (std::size_t i = 0; i < given.lines.size(); ++i) given_lines.emplace_back(given.points[i], given.lines[i]);
     const auto less = [](const auto& a, const auto& b) { return lexicographically_less(a.first, b.first); };
-    std::sort(known.begin(), known.end(), less);
+    std::sort(given_lines.begin(), given_lines.end(), less);
     std::vector<std::size_t> lines;
     for (Point p : points) {
-        const auto at = std::lower_bound(known.begin(), known.end(), std::pair{p, std::size_t{0}}, less);
-        lines.push_back(at != known.end() && at->first == p ? at->second : 0);
+        const auto at = std::lower_bound(given_lines.begin(), given_lines.end(), std::pair{p, std::size_t{0}}, less);
+        lines.push_back(at != given_lines.end() && at->first == p ? at->second : 0);
     }
     return lines;
 }
@@ -141,13 +143,13 @@ Element resample(const Element& given, std::size_t index, const ResamplingReques
         curves.emplace_back(run);
     }
     const SpacingRule rule = make_spacing_rule(request, scale, index);
-    const std::vector<double> at_corners = corner_spacings(outline, request, scale);
+    const std::vector<double> corner_spacing_bounds = corner_spacings(outline, request, scale);
 
-    DividedCurves divided = options.points ? divide_curves_into(curves, at_corners, rule, *options.points)
-                                           : divide_curves(curves, at_corners, rule);
+    DividedCurves divided = options.points ? divide_curves_into(curves, corner_spacing_bounds, rule, *options.points)
+                                           : divide_curves(curves, corner_spacing_bounds, rule);
     // Where lamina decides by itself, it never takes points away from a fine outline.
     if (!options.points && options.surface == Surface::automatic && divided.points.size() < given.points.size())
-        divided = divide_curves_into(curves, at_corners, rule, given.points.size());
+        divided = divide_curves_into(curves, corner_spacing_bounds, rule, given.points.size());
 
     Element element = given;
     element.points = std::move(divided.points);

@@ -78,7 +78,7 @@ public:
     const SmoothRun& result() const { return smooth_; }
 
     /// Returns the number of points that moved by more than the tolerance; NaN counts as more.
-    std::size_t count_beyond() const {
+    std::size_t count_moved_too_far() const {
         return static_cast<std::size_t>(
             std::count_if(moved_.begin(), moved_.end(), [&](double d) { return !(d <= tolerance_); }));
     }
@@ -137,10 +137,10 @@ SmoothRun smoothed(const SmoothRun& run, double tolerance) {
     smoother.start();
     // One penalty for all points is lowered until three quarters of them stay within the tolerance, then the others are
     // held back. Whatever still moves too far makes all penalties smaller.
-    for (int k = 0; k < max_halvings && 4 * smoother.count_beyond() > n; ++k) smoother.halve_penalties();
-    for (int k = 0; k < max_rounds && smoother.count_beyond() > 0; ++k) smoother.hold_back();
-    for (int k = 0; k < max_halvings && smoother.count_beyond() > 0; ++k) smoother.halve_penalties();
-    return smoother.count_beyond() == 0 ? smoother.result() : run;
+    for (int k = 0; k < max_halvings && 4 * smoother.count_moved_too_far() > n; ++k) smoother.halve_penalties();
+    for (int k = 0; k < max_rounds && smoother.count_moved_too_far() > 0; ++k) smoother.hold_back();
+    for (int k = 0; k < max_halvings && smoother.count_moved_too_far() > 0; ++k) smoother.halve_penalties();
+    return smoother.count_moved_too_far() == 0 ? smoother.result() : run;
 }
 
 }  // namespace lamina::surface

@@ -58,10 +58,10 @@ void limit_by_clearance(const SplineCurve& curve, CurveSamples& samples, const S
 
 /// Bounds the spacings at both ends of a curve, by its length too: a short curve between two corners can have no longer
 /// edges.
-void limit_at_corners(CurveSamples& samples, double at_start, double at_end, double min_spacing) {
+void limit_at_corners(CurveSamples& samples, double max_at_start, double max_at_end, double min_spacing) {
     const double max_spacing = std::max(samples.back().arc_length, min_spacing);
-    samples.front().spacing = std::min({samples.front().spacing, at_start, max_spacing});
-    samples.back().spacing = std::min({samples.back().spacing, at_end, max_spacing});
+    samples.front().spacing = std::min({samples.front().spacing, max_at_start, max_spacing});
+    samples.back().spacing = std::min({samples.back().spacing, max_at_end, max_spacing});
 }
 
 }  // namespace

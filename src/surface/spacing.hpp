@@ -28,8 +28,8 @@ struct SpacingRule {
 
 /// A sample of a curve, with the target spacing there.
 struct CurveSample {
-    std::size_t piece;
-    double share;       ///< of the piece, from 0 to 1
+    std::size_t piece;  ///< index of the curve's cubic piece
+    double share;       ///< position on the piece, from 0 to 1
     double arc_length;  ///< from the start of the curve, about
     Point at;
     double spacing;  ///< target length of edges

@@ -25,25 +25,25 @@ std::vector<Point> spline_slopes(std::span<const Point> points, std::span<const 
     if (n == 2) return {secant(0), secant(0)};
 
     std::vector<Point> slopes(n);
-    std::vector<double> above(n);
+    std::vector<double> upper_band(n);
     slopes[0] = end_slope(secant(0), h(0), secant(1), h(1));
     slopes[n - 1] = end_slope(secant(n - 2), h(n - 2), secant(n - 3), h(n - 3));
     for (std::size_t i = 1; i + 1 < n; ++i) {
         const double before = h(i - 1), after = h(i);
         const Point right = 3.0 * (after * secant(i - 1) + before * secant(i)) - after * slopes[i - 1];
-        const double pivot = 2 * (before + after) - after * above[i - 1];
-        above[i] = before / pivot;
+        const double pivot = 2 * (before + after) - after * upper_band[i - 1];
+        upper_band[i] = before / pivot;
         slopes[i] = (1 / pivot) * right;
     }
-    for (std::size_t i = n - 1; i-- > 1;) slopes[i] = slopes[i] - above[i] * slopes[i + 1];
+    for (std::size_t i = n - 1; i-- > 1;) slopes[i] = slopes[i] - upper_band[i] * slopes[i + 1];
     return slopes;
 }
 
 /// Limits slopes where the spline would overshoot, since spacings jump or points wiggle. Each slope is kept between the
 /// directions of the two chords at its point, with a margin for inflections between points, and its length near 1:
 ///
-///        i ____ i+1        between the chords i-1, i and i, i+1, up to a quarter of the turning at
-///         /                i-1, i and i+1 beyond them
+///        i ____ i+1        The slope at i lies between the chords from i-1 to i and from i to i+1, or beyond them by
+///         /                at most a quarter of the turning at i-1, i and i+1 together.
 ///     i-1
 std::vector<Point> limit_slopes(std::vector<Point> slopes, std::span<const Point> points) {
     constexpr double margin_share = 0.25, min_length = 0.5, max_length = 1.6;
@@ -77,12 +77,12 @@ std::vector<Point> limit_slopes(std::vector<Point> slopes, std::span<const Point
 }  // namespace
 
 SplineCurve::SplineCurve(const SmoothRun& run) {
-    const UnrolledRun u = unroll(run);
-    const std::vector<Point> slopes = limit_slopes(spline_slopes(u.points, u.t), u.points);
+    const UnrolledRun unrolled = unroll(run);
+    const std::vector<Point> slopes = limit_slopes(spline_slopes(unrolled.points, unrolled.t), unrolled.points);
     const std::size_t count = run.closed ? run.points.size() + 1 : run.points.size();
-    for (std::size_t i = u.first; i < u.first + count; ++i) {
-        t_.push_back(u.t[i] - u.t[u.first]);
-        points_.push_back(u.points[i]);
+    for (std::size_t i = unrolled.first; i < unrolled.first + count; ++i) {
+        t_.push_back(unrolled.t[i] - unrolled.t[unrolled.first]);
+        points_.push_back(unrolled.points[i]);
         slopes_.push_back(slopes[i]);
     }
     if (run.closed) slopes_.back() = slopes_.front();

@@ -72,7 +72,7 @@ Sampling measure_sampling(const Element& e) {
 
 struct Decision {
     bool resample;
-    std::string reason;  ///< "they turn by up to 12.3 degrees"
+    std::string reason;  ///< a statement about the points: "they turn by up to 12.3 degrees"
 };
 
 Decision decide(const Element& e, const ResamplingRequest& request) {
