@@ -56,9 +56,9 @@ public:
 
 private:
     std::span<const PolygonEdge> edges_;
-    double limit_;
+    double limit_;  ///< max_ratio with a slack for rounding
     std::vector<EdgeDivision>& divisions_;
-    std::vector<EdgeDivision::EndParts> unscaled_, scaled_;
+    std::vector<EdgeDivision::EndParts> unscaled_, scaled_;  ///< per edge, with its targets as given and as scaled
 
     void measure(std::size_t i) {
         divisions_[i].scale_targets(1, 1);

@@ -6,7 +6,7 @@ namespace lamina::layers {
 CellColumns::CellColumns(std::span<const Ray> rays, std::span<const VertexId> border)
     : rays_(rays), border_(border.begin(), border.end()) {
     border_.push_back(border_.front());
-    // The border visits the tips in the order of the rays; several bare rays of one origin have one tip.
+    // The border visits the tips in the order of the rays; rays of one origin without layers have one tip.
     std::size_t at = 0;
     tip_.reserve(rays.size() + 1);
     for (const Ray& ray : rays) {
@@ -29,7 +29,8 @@ std::span<const VertexId> CellColumns::border_between_tips(std::size_t i) const 
     return {border_.data() + tip_[i], border_.data() + tip_[i + 1] + 1};
 }
 
-/// Returns whether the border between the tips of these two neighbours is the lowest piece of the second ray.
+/// Returns whether, of two neighbours with one origin, `bare` has no layers and `ray` has one. The border between their
+/// tips then is the lowest piece of `ray`.
 bool CellColumns::border_runs_along(std::size_t bare, std::size_t ray) const {
     return rays_[bare].layers == 0 && rays_[ray].layers == 1 && rays_[bare].origin == rays_[ray].origin;
 }

@@ -81,7 +81,7 @@ private:
             findings_.push_back(fmt::format("{} at ({}, {})", defect, where.x, where.y));
     }
 
-    /// All points are distinct and in the exact range.
+    /// Checks that all points are distinct and in the exact range.
     void check_points() {
         if (layer_.layer_of_point.size() != layer_.points.size()) report("layer_of_point has the wrong size", {});
         std::vector<Point> sorted = layer_.points;
@@ -92,7 +92,7 @@ private:
         }
     }
 
-    /// Loops are counter-clockwise, simple and disjoint.
+    /// Checks that loops are counter-clockwise, simple and disjoint.
     void check_loops(const Loops& loops) {
         for (const std::vector<VertexId>& loop : loops.vertices) {
             double area = 0;
@@ -109,7 +109,7 @@ private:
         }
     }
 
-    /// Two edges of loops of one kind meet in a common end only.
+    /// Checks that two edges of loops of one kind meet in a common end only.
     void check_pair(const char* name, const LoopEdge& edge, const LoopEdge& other) {
         const auto [a, b, element] = edge;
         const auto [c, d, other_element] = other;
@@ -130,24 +130,25 @@ private:
                                  [&](std::size_t j) { check_border_against_wall(border, walls_.edges[j]); });
     }
 
-    /// An edge of a border is an edge of the wall, or the two meet in a common end only.
+    /// Checks that an edge of a border is this edge of the wall, or meets it in a common end only.
     void check_border_against_wall(const LoopEdge& border, const LoopEdge& wall) {
         const auto [a, b, element] = border;
         const auto [c, d, wall_element] = wall;
         if (a == c && b == d) return;
-        const bool at_a = a == c || a == d, at_b = b == c || b == d;
-        if (!at_a && !at_b) {
+        const bool shares_a = a == c || a == d, shares_b = b == c || b == d;
+        if (!shares_a && !shares_b) {
             if (core::segments_meet(at(a), at(b), at(c), at(d))) report("border meets wall", at(a));
-        } else if (at_a && at_b) {
+        } else if (shares_a && shares_b) {
             report("border runs along a wall the wrong way", at(a));
         } else {
-            const VertexId apex = at_a ? a : b;
-            if (core::segments_fold(at(apex), at(at_a ? b : a), at(apex == c ? d : c)))
+            const VertexId apex = shares_a ? a : b;
+            if (core::segments_fold(at(apex), at(shares_a ? b : a), at(apex == c ? d : c)))
                 report("border overlaps a wall", at(apex));
         }
     }
 
-    /// Rays stand in the order of the wall; neighbours differ by one layer and the largest ray angle at most.
+    /// Checks that rays stand in the order of the wall, and that neighbours differ by one layer and the largest ray
+    /// angle at most.
     void check_rays() {
         const double max_angle = core::radians(options_.max_ray_angle_deg) + 1e-9;
         for (std::size_t e = 0; e < layer_.rays.size(); ++e) {
@@ -170,7 +171,8 @@ private:
         }
     }
 
-    /// The points of a ray lie at the heights of its law, stretched by no more than max_stretch, and below its limit.
+    /// Checks that the points of a ray lie at the heights of its law, stretched by no more than max_stretch, and below
+    /// its limit.
     void check_heights(const Ray& ray) {
         const Point origin = at(ray.origin);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
@@ -197,7 +199,8 @@ private:
             for (std::size_t i = 0; i < rays.size(); ++i) check_cells_between(rays[i], rays[(i + 1) % rays.size()]);
     }
 
-    /// Each quadrilateral between two neighbouring rays is convex, each triangle in a fan or at a step is positive.
+    /// Checks that each quadrilateral between two neighbouring rays is convex, and that each triangle in a fan or at a
+    /// step is positive.
     void check_cells_between(const Ray& ray, const Ray& next) {
         const std::uint32_t common = std::min(ray.layers, next.layers);
         for (std::uint32_t n = 1; n <= common; ++n) {
@@ -220,7 +223,7 @@ private:
         bool on_edge = false;    ///< on an edge of any loop
     };
 
-    /// Counts the edges that the upward vertical from p crosses. Exact.
+    /// Returns where p lies, by the parity of the edges that the upward vertical from p crosses. Exact.
     Sides sides_of(Point p, std::size_t element, const Loops& loops) const {
         Sides sides;
         loops.tree.overlaps({p, {p.x, HUGE_VAL}}, [&](std::size_t i) {
@@ -246,8 +249,8 @@ private:
         return element;
     }
 
-    /// Points off the walls lie outside all walls; points below the border lie strictly inside their own border and
-    /// outside those of other elements.
+    /// Checks that points off the walls lie outside all walls, and that points below the border lie strictly inside
+    /// their own border and outside those of other elements.
     void check_sides() {
         const std::vector<std::size_t> element = elements_of_points();
         std::vector<char> on_border(layer_.points.size(), 0);
@@ -266,7 +269,7 @@ private:
         }
     }
 
-    /// Adjacent border edges keep BorderOptions::max_ratio.
+    /// Checks that adjacent border edges keep BorderOptions::max_ratio.
     void check_ratio() {
         const double limit = border_options_.max_ratio * (1 + 1e-6);
         for (const std::vector<VertexId>& border : layer_.borders) {

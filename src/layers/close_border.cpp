@@ -17,7 +17,7 @@ namespace {
 
 using FrontCorners = std::vector<std::vector<FrontCorner>>;
 
-/// ray_factors: DividedRays::target_factors, or empty.
+/// Divides the fronts through these corners. ray_factors: DividedRays::target_factors, or empty.
 BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corners, const BorderOptions& options,
                              std::span<const double> ray_factors) {
     std::vector<std::vector<Point>> fronts(corners.size()), walls(corners.size());
@@ -68,9 +68,9 @@ Layer close_border(Rays rays, const BorderOptions& options) {
     validate(options);
     std::vector<double> ray_factors;
     if (rays.enabled && options.ray_gradation) {
-        BorderOptions at_rays = options;
-        at_rays.gradation = *options.ray_gradation;
-        DividedRays divided = insert_rays_at_divisions(rays, at_rays);
+        BorderOptions ray_options = options;
+        ray_options.gradation = *options.ray_gradation;
+        DividedRays divided = insert_rays_at_divisions(rays, ray_options);
         if (replace_rays(std::move(divided.set), rays)) {
             ray_factors = std::move(divided.target_factors);
             fit_and_count_layers(rays);

@@ -36,6 +36,7 @@ class Connector {
 public:
     Connector(const Layer& layer, GridCells form) : layer_(layer), form_(form), strips_(layer.points) {}
 
+    /// Adds the cells of a column.
     void add(const CellColumn& column) {
         const Ray &first = column.first, &second = column.second;
         const Point from = at(first.origin), to = at(second.origin);

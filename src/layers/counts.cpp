@@ -63,12 +63,13 @@ private:
     std::size_t previous(std::size_t ray) const { return neighbours_.previous[ray]; }
     Point origin(std::size_t ray) const { return set_.lines[ray].origin; }
 
-    /// Returns whether the number of layers changed.
+    /// Lowers the number of layers to `count` at most. Returns whether it changed.
     bool lower_to(std::size_t ray, std::uint32_t count) {
         if (counts_[ray] <= count) return false;
         counts_[ray] = count;
         return true;
     }
+    /// Removes one in lowering_divisor of a ray's layers, and one more. Returns whether it had any.
     bool lower_by_share(std::size_t ray) {
         return lower_to(ray, counts_[ray] - std::min(counts_[ray], 1 + counts_[ray] / lowering_divisor));
     }
@@ -106,8 +107,9 @@ private:
         return changed;
     }
 
-    /// Returns whether both rays leave each chord between points of one layer outwards. That is linear in the height:
-    /// it holds for all layers if it holds for the wall and for the highest layer that the two have in common.
+    /// Returns whether all cells between two neighbouring rays are positively oriented. They are where, in each layer,
+    /// both rays cross the chord between their two points outwards. The test is linear in the height, so the wall and
+    /// the highest layer that the two have in common stand for all layers.
     bool cell_is_sound(std::size_t i, std::size_t j) const {
         const std::uint32_t common = std::min(counts_[i], counts_[j]);
         const Point a = origin(i), b = origin(j);
@@ -156,10 +158,10 @@ private:
 
     /// Returns whether the front, where it touches the wall at a ray without layers, stays outside of the wall there.
     bool leaves_wall_outward(const FrontTip& before, const FrontTip& tip, const FrontTip& after) const {
-        std::size_t p = previous(tip.first_ray), q = next(tip.last_ray);
-        while (origin(p) == tip.at) p = previous(p);  // other rays of a fan
-        while (origin(q) == tip.at) q = next(q);
-        const Point wall_before = origin(p), wall_after = origin(q);
+        std::size_t ray_before = previous(tip.first_ray), ray_after = next(tip.last_ray);
+        while (origin(ray_before) == tip.at) ray_before = previous(ray_before);  // other rays of a fan
+        while (origin(ray_after) == tip.at) ray_after = next(ray_after);
+        const Point wall_before = origin(ray_before), wall_after = origin(ray_after);
         const bool arrives_on_wall = before.at == wall_before, leaves_on_wall = after.at == wall_after;
         if (!arrives_on_wall && !core::inside_wedge(tip.at, wall_before, wall_after, before.at)) return false;
         if (!leaves_on_wall && !core::inside_wedge(tip.at, wall_before, wall_after, after.at)) return false;
@@ -266,8 +268,8 @@ std::vector<std::uint32_t> layer_counts(const RaySet& set, std::span<const doubl
     std::vector<std::uint32_t> counts(set.lines.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
         const std::span<const double> column = heights.of(i);
-        const auto above = std::upper_bound(column.begin(), column.end(), limits[i]);
-        counts[i] = static_cast<std::uint32_t>(above - column.begin()) - 1;
+        const auto first_above = std::upper_bound(column.begin(), column.end(), limits[i]);
+        counts[i] = static_cast<std::uint32_t>(first_above - column.begin()) - 1;
     }
     return CountLowering(set, heights, std::move(counts)).run();
 }

@@ -15,8 +15,8 @@ namespace lamina::layers {
 
 namespace {
 
-/// target_slack of edges that come of a division. It is larger because division points shift, and because the target is
-/// not quite that of the division any more.
+/// Stands for target_slack on edges that come of a division. It is larger because division points shift, and because
+/// the target is not quite that of the division any more.
 constexpr double divided_slack = 1.3;
 
 std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges, const BorderOptions& options) {

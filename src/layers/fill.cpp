@@ -10,8 +10,8 @@ namespace lamina::layers {
 
 namespace {
 
-/// Returns, for each point, whether it is part of the layer. Wall vertices are not where the rays beside them have no
-/// layers.
+/// Returns, for each point, whether it is part of the layer. A wall vertex is not part of it where the rays
+/// beside it have no layers.
 std::vector<char> used_points(const Layer& layer) {
     std::vector<char> used(layer.points.size(), 1);
     for (const auto& wall : layer.walls)
@@ -20,7 +20,7 @@ std::vector<char> used_points(const Layer& layer) {
     return used;
 }
 
-/// Numbers each triangle by the layer of its highest point.
+/// Returns the triangles as cells. The layer of a triangle is that of its highest point.
 LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
     LayerCells cells;
     cells.triangle_layer.reserve(triangles.size());
@@ -42,18 +42,18 @@ delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer, c
         return delaunay::pieces::triangulate_in_pieces(layer.points, layer.edges.region, options, times);
 
     std::vector<Point> points;  // the used ones
-    std::vector<VertexId> in_layer, in_points(layer.points.size());
+    std::vector<VertexId> id_in_layer, id_in_points(layer.points.size());
     for (std::size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
-        in_points[i] = VertexId{points.size()};
+        id_in_points[i] = VertexId{points.size()};
         points.push_back(layer.points[i]);
-        in_layer.push_back(VertexId{i});
+        id_in_layer.push_back(VertexId{i});
     }
     std::vector<Segment> region = layer.edges.region;
-    for (Segment& s : region) s = {in_points[s.a.index()], in_points[s.b.index()]};
+    for (Segment& s : region) s = {id_in_points[s.a.index()], id_in_points[s.b.index()]};
     auto pieces = delaunay::pieces::triangulate_in_pieces(points, region, options, times);
     for (Triangle& t : pieces.triangles)
-        for (VertexId& v : t.v) v = in_layer[v.index()];
+        for (VertexId& v : t.v) v = id_in_layer[v.index()];
     return pieces;
 }
 

@@ -29,8 +29,8 @@ double stretched_height(std::span<const double> heights, std::uint32_t n, double
     return height;
 }
 
-/// Returns the largest stretch between the bounds with which layer n ends at or below the limit; the lower bound if
-/// there is none.
+/// Returns the largest stretch from 1 / max_stretch to max_stretch with which layer n ends at or below the limit;
+/// 1 / max_stretch if there is none.
 double max_stretch_below(double limit, std::span<const double> heights, std::uint32_t n) {
     double low = 1 / max_stretch, high = max_stretch;
     if (stretched_height(heights, n, high) <= limit) return high;
@@ -44,8 +44,8 @@ double max_stretch_below(double limit, std::span<const double> heights, std::uin
 /// Returns the stretch nearer to 1 of two: either the layers that fit as they are grow towards the limit, or they
 /// shrink until one more fits.
 double stretch_to(double limit, std::span<const double> heights) {
-    const auto above = std::upper_bound(heights.begin(), heights.end(), limit);
-    const auto fitting = static_cast<std::uint32_t>(above - heights.begin()) - 1;
+    const auto first_above = std::upper_bound(heights.begin(), heights.end(), limit);
+    const auto fitting = static_cast<std::uint32_t>(first_above - heights.begin()) - 1;
     if (fitting == 0) return 1;
     const double grown = max_stretch_below(limit, heights, fitting),
                  shrunk = max_stretch_below(limit, heights, fitting + 1);
@@ -57,11 +57,11 @@ double stretch_to(double limit, std::span<const double> heights) {
 }  // namespace
 
 void stretch_heights(double stretch, std::span<double> heights) {
-    double below = heights[0], height = 0, factor = 1;
+    double height_below = heights[0], height = 0, factor = 1;
     for (double& h : heights.subspan(1)) {
-        height += factor * (h - below);
+        height += factor * (h - height_below);
         factor *= stretch;
-        below = h;
+        height_below = h;
         h = height;
     }
 }

@@ -11,7 +11,7 @@ namespace lamina::layers {
 
 /// A corner of a front.
 struct FrontCorner {
-    std::size_t ray;       ///< the ray whose tip it is; of the bare rays of a fan, the last one
+    std::size_t ray;       ///< the ray whose tip it is; of the rays of a fan that have no layers, the last one
     std::uint32_t layers;  ///< number of layers on that ray; 0: the corner is the ray's origin
 };
 

@@ -64,8 +64,8 @@ RaySet insert_rays_where_counts_change(const RaySet& set, const LayerHeights& he
     const std::vector<std::size_t> next = set.following();
     const auto end_of = [&](std::size_t i) {
         const std::span<const double> column = heights.of(i);
-        const auto above = std::upper_bound(column.begin(), column.end(), limits[i]);
-        return RayEnd{std::min(limits[i], column.back()), static_cast<std::uint32_t>(above - column.begin()) - 1};
+        const auto first_above = std::upper_bound(column.begin(), column.end(), limits[i]);
+        return RayEnd{std::min(limits[i], column.back()), static_cast<std::uint32_t>(first_above - column.begin()) - 1};
     };
     std::vector<std::vector<double>> shares(set.lines.size());
     for (std::size_t i = 0; i < set.lines.size(); ++i) {

@@ -18,8 +18,8 @@ struct DividedRays {
 
 /// Inserts rays on the edges between the origins of neighbouring rays; directions turn evenly. shares: for each ray,
 /// how far along the edge to the origin of the following ray the new ones start, ascending, in (0, 1). No rays are
-/// inserted where both have one origin, nor where an edge is too short to be divided. target_factors: for each ray with
-/// shares, the numbers for the ray itself and for the new ones behind it; empty where nobody needs them.
+/// inserted where both rays have one origin, nor where an edge is too short to be divided. target_factors: for each ray
+/// with shares, the numbers for the ray itself and for the new ones behind it; empty where nobody needs them.
 DividedRays insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares,
                         const std::vector<std::vector<double>>& target_factors = {});
 

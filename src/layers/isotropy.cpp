@@ -65,10 +65,10 @@ private:
     /// where the two rays cross.
     double bounded_distance(std::size_t a, std::size_t b, double height) const {
         const RayLine &left = set_.lines[a], &right = set_.lines[b];
-        const Point at_wall = right.origin - left.origin;
-        const Point at_height = at_wall + height * (right.direction - left.direction);
-        if (dot(at_height, at_wall) <= 0) return 0;
-        return std::min(length(at_height), max_spread * length(at_wall));
+        const Point gap_at_wall = right.origin - left.origin;
+        const Point gap_at_height = gap_at_wall + height * (right.direction - left.direction);
+        if (dot(gap_at_height, gap_at_wall) <= 0) return 0;
+        return std::min(length(gap_at_height), max_spread * length(gap_at_wall));
     }
 };
 
@@ -147,8 +147,8 @@ std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<co
     });
     std::vector<std::uint32_t> layers(set.lines.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const auto above = std::upper_bound(heights.begin(), heights.end(), front[i]);
-        layers[i] = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(above - heights.begin()) - 1);
+        const auto first_above = std::upper_bound(heights.begin(), heights.end(), front[i]);
+        layers[i] = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(first_above - heights.begin()) - 1);
     }
     limit_count_differences(set, layers);
     return layers;

@@ -40,8 +40,8 @@ private:
     const BorderDivision& division_;
     std::vector<VertexId> wall_of_ray_;     ///< the origin of each ray
     std::vector<std::size_t> first_point_;  ///< Ray::first_point of each ray
-    std::vector<std::vector<VertexId>>
-        wall_divisions_;  ///< for each ray, the division points of the wall edge behind it
+    /// For each ray, the division points of the wall edge behind it.
+    std::vector<std::vector<VertexId>> wall_divisions_;
     Layer layer_;
 
     VertexId add_point(Point p, std::uint32_t layer) {

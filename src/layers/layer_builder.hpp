@@ -1,4 +1,4 @@
-// The points of the layer, placed.
+// Places the points of the layer.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 namespace lamina::layers {
 
 /// Returns the layer of these rays: the points of walls, rays and borders, in this order, and the rays. Leaves
-/// coverage, growth and edges empty. corners: of the fronts; division: of the same fronts.
+/// coverage, growth and edges empty. `corners` and `division` belong to the same fronts.
 Layer build_layer(const Rays& rays, const std::vector<std::vector<FrontCorner>>& corners,
                   const BorderDivision& division);
 

@@ -1,4 +1,4 @@
-// Neighbouring rays: who they are, and numbers on rays that must not differ too much from those of the neighbours.
+// Neighbouring rays: which they are, and how values on them are kept from differing too much.
 #pragma once
 
 #include <algorithm>

@@ -44,8 +44,9 @@ std::vector<TiltableRay> tiltable_rays(std::span<const Point> outline, std::vect
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
         WallVertex &vertex = vertices[i], &after = vertices[next];
-        const double room = core::radians(max_angle_from_normal_deg) - 0.5 * std::abs(vertex.turning);
-        const double max_tilt = std::clamp(vertex.fan ? 0.25 * vertex.turning : room, 0.0, core::radians(max_tilt_deg));
+        const double angle_left = core::radians(max_angle_from_normal_deg) - 0.5 * std::abs(vertex.turning);
+        const double max_tilt =
+            std::clamp(vertex.fan ? 0.25 * vertex.turning : angle_left, 0.0, core::radians(max_tilt_deg));
         if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, vertex.turning, 0});
         const double turning = 0.5 * ((vertex.fan ? 0 : vertex.turning) + (after.fan ? 0 : after.turning));
         rays.push_back({&vertex.tilt[vertex.fan], max_tilt, turning, distance(outline[i], outline[next])});
@@ -55,25 +56,25 @@ std::vector<TiltableRay> tiltable_rays(std::span<const Point> outline, std::vect
 
 }  // namespace
 
-/// Let a(s) be the angle of the bisectors along the wall. `late` is how far the least function above a that falls no
-/// faster than allowed lies above a, `early` how far the greatest such function below a lies below it. The mean of the
-/// two functions falls no faster either, equals a where a itself is admissible, and treats both directions of the wall
-/// alike. The tilt is the difference between this mean and a.
+/// Let a(s) be the angle of the bisectors along the wall. `upper_offset` is how far the least function above a that
+/// falls no faster than allowed lies above a, `lower_offset` how far the greatest such function below a lies below it.
+/// The mean of the two functions falls no faster either, equals a where a itself is admissible, and treats both
+/// directions of the wall alike. The tilt is the difference between this mean and a.
 void smooth_normals(std::span<const Point> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
     if (std::none_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; })) return;
     const std::vector<TiltableRay> rays = tiltable_rays(outline, vertices);
     const std::size_t n = rays.size();
     const double max_fall = 1 / (clearance * height_to_keep_clear(outline, growth));  // radians per unit of length
     const auto rise = [&](std::size_t i) { return rays[i].turning + max_fall * rays[i].distance; };
-    std::vector<double> late(n, 0.0), early(n, 0.0);
+    std::vector<double> upper_offset(n, 0.0), lower_offset(n, 0.0);
     // Each loop goes round twice, since the first round must carry its end over to its start.
     for (std::size_t k = 0; k < 2 * n; ++k) {
         const std::size_t i = k % n, j = n - 1 - i;
-        late[(i + 1) % n] = std::max(0.0, late[i] - rise(i));
-        early[j] = std::max(0.0, early[(j + 1) % n] - rise(j));
+        upper_offset[(i + 1) % n] = std::max(0.0, upper_offset[i] - rise(i));
+        lower_offset[j] = std::max(0.0, lower_offset[(j + 1) % n] - rise(j));
     }
     for (std::size_t i = 0; i < n; ++i)
-        *rays[i].tilt = std::clamp(0.5 * (late[i] - early[i]), -rays[i].max_tilt, rays[i].max_tilt);
+        *rays[i].tilt = std::clamp(0.5 * (upper_offset[i] - lower_offset[i]), -rays[i].max_tilt, rays[i].max_tilt);
     for (WallVertex& vertex : vertices)
         if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];
 }

@@ -14,7 +14,7 @@ struct WallVertex {
     Point normal_before;  ///< outward unit normal of the edge that ends here
     Point normal_after;   ///< outward unit normal of the edge that begins here
     Point bisector;       ///< outward unit vector
-    bool fan;             ///< several rays, from normal_before to normal_after; otherwise one, the bisector
+    bool fan;             ///< whether it has several rays, from normal_before to normal_after; else one, the bisector
     double tilt[2]{};     ///< angles by which the first and the last ray are tilted, in radians, counter-clockwise
 };
 

@@ -47,8 +47,8 @@ Point tilted(Point direction, double tilt) { return tilt == 0 ? direction : unit
 Point first_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_before : v.bisector, v.tilt[0]); }
 Point last_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_after : v.bisector, v.tilt[1]); }
 
-/// Adds the ray or the fan of a vertex. A fan is turned out of the bisector, not from one side to the other, so that
-/// mirrored input gives mirrored rays.
+/// Adds the ray or the fan of a vertex. The angles of a fan are counted from the bisector, not from one side to the
+/// other, so that mirrored input gives mirrored rays.
 void add_vertex_rays(Point origin, const WallVertex& vertex, double max_angle, std::vector<RayLine>& rays) {
     rays.push_back({origin, first_direction(vertex)});
     if (!vertex.fan) return;

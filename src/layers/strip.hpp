@@ -36,9 +36,10 @@ public:
 private:
     /// A corner of each chain, joined by an edge: the state of a cut between the first side and the last.
     struct CutState {
-        double upper_cosine = -2, lower_cosine = -2;  ///< of the triangles on the next edge of each chain
-        double min_cosine = -2;                       ///< largest possible minimum over all triangles up to here
-        double burden = HUGE_VAL;                     ///< least possible sum over all triangles from here
+        /// Cosines of the largest angles of the triangles on the next edge of each chain.
+        double upper_cosine = -2, lower_cosine = -2;
+        double min_cosine = -2;    ///< largest possible smallest cosine of the triangles up to here
+        double burden = HUGE_VAL;  ///< least possible sum of 1 / (1 + cos) over the triangles from here
     };
 
     std::span<const Point> points_;

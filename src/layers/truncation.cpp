@@ -5,9 +5,9 @@
 // heights a < b, the one that arrives later, at b, ends at a fraction of b. In a corner between two walls this makes
 // the layer thin towards the corner in proportion to the distance from it.
 //
-// Rays that are long against the spacing of the walls would make the search quadratic. So it goes by scales: what rays
-// meet at heights in (h, 2 h] is sought with a sample of rays h / 5 apart only; rays between those of the sample get
-// limits between theirs.
+// Rays that are long against the spacing of the walls would make the search quadratic. So the search goes by scales:
+// what rays meet at heights in (h, 2 h] is sought with a sample of rays h / 5 apart only; rays between those of the
+// sample get limits between theirs.
 #include "layers/truncation.hpp"
 
 #include <algorithm>
@@ -23,10 +23,10 @@ namespace lamina::layers {
 
 namespace {
 
-/// Share of the way to a wall that a ray may go: opposing fronts leave a quarter of the gap free.
+/// A ray may go up to this share of the way to a wall, so that opposing fronts leave a quarter of the gap free.
 constexpr double wall_fraction = 0.375;
-/// Share of the height at which it crosses another ray that a ray may go: neighbours keep more than half of their
-/// distance.
+/// A ray may go up to this share of the height at which it crosses another ray, so that neighbours keep more than half
+/// of their distance.
 constexpr double ray_fraction = 0.45;
 /// Largest rise of the limit per unit of distance between neighbouring rays. Two such slopes in a corner of 90 degrees
 /// leave 60 degrees to the outer region.
@@ -141,7 +141,7 @@ private:
     std::vector<Box> ray_boxes_;  ///< one per ray of the sample
     core::BoxTree ray_tree_{{}}, wall_tree_{{}};
 
-    /// Returns how far a ray is in the way of others: a ray that has ended is not, beyond its end.
+    /// Returns the height up to which a ray is in the way of others; beyond its end it is not.
     double reach(std::size_t ray) const {
         return std::min(known_[ray] / ray_fraction, heights_.full_height(ray) / wall_fraction);
     }
@@ -153,10 +153,11 @@ private:
             const std::size_t j = sample_.rays[item];
             const RayLine& other = set_.lines[j];
             if (other.origin == ray.origin) return;
-            const LineCrossing at = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
-            if (!at.exists || at.first <= low_ || at.first > high_) return;
-            if (at.second < 0 || at.second > at.first * (1 + 1e-9) || at.second > reach(j)) return;
-            limit = std::min(limit, ray_fraction * at.first);
+            const LineCrossing crossing = cross_lines(ray.origin, ray.direction, other.origin, other.direction);
+            if (!crossing.exists || crossing.first <= low_ || crossing.first > high_) return;
+            if (crossing.second < 0 || crossing.second > crossing.first * (1 + 1e-9) || crossing.second > reach(j))
+                return;
+            limit = std::min(limit, ray_fraction * crossing.first);
         });
         return limit;
     }
@@ -168,9 +169,11 @@ private:
             const Point a = set_.lines[sample_.wall[item].first].origin,
                         b = set_.lines[sample_.wall[item].second].origin;
             if (a == ray.origin || b == ray.origin) return;
-            const LineCrossing at = cross_lines(ray.origin, ray.direction, a, b - a);
-            if (!at.exists || at.first <= low_ || at.first > high_ || at.second < 0 || at.second > 1) return;
-            limit = std::min(limit, wall_fraction * at.first);
+            const LineCrossing crossing = cross_lines(ray.origin, ray.direction, a, b - a);
+            if (!crossing.exists || crossing.first <= low_ || crossing.first > high_ || crossing.second < 0 ||
+                crossing.second > 1)
+                return;
+            limit = std::min(limit, wall_fraction * crossing.first);
         });
         return limit;
     }

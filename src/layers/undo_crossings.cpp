@@ -49,8 +49,8 @@ std::vector<std::size_t> edges_in_conflict(std::span<const PolygonEdge> edges, s
             found.insert(found.end(), {part.edge, parts[other].edge});
         });
         wall_tree.overlaps(box, [&](std::size_t w) {
-            const bool along = edges[part.edge].a == walls[w].a && edges[part.edge].b == walls[w].b;
-            if (!along && in_conflict(part, walls[w].a, walls[w].b)) found.push_back(part.edge);
+            const bool is_wall_edge = edges[part.edge].a == walls[w].a && edges[part.edge].b == walls[w].b;
+            if (!is_wall_edge && in_conflict(part, walls[w].a, walls[w].b)) found.push_back(part.edge);
         });
     }
     return found;
