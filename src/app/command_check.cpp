@@ -32,7 +32,7 @@ struct CheckArguments {
 /// The requirements of the user, beyond validity, that the mesh does not meet.
 using Shortcomings = std::vector<std::string>;
 
-/// Gives the marker its kind, whatever the file says.
+/// Gives the marker of this name its kind, whatever the file says. Adds a shortcoming where it is missing or empty.
 void require_marker(Mesh& mesh, const std::string& name, MarkerKind kind, Shortcomings& shortcomings) {
     const auto marker = std::find_if(mesh.markers.begin(), mesh.markers.end(),
                                      [&](const Marker& candidate) { return candidate.name == name; });

@@ -151,22 +151,27 @@ void run(const DelaunayArguments& arguments) {
 void add_delaunay_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "delaunay", "triangulate the points and segments of Triangle's files, and refine the triangulation");
-    auto a = std::make_shared<DelaunayArguments>();
-    command->add_option("FILE", a->file, "FILE.poly (segments, holes, regions) or FILE.node (points)")->required();
-    command->add_option("-o,--output", a->stem, "write STEM.node, STEM.ele and, for a .poly file, STEM.poly [FILE.1]")
+    auto arguments = std::make_shared<DelaunayArguments>();
+    command->add_option("FILE", arguments->file, "FILE.poly (segments, holes, regions) or FILE.node (points)")
+        ->required();
+    command
+        ->add_option("-o,--output", arguments->stem,
+                     "write STEM.node, STEM.ele and, for a .poly file, STEM.poly [FILE.1]")
         ->type_name("STEM");
-    add_table_option(*command, refine_option_table(), "min-angle", a->min_angle);
-    command->add_option("--max-area", a->max_area, "largest area of a triangle, in squared units of the input; > 0")
+    add_table_option(*command, refine_option_table(), "min-angle", arguments->min_angle);
+    command
+        ->add_option("--max-area", arguments->max_area,
+                     "largest area of a triangle, in squared units of the input; > 0")
         ->type_name("A");
-    command->add_flag("--keep-border", a->settings.keep_border, "split no segment and no edge of the boundary");
-    command->add_flag("--keep-hull", a->settings.keep_hull,
+    command->add_flag("--keep-border", arguments->settings.keep_border, "split no segment and no edge of the boundary");
+    command->add_flag("--keep-hull", arguments->settings.keep_hull,
                       "keep the triangles of the convex hull that lie outside the segments");
-    command->add_flag("--insert-crossings", a->settings.insert_crossings,
+    command->add_flag("--insert-crossings", arguments->settings.insert_crossings,
                       "add a vertex where segments cross; else this is an error");
-    add_table_option(*command, case_option_table(), "threads", a->threads);
-    command->add_option("--report", a->report, "JSON report of the run to write")->type_name("FILE");
-    command->add_flag("--quiet", a->quiet, "print no summary");
-    command->callback([a] { run(*a); });
+    add_table_option(*command, case_option_table(), "threads", arguments->threads);
+    command->add_option("--report", arguments->report, "JSON report of the run to write")->type_name("FILE");
+    command->add_flag("--quiet", arguments->quiet, "print no summary");
+    command->callback([arguments] { run(*arguments); });
 }
 
 }  // namespace lamina::app

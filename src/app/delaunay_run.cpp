@@ -50,8 +50,8 @@ ConstrainedTriangulation triangulate_input(const TriangleInput& input, const Del
 SizeField size_field_for_area(double max_area, const std::vector<Point>& points) {
     Box extent;
     for (Point p : points) extent.include(p);
-    const double whole = extent.width() * extent.width() + extent.height() * extent.height();
-    return SizeField(size_for_area(std::min(max_area, 16 * whole)));
+    const double squared_diagonal = extent.width() * extent.width() + extent.height() * extent.height();
+    return SizeField(size_for_area(std::min(max_area, 16 * squared_diagonal)));
 }
 
 ConstrainedRefinement refine_input(const TriangleInput& input, const ConstrainedTriangulation& triangulation,

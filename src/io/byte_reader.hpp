@@ -75,10 +75,12 @@ public:
             fail(fmt::format("{}: {}, but the file is shorter than that", meaning, value));
         return value;
     }
+    /// Reads a word. Fails unless it is `expected`.
     void expect(std::string_view expected) {
         if (const std::string_view found = word(); found != expected)
             fail(fmt::format("{} expected, found '{}'", expected, printable(found)));
     }
+    /// Goes to the position behind the next `text`. Fails where there is none.
     void skip_behind(const std::string& text) {
         const std::size_t found = bytes_.find(text, at_);
         if (found == std::string::npos) fail(fmt::format("the file ends without {}", text));

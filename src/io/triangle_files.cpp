@@ -167,47 +167,52 @@ void read_holes_and_regions(NumberLines& in, TriangleInput& input) {
 
 LineText& put(LineText& line, Point p) { return line.general(p.x).general(p.y); }
 
-void write_node(const TriangleOutput& o, std::ostream& out) {
-    out << fmt::format("{} 2 {} {}\n", o.points.size(), o.attribute_count, o.markers.empty() ? 0 : 1);
+void write_node(const TriangleOutput& contents, std::ostream& out) {
+    out << fmt::format("{} 2 {} {}\n", contents.points.size(), contents.attribute_count,
+                       contents.markers.empty() ? 0 : 1);
     const auto put_vertex = [&](LineText& line, std::size_t i) {
-        put(line << i + o.first_index, o.points[i]);
-        for (std::size_t a = 0; a < o.attribute_count; ++a) line.general(o.attributes[i * o.attribute_count + a]);
-        if (!o.markers.empty()) line << o.markers[i];
+        put(line << i + contents.first_index, contents.points[i]);
+        for (std::size_t a = 0; a < contents.attribute_count; ++a)
+            line.general(contents.attributes[i * contents.attribute_count + a]);
+        if (!contents.markers.empty()) line << contents.markers[i];
     };
-    write_lines(out, o.points.size(), put_vertex, default_line_bytes + 30 * o.attribute_count);
+    write_lines(out, contents.points.size(), put_vertex, default_line_bytes + 30 * contents.attribute_count);
 }
 
-void write_ele(const TriangleOutput& o, std::ostream& out) {
-    out << fmt::format("{} 3 {}\n", o.triangles.size(), o.triangle_attributes.empty() ? 0 : 1);
-    write_lines(out, o.triangles.size(), [&](LineText& line, std::size_t i) {
-        line << i + o.first_index;
-        for (const VertexId v : o.triangles[i].v) line << v.index() + o.first_index;
-        if (!o.triangle_attributes.empty()) line.general(o.triangle_attributes[i]);
+void write_ele(const TriangleOutput& contents, std::ostream& out) {
+    out << fmt::format("{} 3 {}\n", contents.triangles.size(), contents.triangle_attributes.empty() ? 0 : 1);
+    write_lines(out, contents.triangles.size(), [&](LineText& line, std::size_t i) {
+        line << i + contents.first_index;
+        for (const VertexId v : contents.triangles[i].v) line << v.index() + contents.first_index;
+        if (!contents.triangle_attributes.empty()) line.general(contents.triangle_attributes[i]);
     });
 }
 
 /// Writes segments or edges: their number, and a line "index a b [marker]" for each.
-void write_pairs(const TriangleOutput& o, const std::vector<Segment>& pairs, const std::vector<long>& markers,
+void write_pairs(const TriangleOutput& contents, const std::vector<Segment>& pairs, const std::vector<long>& markers,
                  std::ostream& out) {
     out << fmt::format("{} {}\n", pairs.size(), markers.empty() ? 0 : 1);
     write_lines(out, pairs.size(), [&](LineText& line, std::size_t i) {
-        line << i + o.first_index << pairs[i].a.index() + o.first_index << pairs[i].b.index() + o.first_index;
+        line << i + contents.first_index << pairs[i].a.index() + contents.first_index
+             << pairs[i].b.index() + contents.first_index;
         if (!markers.empty()) line << markers[i];
     });
 }
 
 /// Writes a .poly file without vertices, which are in the .node file.
-void write_poly(const TriangleOutput& o, std::ostream& out) {
-    for (const std::string& comment : o.comments) out << "# " << comment << '\n';
-    out << fmt::format("0 2 {} {}\n", o.attribute_count, o.markers.empty() ? 0 : 1);
-    write_pairs(o, o.segments, o.segment_markers, out);
-    out << o.holes.size() << '\n';
-    write_lines(out, o.holes.size(),
-                [&](LineText& line, std::size_t i) { put(line << i + o.first_index, o.holes[i]); });
-    if (o.regions.empty()) return;
-    out << o.regions.size() << '\n';
-    write_lines(out, o.regions.size(), [&](LineText& line, std::size_t i) {
-        put(line << i + o.first_index, o.regions[i].at).general(o.regions[i].attribute).general(o.regions[i].max_area);
+void write_poly(const TriangleOutput& contents, std::ostream& out) {
+    for (const std::string& comment : contents.comments) out << "# " << comment << '\n';
+    out << fmt::format("0 2 {} {}\n", contents.attribute_count, contents.markers.empty() ? 0 : 1);
+    write_pairs(contents, contents.segments, contents.segment_markers, out);
+    out << contents.holes.size() << '\n';
+    write_lines(out, contents.holes.size(),
+                [&](LineText& line, std::size_t i) { put(line << i + contents.first_index, contents.holes[i]); });
+    if (contents.regions.empty()) return;
+    out << contents.regions.size() << '\n';
+    write_lines(out, contents.regions.size(), [&](LineText& line, std::size_t i) {
+        put(line << i + contents.first_index, contents.regions[i].at)
+            .general(contents.regions[i].attribute)
+            .general(contents.regions[i].max_area);
     });
 }
 
@@ -299,8 +304,9 @@ void write_triangle_files(const TriangleOutput& output, const fs::path& stem, bo
     }
     if (!output.edges.empty()) {
         targets.push_back(with_suffix(stem, ".edge"));
-        writers.push_back(
-            [](const TriangleOutput& o, std::ostream& out) { write_pairs(o, o.edges, o.edge_markers, out); });
+        writers.push_back([](const TriangleOutput& contents, std::ostream& out) {
+            write_pairs(contents, contents.edges, contents.edge_markers, out);
+        });
     }
     core::write_files_atomically(targets, [&](std::span<const fs::path> temporaries) {
         for (std::size_t i = 0; i < targets.size(); ++i)

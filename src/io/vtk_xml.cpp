@@ -2,9 +2,8 @@
 //
 // A binary array is stored as follows; all numbers have the width of the header:
 //   plain         [bytes][data]
-//   compressed    [blocks][bytes of a block][bytes of the last block, 0 = as the others][compressed bytes of each],
-//   then
-//                 the blocks, each a zlib stream
+//   compressed    [blocks][bytes of a block][bytes of the last block, 0 = as the others]
+//                 [compressed bytes of each], then the blocks, each a zlib stream
 // In base64, VTK encodes each part that it writes at once by itself, and the part may end in padding: a plain array as
 // a whole, but the header of a compressed array and the blocks behind it each by themselves. A decoder that begins anew
 // behind padding need not know where the parts end.

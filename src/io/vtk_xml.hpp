@@ -47,8 +47,8 @@ private:
         std::string type;
         ArrayEncoding encoding = ArrayEncoding::ascii;
         bool appended = false;
-        std::size_t at =
-            0;  ///< first byte of the data; for appended arrays counted from the appended data's first byte
+        /// First byte of the data; for appended arrays counted from the first byte of the appended data.
+        std::size_t at = 0;
         std::size_t components = 1;
     };
     class ByteStream;

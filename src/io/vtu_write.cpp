@@ -1,14 +1,13 @@
 // Writes VTK XML unstructured grids with one piece. All arrays are appended, with offsets counted from behind the
 // underscore. A raw array is stored as [length, UInt64][bytes]. A compressed array is stored as [blocks][bytes of a
-// block] [bytes of the last block if it is shorter, else 0][compressed bytes of each block], all UInt64, followed by
+// block][bytes of the last block if it is shorter, else 0][compressed bytes of each block], all UInt64, followed by
 // the blocks, each a zlib stream. Source: VTK User's Guide, "VTK File Formats", XML.
 //
 // The files hold more than points and cells, so that a mesh is read back as it was:
 //   cells        triangles, quads, then the edges of each marker as lines
-//   cell data    region (0 layer, 1 isotropic, 2 lines), piece and layer (0 on lines) where the mesh has them; marker
-//   (0
-//                on triangles and quads, 1 on the lines of the first marker, ...); quality (1 for the equilateral
-//                triangle and the square, 0 for flat cells and lines)
+//   cell data    region (0 layer, 1 isotropic, 2 lines), piece and layer (0 on lines) where the mesh has them;
+//                marker (0 on triangles and quads, 1 on the lines of the first marker, ...); quality (1 for the
+//                equilateral triangle and the square, 0 for flat cells and lines)
 //   field data   marker_names (UTF-8, with a zero byte behind each name, since not every reader knows strings),
 //                marker_kinds (in the order of MarkerKind), constraints (pairs of points)
 //   point data   wall_distance where it is asked for

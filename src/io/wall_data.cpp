@@ -1,4 +1,4 @@
-// Tables of the walls, for those who build data sets.
+// Writes the table of the wall vertices as CSV.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -70,18 +70,19 @@ private:
     }
     void add_row(std::size_t v, double arc_length) {
         done_[v] = true;
-        const std::uint32_t in = walls_.before[v], out = walls_.after[v];
+        const std::uint32_t edge_before = walls_.before[v], edge_after = walls_.after[v];
         Point normal{0, 0};
         double height = HUGE_VAL;
-        for (const std::uint32_t e : {in, out}) {
+        for (const std::uint32_t e : {edge_before, edge_after}) {
             if (e == none) continue;
             normal = normal + outward_normal(e);
             height = std::min(height, cell_height(e));
         }
-        // At a cusp the normals cancel; the normal then continues the incoming edge.
-        if (squared_length(normal) < 1e-20 && in != none) normal = -perpendicular(-outward_normal(in));
+        // At a cusp the two normals cancel; the normal then is the direction of the edge before.
+        if (squared_length(normal) < 1e-20 && edge_before != none)
+            normal = -perpendicular(-outward_normal(edge_before));
         normal = unit(normal);
-        const std::string& name = mesh_.markers[walls_.marker[out != none ? out : in]].name;
+        const std::string& name = mesh_.markers[walls_.marker[edge_after != none ? edge_after : edge_before]].name;
         text_ += fmt::format("{},{},{:.16e},{:.16e},{:.16e},{:.16e},{:.16e},{:.16e}\n", name, v, mesh_.points[v].x,
                              mesh_.points[v].y, arc_length, normal.x, normal.y, height);
     }

@@ -55,13 +55,13 @@ private:
 
 inline constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
 
-/// Number of cells that a thread takes at a time.
+/// Number of cells that a thread takes at a time. Their data stays in the second-level cache.
 inline constexpr std::size_t cells_per_block = 1 << 13;
 
 /// The neighbours of all cells. Edges are numbered by CellEdges.
 struct Adjacency {
-    core::UninitializedArray<std::uint32_t>
-        twin;                             ///< per directed edge: the opposite edge of the neighbour, or no_edge
+    /// Per directed edge: the opposite edge of the neighbour, or no_edge.
+    core::UninitializedArray<std::uint32_t> twin;
     std::vector<std::uint32_t> boundary;  ///< directed edges that one cell alone has, ascending
     std::vector<std::uint32_t> overused;  ///< directed edges that share their ends with more than one other edge, or
                                           ///< with one of the same direction; ascending

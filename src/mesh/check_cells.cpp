@@ -15,7 +15,6 @@ namespace lamina::mesh {
 
 namespace {
 
-/// Number of cells in a block. The data of one block of cells stays in the second-level cache.
 /// Returns a number that is > 0 for a counter-clockwise cell and 0 for a flat one. A quad is simple and
 /// counter-clockwise if one of its diagonals splits it in two counter-clockwise triangles.
 double cell_orientation(const Point* p, std::size_t corners) {

@@ -96,7 +96,7 @@ double QualityCollector::area_ratio_percentile_999() const {
     if (n == 0) return 0;
     const std::size_t rank = (n - 1) - (n - 1) / 1000;
     std::size_t bin = 0;
-    for (std::size_t below = area_ratios_[0]; below <= rank; below += area_ratios_[bin]) ++bin;
+    for (std::size_t count_below = area_ratios_[0]; count_below <= rank; count_below += area_ratios_[bin]) ++bin;
     return bin + 1 < ratio_bins ? std::min(upper_end_of(bin), max_area_ratio_) : max_area_ratio_;
 }
 

@@ -12,8 +12,8 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// Smallest growth of the spacing along walls per unit of distance. Otherwise it follows the layer's border; slower
-/// gradations are for the outer region alone.
+/// The spacing along walls may grow by the gradation of the layer's border per unit of distance, and by this much in
+/// any case: slower gradations are for the outer region alone.
 constexpr double min_wall_gradation = 0.05;
 
 /// Makes the rows that belong to no stage, or that are stricter here than in their stage.

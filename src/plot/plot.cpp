@@ -101,8 +101,8 @@ std::vector<Color> cell_colors(const Mesh& mesh, const std::vector<VisibleCell>&
 
 // --- Drawing
 
-/// Fills the cells. Where their edges would merge into a blot, with_grey fills them with the grey that fading edges end
-/// in.
+/// Fills the cells. If with_grey is set, cells so thin that their edges would merge into a blot get the grey into which
+/// edges fade.
 void draw_cells(Canvas& canvas, const std::vector<VisibleCell>& cells, const std::vector<Color>& colors,
                 const PictureView& view, bool with_grey) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -181,7 +181,7 @@ CairoSurface make_pdf(std::ostream& out, const PictureView& view) {
 struct PictureFormat {
     const char* extension;
     CairoSurface (*make)(std::ostream&, const PictureView&);
-    bool is_image;  ///< is written at the end, not while it is drawn
+    bool is_image;  ///< whether the file is written once all is drawn, not meanwhile
 };
 
 constexpr PictureFormat picture_formats[] = {
