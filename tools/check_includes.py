@@ -36,7 +36,7 @@ COLOURS = {"geometry": "#cfe3f7", "surface": "#d8ecd0", "layers": "#fbe3c0", "si
 
 
 def dependencies():
-    """Folder -> set of folders it may include, from the DEPENDS lists, closed transitively."""
+    """Returns the set of folders that each folder may include: its DEPENDS list, and those of the folders in it."""
     direct = {}
     for file in sorted(SOURCE.glob("*/CMakeLists.txt")):
         call = re.search(r"lamina_library\(\s*(\w+)(.*?)\)", file.read_text(), re.S)
@@ -61,7 +61,7 @@ def dependencies():
 
 
 def includes(file):
-    """(line number, "public" or "private", path) of each include of lamina's own headers."""
+    """Yields (line number, "public" or "private", path) for each include of a header of lamina."""
     for number, line in enumerate(file.read_text().splitlines(), 1):
         if found := re.match(r"#include <lamina/([\w]+)\.hpp>", line):
             yield number, "public", found.group(1)
@@ -74,7 +74,7 @@ def owner(header):
 
 
 def check_file(file, folder, allowed):
-    """Violations of one source file or private header."""
+    """Yields the violations of one source file or private header."""
     inside = file.relative_to(SOURCE)
     for number, kind, path in includes(file):
         where = f"{file.relative_to(REPOSITORY)}:{number}"
@@ -102,7 +102,7 @@ def check_public(file, allowed):
 
 
 def circles():
-    """Circles of includes among the private headers."""
+    """Yields the circles of includes among the private headers."""
     graph = {}
     for file in SOURCE.rglob("*.hpp"):
         name = str(file.relative_to(SOURCE))
@@ -124,7 +124,7 @@ def circles():
 
 
 def as_dot(allowed):
-    """The dependencies in the language of Graphviz, without those that follow from others."""
+    """Yields the lines of the dependencies in the language of Graphviz, without those that follow from others."""
     allowed = {**allowed, "app": set(allowed)}
     yield "digraph folders {"
     yield '    ranksep=0.4; nodesep=0.3; bgcolor="white"; edge [color="#555555", arrowsize=0.7];'

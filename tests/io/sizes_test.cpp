@@ -239,8 +239,8 @@ TEST(Sizes, OfDamagedVtuInEveryEncodingAreReadOrRefused) {
 TEST(Sizes, OfVtuWithAbsurdHeadersAreRefused) {
     const TemporaryFolder folder;
     const std::string whole = EncodedVtu({.format = "raw", .compressed = true}).file();
-    const std::size_t header = whole.find('_', whole.find("<AppendedData")) +
-                               1;  // of the array `size`: blocks, bytes of a block, bytes of the last one
+    // The header of the array `size` holds the blocks, the bytes of a block and the bytes of the last one.
+    const std::size_t header = whole.find('_', whole.find("<AppendedData")) + 1;
     for (const auto& [blocks, block, last] : std::vector<std::array<std::uint32_t, 3>>{
              {1, 5'000'000, 0}, {1, 0xffffffff, 0xffffffff}, {0xffffffff, 13, 3}, {2, 13, 14}}) {
         std::string damaged = whole;

@@ -283,11 +283,11 @@ TEST(Connect, DoesNotDependOnThreads) {
     }
 }
 
-/// A layer on two sides of a square wall. A ray of one layer stands on the fan at the corner (1, 1), beside bare rays:
+/// A layer on two sides of a square wall. A ray of one layer stands on the fan at the corner (1, 1), beside bare rays,
+/// which have no layers:
 ///
-///    q--------p        q and p are tips of one layer; the border runs 0 - 1 - 2 - p - q - 0 and is divided by the
-///    tests
-///     \       |
+///    q--------p        q and p are tips of one layer; the border runs 0 - 1 - 2 - p - q - 0, and the tests
+///     \       |        divide it
 ///      3------2        corner 2 of the wall has two rays, the first of them bare
 ///      |      |
 ///      0------1        corners 0 and 1 have bare rays

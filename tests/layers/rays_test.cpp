@@ -115,8 +115,8 @@ TEST(Rays, AreInsertedWhereNumbersOfLayersChangeFasterThanTheWallHasVertices) {
     const Layer layer = test::checked_layer(shapes::geometry({plate, small}), options);
     const LayerCoverage& all = layer.coverage[0].all;
     EXPECT_GT(double(all.made_cells), 0.75 * double(all.requested_cells));
-    double nearest_full = HUGE_VAL,
-           farthest_cut = 0;  // distances of full rays, and of rays cut short, from the small body
+    // Distances of full rays, and of rays cut short, from the small body.
+    double nearest_full = HUGE_VAL, farthest_cut = 0;
     for (const Ray& ray : layer.rays[0]) {
         const Point origin = layer.points[ray.origin.index()];
         if (origin.y < 0 || ray.direction.y < 0.9) continue;

@@ -104,8 +104,8 @@ TEST(Adjacency, FindsEveryDefect) {
         mesh.points.push_back({9, 9});  // belongs to no cell
         for (int i = 0; i < 40; ++i) {
             mesh.triangles.push_back(mesh.triangles[any()]);  // the same triangle twice, far apart
-            std::swap(mesh.triangles[any()].v[0],
-                      mesh.triangles[any()].v[1]);  // folds: edges with two cells on one side
+            // Folds: edges with two cells on one side.
+            std::swap(mesh.triangles[any()].v[0], mesh.triangles[any()].v[1]);
             std::swap(mesh.triangles[any()], mesh.triangles.back());
         }
         for (int i = 0; i < 40; ++i) mesh.triangles.erase(mesh.triangles.begin() + std::ptrdiff_t(any() / 2));

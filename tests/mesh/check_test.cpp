@@ -160,7 +160,7 @@ TEST(CheckMeshDefects, Cells) {
 
     mesh = annulus();
     mesh.triangles.push_back(mesh.triangles[3]);
-    for (auto* array : {&mesh.piece}) array->push_back(0);
+    mesh.piece.push_back(0);
     mesh.region.push_back(Region::layer);
     mesh.layer.push_back(1);
     expect_defect(mesh, "shares its edge");
