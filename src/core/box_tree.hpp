@@ -82,6 +82,16 @@ public:
         return best;
     }
 
+    /// Returns min(start, distance from p to the nearest item). distance(item) is as for minimum().
+    template <class Distance>
+    double min_distance(Point p, double start, Distance&& distance) const {
+        double best = start;
+        walk([&](const Box& box, std::size_t,
+                 std::size_t) { return best > 0 && squared_distance(box, p) < best * best; },
+             [&](std::size_t item) { best = std::min(best, distance(item)); });
+        return best;
+    }
+
 private:
     static constexpr std::size_t arity = 4;
     std::vector<std::vector<Box>> levels_;  ///< items first, the largest groups (at most `arity`) last

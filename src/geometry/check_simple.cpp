@@ -11,6 +11,7 @@
 
 #include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
+#include "core/polygon.hpp"
 
 namespace lamina::geometry {
 
@@ -124,11 +125,10 @@ void check_points(const Element& e) {
 
 /// Throws InputError for a clockwise outline. Precondition: the outline is simple.
 void check_orientation(const Element& e) {
-    const std::size_t n = e.points.size();
-    const auto smallest = std::min_element(e.points.begin(), e.points.end(), lexicographically_less);
-    const auto i = static_cast<std::size_t>(smallest - e.points.begin());
-    if (orient2d(e.points[(i + n - 1) % n], e.points[i], e.points[(i + 1) % n]) <= 0)
-        throw InputError({e.file, line_near(e, i, true), e.points[i]}, "the outline runs clockwise");
+    const auto vertex = [&](std::size_t i) { return e.points[i]; };
+    if (core::polygon_orientation(e.points.size(), vertex) > 0) return;
+    const std::size_t i = core::smallest_vertex(e.points.size(), vertex);
+    throw InputError({e.file, line_near(e, i, true), e.points[i]}, "the outline runs clockwise");
 }
 
 /// Returns whether p lies inside an outline, by the parity of its crossings with the ray from p towards +x.

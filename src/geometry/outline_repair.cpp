@@ -9,6 +9,7 @@
 
 #include <lamina/predicates.hpp>
 
+#include "core/polygon.hpp"
 #include "core/segments.hpp"
 
 namespace lamina::geometry {
@@ -122,14 +123,9 @@ void close_outline(SourcePoints& points, const std::string& file, std::vector<st
                                   base));
 }
 
-/// Returns whether an outline runs clockwise, which the turn at its lexicographically smallest point tells. Exact for
-/// simple outlines.
+/// Returns whether an outline runs clockwise. Exact for simple outlines.
 bool is_clockwise(const SourcePoints& points) {
-    const auto smallest =
-        std::min_element(points.begin(), points.end(),
-                         [](const SourcePoint& a, const SourcePoint& b) { return lexicographically_less(a.at, b.at); });
-    const std::size_t n = points.size(), i = static_cast<std::size_t>(smallest - points.begin());
-    return orient2d(points[(i + n - 1) % n].at, points[i].at, points[(i + 1) % n].at) < 0;
+    return core::polygon_orientation(points.size(), [&](std::size_t i) { return points[i].at; }) < 0;
 }
 
 }  // namespace

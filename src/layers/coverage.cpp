@@ -24,14 +24,12 @@ std::vector<char> open_rays(const RaySet& set, const LayerHeights& heights, std:
     for (std::size_t i = 0; i < set.lines.size(); ++i)
         boxes.push_back(core::bounding_box(set.lines[i].origin, set.lines[next[i]].origin));
     const core::BoxTree walls(std::move(boxes));
-    // With zeros, BoxTree::minimum() is a distance.
-    const auto zeros = walls.group_minima(std::vector<double>(set.lines.size(), 0.0));
     std::vector<char> open(set.lines.size());
     core::parallel_for(set.lines.size(), 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const double radius = 0.5 * open_space * heights.full_height(i), inner = inner_share * radius;
             const Point middle = set.lines[i].origin + radius * set.lines[i].direction;
-            const double nearest = walls.minimum(middle, 1, inner, zeros, [&](std::size_t j) {
+            const double nearest = walls.min_distance(middle, inner, [&](std::size_t j) {
                 return core::distance_to_segment(middle, set.lines[j].origin, set.lines[next[j]].origin);
             });
             open[i] = nearest >= inner;

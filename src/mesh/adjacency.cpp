@@ -15,8 +15,6 @@ namespace lamina::mesh {
 
 namespace {
 
-/// Number of cells in a block. The arrays that matching the edges of one block takes stay in the second-level cache.
-constexpr std::size_t block_cells = 1 << 13;
 constexpr std::size_t vertex_grain = 1 << 16;
 
 /// Calls f(edge, origin, target) for the edges of the cells [begin, end).
@@ -58,8 +56,8 @@ core::UninitializedArray<std::uint32_t> vertex_owners(const Mesh& mesh, std::siz
         std::fill(owners.begin() + begin, owners.begin() + end, unclaimed);
     });
     const bool concurrently = thread_count() > 1;
-    core::parallel_for(cells, block_cells, [&](std::size_t begin, std::size_t end) {
-        const auto block = static_cast<std::uint32_t>(begin / block_cells);
+    core::parallel_for(cells, cells_per_block, [&](std::size_t begin, std::size_t end) {
+        const auto block = static_cast<std::uint32_t>(begin / cells_per_block);
         for_each_edge(mesh, begin, end,
                       [&](std::size_t, VertexId a, VertexId) { claim(owners[a.index()], block, concurrently); });
     });
@@ -242,7 +240,7 @@ Adjacency find_adjacency(const Mesh& mesh) {
         match(within, adjacency.twin, result.matches);
         return result;
     };
-    const std::vector<BlockMatches> blocks = core::parallel_blocks(cells, block_cells, match_block);
+    const std::vector<BlockMatches> blocks = core::parallel_blocks(cells, cells_per_block, match_block);
     for (const BlockMatches& block : blocks) append(adjacency, block.matches);
 
     const auto match_bucket = [&](std::size_t bucket, std::size_t) {
@@ -290,7 +288,7 @@ std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment>
         return edges;
     };
     for (const std::vector<FoundEdge>& edges :
-         core::parallel_blocks(CellEdges(mesh).cells(), block_cells, find_in_block))
+         core::parallel_blocks(CellEdges(mesh).cells(), cells_per_block, find_in_block))
         for (const auto [edge, rank] : edges)
             for (std::size_t i = rank; i < order.size() && ends_of(order[i]) == ends_of(order[rank]); ++i)
                 found[order[i]] = std::min(found[order[i]], edge);

@@ -9,6 +9,7 @@
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
+#include "core/polygon.hpp"
 #include "core/predicates.hpp"
 
 namespace lamina::mesh {
@@ -121,14 +122,9 @@ void check_contacts(std::span<const Point> points, const BoundaryLoops& loops, c
         defects.append(std::move(found));
 }
 
-/// Returns whether a simple loop is counter-clockwise. Exact: at its lexicographically smallest vertex a loop turns in
-/// the direction in which it goes round.
+/// Returns whether a simple loop is counter-clockwise. Exact.
 bool is_counter_clockwise(std::span<const Point> points, std::span<const Segment> loop) {
-    std::size_t smallest = 0;
-    for (std::size_t i = 1; i < loop.size(); ++i)
-        if (lexicographically_less(points[loop[i].a.index()], points[loop[smallest].a.index()])) smallest = i;
-    const Segment& before = loop[(smallest + loop.size() - 1) % loop.size()];
-    return orientation(points[before.a.index()], points[before.b.index()], points[loop[smallest].b.index()]) > 0;
+    return core::polygon_orientation(loop.size(), [&](std::size_t i) { return points[loop[i].a.index()]; }) > 0;
 }
 
 /// Returns the winding number of all other loops round a vertex of loop l: the signed number of their crossings with

@@ -26,14 +26,11 @@ std::vector<double> wall_distances(const Mesh& mesh) {
     std::vector<double> distances(mesh.points.size(), HUGE_VAL);
     if (edges.empty()) return distances;
     const core::BoxTree tree(std::move(boxes));
-    // With zeros, BoxTree::minimum() is a distance.
-    const auto zeros = tree.group_minima(std::vector<double>(edges.size(), 0.0));
     core::parallel_for(distances.size(), std::size_t{1} << 10, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Point p = mesh.points[i];
-            distances[i] = tree.minimum(p, 1.0, HUGE_VAL, zeros, [&](std::size_t e) {
-                return core::distance_to_segment(p, edges[e].a, edges[e].b);
-            });
+            distances[i] = tree.min_distance(
+                p, HUGE_VAL, [&](std::size_t e) { return core::distance_to_segment(p, edges[e].a, edges[e].b); });
         }
     });
     return distances;

@@ -18,12 +18,11 @@ ClearanceSearch::ClearanceSearch(const Geometry& geometry) {
         }
     }
     tree_ = core::BoxTree(std::move(boxes));
-    zeros_ = tree_.group_minima(std::vector<double>(edges_.size(), 0.0));
 }
 
 double ClearanceSearch::clearance(std::size_t element, Point p, Point normal, double min_own_clearance,
                                   double max_clearance) const {
-    return tree_.minimum(p, 1, max_clearance, zeros_, [&](std::size_t i) {
+    return tree_.min_distance(p, max_clearance, [&](std::size_t i) {
         const WallEdge& edge = edges_[i];
         const double d = core::distance_to_segment(p, edge.a, edge.b);
         if (edge.element != element) return d;

@@ -27,7 +27,6 @@ private:
     };
     std::vector<WallEdge> edges_;
     core::BoxTree tree_{{}};
-    std::vector<std::vector<double>> zeros_;  ///< values of the tree's items: BoxTree::minimum() is then a distance
 };
 
 }  // namespace lamina::surface
