@@ -52,13 +52,16 @@ struct FarField {
     LAMINA_EXPORT Box box() const;
 };
 
-/// Places the far field round the box of all bodies. Throws OptionError where an outline does not enclose its middle.
+/// Places the far field round the box of all bodies. Throws OptionError where an option is out of range, and where an
+/// outline does not enclose the middle of that box.
 LAMINA_EXPORT FarField place_far_field(const Box& bodies, const FarFieldOptions& options = {});
 
 /// How separators between subdomains are divided into segments.
 enum class SeparatorRule {
     equidistributed,  ///< into equal shares of the integral of ds / h, which leaves no visible seam
-    k_rule,           ///< thesis, chapter 5, equation 1: k = 1/2 sqrt(A / sqrt 2), A being the area bound
+    /// Into segments from 2 k / sqrt 3 to 2 k long, where k = 1/2 sqrt(A / sqrt 2) and A is the largest area that
+    /// triangles may have (thesis, chapter 5, equation 1).
+    k_rule,
 };
 
 /// Options of the stage "decouple".
@@ -73,8 +76,8 @@ LAMINA_EXPORT const OptionTable<DecouplingOptions>& decoupling_option_table();
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const DecouplingOptions& options);
 
-/// A part of the outer region that is refined by itself: refine(subdomain) needs nothing else, whether on a thread, on
-/// a rank or from a file.
+/// A part of the outer region that is refined by itself: refine(subdomain) needs nothing else, whether it runs on
+/// another thread, in another process or from a file.
 struct Subdomain {
     std::vector<Point> points;       ///< border vertices
     std::vector<VertexId> global;    ///< their ids in Decoupling::points, ascending

@@ -38,11 +38,11 @@ struct DecompositionStats {
     std::size_t pieces = 0;  ///< number of pieces
     /// Number of vertices, summed over pieces: a vertex on a dividing path counts in every piece that it belongs to.
     std::size_t piece_vertices = 0;
-    std::size_t largest_piece = 0;    ///< in vertices
+    std::size_t largest_piece = 0;    ///< number of vertices of the largest piece
     std::size_t crossing_cuts = 0;    ///< cuts rejected because their path crossed a segment
     std::size_t unbalanced_cuts = 0;  ///< cuts rejected because one part was larger than 0.75 of the whole
-    std::size_t uncut = 0;            ///< pieces that should have been cut further, but that no cut suited
-    std::size_t fallbacks = 0;        ///< regions triangulated in one piece because a piece could not be
+    std::size_t uncut = 0;            ///< pieces that should have been cut further, but for which no cut was good
+    std::size_t fallbacks = 0;        ///< regions triangulated at once because one of their pieces could not be
 };
 
 /// The time that one thread spent while points were triangulated in pieces, in seconds.
@@ -70,7 +70,8 @@ struct Triangulation {
 /// Hardwick, D. Talmor, Algorithmica 24 (1999); J. K. Pardue, thesis (2015), chapter 4.
 LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points);
 
-/// Returns the same triangulation, cut into pieces as the options say whatever the number of points.
+/// Returns the same triangulation, made in the pieces that the options demand, whatever the number of points. Throws
+/// OptionError for options out of range, too.
 LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points, const DecompositionOptions& options);
 
 // ---- constrained triangulation ----
@@ -104,7 +105,7 @@ struct ConstrainedTriangulation {
     std::vector<Point> steiner_points;  ///< crossings of segments
     std::vector<Triangle> triangles;    ///< counter-clockwise
     /// The edges of the triangles that are parts of segments: each once, directed as its segment is, in the order of
-    /// the segments, each chain from a to b.
+    /// the segments and, within a segment, from its a to its b.
     std::vector<Segment> segments;
     std::vector<std::uint32_t> parents;  ///< for each edge the segment that it is a part of; the first of several
 };
@@ -112,8 +113,9 @@ struct ConstrainedTriangulation {
 /// Returns the constrained Delaunay triangulation: every segment is an edge or, where it runs through points, a chain
 /// of edges; the other edges are locally Delaunay by the tie rule. Segments may overlap and repeat. The set of
 /// triangles is unique: it depends on the order of neither points nor segments (except for the numbers of crossing
-/// points). Throws InputError for duplicate points, for segments that cross unless Steiner points are inserted there
-/// (place().segments), and for segments between points that all lie on one line.
+/// points). Throws InputError for points as the plain triangulate() does, for segments that do not join two of the
+/// points, for segments that cross unless Steiner points are inserted there (place().segments), and for any segment if
+/// all points lie on one line.
 /// Source: M. V. Anglada, Computers & Graphics 21 (1997).
 LAMINA_EXPORT ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
                                                    const ConstrainedOptions& options = {});

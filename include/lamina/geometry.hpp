@@ -95,8 +95,8 @@ enum class TrailingEdge {
 LAMINA_EXPORT Element naca_airfoil(const std::string& digits, std::size_t points,
                                    TrailingEdge trailing_edge = TrailingEdge::sharp);
 
-/// Throws InputError unless the outlines are simple, counter-clockwise, disjoint and lie side by side. The message
-/// names the lines of both edges in conflict. Exact (predicates.hpp); O(n log n) in practice.
+/// Throws InputError unless the outlines are simple, counter-clockwise and disjoint, and none lies inside another. The
+/// message names the lines of both edges in conflict. Exact (predicates.hpp); O(n log n) in practice.
 LAMINA_EXPORT void check_simple(const Geometry& geometry);
 
 }  // namespace lamina

@@ -13,11 +13,13 @@ namespace lamina {
 
 /// A format that meshes are written in. Most formats can also be read.
 struct MeshFormat {
-    std::string name;                     ///< "msh22"
-    std::vector<std::string> extensions;  ///< of its files, with the dot; each stands for the first format that has it
-    std::string description;              ///< one line
-    bool readable = false;                ///< whether read_mesh() reads it
-    bool quads = true;                    ///< whether it holds quadrilaterals, too
+    std::string name;  ///< "msh22"
+    /// The extensions of its files, with the dot, or the name of its folder ("polyMesh"). Where several formats share
+    /// an extension, it stands for the first of them.
+    std::vector<std::string> extensions;
+    std::string description;  ///< one line
+    bool readable = false;    ///< whether read_mesh() reads it
+    bool quads = true;        ///< whether it holds quadrilaterals, too
 };
 
 /// Returns all formats of this build, in the order of the guide's table.

@@ -27,8 +27,10 @@ enum class GrowthLaw {
     geometric,    ///< H(n) = h (r^n - 1) / (r - 1)
     polynomial,   ///< H(n) = h n^r
     exponential,  ///< H(n) = T (e^(a n/N) - 1) / (e^a - 1) for N layers of total thickness T; a follows from H(1) = h
-    adaptive,  ///< geometric; each ray has its own r, 1.05 to 1.5, which makes the last of N spacings that of the rays
-    aflr       ///< five equal spacings; each one after that is 1.05, 1.05^2, ... 1.5, 1.5 ... times the one below
+    /// Geometric, with an r for each ray: the one, from 1.05 to 1.5, with which the last of the N layers is as high as
+    /// the ray is away from its neighbours.
+    adaptive,
+    aflr  ///< five equal spacings; each one after that is 1.05, 1.05^2, ... 1.5, 1.5 ... times the one below
 };
 
 /// The rays at a sharp convex corner.
@@ -120,7 +122,7 @@ struct HeightColumn {
 class LayerHeights {
 public:
     LayerHeights() = default;
-    /// Makes heights of their parts. Precondition: the columns lie within the table.
+    /// Makes heights from a table and the column of each ray. Precondition: the columns lie within the table.
     LayerHeights(std::vector<double> table, std::vector<HeightColumn> columns)
         : table_(std::move(table)), columns_(std::move(columns)) {}
 
@@ -164,7 +166,7 @@ struct Rays {
     bool enabled = true;                ///< LayerOptions::enabled
     LayerGrowth growth;                 ///< the growth that was requested
     LayerHeights heights;               ///< as the growth law makes them
-    LayerHeights fitted;                ///< stretched, where rays are cut short, to end at their limits
+    LayerHeights fitted;                ///< the same, but on rays that are cut short stretched to end at their limits
     std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
     std::vector<std::uint32_t> counts;  ///< number of layers on each ray
 };
@@ -185,9 +187,9 @@ LAMINA_EXPORT std::vector<std::vector<Point>> fronts(const Rays& rays);
 /// How the edges of the fronts are divided, which makes them outer borders. Borders are frozen afterwards, so they must
 /// suit refinement (docs/decisions/0003).
 struct BorderOptions {
-    /// Largest ratio of the lengths of adjacent edges; 1.4 serves angle bounds up to 30 degrees. Below 2 an edge that
-    /// must be halved often makes its neighbours follow, all along the border. The ratio is exceeded only where
-    /// rounding would make division points cross something.
+    /// Largest ratio of the lengths of adjacent edges; 1.4 serves angle bounds up to 30 degrees. Where it is below 2,
+    /// halving an edge often forces its neighbours to be halved, and so on all along the border. The ratio is exceeded
+    /// only where rounding would make division points cross something.
     double max_ratio = 1.4;
     /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance.
     double gradation = 0.1;
@@ -216,8 +218,9 @@ struct Ray {
     double growth;            ///< r of GrowthLaw on this ray; e^(a/N) for the exponential law
     std::size_t first_point;  ///< Layer::points[first_point + n] lies at the top of layer n + 1
     double height_limit;      ///< no point lies beyond this height; infinite where nothing is in the way
-    /// The growth law gives the ratio of each spacing to the one below; the ray's own ratio is `stretch` times that. It
-    /// is 1 on rays with all their layers and within max_stretch of 1 on others, so that layers end at the limit.
+    /// The growth law gives the ratio of each spacing to the one below; the ray's own ratio is `stretch` times that.
+    /// `stretch` is 1 on rays with all their layers. On the others it is within max_stretch of 1, and lets the layers
+    /// end at the limit.
     double stretch = 1;
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
@@ -234,7 +237,8 @@ struct LayerCoverage {
     std::size_t made_cells = 0;       ///< number of cells made
 };
 
-/// Opposing layers and the triangles between them fit into a gap that is this many times as wide as one layer is high.
+/// The boundary layers of two opposing walls, and triangles between them, fit into a gap that is this many times as
+/// wide as one of the two is high.
 inline constexpr double open_space = 3;
 
 /// The coverage of one element.
@@ -249,7 +253,7 @@ struct LAMINA_EXPORT ElementCoverage {
     ElementCoverage& operator+=(const ElementCoverage& other);
 };
 
-/// The edges of walls and outer borders. An edge that is part of both bounds no layer.
+/// The edges of walls and outer borders. An edge that belongs to a wall and to an outer border has no layer beside it.
 struct LayerEdges {
     std::vector<std::vector<Segment>>
         walls;                    ///< one list per element, the mesh on the left: clockwise round the element
@@ -267,7 +271,7 @@ struct Layer {
     std::size_t wall_points = 0;  ///< number of wall vertices
     /// One list per element: the wall vertices, counter-clockwise.
     std::vector<std::vector<VertexId>> walls;
-    /// One list per element: the rays, in the order of the wall. The rays of a fan have one origin.
+    /// One list per element: the rays, in the order of the wall. The rays of a fan share one origin.
     std::vector<std::vector<Ray>> rays;
     /// One list per element: the closed outer border, counter-clockwise, simple and disjoint from the others. Where the
     /// rays have no layers, the border runs through wall vertices, and along wall edges between two of them. If such an

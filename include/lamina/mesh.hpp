@@ -30,7 +30,7 @@ enum class MarkerKind : std::uint8_t {
 
 /// A named part of the boundary.
 struct Marker {
-    std::string name;                     ///< of this marker alone
+    std::string name;                     ///< unique in the mesh
     MarkerKind kind = MarkerKind::other;  ///< the boundary condition
     std::vector<Segment> edges;           ///< directed with the mesh on their left
 };

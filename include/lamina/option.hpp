@@ -35,7 +35,7 @@ enum class OptionKind {
 /// A range of the numbers that an option may take. They are always finite.
 struct LAMINA_EXPORT OptionRange {
     double lower = -HUGE_VAL;     ///< lower bound
-    double upper = HUGE_VAL;      ///< belongs to the range
+    double upper = HUGE_VAL;      ///< upper bound, which belongs to the range
     bool includes_lower = false;  ///< whether the lower bound belongs to the range
 
     /// Returns whether the range holds a value; false for NaN and infinities.

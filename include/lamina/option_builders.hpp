@@ -193,7 +193,7 @@ private:
     std::string group_;
     OptionTable<Options> table_;
 
-    // Declared alone: the type of a number, or of the number in an optional.
+    // These functions are never defined: their result is the type of a number, or of the number in an optional.
     template <class Number>
     static Number number_type(Number);
     template <class Number>

@@ -18,14 +18,14 @@
 namespace lamina {
 
 /// Frozen edges (separators, outer borders of layers) are at most this share of h long. Refinement makes edges of 0.82
-/// h on average, and no vertex of it encroaches upon a frozen edge of up to 1.24 sqrt(A) = 0.82 h, A being the area of
-/// an equilateral triangle of edge h (docs/decisions/0003).
+/// h on average, and none of its vertices encroaches upon a frozen edge of up to 1.24 sqrt(A) = 0.82 h, A being the
+/// area of an equilateral triangle of edge h (docs/decisions/0003).
 inline constexpr double frozen_share = 0.8;
 
 /// Returns the edge length of the equilateral triangle of this area: the size that bounds triangles to it.
 inline double size_for_area(double area) { return std::sqrt(area / 0.43301270189221932); }
 
-/// A shape that requests a target edge length on it and round it: h(x) <= size + gradation x distance(x, shape). A
+/// A shape that requests a target edge length on it and round it: h(p) <= size + gradation x distance(p, shape). A
 /// point inside a box, or within `radius` of the shape, is at distance 0.
 struct SizeSource {
     /// The shape between a and b.
@@ -153,7 +153,7 @@ LAMINA_EXPORT void validate(const SizingOptions& options);
 /// less than the gradation, since edges are divided into whole numbers of pieces.
 LAMINA_EXPORT double border_gradation(const SizeFieldOptions& field);
 
-/// Closed loops of points, without the first one again.
+/// Closed loops of points. The first point of a loop is not repeated at its end.
 using Loops = std::span<const std::vector<Point>>;
 
 /// The facts about the bodies that sizes depend on.

@@ -17,7 +17,8 @@ enum class Surface {
     resample,   ///< replaced by new points on a spline through them
 };
 
-/// Lengths are shares of the element's length, the longer side of its box, unless a comment says otherwise.
+/// Options of prepare_surfaces(). Lengths are shares of the element's length, the longer side of its box, unless a
+/// comment says otherwise.
 struct SurfaceOptions {
     Surface surface = Surface::automatic;  ///< whether points are kept or replaced
     /// Wall vertices per element, about; all spacings below keep their proportions. Makes `automatic` resample.
@@ -31,7 +32,7 @@ struct SurfaceOptions {
     double sharp_corner_spacing = 0.001;  ///< at sharp corners (sharp_corner_deg)
     double corner_spacing = 0.004;        ///< at all other corners
     double gap_spacing = 1;               ///< as a share of the distance to the next element, or across a cove
-    double min_spacing = 2e-5;            ///< no option asks for less
+    double min_spacing = 2e-5;            ///< smallest spacing, even where another option asks for less
     double tolerance = 5e-5;              ///< largest distance of an edge from the curve
 };
 
