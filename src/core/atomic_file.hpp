@@ -34,7 +34,7 @@ LAMINA_EXPORT void write_folder_atomically(const std::filesystem::path& target,
                                            const std::function<void(const std::filesystem::path&)>& write);
 
 /// Throws IoError where the disk has no room for a file of this many bytes beside `target`, as far as the file system
-/// can tell. For writers that do not survive a full disk.
+/// can tell. Writers that do not survive a full disk need this.
 LAMINA_EXPORT void require_room(const std::filesystem::path& target, std::size_t bytes);
 
 /// Calls write(stream) with a binary stream to `file`, and throws IoError, which names `target`, where the stream has

@@ -24,6 +24,7 @@ inline double squared_distance(const Box& box, Point p) {
     return dx * dx + dy * dy;
 }
 
+/// The tree over the boxes of items, which are numbered by their places in the sequence.
 class BoxTree {
 public:
     explicit BoxTree(std::vector<Box> items) {
@@ -54,8 +55,8 @@ public:
         pairs_within(levels_.size() - 1, 0, visit);
     }
 
-    /// Returns the smallest value of each group of items on every level, from the values of the items: the argument of
-    /// minimum().
+    /// Returns the smallest value of each group of items on every level, from the values of the items. minimum() takes
+    /// the result as `values`.
     std::vector<std::vector<double>> group_minima(std::vector<double> values) const {
         std::vector<std::vector<double>> minima{std::move(values)};
         for (std::size_t level = 1; level < levels_.size(); ++level) {

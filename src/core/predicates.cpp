@@ -265,9 +265,9 @@ private:
 
 /// Sets `sign` to that of incircle() and returns true where the differences are integers; else returns false.
 bool incircle_integer(const Difference& a, const Difference& b, const Difference& c, double& sign) {
-    std::array<std::int64_t, 6> i;
-    if (!to_integers<6>({a.x, a.y, b.x, b.y, c.x, c.y}, i)) return false;
-    const auto [ax, ay, bx, by, cx, cy] = i;
+    std::array<std::int64_t, 6> integers;
+    if (!to_integers<6>({a.x, a.y, b.x, b.y, c.x, c.y}, integers)) return false;
+    const auto [ax, ay, bx, by, cx, cy] = integers;
     Sum256 det;
     det.add_product(product(ax, ax) + product(ay, ay), product(bx, cy) - product(by, cx));
     det.add_product(product(bx, bx) + product(by, by), product(cx, ay) - product(cy, ax));
@@ -333,9 +333,10 @@ double break_tie(const std::array<Point, 4>& p) {
 
 double orient2d_after_filter(Point pa, Point pb, Point pc) {
     const Difference a = difference(pa, pc), b = difference(pb, pc);
-    std::array<std::int64_t, 4> i;
-    if (to_integers<4>({a.x, a.y, b.x, b.y}, i)) {
-        const Int128 left = product(i[0], i[3]), right = product(i[1], i[2]);
+    std::array<std::int64_t, 4> integers;
+    if (to_integers<4>({a.x, a.y, b.x, b.y}, integers)) {
+        const auto [ax, ay, bx, by] = integers;
+        const Int128 left = product(ax, by), right = product(ay, bx);
         return left > right ? 1 : left < right ? -1 : 0;
     }
     const Expansion<4> det_of_heads = cross_expansion(a.x.head, b.y.head, a.y.head, b.x.head);
@@ -356,20 +357,22 @@ double incircle_after_filter(Point a, Point b, Point c, Point d) {
 }
 
 double flattened_turn_after_filter(Point pa, Point pb, Point pc, double cut) {
-    const HeadTail a = two_diff(pa.x, cut), b = two_diff(pb.x, cut), c = two_diff(pc.x, cut);
-    const HeadTail bt = two_diff(pb.y, pa.y), ct = two_diff(pc.y, pa.y);
-    std::array<std::int64_t, 5> i;
-    if (to_integers<5>({a, b, c, bt, ct}, i)) {
-        const Int128 aa = product(i[0], i[0]);
+    const HeadTail ax = two_diff(pa.x, cut), bx = two_diff(pb.x, cut), cx = two_diff(pc.x, cut);
+    const HeadTail by = two_diff(pb.y, pa.y), cy = two_diff(pc.y, pa.y);
+    std::array<std::int64_t, 5> integers;
+    if (to_integers<5>({ax, bx, cx, by, cy}, integers)) {
+        const auto [a_across, b_across, c_across, b_along, c_along] = integers;
+        const Int128 squared_a = product(a_across, a_across);
         Sum256 det;
-        det.add_product(i[3], product(i[2], i[2]) - aa + product(i[4], i[4]));
-        det.add_product(i[4], aa - product(i[1], i[1]) - product(i[3], i[3]));
+        det.add_product(b_along, product(c_across, c_across) - squared_a + product(c_along, c_along));
+        det.add_product(c_along, squared_a - product(b_across, b_across) - product(b_along, b_along));
         return det.sign();
     }
     const auto square = [](const HeadTail& t) { return expansion(t) * expansion(t); };
-    const Expansion<8> aa = square(a);
-    const Expansion<24> b_height = square(b) + -aa + square(bt), c_height = square(c) + -aa + square(ct);
-    return (c_height * expansion(bt) + -(b_height * expansion(ct))).sign();
+    const Expansion<8> squared_a = square(ax);
+    const Expansion<24> b_height = square(bx) + -squared_a + square(by),
+                        c_height = square(cx) + -squared_a + square(cy);
+    return (c_height * expansion(by) + -(b_height * expansion(cy))).sign();
 }
 
 }  // namespace lamina::core

@@ -50,10 +50,10 @@ inline RoundedIncircle rounded_incircle(Point a, Point b, Point c, Point d) {
     const double bc = bd.x * cd.y, cb = cd.x * bd.y;
     const double ca = cd.x * ad.y, ac = ad.x * cd.y;
     const double ab = ad.x * bd.y, ba = bd.x * ad.y;
-    const double al = squared_length(ad), bl = squared_length(bd), cl = squared_length(cd);
-    const double det = al * (bc - cb) + bl * (ca - ac) + cl * (ab - ba);
-    const double permanent =
-        (std::abs(bc) + std::abs(cb)) * al + (std::abs(ca) + std::abs(ac)) * bl + (std::abs(ab) + std::abs(ba)) * cl;
+    const double a_lift = squared_length(ad), b_lift = squared_length(bd), c_lift = squared_length(cd);
+    const double det = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
+    const double permanent = (std::abs(bc) + std::abs(cb)) * a_lift + (std::abs(ca) + std::abs(ac)) * b_lift +
+                             (std::abs(ab) + std::abs(ba)) * c_lift;
     return {det, permanent};
 }
 
@@ -70,15 +70,15 @@ inline double inline_incircle_perturbed(Point a, Point b, Point c, Point d) {
 /// Precondition: a.y < b.y < c.y.
 inline double flattened_turn(Point a, Point b, Point c, double cut) {
     // Heights are relative to that of a, and y to a.y. This adds a linear function of y to the heights, which changes
-    // no turn.
-    const double as = a.x - cut, bs = b.x - cut, cs = c.x - cut;
-    const double bt = b.y - a.y, ct = c.y - a.y;
-    const double b_across = b.x - a.x, c_across = c.x - a.x;
-    const double left = bt * (c_across * (cs + as) + ct * ct);
-    const double right = ct * (b_across * (bs + as) + bt * bt);
+    // no turn. The difference of the squares across the cut is written as a product.
+    const double a_to_cut = a.x - cut, b_to_cut = b.x - cut, c_to_cut = c.x - cut;
+    const double by = b.y - a.y, cy = c.y - a.y;
+    const double bx = b.x - a.x, cx = c.x - a.x;
+    const double left = by * (cx * (c_to_cut + a_to_cut) + cy * cy);
+    const double right = cy * (bx * (b_to_cut + a_to_cut) + by * by);
     const double det = left - right;
-    const double permanent = bt * (std::abs(c_across) * (std::abs(cs) + std::abs(as)) + ct * ct) +
-                             ct * (std::abs(b_across) * (std::abs(bs) + std::abs(as)) + bt * bt);
+    const double permanent = by * (std::abs(cx) * (std::abs(c_to_cut) + std::abs(a_to_cut)) + cy * cy) +
+                             cy * (std::abs(bx) * (std::abs(b_to_cut) + std::abs(a_to_cut)) + by * by);
     if (std::abs(det) > flattened_turn_bound * permanent) return det;
     return flattened_turn_after_filter(a, b, c, cut);
 }
