@@ -1,9 +1,10 @@
-// Points alone are enough. In a triangle with corners v_i of sizes s_i and barycentric coordinates w_i at x
+// Sources that are points suffice to stand for a background mesh. In a triangle with corners v_i of sizes s_i and
+// barycentric coordinates w_i at x, g being the gradation,
 //     min_i (s_i + g |x - v_i|)  <=  sum_i w_i (s_i + g |x - v_i|)  =  interpolated size + g sum_i w_i |x - v_i|,
 // and by Cauchy and Lagrange's identity (sum w_i |x - v_i|)^2 <= sum_(i<j) w_i w_j |v_i - v_j|^2 <= L^2 / 3, L being
-// the longest edge. So a triangle with g L / sqrt 3 within a tenth of its smallest size needs no further points. Other
-// triangles are halved at their longest edge. Points carry interpolated sizes, so none requests less than the mesh
-// does.
+// the longest edge. So a triangle needs no further points if g L / sqrt 3 is at most a tenth of its smallest size.
+// Other triangles are halved at their longest edge. Points carry interpolated sizes, so none requests less than the
+// mesh does.
 #include "sizing/background.hpp"
 
 #include <algorithm>
@@ -53,7 +54,7 @@ public:
         const double ab = squared_distance(a, b), bc = squared_distance(b, c), ca = squared_distance(c, a);
         if (std::max({ab, bc, ca}) <= squared_reach_ * min_size * min_size) return;
         if (!triangle_box(a, b, c).overlaps(domain_)) return;
-        // c-a becomes the longest edge.
+        // Renames the corners so that c-a is the longest edge.
         if (ab >= bc && ab >= ca)
             std::swap(b, c);
         else if (bc >= ca)

@@ -1,6 +1,6 @@
-// Estimates of the number of triangles that sources request. In units of the area of a triangle this is the integral of
-// 1 / h^2. Inside a source of size s it is the area divided by s^2. Beside a border of length L, where h = s + g d at
-// the distance d, the integral up to the reach D is
+// Estimates of the number of triangles that sources request: the integral of 1 / h^2, divided by the area of the
+// equilateral triangle of edge 1. Inside a source of size s the integral is the area divided by s^2. Beside a border of
+// length L, where h = s + g d at the distance d, g being the gradation, the integral up to the distance D is
 //
 //     L D / (s (s + g D)).
 #include <lamina/sizing.hpp>
@@ -17,11 +17,12 @@ namespace lamina::sizing {
 
 namespace {
 
-/// Vertices have 32-bit numbers, and there are twice as many triangles as vertices. The bound is half of
-/// their number, which leaves room for triangles that the estimate does not foresee.
+/// The largest number of triangles that may be requested. Vertices have 32-bit numbers, and there are twice as many
+/// triangles as vertices. Half of these leave room for triangles that the estimate does not foresee.
 constexpr double max_triangles = 4294967296.0;
 
-/// Throws OptionError where this integral of 1 / h^2 is that of more triangles than can be numbered.
+/// Throws OptionError where an integral of 1 / h^2 amounts to more triangles than can be numbered. The message names
+/// the option and its value.
 void require_countable_integral(double inverse_square_integral, const std::string& option, const std::string& value) {
     const double triangles = inverse_square_integral / core::equilateral_area;
     if (triangles <= max_triangles) return;
@@ -30,7 +31,7 @@ void require_countable_integral(double inverse_square_integral, const std::strin
                              core::rounded_text(max_triangles), " can be numbered"));
 }
 
-/// Returns the integral of 1 / h^2 beside a border.
+/// Returns the integral of 1 / h^2 beside a border of this length and size, up to the distance `reach`.
 double integral_beside(double length, double size, double gradation, double reach) {
     return length * reach / (size * (size + gradation * reach));
 }

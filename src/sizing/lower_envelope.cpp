@@ -1,4 +1,5 @@
-// Both walks go down the binary tree of source groups, the likeliest groups first.
+// evaluate() and push() both walk down the binary tree of source groups, and evaluate() looks at the nearest groups
+// first.
 #include "sizing/lower_envelope.hpp"
 
 #include <algorithm>
@@ -19,9 +20,9 @@ double distance(const Box& a, const Box& b) {
 
 }  // namespace
 
-double LowerEnvelope::evaluate(Point p, const Candidates& in, double bound) {
+double LowerEnvelope::evaluate(Point p, const Candidates& candidates, double bound) {
     double best = std::min(bound, max_size_);
-    for (std::size_t i = in.begin; i < in.end; ++i) {
+    for (std::size_t i = candidates.begin; i < candidates.end; ++i) {
         std::uint32_t index = stack_[i];
         for (;;) {
             const SourceGroup& group = groups_[index];
@@ -29,8 +30,8 @@ double LowerEnvelope::evaluate(Point p, const Candidates& in, double bound) {
             const double reach = std::max((best - group.min_size) * inverse_gradation_, 0.0);
             if (group.is_single()) {
                 const SourceShape& shape = shapes_[group.shape];
-                const double squared = shape.squared_distance_to(p), far = reach + shape.radius;
-                if (squared < far * far)
+                const double squared = shape.squared_distance_to(p), limit = reach + shape.radius;
+                if (squared < limit * limit)
                     best =
                         std::min(best, group.min_size + gradation_ * std::max(std::sqrt(squared) - shape.radius, 0.0));
             } else if (core::squared_distance(group.box, p) < reach * reach) {

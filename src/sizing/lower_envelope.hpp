@@ -53,16 +53,16 @@ public:
     /// Removes the topmost candidates.
     void pop(const Candidates& top) { stack_.resize(top.begin); }
     /// Returns the candidates as numbers of their groups.
-    std::vector<std::uint32_t> copy(const Candidates& in) const {
-        return {stack_.begin() + static_cast<std::ptrdiff_t>(in.begin),
-                stack_.begin() + static_cast<std::ptrdiff_t>(in.end)};
+    std::vector<std::uint32_t> copy(const Candidates& candidates) const {
+        return {stack_.begin() + static_cast<std::ptrdiff_t>(candidates.begin),
+                stack_.begin() + static_cast<std::ptrdiff_t>(candidates.end)};
     }
-    bool is_one_source(const Candidates& in) const {
-        return in.end - in.begin == 1 && groups_[stack_[in.begin]].is_single();
+    bool is_one_source(const Candidates& candidates) const {
+        return candidates.end - candidates.begin == 1 && groups_[stack_[candidates.begin]].is_single();
     }
 
     /// Returns the exact field at a point of the candidates' cell. `bound` is an upper bound of it.
-    double evaluate(Point p, const Candidates& in, double bound);
+    double evaluate(Point p, const Candidates& candidates, double bound);
 
 private:
     double gradation_, inverse_gradation_, max_size_;

@@ -15,8 +15,8 @@ namespace lamina::sizing {
 
 namespace {
 
-/// An edge of a border requests at most this multiple of its length / frozen_share. Without a bound a long edge's
-/// excess of a few per cent would be a multiple of the size at a fine edge far away.
+/// An edge of a border requests at most this multiple of its length / frozen_share. Without this bound a long
+/// edge that is too long by a few per cent would raise the size at a fine edge far away to a multiple of it.
 constexpr double max_raise = 2.5;
 
 /// Returns the size that each edge of a border requests. Edges come with their own sizes, length / frozen_share. An
@@ -48,8 +48,8 @@ std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradati
 }
 
 /// Returns a source for each edge of closed borders. It requests the edge's length / frozen_share, raised by
-/// edge_sizes(), or wall_size where that is less. With a larger size triangles many times as large would stand beside
-/// frozen edges.
+/// edge_sizes(), or wall_size where that is less. Larger sizes would put triangles many times as large beside frozen
+/// edges.
 std::vector<SizeSource> border_sources(Loops borders, const SizingOptions& options) {
     std::vector<SizeSource> sources;
     for (const std::vector<Point>& border : borders)
@@ -63,7 +63,7 @@ std::vector<SizeSource> border_sources(Loops borders, const SizingOptions& optio
     return sources;
 }
 
-/// Returns the size that sources request at a point, without a cap.
+/// Returns the size that sources request at a point, whatever the largest size is.
 double size_at(Point p, std::span<const SizeSource> sources, double gradation) {
     double size = HUGE_VAL;
     for (const SizeSource& source : sources) size = std::min(size, source.size + gradation * distance_to(source, p));

@@ -146,21 +146,22 @@ SizeField::Range SizeField::range(const Box& box, double max_ratio) const {
     std::vector<KeyedNode> open{{0, root_shift, 0, 0}};
     Range range{HUGE_VAL, 0};
     while (!open.empty() && !(range.high > max_ratio * range.low)) {
-        const KeyedNode from = open.back();
+        const KeyedNode parent = open.back();
         open.pop_back();
         for (std::uint64_t slot = 0; slot < 16; ++slot) {
-            const std::uint64_t x = from.x + ((slot & 3) << from.shift), y = from.y + ((slot >> 2) << from.shift);
-            const std::uint64_t last = (std::uint64_t{1} << from.shift) - 1;
+            const std::uint64_t x = parent.x + ((slot & 3) << parent.shift),
+                                y = parent.y + ((slot >> 2) << parent.shift);
+            const std::uint64_t last = (std::uint64_t{1} << parent.shift) - 1;
             if (x > upper.x || x + last < lower.x || y > upper.y || y + last < lower.y) continue;
-            const std::uint32_t entry = tree.nodes[from.node][slot];
+            const std::uint32_t entry = tree.nodes[parent.node][slot];
             if ((entry & leaf_bit) == 0) {
-                open.push_back({entry, from.shift - 2, x, y});
+                open.push_back({entry, parent.shift - 2, x, y});
                 continue;
             }
             // The extremes of a bilinear function over a rectangle are at its corners.
             for (const std::uint64_t at_x : {std::max(x, lower.x), std::min(x + last, upper.x)})
                 for (const std::uint64_t at_y : {std::max(y, lower.y), std::min(y + last, upper.y)}) {
-                    const double h = tree.value(entry, from.shift, {at_x, at_y});
+                    const double h = tree.value(entry, parent.shift, {at_x, at_y});
                     range = {std::min(range.low, h), std::max(range.high, h)};
                 }
         }
@@ -183,19 +184,19 @@ double SizeField::inverse_square_integral() const {
     std::vector<PlacedNode> open{{0, tree.domain.lower, 0.25 * tree.side}};
     double sum = 0;
     while (!open.empty()) {
-        const PlacedNode from = open.back();
+        const PlacedNode parent = open.back();
         open.pop_back();
         for (unsigned slot = 0; slot < 16; ++slot) {
-            const Point lower = from.lower + from.slot_side * Point{double(slot & 3), double(slot >> 2)};
-            const std::uint32_t entry = tree.nodes[from.node][slot];
+            const Point lower = parent.lower + parent.slot_side * Point{double(slot & 3), double(slot >> 2)};
+            const std::uint32_t entry = tree.nodes[parent.node][slot];
             if ((entry & leaf_bit) == 0) {
-                open.push_back({entry, lower, 0.25 * from.slot_side});
+                open.push_back({entry, lower, 0.25 * parent.slot_side});
                 continue;
             }
             // A leaf that fills four slots counts in each of them with the mean over its own corners.
             double mean = 0;
             for (const double h : tree.leaves[entry & index_mask]) mean += 0.25 / (tree.side * h * tree.side * h);
-            sum += area_in_domain(lower, from.slot_side) * mean;
+            sum += area_in_domain(lower, parent.slot_side) * mean;
         }
     }
     return sum;

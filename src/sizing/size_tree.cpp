@@ -75,20 +75,20 @@ public:
 
     /// Makes the node of one cell. Its quarters that need nodes of their own become tasks.
     void expand(const Task& task, std::vector<Task>& tasks) {
-        make_node(
-            task.cell, envelope_.push_copy(task.candidates), task.samples,
-            [&](std::uint32_t node, int slot, const TreeCell& quarter, const Candidates& in, const CellSamples& s) {
-                tasks.push_back({quarter, envelope_.copy(in), s, node, static_cast<std::uint32_t>(slot)});
-            });
+        make_node(task.cell, envelope_.push_copy(task.candidates), task.samples,
+                  [&](std::uint32_t node, int slot, const TreeCell& quarter, const Candidates& candidates,
+                      const CellSamples& s) {
+                      tasks.push_back({quarter, envelope_.copy(candidates), s, node, static_cast<std::uint32_t>(slot)});
+                  });
     }
 
     /// Makes all nodes below a cell. The cell's own node is the first.
     void finish(const Task& task) { make_nodes(task.cell, envelope_.push_copy(task.candidates), task.samples); }
 
-    SizeTree part;
+    SizeTree part;  ///< the nodes and leaves made so far
 
 private:
-    CellSamples sample(const TreeCell& c, const Candidates& in) {
+    CellSamples sample(const TreeCell& c, const Candidates& candidates) {
         const double x0 = c.lower.x, x1 = x0 + 0.5 * c.side, x2 = x0 + c.side;
         const double y0 = c.lower.y, y1 = y0 + 0.5 * c.side, y2 = y0 + c.side;
         // Over half a side the field grows by no more than this.
@@ -96,11 +96,11 @@ private:
             return (std::min(a, b) + 0.5 * gradation_ * c.side) * (1 + rounding);
         };
         CellSamples s;
-        s.south = envelope_.evaluate({x1, y0}, in, bound(c.h[0], c.h[1]));
-        s.west = envelope_.evaluate({x0, y1}, in, bound(c.h[0], c.h[2]));
-        s.center = envelope_.evaluate({x1, y1}, in, bound(s.south, s.west));
-        s.east = envelope_.evaluate({x2, y1}, in, bound(c.h[1], c.h[3]));
-        s.north = envelope_.evaluate({x1, y2}, in, bound(c.h[2], c.h[3]));
+        s.south = envelope_.evaluate({x1, y0}, candidates, bound(c.h[0], c.h[1]));
+        s.west = envelope_.evaluate({x0, y1}, candidates, bound(c.h[0], c.h[2]));
+        s.center = envelope_.evaluate({x1, y1}, candidates, bound(s.south, s.west));
+        s.east = envelope_.evaluate({x2, y1}, candidates, bound(c.h[1], c.h[3]));
+        s.north = envelope_.evaluate({x1, y2}, candidates, bound(c.h[2], c.h[3]));
         return s;
     }
 
@@ -110,30 +110,30 @@ private:
         return envelope_.push(c.box(), c.side, max_in_cell, parent);
     }
 
-    bool needs_no_samples(const TreeCell& c, const Candidates& in) const {
-        return in.empty() || in.constant || c.level == max_level ||
+    bool needs_no_samples(const TreeCell& c, const Candidates& candidates) const {
+        return candidates.empty() || candidates.constant || c.level == max_level ||
                sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.min_h();
     }
 
     /// Returns whether the samples show that bilinear interpolation is close enough. Samples count only away from the
     /// sources. Where ridges and bends might cancel out at the five samples, four more are taken.
-    bool is_smooth(const TreeCell& c, const Candidates& in, const CellSamples& s) {
+    bool is_smooth(const TreeCell& c, const Candidates& candidates, const CellSamples& s) {
         const auto close = [](double interpolated, double exact) {
             return std::abs(interpolated - exact) <= sample_tolerance * exact;
         };
         const auto mean = [](double a, double b) { return 0.5 * (a + b); };
         const double west = mean(c.h[0], c.h[2]), east = mean(c.h[1], c.h[3]);
-        if (!(in.nearest >= 0.5 * c.side && close(mean(c.h[0], c.h[1]), s.south) && close(west, s.west) &&
+        if (!(candidates.nearest >= 0.5 * c.side && close(mean(c.h[0], c.h[1]), s.south) && close(west, s.west) &&
               close(east, s.east) && close(mean(c.h[2], c.h[3]), s.north) && close(mean(west, east), s.center)))
             return false;
-        const double bend = gradation_ * c.side * c.side / (8 * in.nearest);
-        if (envelope_.is_one_source(in) || bend <= sample_tolerance * c.min_h()) return true;
+        const double bend = gradation_ * c.side * c.side / (8 * candidates.nearest);
+        if (envelope_.is_one_source(candidates) || bend <= sample_tolerance * c.min_h()) return true;
         for (int q = 0; q < 4; ++q) {
             const double u = (q & 1) != 0 ? 0.75 : 0.25, v = (q >> 1) != 0 ? 0.75 : 0.25;
             const double low = c.h[0] + u * (c.h[1] - c.h[0]), high = c.h[2] + u * (c.h[3] - c.h[2]);
             const Point p{c.lower.x + u * c.side, c.lower.y + v * c.side};
             const double bound = (c.h[q] + 0.5 * sqrt_half * gradation_ * c.side) * (1 + rounding);
-            if (!close(low + v * (high - low), envelope_.evaluate(p, in, bound))) return false;
+            if (!close(low + v * (high - low), envelope_.evaluate(p, candidates, bound))) return false;
         }
         return true;
     }
@@ -158,21 +158,21 @@ private:
 
     /// Calls on_leaf(quadrant, its cell) or on_inner(quadrant, its cell, candidates, samples) for the four quadrants.
     template <class OnLeaf, class OnInner>
-    void split(const TreeCell& parent, const Candidates& candidates, const CellSamples& samples, OnLeaf on_leaf,
+    void split(const TreeCell& parent, const Candidates& parent_candidates, const CellSamples& samples, OnLeaf on_leaf,
                OnInner on_inner) {
         for (int q = 0; q < 4; ++q) {
             const TreeCell c = quadrant(parent, samples, q);
-            const Candidates in = push_candidates(c, candidates);
-            if (needs_no_samples(c, in)) {
+            const Candidates candidates = push_candidates(c, parent_candidates);
+            if (needs_no_samples(c, candidates)) {
                 on_leaf(q, c);
             } else {
-                const CellSamples s = sample(c, in);
-                if (is_smooth(c, in, s))
+                const CellSamples s = sample(c, candidates);
+                if (is_smooth(c, candidates, s))
                     on_leaf(q, c);
                 else
-                    on_inner(q, c, in, s);
+                    on_inner(q, c, candidates, s);
             }
-            envelope_.pop(in);
+            envelope_.pop(candidates);
         }
     }
 
@@ -194,8 +194,8 @@ private:
                 split(
                     half, half_candidates, half_samples,
                     [&](int r, const TreeCell& quarter) { part.nodes[node][slot(q, r)] = add_leaf(quarter); },
-                    [&](int r, const TreeCell& quarter, const Candidates& in, const CellSamples& s) {
-                        on_inner(node, slot(q, r), quarter, in, s);
+                    [&](int r, const TreeCell& quarter, const Candidates& quarter_candidates, const CellSamples& s) {
+                        on_inner(node, slot(q, r), quarter, quarter_candidates, s);
                     });
             });
         return node;
@@ -204,12 +204,12 @@ private:
     /// Makes the wide node of a cell and all nodes below it, and returns its index. The recursion is at most max_level
     /// deep.
     std::uint32_t make_nodes(const TreeCell& cell, const Candidates& candidates, const CellSamples& samples) {
-        return make_node(
-            cell, candidates, samples,
-            [&](std::uint32_t node, int slot, const TreeCell& quarter, const Candidates& in, const CellSamples& s) {
-                const std::uint32_t below = make_nodes(quarter, in, s);
-                part.nodes[node][slot] = below;
-            });
+        return make_node(cell, candidates, samples,
+                         [&](std::uint32_t node, int slot, const TreeCell& quarter,
+                             const Candidates& quarter_candidates, const CellSamples& s) {
+                             const std::uint32_t below = make_nodes(quarter, quarter_candidates, s);
+                             part.nodes[node][slot] = below;
+                         });
     }
 
     LowerEnvelope envelope_;

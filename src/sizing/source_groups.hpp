@@ -46,7 +46,7 @@ struct SourceGroup {
     double extent() const { return std::max(box.width(), box.height()); }
 };
 
-/// The first group is the root.
+/// A binary tree of groups of sources. The first group is the root.
 struct SourceTree {
     std::vector<SourceGroup> groups;
     std::vector<SourceShape> shapes;

@@ -49,19 +49,20 @@ SizeSource parse_size_source(const std::string& text) {
     const std::size_t count = shape == "box" || shape == "line" ? 5 : shape == "circle" ? 4 : 0;
     require(count > 0 && colon < text.size(), text,
             "a shape is box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H");
-    const std::vector<double> n = core::parse_numbers(text.substr(colon + 1), ',');
-    require(n.size() == count, text, core::concat("a ", shape, " takes ", count, " numbers, not ", n.size()));
-    require(n.back() > 0, text, "the edge length must be > 0");
+    const std::vector<double> numbers = core::parse_numbers(text.substr(colon + 1), ',');
+    require(numbers.size() == count, text,
+            core::concat("a ", shape, " takes ", count, " numbers, not ", numbers.size()));
+    require(numbers.back() > 0, text, "the edge length must be > 0");
     if (shape == "circle") {
-        require(n[2] > 0, text, "the radius must be > 0");
-        return {.a = {n[0], n[1]}, .b = {n[0], n[1]}, .size = n[3], .radius = n[2]};
+        require(numbers[2] > 0, text, "the radius must be > 0");
+        return {.a = {numbers[0], numbers[1]}, .b = {numbers[0], numbers[1]}, .size = numbers[3], .radius = numbers[2]};
     }
-    const Point a{n[0], n[1]}, b{n[2], n[3]};
-    if (shape == "line") return {.a = a, .b = b, .size = n[4]};
+    const Point a{numbers[0], numbers[1]}, b{numbers[2], numbers[3]};
+    if (shape == "line") return {.a = a, .b = b, .size = numbers[4]};
     Box box;
     box.include(a);
     box.include(b);
-    return {.a = box.lower, .b = box.upper, .size = n[4], .shape = SizeSource::Shape::box};
+    return {.a = box.lower, .b = box.upper, .size = numbers[4], .shape = SizeSource::Shape::box};
 }
 
 std::string size_source_text(const SizeSource& source) {

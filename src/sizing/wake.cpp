@@ -17,7 +17,7 @@ constexpr double size_ratio = 1.05;
 
 /// Returns the length, at most `length`, up to which the ray from p meets no wall that p does not lie on.
 double free_length(Loops walls, Point p, Point direction, double length) {
-    const double touching = 1e-9 * length;
+    const double touching = 1e-9 * length;  // walls nearer than this are those that p lies on
     for (const std::vector<Point>& wall : walls) {
         for (std::size_t i = 0; i < wall.size(); ++i) {
             const Point a = wall[i] - p, b = wall[(i + 1) % wall.size()] - p;
@@ -45,11 +45,11 @@ std::vector<Wake> find_wakes(const SizedBodies& bodies, const WakeOptions& optio
 std::vector<SizeSource> wake_sources(const Wake& wake, double size, double gradation) {
     const double growth = growth_share * gradation;
     std::vector<SizeSource> sources;
-    for (double at = 0; at < wake.length;) {
-        const double next = std::min(at + (size_ratio - 1) * size / growth, wake.length);
-        sources.push_back({wake.from + at * wake.direction, wake.from + next * wake.direction, size});
+    for (double begin = 0; begin < wake.length;) {
+        const double end = std::min(begin + (size_ratio - 1) * size / growth, wake.length);
+        sources.push_back({wake.from + begin * wake.direction, wake.from + end * wake.direction, size});
         size *= size_ratio;
-        at = next;
+        begin = end;
     }
     return sources;
 }
