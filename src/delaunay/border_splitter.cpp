@@ -1,4 +1,4 @@
-// Each round finds the subsegments to split part by part, in parallel, and then splits them one by one.
+// A round looks for subsegments that must be split, in all parts in parallel, and then splits them one by one.
 #include "delaunay/border_splitter.hpp"
 
 #include <algorithm>
@@ -37,10 +37,10 @@ Point BorderSplitter::division_point(Index a, Index b) const {
     const bool from_a = is_acute_at(a), from_b = is_acute_at(b);
     if (from_a == from_b) return midpoint(point(a), point(b));
     const Point corner = point(from_a ? a : b), far = point(from_a ? b : a);
-    const double l = distance(corner, far);
+    const double whole = distance(corner, far);
     int exponent = 0;
-    std::frexp(l * (2.0 / 3.0), &exponent);
-    return corner + (std::ldexp(0.5, exponent) / l) * (far - corner);
+    std::frexp(whole * (2.0 / 3.0), &exponent);
+    return corner + (std::ldexp(0.5, exponent) / whole) * (far - corner);
 }
 
 /// Splits a subsegment. Returns false if it is too short.

@@ -14,6 +14,7 @@
 
 namespace lamina::delaunay {
 
+/// The number of random rounds.
 inline constexpr unsigned brio_rounds = 16;
 
 /// Returns the random round that the point of this number is inserted in. The last round holds three quarters of all

@@ -55,7 +55,7 @@ private:
 struct Cavity {
     /// An edge a -> b that find_cavity() has yet to look across, with coordinates relative to the new point p.
     struct PendingEdge {
-        Link outer;
+        Link outer;  ///< the triangle to look at
         Index a;
         double ax, ay, aa;  ///< a - p and its squared length
         double bx, by, bb;  ///< b - p and its squared length
@@ -106,8 +106,8 @@ inline bool in_ghost_circle(const Point* points, const Tri& t, unsigned g, Point
 }
 
 /// The error of a rounded incircle determinant is at most this times s^2, where s is the sum of the squared distances
-/// of the triangle's vertices from the point: it is at most (10 + 96 eps) eps times the permanent, which is at most s^2
-/// / 3.
+/// of the triangle's vertices from the point: it is at most (10 + 96 eps) eps times the permanent, which in turn is at
+/// most a third of s^2.
 inline constexpr double incircle_error = 4e-16;
 
 /// Returns whether p lies in the circle of t, where the filter of find_cavity() could not tell.

@@ -27,16 +27,16 @@ std::vector<Segment> segments_of(const std::vector<SegmentPiece>& pieces) {
 }
 
 /// Triangulates points and segments that do not cross.
-TriangulatedPieces insert_disjoint(std::span<const Point> points, std::span<const Segment> segments) {
+TriangulatedPieces triangulate_planar(std::span<const Point> points, std::span<const Segment> segments) {
     Tris tris = triangulate_points(points);
     std::vector<SegmentPiece> pieces = insert_and_split_segments(points, segments, tris);
     return {std::move(tris), std::move(pieces)};
 }
 
 /// Triangulates points and segments that may cross. `steiner_points` receives the crossing points.
-TriangulatedPieces insert_crossing(std::span<const Point> points, std::span<const Segment> segments,
-                                   std::vector<Point>& steiner_points) {
-    // Refuses duplicate points and bad segments before it looks for crossings.
+TriangulatedPieces triangulate_crossing(std::span<const Point> points, std::span<const Segment> segments,
+                                        std::vector<Point>& steiner_points) {
+    // These calls refuse duplicate points and bad segments before crossings are looked for.
     Tris tris = triangulate_points(points);
     check_segments(points, segments, tris);
     PlanarSegments planar = planarize(points, segments);
@@ -57,7 +57,7 @@ TriangleSelection select_kept(const TriangulatedPieces& triangulated, KeptRegion
 /// Fills ConstrainedTriangulation::segments and ::parents with the edges of the kept triangles that are pieces of
 /// segments, each edge once.
 void list_segments(const Tris& kept, const std::vector<SegmentPiece>& pieces, ConstrainedTriangulation& result) {
-    // Constrained edges and borders, since constrained edges on the boundary of the kept triangles became borders.
+    // Borders count, too: constrained edges on the boundary of the kept triangles became borders.
     std::vector<std::uint64_t> edges;
     for (const Tri& t : kept)
         for (unsigned e = 0; e < 3; ++e)
@@ -87,8 +87,8 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
                                      const ConstrainedOptions& options) {
     ConstrainedTriangulation result;
     const TriangulatedPieces triangulated = options.crossings == Crossings::insert
-                                                ? insert_crossing(points, segments, result.steiner_points)
-                                                : insert_disjoint(points, segments);
+                                                ? triangulate_crossing(points, segments, result.steiner_points)
+                                                : triangulate_planar(points, segments);
     std::vector<Point> all;
     if (!result.steiner_points.empty()) {
         all.assign(points.begin(), points.end());

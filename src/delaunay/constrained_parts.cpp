@@ -42,6 +42,7 @@ std::pair<Index, Index> ends_of(const ConstrainedTriangulation& t, Index edge) {
     return {triangle.v[next(edge % 3)].value, triangle.v[previous(edge % 3)].value};
 }
 
+/// Returns EdgeTable::opposite.
 std::vector<Index> find_opposite_edges(const ConstrainedTriangulation& t) {
     const auto directed_key = [](Index a, Index b) { return std::uint64_t{a} << 32 | b; };
     const auto edge_count = static_cast<Index>(3 * t.triangles.size());
@@ -60,7 +61,7 @@ std::vector<Index> find_opposite_edges(const ConstrainedTriangulation& t) {
     return opposite;
 }
 
-/// Returns the border that each edge is, and appends the borders.
+/// Appends the borders of the triangulation. Returns EdgeTable::border.
 std::vector<Index> find_borders(const ConstrainedTriangulation& t, const std::vector<Index>& opposite,
                                 std::vector<PartBorder>& borders) {
     std::vector<KeyedIndex> segments;

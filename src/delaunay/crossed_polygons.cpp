@@ -1,3 +1,4 @@
+// Each polygon is filled with triangles from its base on.
 // Source: M. V. Anglada, An improved incremental algorithm for constructing restricted Delaunay triangulations,
 // Computers & Graphics 21 (1997). The opposite vertex of each base is chosen with the perturbed incircle test, so the
 // result obeys the one tie rule.
@@ -94,7 +95,7 @@ Link CrossedPolygons::fill_chain() {
 ///       ../       \..
 ///      low ------- high
 Link CrossedPolygons::fill_short_chain() {
-    Link top = Link::border();
+    Link at_base = Link::border();
     ranges_.assign(1, {0, chain_.size(), Link::border()});
     while (!ranges_.empty()) {
         const ChainRange r = ranges_.back();
@@ -109,7 +110,7 @@ Link CrossedPolygons::fill_short_chain() {
             at_vertex_[v[i]] = t;
         }
         if (r.base.is_border())
-            top = Link(t, 2);
+            at_base = Link(t, 2);
         else
             connect(tris_, t, 2, r.base);
         if (r.high == k + 1)
@@ -121,7 +122,7 @@ Link CrossedPolygons::fill_short_chain() {
         else
             ranges_.push_back({r.low, k, Link(t, 1)});
     }
-    return top;
+    return at_base;
 }
 
 /// Returns the index in vertices_, strictly between low and high, of the vertex that forms a triangle with low -> high:
@@ -180,7 +181,7 @@ Link CrossedPolygons::fill_long_chain() {
     for (std::size_t i = 0; i < border.size(); ++i) border_index.push_back({border[i], static_cast<Index>(i)});
     std::sort(border_index.begin(), border_index.end());
     const std::vector<Index> places = replace_crossed(inside, global);
-    Link top = Link::border();
+    Link at_base = Link::border();
     for (std::size_t i = 0; i < inside.size(); ++i)
         for (unsigned e = 0; e < 3; ++e) {
             if (!inside[i].n[e].is_constrained()) continue;
@@ -188,11 +189,11 @@ Link CrossedPolygons::fill_long_chain() {
             const Index index =
                 std::lower_bound(border_index.begin(), border_index.end(), std::pair{edge, Index{0}})->second;
             if (index + 1 == border.size())
-                top = Link(places[i], e);
+                at_base = Link(places[i], e);
             else
                 attach(chain_[index], places[i], e);
         }
-    return top;
+    return at_base;
 }
 
 /// Copies the triangles inside a polygon to the places at the end of crossed_, in global numbers, with links between

@@ -80,7 +80,7 @@ struct DivisionLimits {
     /// If all edges are shorter than this, the mean of h at the corners is taken for h in the middle.
     double short_edge;
     /// Longer edges are halved. A source inside the triangle lowers h up to a distance of h / gradation, and parts have
-    /// to be small, compared to the whole piece, to tell which side of a line they lie on.
+    /// to be small, compared to the whole region, to tell on which side of a separator they lie.
     double long_edge;
     /// Triangles of a smaller area need not be divided for their long edges: they hold too few triangles to matter.
     double small_area;
@@ -88,7 +88,7 @@ struct DivisionLimits {
 
 DivisionLimits division_limits(const SizeField& size, std::size_t border_points) {
     const double reach = 1 / size.gradation(), border = static_cast<double>(border_points);
-    // A piece is about border / 4 edges wide. Parts may be up to a tenth of that wide, or hold 0.05 % of the piece.
+    // A region is about border / 4 edges wide. Parts may be up to a tenth of that wide, or hold 0.05 % of the region.
     return {std::clamp(0.3 * reach, 1.0, 40.0), std::clamp(1.6 * reach, 16.0, std::max(40.0, border / 40)),
             std::clamp(3e-5 * border * border, 4.0, 64.0)};
 }
@@ -115,7 +115,7 @@ public:
             parts_.push_back(make_part(a, b, c, inside, size_.gradation()));
             return;
         }
-        // Afterwards c-a is the longest edge.
+        // Renames the corners so that c-a is the longest edge.
         if (ab >= bc && ab >= ca)
             std::swap(b, c);
         else if (bc >= ca)

@@ -13,8 +13,8 @@
 
 namespace lamina::delaunay {
 
-/// Returns the estimated number of triangles in a region that is far larger than they are, and in which h grows by
-/// `gradient` per unit of distance.
+/// Returns the estimated number of triangles in a region of this area and this mean of 1 / h^2. The region is far
+/// larger than its triangles, and h grows in it by `gradient` per unit of distance.
 LAMINA_EXPORT double estimated_triangles(double area, double mean_inverse_square_size, double gradient);
 
 /// A point that stands for some of the estimated triangles.

@@ -28,7 +28,8 @@ struct SegmentPiece {
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
                                                     Tris& tris);
 
-/// Does the same with a triangle at each vertex at hand, and keeps `at_vertex` up to date.
+/// Does the same without a search of all triangles: `at_vertex` holds a triangle at each vertex, as
+/// triangle_at_vertex() returns them, and is kept up to date.
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
                                                     Tris& tris, std::vector<Index>& at_vertex);
 

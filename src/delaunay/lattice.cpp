@@ -90,12 +90,12 @@ std::vector<double> choose_levels(double low, double high, std::vector<LatticeBl
 
 /// Adds the vertices inside the block whose size is in [low, high), the sizes of the grid's level.
 void set_block(LatticeGrid& grid, const LatticeBlock& block, const SizeField& size, double low, double high) {
-    const bool all = block.first_level == block.last_level;
+    const bool has_one_level = block.first_level == block.last_level;
     const auto [first_row, last_row] = grid.rows_between(block.box.lower.y, block.box.upper.y);
     for (LatticeRow j = first_row; j < last_row; ++j) {
         const auto [first, last] = grid.columns_between(j, block.box.lower.x, block.box.upper.x);
         LatticeWord* row = grid.row(j);
-        if (all) {
+        if (has_one_level) {
             for_columns(first, last, [&](std::size_t w, LatticeWord mask) { row[w] |= mask; });
             continue;
         }
@@ -116,7 +116,7 @@ std::vector<LatticeGrid> make_grids(const std::vector<LatticeBlock>& blocks, con
     return grids;
 }
 
-/// Returns the number of vertices that the boxes of all grids have room for, about.
+/// Returns the number of vertices that the boxes of all grids have room for, about: one bit of memory each.
 double grid_capacity(const std::vector<LatticeGrid>& grids) {
     double bits = 0;
     for (const LatticeGrid& grid : grids)

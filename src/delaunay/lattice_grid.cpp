@@ -61,8 +61,8 @@ void clear_near(LatticeGrid& grid, Point a, Point b, double margin) {
         };
         double x0 = x_at(y - margin), x1 = x_at(y + margin);
         if (height == 0) x1 = high.x;
-        const double off = std::max({0.0, low.y - y, y - high.y});
-        const double reach = std::sqrt(std::max(0.0, margin * margin - off * off));
+        const double y_distance = std::max({0.0, low.y - y, y - high.y});
+        const double reach = std::sqrt(std::max(0.0, margin * margin - y_distance * y_distance));
         const auto [first, last] = grid.columns_between(j, std::min(x0, x1) - reach, std::max(x0, x1) + reach);
         LatticeWord* row = grid.row(j);
         for_columns(first, last, [&](std::size_t w, LatticeWord mask) { row[w] &= ~mask; });

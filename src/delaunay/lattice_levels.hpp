@@ -6,7 +6,7 @@
 namespace lamina::delaunay {
 
 /// Lattice edges are at most this share of h. Triangles with edges of 1 h would just obey the size bound wherever they
-/// lie; the rest lets refinement close the seams beside them (docs/decisions/0002).
+/// lie; the remaining 3 % let refinement close the seams beside them (docs/decisions/0002).
 inline constexpr double lattice_share = 0.97;
 /// The ratio of the edge lengths of successive levels: sqrt(4/3), a third in area.
 inline constexpr double level_ratio = 1.1547005383792517;

@@ -56,12 +56,12 @@ enum class Combine { all, any };
 template <Combine combine>
 Word combine_neighbours(const RowTriple& rows, std::size_t w) {
     const auto& [here, below, above, words, odd] = rows;
-    const Word n[6] = {from_left(here, w), from_right(here, w, words),
-                       below[w],           odd ? from_right(below, w, words) : from_left(below, w),
-                       above[w],           odd ? from_right(above, w, words) : from_left(above, w)};
-    Word r = here[w];
-    for (Word x : n) r = combine == Combine::all ? r & x : r | x;
-    return r;
+    const Word neighbours[6] = {from_left(here, w), from_right(here, w, words),
+                                below[w],           odd ? from_right(below, w, words) : from_left(below, w),
+                                above[w],           odd ? from_right(above, w, words) : from_left(above, w)};
+    Word result = here[w];
+    for (Word bits : neighbours) result = combine == Combine::all ? result & bits : result | bits;
+    return result;
 }
 
 /// Returns the vertices that are set together with all of their neighbours (erosion), or the vertices and all
@@ -123,10 +123,10 @@ void append_row(const LatticeGrid& grid, const PatchVertices& patch, Row j, std:
 /// Appends the triangles between rows j (`here`) and j + 1 (`above`), and those of their edges across which the patch
 /// has no triangle. Boundary edges are directed with the seam on their left, against the triangle.
 ///
-///        C ------- D     row j + 1     The triangle up (i) has A = i and B = i + 1 in row j; its apex C is in
-///       /  \      /                    column i of row j + 1, or i + 1 if row j is odd.
-///      /    \    /                     The triangle down (i) has C = i and D = i + 1 in row j + 1; its apex B is
-///     A ----- B          row j         in column i + 1 of row j, or i if row j is odd.
+///        C ------- D      row j + 1      The triangle up (i) has A = i and B = i + 1 in row j; its apex C is in
+///       /  \      /                      column i of row j + 1, or i + 1 if row j is odd.
+///      /    \    /                       The triangle down (i) has C = i and D = i + 1 in row j + 1; its apex B
+///     A ----- B           row j          is in column i + 1 of row j, or i if row j is odd.
 void append_strip(const LatticeGrid& grid, const TriangleBits& bits, Row j, const std::vector<std::uint32_t>& here,
                   const std::vector<std::uint32_t>& above, LatticePatches& patches) {
     const std::size_t words = grid.words, base = static_cast<std::size_t>(j) * words;

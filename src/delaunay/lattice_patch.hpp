@@ -26,8 +26,9 @@ struct PatchVertices {
     std::vector<LatticeWord> all;      ///< the centres and their neighbours
 };
 
-/// Opens the grid's vertices by hexagons two rows wide, which leaves neither thin fingers nor crumbs, and peels the
-/// collar off. Afterwards the grid holds the vertices of the patch and of the collar. Returns those of the patch.
+/// Removes the vertices of the grid that lie in no hexagon of vertices with sides of two edges (a morphological
+/// opening), so that neither thin fingers nor crumbs are left, and peels the collar off. Afterwards the grid holds the
+/// vertices of the patch and of the collar. Returns those of the patch.
 PatchVertices open_patch(LatticeGrid& grid);
 
 /// Appends the vertices of the grid, and the triangles, boundary and collar of its patch.

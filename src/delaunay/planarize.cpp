@@ -100,8 +100,8 @@ private:
 /// edges from being cut without end.
 bool divides(Point a, Point b, Point p, double tolerance) {
     const double ab = squared_length(b - a);
-    const double off = cross(b - a, p - a);
-    return off * off <= tolerance * tolerance * ab && dot(p - a, p - b) < 0 && squared_length(p - a) < ab &&
+    const double area2 = cross(b - a, p - a);
+    return area2 * area2 <= tolerance * tolerance * ab && dot(p - a, p - b) < 0 && squared_length(p - a) < ab &&
            squared_length(p - b) < ab;
 }
 

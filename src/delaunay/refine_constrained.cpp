@@ -49,7 +49,7 @@ public:
         : parts_(parts), subsegments_(list(parts, part)), circles_(boxes()) {}
 
     /// Appends the subsegments that keep a point at `centre` from mending a triangle round `inside`: the first one on
-    /// the straight way from there to the centre or, if there is none, those that the centre encroaches upon.
+    /// the straight way from `inside` to `centre` or, if there is none, those that `centre` encroaches upon.
     void find_blocking(Point inside, Point centre, std::vector<Subsegment>& found) const {
         Box box;
         box.include(inside);
@@ -60,10 +60,10 @@ public:
         circles_.overlaps(box, [&](std::size_t i) {
             const auto [a, b] = ends(subsegments_[i]);
             if (dot(a - centre, b - centre) <= 0) encroached.push_back(subsegments_[i]);
-            const double from = cross(b - a, inside - a), to = cross(b - a, centre - a);
-            const double left = cross(centre - inside, a - inside), right = cross(centre - inside, b - inside);
-            if ((from > 0) == (to > 0) || (left > 0) == (right > 0)) return;
-            if (const double share = from / (from - to); share < min_share) {
+            const double inside_side = cross(b - a, inside - a), centre_side = cross(b - a, centre - a);
+            const double a_side = cross(centre - inside, a - inside), b_side = cross(centre - inside, b - inside);
+            if ((inside_side > 0) == (centre_side > 0) || (a_side > 0) == (b_side > 0)) return;
+            if (const double share = inside_side / (inside_side - centre_side); share < min_share) {
                 min_share = share;
                 first = subsegments_[i];
             }

@@ -71,14 +71,14 @@ public:
     void run() {
         for (Index t = 0; t < tris_.size(); ++t) classify(t);
         for (;;) {
-            QueuedTriangle w;
+            QueuedTriangle entry;
             if (!oversized_.empty()) {
                 if (oversized_.size() > purge_at_) purge();
-                w = oversized_.back();
+                entry = oversized_.back();
                 oversized_.pop_back();
-                if (is_current(w)) mend_size(w.triangle);
-            } else if (narrow_.pop(w)) {
-                if (is_current(w)) mend_angle(w.triangle);
+                if (is_current(entry)) mend_size(entry.triangle);
+            } else if (narrow_.pop(entry)) {
+                if (is_current(entry)) mend_angle(entry.triangle);
             } else {
                 return;
             }
@@ -141,20 +141,20 @@ private:
     void classify(Index t) {
         const Shape s = shape_of(tris_[t]);
         const double shortest = s.squared[s.shortest()];
-        const QueuedTriangle w{t, tris_[t].v[0]};
+        const QueuedTriangle entry{t, tris_[t].v[0]};
         if (s.area2 > area2_bound(tris_[t]))
-            oversized_.push_back(w);
+            oversized_.push_back(entry);
         else if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2))
-            narrow_.push(w, shortest);
+            narrow_.push(entry, shortest);
     }
 
     /// Removes the stale entries of the stack, which would lie there until the end; the others keep their order.
     void purge() {
-        std::erase_if(oversized_, [&](QueuedTriangle w) { return !is_current(w); });
+        std::erase_if(oversized_, [&](QueuedTriangle entry) { return !is_current(entry); });
         purge_at_ = std::max(min_purge_size, 2 * oversized_.size());
     }
 
-    bool is_current(QueuedTriangle w) const { return tris_[w.triangle].v[0] == w.newest; }
+    bool is_current(QueuedTriangle entry) const { return tris_[entry.triangle].v[0] == entry.newest; }
 
     /// Returns the point on the perpendicular bisector of edge e that lies `height` edge lengths above its middle, but
     /// never beyond the circumcentre. All points from the middle to the circumcentre lie in the circumscribed circle.
@@ -183,8 +183,8 @@ private:
     /// Places the off-centre of the shortest edge.
     void mend_angle(Index t) { insert_near(t, shape_of(tris_[t]).shortest(), off_centre_); }
 
-    /// Inserts the point of on_bisector(). If that would encroach upon the border, inserts the circumcentre instead,
-    /// which keeps the distance from the border that the guarantee for frozen borders is about (docs/decisions/0003).
+    /// Inserts the point of on_bisector(). If that would encroach upon the border, inserts the circumcentre instead, on
+    /// whose distance from the border the guarantee for frozen borders rests (docs/decisions/0003).
     void insert_near(Index t, unsigned e, double height) {
         const Point p = on_bisector(tris_[t], e, height);
         if (insert(t, p)) return;
@@ -245,12 +245,12 @@ private:
             const double sum = h + sizes_[a.a] + sizes_[b.a];
             const double ex = b.ax - a.ax, ey = b.ay - a.ay;
             const double ab = ex * ex + ey * ey;
-            const QueuedTriangle w{cavity_.created(i, old_count), vertex};
+            const QueuedTriangle entry{cavity_.created(i, old_count), vertex};
             if (a.area2 > area2_per_squared_sum * (sum * sum)) {
-                oversized_.push_back(w);
+                oversized_.push_back(entry);
             } else {
                 const double shortest = std::min(std::min(a.aa, b.aa), ab);
-                if (is_narrow(a.aa, b.aa, ab, shortest, a.area2)) narrow_.push(w, shortest);
+                if (is_narrow(a.aa, b.aa, ab, shortest, a.area2)) narrow_.push(entry, shortest);
             }
         }
     }

@@ -24,9 +24,11 @@ namespace lamina::delaunay {
 
 using Index = std::uint32_t;
 
+/// Stands where there is no index.
 inline constexpr Index no_index = 0xffffffffu;
 /// The vertex at infinity, the third one of every ghost triangle.
 inline constexpr Index ghost_vertex = no_index;
+/// The number of triangles that a Link can tell apart.
 inline constexpr Index max_triangles = 1u << 29;
 
 constexpr unsigned next(unsigned e) { return e == 2 ? 0 : e + 1; }

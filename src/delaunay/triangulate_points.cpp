@@ -119,9 +119,8 @@ Index locate(const Point* points, const Tri* tris, Index start, Point p) {
     for (;;) {
         // The walk has entered the triangle (b, a, w) through its edge k, so p lies on the same side of a -> b as w.
         //        a
-        //      / | \      If p is on the right of a -> w, the walk goes on across a-w; if on the right of w -> b,
-        //      across
-        //     o  |  w     w-b; else the triangle holds p.
+        //      / | \      If p is on the right of a -> w, the walk goes on across a-w; if p is on the right of
+        //     o  |  w     w -> b, it goes on across w-b; else the triangle holds p.
         //      \ | /
         //        b
         const Tri& t = tris[across.triangle()];

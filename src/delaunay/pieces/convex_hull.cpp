@@ -42,7 +42,7 @@ BlockExtremes find_extremes(std::span<const Point> points) {
     return extremes;
 }
 
-/// A convex chain that no point of the hull's lower side (sign 1) or, upside down, of its upper side (-1) lies above.
+/// A convex chain that bounds the lower side of the hull from above (sign 1) or, upside down, its upper side (sign -1).
 template <int sign>
 class BoundingChain {
 public:

@@ -54,7 +54,7 @@ public:
             if (!side) side = s;
             return *side == s;
         };
-        // A point off the path lies on the side of the path on which it lies of the cut.
+        // A point that is not on the path lies on the same side of the path as of the cut line.
         if (index_a == not_found) side = before_cut(e.a) ? Side::low : Side::high;
         if (index_b == not_found && !agree(before_cut(e.b) ? Side::low : Side::high)) return Side::crossing;
         // The vertices of the path between the ends of the edge must all lie on its other side.
@@ -141,7 +141,7 @@ public:
         const Side side = is_path_edge(a, b) ? (a < b ? Side::low : Side::high) : path_.side_of(e, a, b);
         if (side == Side::crossing) return false;
         if (is_path_edge(a, b)) along_border_[std::min(a, b)] = 1;
-        PartBorder& own = part(side);
+        HalfBorder& own = part(side);
         own.edges.push_back(e);
         if (a != not_found) own.has_path_vertex[a] = 1;
         if (b != not_found) own.has_path_vertex[b] = 1;
@@ -169,7 +169,7 @@ public:
     DividedBorder take() { return std::move(borders_); }
 
 private:
-    PartBorder& part(Side side) { return side == Side::low ? borders_.low : borders_.high; }
+    HalfBorder& part(Side side) { return side == Side::low ? borders_.low : borders_.high; }
 
     /// Returns whether vertices with these indices on the path, which may be not_found, are neighbours on it.
     static bool is_path_edge(std::size_t a, std::size_t b) {

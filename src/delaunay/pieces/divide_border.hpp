@@ -11,15 +11,15 @@
 
 namespace lamina::delaunay::pieces {
 
-/// The border of one of the two parts that a path makes of a piece.
-struct PartBorder {
+/// The border of one of the two parts into which a path divides a piece.
+struct HalfBorder {
     std::vector<BorderEdge> edges;
     std::vector<char> has_path_vertex;  ///< for each vertex of the path: whether it belongs to this part
 };
 
 /// The borders of both parts: `low` lies on the left of the path.
 struct DividedBorder {
-    PartBorder low, high;
+    HalfBorder low, high;
 };
 
 /// Divides a border along a path. The path is trimmed to the region: its edges outside of the region or along the

@@ -1,5 +1,6 @@
 // The points are lifted to the paraboloid that stands over the cut line and projected along the direction across the
-// line. The lower hull of these images is the silhouette of the paraboloid's lower hull: a path of Delaunay edges.
+// line. The lower hull of these images is the silhouette of the lower hull of the lifted points: a path of Delaunay
+// edges.
 // Sources: G. E. Blelloch, G. L. Miller, J. C. Hardwick, D. Talmor, Design and implementation of a practical parallel
 // Delaunay algorithm, Algorithmica 24 (1999); C. Kadow, PhD thesis, Carnegie Mellon (2004); J. K. Pardue, thesis
 // (2015), 4.3; monotone chain: A. M. Andrew, Inf. Proc. Letters 9 (1979).

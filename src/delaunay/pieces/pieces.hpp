@@ -19,8 +19,8 @@ struct PiecewiseTriangulation {
     DecompositionStats stats;
 };
 
-/// Returns the Delaunay triangulation of the points, piece by piece. The times of the threads count as PieceWork.
-/// Throws as triangulate() does.
+/// Returns the Delaunay triangulation of the points, piece by piece. `times`, if given, measures the kinds of
+/// PieceWork. Throws as triangulate() does.
 LAMINA_EXPORT PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points,
                                                            const DecompositionOptions& options,
                                                            core::BusyTimes* times = nullptr);

@@ -14,7 +14,7 @@ namespace lamina::delaunay::pieces {
 inline constexpr std::size_t not_found = static_cast<std::size_t>(-1);
 
 /// Finds the indices of vertices in a short list, where most vertices that are looked up are not in the list. One bit
-/// of a filter tells that of nearly all of them; the rest is looked up in a hash table with open addressing.
+/// of a filter shows this for nearly all of them; the others are looked up in a hash table with open addressing.
 class VertexIndexMap {
 public:
     /// Maps each vertex to its index in `vertices`; the last index counts where a vertex stands there several times.
