@@ -13,6 +13,7 @@ namespace lamina::decoupling {
 
 namespace {
 
+/// Cuts borders in two, and their parts again.
 class Bisection {
 public:
     Bisection(const SeparatorSpacing& spacing, double pieces_target)
@@ -71,7 +72,7 @@ private:
 std::vector<EstimatedBorder> cut_to_size(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
                                          const SeparatorSpacing& spacing, double pieces_target) {
     // The subdomain round the bodies is cut many times over and would occupy one thread at first. The other threads
-    // search the remaining subdomains meanwhile, none of which has to wait for a vertex that is still to come.
+    // search the remaining subdomains meanwhile, whose borders hold none of the vertices that these cuts add.
     const auto rest = std::stable_partition(borders.begin(), borders.end(),
                                             [](const SubdomainBorder& border) { return border.loops.size() > 1; });
     std::vector<SubdomainBorder> others(std::make_move_iterator(rest), std::make_move_iterator(borders.end()));

@@ -83,12 +83,12 @@ void validate(const FarFieldOptions& options) {
 void validate(const DecouplingOptions& options) { require_in_range(decoupling_option_table(), options); }
 
 std::vector<Point> parse_outline(const std::string& text) {
-    const std::vector<double> n = core::parse_numbers(text, ',');
-    if (n.size() < 6 || n.size() % 2 != 0)
+    const std::vector<double> numbers = core::parse_numbers(text, ',');
+    if (numbers.size() < 6 || numbers.size() % 2 != 0)
         throw UsageError("'" + text + "': an outline is X0,Y0,X1,Y1,..., three corners or more");
     std::vector<Point> corners;
-    corners.reserve(n.size() / 2);
-    for (std::size_t i = 0; i < n.size(); i += 2) corners.push_back({n[i], n[i + 1]});
+    corners.reserve(numbers.size() / 2);
+    for (std::size_t i = 0; i < numbers.size(); i += 2) corners.push_back({numbers[i], numbers[i + 1]});
     return corners;
 }
 

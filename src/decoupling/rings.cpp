@@ -133,12 +133,12 @@ public:
     std::vector<Ring> rings;
 
 private:
-    /// Returns the parameter that halves the logarithm of the box's extent, along which edge lengths are about even.
-    /// The box grows linearly with the parameter.
+    /// Returns the parameter at which the logarithm of the box's extent is half-way between inner and outer. The box
+    /// grows linearly with the parameter, and edges grow about as the box does.
     double middle_of(double inner, double outer) const {
         const double near_extent = extent(boxes_.near_body);
-        const double s = near_extent / (extent(boxes_.outermost) - near_extent);
-        return std::sqrt((s + inner) * (s + outer)) - s;
+        const double offset = near_extent / (extent(boxes_.outermost) - near_extent);
+        return std::sqrt((offset + inner) * (offset + outer)) - offset;
     }
 
     const RingBoxes& boxes_;

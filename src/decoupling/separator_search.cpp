@@ -36,7 +36,7 @@ constexpr std::size_t min_joining_segments = 8;
 constexpr std::size_t min_origins = 64;
 /// Number of candidates that are looked at closely.
 constexpr std::size_t max_tried = 32;
-/// Ratio of the lengths of a separator's first segment and the border's edges beside it.
+/// Largest ratio, either way, of the lengths of a separator's first or last segment and of the border edges beside it.
 constexpr double max_ratio = 1.6;
 /// Vertices of a separator keep this share of their distance from each other away from the border.
 constexpr double clearance = 0.7;
@@ -61,6 +61,7 @@ Box circle_box(Point a, Point b, double share) {
     return {midpoint(a, b) - Point{r, r}, midpoint(a, b) + Point{r, r}};
 }
 
+/// The search in one subdomain.
 class SeparatorSearch {
 public:
     SeparatorSearch(std::span<const Point> points, const SubdomainBorder& border, const SeparatorSpacing& spacing)

@@ -30,9 +30,9 @@ struct SearchResult {
 /// `points` holds the border's vertices by their ids. A separator is good if
 /// - it leaves the border at 60 degrees or more at both ends,
 /// - it has four segments or more, or eight where it joins loops,
-/// - its first and last segments are about as long as the border edges beside them, and
-/// - it is clear of the border: the diametral circles of its segments hold no vertex of the border, and its own
-///   vertices lie neither in diametral circles of border edges nor close to vertices of the border.
+/// - its first and last segments are about as long as the border edges beside them,
+/// - the diametral circles of its segments hold no vertex of the border, and
+/// - its own vertices lie neither in diametral circles of border edges nor close to vertices of the border.
 SearchResult search_separator(std::span<const Point> points, const SubdomainBorder& border,
                               const SeparatorSpacing& spacing, double pieces_target);
 
