@@ -15,7 +15,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Boxes of the edges of a random walk, as edges of an outline follow each other.
+/// Returns the boxes of the edges of a random walk, which follow each other as the edges of an outline do.
 std::vector<Box> walk_boxes(std::size_t n, core::Random& random) {
     std::vector<Box> boxes(n);
     Point p{0.5, 0.5};
@@ -27,7 +27,7 @@ std::vector<Box> walk_boxes(std::size_t n, core::Random& random) {
     return boxes;
 }
 
-/// Sizes round the powers of 4 at which the tree gets a new level.
+/// Returns sizes round the powers of 4, at which the tree gets a new level.
 std::vector<std::size_t> sizes() { return {0, 1, 2, 3, 4, 5, 7, 15, 16, 17, 63, 64, 65, 200, 257}; }
 
 TEST(BoxTree, VisitsOverlappingItemsInAscendingOrder) {

@@ -40,7 +40,7 @@ std::vector<Point> ellipse(std::size_t n, double thickness, Point center = {0.5,
     return points;
 }
 
-/// Bodies with borders whose edges request the sizes of which they are the share frozen_share.
+/// Bodies with their borders, and a source for each border edge that requests its length / frozen_share.
 struct Bodies {
     std::vector<Point> points;
     std::vector<std::vector<VertexId>> borders;
@@ -328,19 +328,20 @@ TEST(Decouple, DanglingLinesAreRefinedFromBothSides) {
     Decoupling d = decouple_to(bodies, size, 1.2, 1e9);
     ASSERT_EQ(d.subdomains.size(), 1u);
     Subdomain& s = d.subdomains.front();
-    VertexId nose = s.segments.front().a, corner = nose;
+    VertexId rear = s.segments.front().a, on_far_field = rear;
     for (const Segment& e : s.segments) {
         if (std::abs(s.points[e.a.index()].y) < 0.3 && s.points[e.a.index()].x > 0.99 && s.points[e.a.index()].x < 1.1)
-            nose = std::abs(s.points[e.a.index()].y) <= std::abs(s.points[nose.index()].y) ? e.a : nose;
+            rear = std::abs(s.points[e.a.index()].y) <= std::abs(s.points[rear.index()].y) ? e.a : rear;
     }
     for (const Segment& e : s.segments)
-        if (s.points[e.a.index()].x > 1.6 && (s.points[corner.index()].x < 1.6 ||
-                                              std::abs(s.points[e.a.index()].y) < std::abs(s.points[corner.index()].y)))
-            corner = e.a;
-    const auto line = decoupling::divide_separator(s.points[nose.index()], s.points[corner.index()],
+        if (s.points[e.a.index()].x > 1.6 &&
+            (s.points[on_far_field.index()].x < 1.6 ||
+             std::abs(s.points[e.a.index()].y) < std::abs(s.points[on_far_field.index()].y)))
+            on_far_field = e.a;
+    const auto line = decoupling::divide_separator(s.points[rear.index()], s.points[on_far_field.index()],
                                                    {size, SeparatorRule::equidistributed}, 3);
     ASSERT_GT(line.size(), 2u);
-    VertexId before = nose;
+    VertexId before = rear;
     const auto add = [&](VertexId v) {
         s.segments.push_back({before, v});
         s.segments.push_back({v, before});
@@ -352,7 +353,7 @@ TEST(Decouple, DanglingLinesAreRefinedFromBothSides) {
         s.points.push_back(p);
         add(VertexId{s.points.size() - 1});
     }
-    add(corner);
+    add(on_far_field);
     expect_global_delaunay(bodies, d, 1.2);
 }
 

@@ -45,12 +45,12 @@ Segments brute_force_pieces(const std::vector<Point>& points, const Segments& se
     Segments pieces;
     for (const Segment& s : segments) {
         const Point a = points[s.a.index()], b = points[s.b.index()];
-        std::vector<std::size_t> on;
+        std::vector<std::size_t> chain;
         for (std::size_t v = 0; v < points.size(); ++v)
-            if (on_segment(a, b, points[v])) on.push_back(v);
-        std::sort(on.begin(), on.end(),
+            if (on_segment(a, b, points[v])) chain.push_back(v);
+        std::sort(chain.begin(), chain.end(),
                   [&](std::size_t l, std::size_t r) { return lexicographically_less(points[l], points[r]); });
-        for (std::size_t i = 0; i + 1 < on.size(); ++i) pieces.push_back(segment(on[i], on[i + 1]));
+        for (std::size_t i = 0; i + 1 < chain.size(); ++i) pieces.push_back(segment(chain[i], chain[i + 1]));
     }
     return undirected(pieces);
 }

@@ -27,6 +27,7 @@ struct PlanarGraph {
     }
 };
 
+/// A refinement with all its points, and the area that it covers.
 struct Refined {
     std::vector<Point> points;  ///< those of the input, then the Steiner points
     ConstrainedRefinement refinement;
@@ -61,13 +62,13 @@ std::size_t count_below(const Refined& r, double bound) {
 }
 
 TEST(RefineConstrained, CoarseInputsMeetTheAngleBound) {
-    PlanarGraph ell;
-    ell.add_loop({{0, 0}, {8, 0}, {8, 1}, {1, 1}, {1, 8}, {0, 8}});
+    PlanarGraph l_shape;
+    l_shape.add_loop({{0, 0}, {8, 0}, {8, 1}, {1, 1}, {1, 8}, {0, 8}});
     PlanarGraph slot;  // between two boxes close to each other
     slot.add_loop({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
     slot.add_loop({{3, 3}, {6, 3}, {6, 4}, {3, 4}});
     slot.add_loop({{3, 4.01}, {6, 4.01}, {6, 5}, {3, 5}});
-    for (const PlanarGraph& graph : {ell, slot}) {
+    for (const PlanarGraph& graph : {l_shape, slot}) {
         for (double angle : {20.0, 28.0}) {
             const Refined r = refine_and_check(graph, SizeField(100), {.refine = {.min_angle_deg = angle}});
             EXPECT_EQ(count_below(r, angle), 0u) << angle;

@@ -105,15 +105,16 @@ TEST(Refine, LatticePatchesKeepEveryPromise) {
         const double h = 0.008;
         const Border border = square_border(1, 0.8 * h);
         const SizeField size(h);
-        const RefineOptions with{.min_angle_deg = angle}, without{.min_angle_deg = angle, .lattice = false};
-        const Refinement r = refine(border.points, border.segments, size, with);
-        expect_promises(border, r, size, with, 1.0);
+        const RefineOptions with_lattice{.min_angle_deg = angle},
+            without_lattice{.min_angle_deg = angle, .lattice = false};
+        const Refinement r = refine(border.points, border.segments, size, with_lattice);
+        expect_promises(border, r, size, with_lattice, 1.0);
         EXPECT_EQ(r.stats.below_bound, 0u);
         EXPECT_EQ(r.stats.oversized, 0u);
         EXPECT_EQ(r.stats.refused, 0u);
         EXPECT_GT(mean_smallest_angle(border, r), 57);
-        const Refinement pure = refine(border.points, border.segments, size, without);
-        expect_promises(border, pure, size, without, 1.0);
+        const Refinement pure = refine(border.points, border.segments, size, without_lattice);
+        expect_promises(border, pure, size, without_lattice, 1.0);
         EXPECT_LT(double(r.triangles.size()), 0.85 * double(pure.triangles.size()));
         EXPECT_GT(mean_smallest_angle(border, pure), 46);
     }
@@ -159,11 +160,11 @@ TEST(Refine, LatticePatchesAreFoundInACornerOfASteepField) {
     const std::vector<SizeSource> sources{{.a = {-1, -1}, .b = {1, 1}, .size = 0.01, .shape = SizeSource::Shape::box}};
     const SizeField size(sources, {.gradation = 0.1}, {{-1, -1}, {31, 31}});
     const Border border = graded_border({{0, 0}, {31, 0}, {31, 31}, {0, 31}}, size);
-    const RefineOptions with, without{.lattice = false};
-    const Refinement r = refine(border.points, border.segments, size, with);
-    expect_promises(border, r, size, with, enclosed_area(border));
+    const RefineOptions with_lattice, without_lattice{.lattice = false};
+    const Refinement r = refine(border.points, border.segments, size, with_lattice);
+    expect_promises(border, r, size, with_lattice, enclosed_area(border));
     EXPECT_LT(double(r.triangles.size()),
-              0.85 * double(refine(border.points, border.segments, size, without).triangles.size()));
+              0.85 * double(refine(border.points, border.segments, size, without_lattice).triangles.size()));
 }
 
 TEST(Refine, LatticePatchesFitTheCommonestSize) {
@@ -187,14 +188,14 @@ TEST(Refine, LatticePatchesOfManyLevelsKeepEveryPromise) {
     const std::vector<Point> corners{{0, 0}, {0.9, -0.1}, {1.2, 0.8}, {0.3, 1}, {0.1, 0.5}};
     const Border border = graded_border(corners, size);
     const double area = enclosed_area(border);
-    const RefineOptions with, without{.lattice = false};
-    const Refinement r = refine(border.points, border.segments, size, with);
-    expect_promises(border, r, size, with, area);
+    const RefineOptions with_lattice, without_lattice{.lattice = false};
+    const Refinement r = refine(border.points, border.segments, size, with_lattice);
+    expect_promises(border, r, size, with_lattice, area);
     EXPECT_EQ(r.stats.below_bound, 0u);
     EXPECT_EQ(r.stats.oversized, 0u);
     EXPECT_EQ(r.stats.refused, 0u);
     EXPECT_GT(mean_smallest_angle(border, r), 54);
-    EXPECT_LT(r.triangles.size(), refine(border.points, border.segments, size, without).triangles.size());
+    EXPECT_LT(r.triangles.size(), refine(border.points, border.segments, size, without_lattice).triangles.size());
 }
 
 TEST(Refine, LatticePatchesStayOutOfHolesNotchesAndThinParts) {

@@ -27,7 +27,7 @@ std::vector<Point> hexagonal_lattice(int nx, int ny);
 std::vector<Point> cocircular_points(int k = 1);
 /// Returns n distinct points with integer coordinates from 0 to side - 1, which make every kind of degeneracy at once.
 std::vector<Point> random_grid_points(std::size_t n, int side, std::uint64_t seed);
-/// Returns the points of a layer round an ellipse: nearly cocircular, in thin cells.
+/// Returns the points of a layer round an ellipse, on `around` rays: nearly cocircular, in thin cells.
 std::vector<Point> layer_points(std::size_t around, std::size_t layers, double growth = 1.2);
 
 /// Swaps the items into a random order.
@@ -46,6 +46,7 @@ struct Border {
     /// Appends one segment from each point to the next one, and one from the last to the first.
     void close_loop(std::size_t first_point = 0);
 };
+/// Returns the border of a square with one corner at the origin.
 Border square_border(double side, double spacing);
 
 /// Returns the triangles rotated to their smallest vertex and sorted, so that equal sets of triangles become equal.

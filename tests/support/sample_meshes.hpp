@@ -14,9 +14,10 @@
 
 namespace lamina::test {
 
+/// Options of annulus().
 struct AnnulusOptions {
-    std::size_t around = 24;
-    std::size_t rings = 5;
+    std::size_t around = 24;      ///< number of points on each circle
+    std::size_t rings = 5;        ///< number of rings of cells
     std::size_t layer_rings = 2;  ///< number of rings of the layer, from the wall
     bool quads_in_layer = false;
 };

@@ -55,17 +55,17 @@ RefinementCase unit_square_case(double triangles, double area_ratio) {
     constexpr double share = 0.8;
     const auto side = [&](double h) { return static_cast<std::size_t>(std::ceil(1 / (share * h))); };
     const std::size_t at_left = side(c.size), at_right = side(c.size * ratio);
-    const std::size_t along =
+    const std::size_t at_bottom_and_top =
         ratio == 1 ? at_left : static_cast<std::size_t>(std::ceil(std::log(ratio) / (share * c.gradation)));
     const auto x_at = [&](std::size_t i) {
-        const double t = static_cast<double>(i) / static_cast<double>(along);
+        const double t = static_cast<double>(i) / static_cast<double>(at_bottom_and_top);
         return ratio == 1 ? t : (std::pow(ratio, t) - 1) / (ratio - 1);
     };
     std::vector<Point>& points = c.border.points;
-    for (std::size_t i = 0; i < along; ++i) points.push_back({x_at(i), 0});
+    for (std::size_t i = 0; i < at_bottom_and_top; ++i) points.push_back({x_at(i), 0});
     for (std::size_t i = 0; i < at_right; ++i)
         points.push_back({1, static_cast<double>(i) / static_cast<double>(at_right)});
-    for (std::size_t i = along; i > 0; --i) points.push_back({x_at(i), 1});
+    for (std::size_t i = at_bottom_and_top; i > 0; --i) points.push_back({x_at(i), 1});
     for (std::size_t i = at_left; i > 0; --i)
         points.push_back({0, static_cast<double>(i) / static_cast<double>(at_left)});
     c.border.close_loop();
