@@ -39,19 +39,20 @@ std::uintmax_t bytes_in(const fs::path& folder) {
     return bytes;
 }
 
-void empty(const fs::path& folder) {
+void make_empty(const fs::path& folder) {
     fs::remove_all(folder);
     fs::create_directories(folder);
 }
 
-void plain_bytes(const fs::path& file, std::uintmax_t bytes) {
+void write_plain_bytes(const fs::path& file, std::uintmax_t bytes) {
     const std::string block(std::size_t{1} << 20, 'x');
     std::ofstream out(file, std::ios::binary);
     for (std::uintmax_t written = 0; written < bytes; written += block.size())
         out.write(block.data(), static_cast<std::streamsize>(block.size()));
 }
 
-/// The counter `plain` is the time to write as many bytes without any computation, in seconds.
+/// Measures the writing of one format. The counter `plain` is the time to write as many bytes without any computation,
+/// in seconds.
 void write(benchmark::State& state, const MeshFormat& format) {
     const fs::path folder = make_folder();
     const std::string& extension = format.extensions.front();
@@ -60,14 +61,14 @@ void write(benchmark::State& state, const MeshFormat& format) {
     std::uintmax_t bytes = 0;
     for (auto _ : state) {
         state.PauseTiming();
-        empty(folder);
+        make_empty(folder);
         state.ResumeTiming();
         write_mesh(large_mesh(), file, {.format = format.name});
         state.PauseTiming();
         bytes = bytes_in(folder);
-        empty(folder);
+        make_empty(folder);
         const auto start = std::chrono::steady_clock::now();
-        plain_bytes(folder / "plain", bytes);
+        write_plain_bytes(folder / "plain", bytes);
         plain += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         state.ResumeTiming();
     }

@@ -24,14 +24,14 @@ double cpu_seconds(const Work& work, std::size_t& made);
 double median(std::vector<double> values);
 
 /// Runs `ours`, on one thread, and the references in turn, once per iteration. Manual time is ours, in CPU seconds.
-/// `made` names the things that the work makes. The counters are
+/// `made_name` names the things that the work makes, MADE below. The counters are
 ///
 ///     MADE, MADE/s    how many of them ours makes, and how many in a second
 ///     median_s        our median time in seconds
 ///     bytes_each      peak memory of our first call for each of them
 ///     ratio_to_X      median time of reference X over ours
 ///     MADE_ratio      how many ours makes for each one that the first reference makes
-void measure(benchmark::State& state, const std::string& made, const Work& ours,
+void measure(benchmark::State& state, const std::string& made_name, const Work& ours,
              const std::vector<Reference>& references);
 
 }  // namespace lamina::bench

@@ -31,6 +31,7 @@ struct Region {
     std::vector<Segment> border;
 };
 
+/// Returns the points with their convex hull as the border.
 Region in_convex_hull(std::vector<Point> points) {
     const auto sorted = delaunay::pieces::sort_points(points).value();
     Region region{std::move(points), {}};
@@ -97,10 +98,11 @@ void depths_of_region(benchmark::State& state, Region (*make)(std::size_t)) {
         });
 }
 
-/// Sets of up to a million points are measured five times, larger ones once.
+/// Measures sets of up to a million points, five times each.
 void usual(benchmark::internal::Benchmark* b) {
     b->Arg(10'000)->Arg(100'000)->Arg(1'000'000)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
 }
+/// Measures larger sets once.
 void large(benchmark::internal::Benchmark* b) {
     b->Arg(10'000'000)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
 }

@@ -24,7 +24,7 @@ CaseOptions naca0012_options(double gradation) {
     return options;
 }
 
-/// Argument: number of threads.
+/// Measures the whole run with a gradation of 0.1. Argument: number of threads.
 void naca0012(benchmark::State& state) {
     CaseOptions options = naca0012_options(0.1);
     options.threads = static_cast<unsigned>(state.range(0));
@@ -37,7 +37,8 @@ void naca0012(benchmark::State& state) {
 BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 #ifdef LAMINA_BENCH_TRIANGLE
-/// Triangle on the region between the layer and the far field, both divided as lamina divides them.
+/// Returns the refinement, by Triangle, of the region between the layer and the far field, both divided as lamina
+/// divides them.
 Work triangle_outside_the_layer(const CaseOptions& options) {
     const std::vector<std::string> input{"naca:0012"};
     const LayerGrowth growth = layer_growth(options.layer, 1);
@@ -66,8 +67,8 @@ Work triangle_outside_the_layer(const CaseOptions& options) {
 }
 #endif
 
-/// The whole run of lamina, layer and check included, on one thread, against Triangle, which meshes the region outside
-/// the layer alone. Argument: gradation in units of 1e-5.
+/// Measures the whole run of lamina, layer and check included, on one thread, against Triangle, which meshes the region
+/// outside the layer alone. Argument: gradation in units of 1e-5.
 void whole_run(benchmark::State& state) {
     const CaseOptions options = naca0012_options(1e-5 * static_cast<double>(state.range(0)));
     std::vector<Reference> references;

@@ -1,4 +1,6 @@
-// The work of references.hpp done by Triangle.
+// The work of references.hpp done by Triangle. Its switches are p (segments), c (keep the convex hull), r (refine the
+// mesh given), YY (split no segment), q (smallest angle), a (largest area), u (call triunsuitable()), z (count from 0),
+// Q (be quiet), and B, P, N (leave markers, segments, nodes out of the output).
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

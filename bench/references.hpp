@@ -28,8 +28,7 @@ Work triangle_constrained(std::span<const Point> points, std::span<const Segment
 
 /// Refines with Triangle at its best: the area bound is lowered in passes (x4096, x256, x16, x1), each of which refines
 /// the mesh of the one before. Called once with the final bound Triangle is 4 to 15 times slower. The border is frozen.
-/// The area of a triangle is bounded by sqrt(3)/4 h^2, where h is the mean over its vertices of h(x) = size + gradation
-/// x.
+/// The area of a triangle is bounded by sqrt(3)/4 h^2, where h is the mean of size + gradation x over its vertices.
 Work triangle_refine(std::span<const Point> points, std::span<const Segment> segments, double size, double gradation,
                      double min_angle_deg);
 
