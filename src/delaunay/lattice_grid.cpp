@@ -17,10 +17,12 @@ void clear_outside(LatticeGrid& grid, std::span<const Point> points, std::span<c
     for (const Segment& s : segments) {
         Point a = points[s.a.index()], b = points[s.b.index()];
         if (a.y > b.y) std::swap(a, b);
-        auto [first, last] = grid.rows_between(a.y, b.y);
-        for (LatticeRow j = first; j < last; ++j) {
+        const auto [first, last] = grid.rows_between(a.y, b.y);
+        // Rounding may leave out a row through a or b: one row more on either side, so that the test below decides.
+        for (LatticeRow j = std::max<LatticeRow>(first - 1, 0); j < std::min(last + 1, grid.rows); ++j) {
             const double y = grid.row_y(j);
-            // Half-open: a border vertex on a row counts for one of its two edges.
+            // Half-open: a border vertex on a row counts for one of its two edges. Each row then has an even number of
+            // crossings.
             if (y <= a.y || y > b.y) continue;
             crossings.emplace_back(j, a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
         }
