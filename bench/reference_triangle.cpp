@@ -15,7 +15,6 @@ extern "C" {
 int triunsuitable(REAL* a, REAL* b, REAL* c, REAL area);
 }
 
-#include "core/equilateral.hpp"
 #include "references.hpp"
 
 namespace lamina::bench {
@@ -115,7 +114,7 @@ Work triangle_refine(std::span<const Point> points, std::span<const Segment> seg
                      double min_angle_deg) {
     return [input = TriangleProgramInput(points, segments), size, gradation, min_angle_deg]() mutable {
         sizing = {size, gradation, nullptr, 1};
-        return refine_in_passes(view(input), gradation == 0 ? core::equilateral_area * size * size : 0, min_angle_deg);
+        return refine_in_passes(view(input), gradation == 0 ? equilateral_area * size * size : 0, min_angle_deg);
     };
 }
 
@@ -137,5 +136,5 @@ int triunsuitable(REAL* a, REAL* b, REAL* c, REAL area) {
     const auto& s = lamina::bench::sizing;
     const lamina::Point center{(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3};
     const double h = s.field != nullptr ? (*s.field)(center) : s.size + s.gradation * center.x;
-    return area > s.factor * lamina::core::equilateral_area * h * h;
+    return area > s.factor * lamina::equilateral_area * h * h;
 }

@@ -182,7 +182,7 @@ CaseOptions random_options(Random& random) {
     layer.growth = random.uniform(1.05, 1.6);
     layer.layers = static_cast<std::uint32_t>(1 + random.below(40));
     layer.max_ray_angle_deg = random.log_uniform(2, 45);
-    layer.corners = random.chance(0.7) ? Corners::fan : Corners::refine;
+    layer.corners = random.chance(0.7) ? CornerRays::fan : CornerRays::refine;
     layer.enabled = !random.chance(0.03);
     // Layers as thick as a good part of the chord are rarely meant.
     if (layer.enabled && !random.chance(0.05))
@@ -222,7 +222,7 @@ Configuration make_configuration(std::uint64_t seed, std::uint64_t number) {
     const LayerOptions& layer = c.options.layer;
     c.description += fmt::format(" first height {:.3g}, growth {:.3f}, {} layers, rays {:.2f} deg, {}, scale {:.3g}",
                                  test::first_height(layer), layer.growth, layer.enabled ? layer.layers.value_or(0) : 0,
-                                 layer.max_ray_angle_deg, layer.corners == Corners::fan ? "fan" : "refine", scale);
+                                 layer.max_ray_angle_deg, layer.corners == CornerRays::fan ? "fan" : "refine", scale);
     return c;
 }
 

@@ -34,7 +34,7 @@ enum class GrowthLaw {
 };
 
 /// The rays at a sharp convex corner.
-enum class Corners {
+enum class CornerRays {
     fan,    ///< several rays from the vertex
     refine  ///< one ray from the vertex, and refining rays on the edges beside it
 };
@@ -66,7 +66,7 @@ struct LayerOptions {
     std::optional<std::uint32_t> layers = 30;
     std::optional<double> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
     double max_ray_angle_deg = 5;       ///< largest angle between neighbouring rays
-    Corners corners = Corners::fan;     ///< the rays at sharp convex corners
+    CornerRays corners = CornerRays::fan;              ///< the rays at sharp convex corners
     LayerTopology topology = LayerTopology::delaunay;  ///< how points are joined to cells
 };
 
@@ -297,12 +297,14 @@ LAMINA_EXPORT std::vector<std::vector<Point>> border_loops(const Layer& layer);
 
 /// The cells between walls and outer borders, all counter-clockwise, and the pieces that they were made in.
 struct LayerCells {
-    std::vector<Triangle> triangles;            ///< counter-clockwise
-    std::vector<Quad> quads;                    ///< counter-clockwise
-    std::vector<std::uint16_t> triangle_layer;  ///< one per triangle: its layer from the wall, from 1 on
-    std::vector<std::uint16_t> quad_layer;      ///< one per quad: its layer from the wall, from 1 on
-    std::vector<std::size_t> first_triangle;    ///< of each piece, then the end; empty where there is no layer
-    DecompositionStats decomposition;           ///< for LayerTopology::delaunay
+    std::vector<Triangle> triangles;  ///< counter-clockwise
+    std::vector<Quad> quads;          ///< counter-clockwise
+    /// One per triangle: its layer, counted from 1 at the wall. It is that of the triangle's highest corner with
+    /// LayerTopology::delaunay, and that of the grid cell that the triangle is part of with the others.
+    std::vector<std::uint16_t> triangle_layer;
+    std::vector<std::uint16_t> quad_layer;    ///< one per quad: its layer from the wall, from 1 on
+    std::vector<std::size_t> first_triangle;  ///< of each piece, then the end; empty where there is no layer
+    DecompositionStats decomposition;         ///< for LayerTopology::delaunay
 
     /// Returns the number of pieces.
     std::size_t pieces() const { return first_triangle.empty() ? 0 : first_triangle.size() - 1; }

@@ -22,8 +22,11 @@ namespace lamina {
 /// area of an equilateral triangle of edge h (docs/decisions/0003).
 inline constexpr double frozen_share = 0.8;
 
+/// The area of an equilateral triangle divided by its squared edge: sqrt(3) / 4.
+inline constexpr double equilateral_area = 0.43301270189221932;
+
 /// Returns the edge length of the equilateral triangle of this area: the size that bounds triangles to it.
-inline double size_for_area(double area) { return std::sqrt(area / 0.43301270189221932); }
+inline double size_for_area(double area) { return std::sqrt(area / equilateral_area); }
 
 /// A shape that requests a target edge length on it and round it: h(p) <= size + gradation x distance(p, shape). A
 /// point inside a box, or within `radius` of the shape, is at distance 0.

@@ -11,7 +11,7 @@
 namespace lamina {
 
 /// The ways to treat the given points.
-enum class Surface {
+enum class SurfaceTreatment {
     automatic,  ///< coarse samples of a smooth curve are resampled; all other elements are kept
     keep,       ///< kept exactly
     resample,   ///< replaced by new points on a spline through them
@@ -20,7 +20,7 @@ enum class Surface {
 /// Options of prepare_surfaces(). Lengths are shares of the element's length, the longer side of its box, unless a
 /// comment says otherwise.
 struct SurfaceOptions {
-    Surface surface = Surface::automatic;  ///< whether points are kept or replaced
+    SurfaceTreatment treatment = SurfaceTreatment::automatic;  ///< whether points are kept or replaced
     /// Wall vertices per element, about; all spacings below keep their proportions. Makes `automatic` resample.
     std::optional<std::size_t> points{};
     /// The points are smoothed first; each moves by at most this many units of the input. Empty: no smoothing.

@@ -151,10 +151,7 @@ void add_check_command(CLI::App& app) {
         ->type_name("NAME");
     command->add_flag("--require-delaunay", arguments->require_delaunay,
                       "require the Delaunay property of all edges between isotropic triangles (exact test)");
-    command
-        ->add_option("--min-angle", arguments->min_angle,
-                     "require this smallest angle of isotropic triangles, in degrees, but in sharp corners")
-        ->type_name("DEG");
+    add_table_option(*command, mesh_check_option_table(), "min-angle", arguments->min_angle);
     command->callback([arguments] { check(*arguments); });
 }
 

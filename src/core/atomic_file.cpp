@@ -106,6 +106,7 @@ void write_folder_atomically(const fs::path& target, const std::function<void(co
     fs::remove_all(replaced, ignored);
 }
 
+#ifdef __linux__
 void require_room(const fs::path& target, std::size_t bytes) {
     const fs::path trial = temporary_beside(target, "room");
     const int file = ::open(trial.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
@@ -115,6 +116,10 @@ void require_room(const fs::path& target, std::size_t bytes) {
     ::unlink(trial.c_str());
     if (!has_room) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(reason));
 }
+#else
+// Elsewhere nothing reserves room without writing, so a full disk shows only while the file is written.
+void require_room(const fs::path&, std::size_t) {}
+#endif
 
 void write_stream(const fs::path& file, const fs::path& target, const std::function<void(std::ostream&)>& write) {
     errno = 0;

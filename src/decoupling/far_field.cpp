@@ -6,6 +6,8 @@
 
 #include <lamina/predicates.hpp>
 
+#include "core/bounding_box.hpp"
+
 namespace lamina::decoupling {
 
 namespace {
@@ -45,7 +47,7 @@ Box inscribed_box(const FarField& far_field) {
     if (far_field.shape == FarFieldShape::circle) {
         half = far_field.radius / std::sqrt(2.0);
     } else {
-        half = std::max(around.width(), around.height());
+        half = core::longer_side(around);
         for_each_edge(far_field.outline, [&](Point a, Point along) {
             half = std::min(half, cross(along, far_field.center - a) / (std::abs(along.x) + std::abs(along.y)));
         });
@@ -55,7 +57,7 @@ Box inscribed_box(const FarField& far_field) {
 }
 
 std::optional<Box> near_body_box(const Box& bodies, const Box& outermost, const FarField& far_field) {
-    const double extent = std::max(bodies.width(), bodies.height());
+    const double extent = core::longer_side(bodies);
     if (!(room_around(bodies, far_field) > 0.1 * extent))
         throw OptionError("far_field", "leaves no room around the bodies and their layers");
     if (room_between(bodies, outermost) < 1.5 * extent) return std::nullopt;

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/bounding_box.hpp"
 #include "core/parallel.hpp"
 #include "delaunay/estimate.hpp"
 
@@ -88,13 +89,10 @@ private:
     std::array<Extents, sides * samples_per_side> extents_;  ///< by side and sample
 };
 
-/// Returns the longer side of a box.
-double extent(const Box& box) { return std::max(box.width(), box.height()); }
-
 /// Measures a ring between two parameters in steps that grow with the box.
 QuarterRing measure_ring(const RingBoxes& boxes, const SizeField& size, double inner, double outer) {
-    const double near_extent = extent(boxes.near_body);
-    const double growth = extent(boxes.outermost) - near_extent;
+    const double near_extent = core::longer_side(boxes.near_body);
+    const double growth = core::longer_side(boxes.outermost) - near_extent;
     RingIntegral integral(boxes, size, inner, outer);
     for (double t = inner; t < outer;) {
         const double step = std::min(0.1 * (near_extent / growth + t), outer - t);
@@ -136,8 +134,8 @@ private:
     /// Returns the parameter at which the logarithm of the box's extent is half-way between inner and outer. The box
     /// grows linearly with the parameter, and edges grow about as the box does.
     double middle_of(double inner, double outer) const {
-        const double near_extent = extent(boxes_.near_body);
-        const double offset = near_extent / (extent(boxes_.outermost) - near_extent);
+        const double near_extent = core::longer_side(boxes_.near_body);
+        const double offset = near_extent / (core::longer_side(boxes_.outermost) - near_extent);
         return std::sqrt((offset + inner) * (offset + outer)) - offset;
     }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/equilateral.hpp"
 #include "core/reproducible_math.hpp"
 
 namespace lamina::decoupling {
@@ -41,7 +40,7 @@ std::vector<Point> equidistribute(const Curve& curve, double total, const SizeFi
 }
 
 /// Returns k of equation 1 where the area A of triangles is that of the equilateral triangle of edge h.
-double k_value(double h) { return 0.5 * std::sqrt(core::equilateral_area * h * h / std::sqrt(2.0)); }
+double k_value(double h) { return 0.5 * std::sqrt(equilateral_area * h * h / std::sqrt(2.0)); }
 
 /// Returns the number of segments that the k rule gives to a stretch between ends with these k values, or 0 where it
 /// gives none.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bounding_box.hpp"
 #include "core/parallel.hpp"
 
 namespace lamina::delaunay {
@@ -21,7 +22,7 @@ constexpr double min_length_share = 0x1p-40;
 BorderSplitter::BorderSplitter(ConstrainedParts& parts) : parts_(parts) {
     Box extent;
     for (Point p : parts.points) extent.include(p);
-    min_length_ = min_length_share * std::max(extent.width(), extent.height());
+    min_length_ = min_length_share * core::longer_side(extent);
 }
 
 /// Returns the smallest of the sizes that the parts beside the border have at p.

@@ -8,6 +8,8 @@
 #include <array>
 #include <bit>
 
+#include "core/bounding_box.hpp"
+
 namespace lamina::delaunay {
 
 namespace {
@@ -68,7 +70,7 @@ void radix_sort(std::vector<std::uint64_t>& items, unsigned first_bit) {
 }  // namespace
 
 std::vector<Index> brio_order(std::span<const Point> points, const Box& box) {
-    const double extent = std::max(box.width(), box.height());
+    const double extent = core::longer_side(box);
     const double scale = extent > 0 ? ((1u << hilbert_bits) - 1) / extent : 0.0;
 
     // Each item holds the key in its upper bits and the index below. More than 2^24 points shorten the key.

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/equilateral.hpp"
 #include "core/parallel.hpp"
 #include "delaunay/lattice_levels.hpp"
 
@@ -68,7 +67,7 @@ TrianglePart make_part(const SizedPoint& a, const SizedPoint& b, const SizedPoin
     const double mean =
         0.75 * inverse_square(inside) + (inverse_square(a.size) + inverse_square(b.size) + inverse_square(c.size)) / 12;
     return {(1.0 / 3) * (a.at + b.at + c.at),
-            0.5 * area2 * mean / core::equilateral_area,
+            0.5 * area2 * mean / equilateral_area,
             climb < max_gradient * area2 ? climb / area2 : max_gradient,
             std::min({a.size, b.size, c.size, inside}),
             std::max({a.size, b.size, c.size, inside}),
@@ -230,7 +229,7 @@ double lattice_probability(const LatticeSums& sums) {
 double estimated_triangles(double area, double mean_inverse_square_size, double gradient) {
     // Below this gradient one level serves the whole region, above it all levels do.
     constexpr double max_one_level_gradient = 0.001;
-    const double min_triangles = area * mean_inverse_square_size / core::equilateral_area;
+    const double min_triangles = area * mean_inverse_square_size / equilateral_area;
     if (gradient < max_one_level_gradient) return latticed / (lattice_share * lattice_share) * min_triangles;
     return (gradient < even_gradient ? latticed / mean_level_share : refined(gradient)) * min_triangles;
 }

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bounding_box.hpp"
 #include "delaunay/lattice_grid.hpp"
 #include "delaunay/lattice_levels.hpp"
 
@@ -51,7 +52,7 @@ SmoothBlocks find_smooth_blocks(const Box& region, const SizeField& size, const 
         pending.pop_back();
         const auto [low, high] = size.range(box, level_ratio * level_ratio);
         const int first_level = level_of(low, edges), last_level = level_of(high, edges);
-        const double extent = std::max(box.width(), box.height());
+        const double extent = core::longer_side(box);
         bool divisible = first_level != last_level && extent > 2 * min_block_edges * low;
         if (!divisible && high > level_ratio * level_ratio * low)
             divisible = extent > 2 * min_block_edges * size.range(box).low;

@@ -1,4 +1,4 @@
-// The tables of the options of triangulation and refinement, and small functions of delaunay.hpp.
+// The tables of the options of triangulation and refinement.
 #include <lamina/delaunay.hpp>
 
 #include <lamina/option_builders.hpp>
@@ -8,7 +8,7 @@ namespace lamina {
 namespace {
 
 OptionTable<DecompositionOptions> make_decomposition_table() {
-    OptionTableBuilder<DecompositionOptions> table("Outer region");
+    OptionTableBuilder<DecompositionOptions> table("Layer");
     table.count("decomposition-depth", "N", "largest number of cuts on the way to a piece of the layer",
                 numbers_from_to(0, 24), member_at(&DecompositionOptions::depth));
     table.count("leaf-vertices", "N", "pieces of the layer with at most this many vertices are not cut further",
@@ -41,13 +41,5 @@ const OptionTable<RefineOptions>& refine_option_table() {
 
 void validate(const DecompositionOptions& options) { require_in_range(decomposition_option_table(), options); }
 void validate(const RefineOptions& options) { require_in_range(refine_option_table(), options); }
-
-RefineStats& RefineStats::operator+=(const RefineStats& other) {
-    refused += other.refused;
-    below_bound += other.below_bound;
-    exempt += other.exempt;
-    oversized += other.oversized;
-    return *this;
-}
 
 }  // namespace lamina

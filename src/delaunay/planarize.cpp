@@ -15,6 +15,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 #include "core/predicates.hpp"
 
@@ -268,8 +269,7 @@ PlanarSegments planarize(std::span<const Point> points, std::span<const Segment>
     for (int round = 0; round < max_planarize_rounds; ++round) {
         const std::vector<PieceEdge> edges = edges_of(all, pieces);
         const PieceEdgeTree tree(all, edges);
-        if (round >= exact_rounds)
-            tolerance = std::max(2 * tolerance, core::epsilon * std::max(extent.width(), extent.height()));
+        if (round >= exact_rounds) tolerance = std::max(2 * tolerance, core::epsilon * core::longer_side(extent));
         std::vector<EdgeCut> cuts = vertices_on_edges(all, edges, tree, tolerance);
         if (cuts.empty()) cuts = cuts_at_crossings(all, vertex_at, edges, tree, tolerance);
         if (cuts.empty()) return {{all.begin() + static_cast<std::ptrdiff_t>(points.size()), all.end()}, pieces};

@@ -84,4 +84,12 @@ Refinement refine(std::span<const Point> points, std::span<const Segment> segmen
     return refine_region(points, segments, size, options);
 }
 
+RefineStats& RefineStats::operator+=(const RefineStats& other) {
+    refused += other.refused;
+    below_bound += other.below_bound;
+    exempt += other.exempt;
+    oversized += other.oversized;
+    return *this;
+}
+
 }  // namespace lamina

@@ -14,7 +14,6 @@
 #include <lamina/delaunay.hpp>
 
 #include "core/box_tree.hpp"
-#include "core/equilateral.hpp"
 #include "core/parallel.hpp"
 #include "core/reproducible_math.hpp"
 #include "delaunay/border_splitter.hpp"
@@ -186,7 +185,7 @@ JudgedTriangle ConstrainedRefiner::judge(std::size_t part, const Triangle& trian
     // The bounds have the same allowance for rounding as the counts of refine().
     j.narrow =
         j.area2 * j.area2 * squared[shortest] * (1 + 1e-9) < sine * sine * (squared[0] * squared[1] * squared[2]);
-    j.oversized = j.area2 > 2 * core::equilateral_area * h * h * (1 + 1e-9);
+    j.oversized = j.area2 > 2 * equilateral_area * h * h * (1 + 1e-9);
     j.exempt = j.narrow && is_exempt(refined, triangle, j, shortest);
     return j;
 }

@@ -18,7 +18,6 @@
 
 #include <lamina/error.hpp>
 
-#include "core/equilateral.hpp"
 #include "core/pages.hpp"
 #include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
@@ -41,7 +40,7 @@ constexpr double target_area_share = 0.9;
 constexpr double min_front_height = 0.3;
 
 /// Twice the area bound of a triangle, over the squared sum of h at its vertices.
-constexpr double area2_per_squared_sum = 2 * core::equilateral_area / 9;
+constexpr double area2_per_squared_sum = 2 * equilateral_area / 9;
 
 /// Refines one region.
 class Refiner {

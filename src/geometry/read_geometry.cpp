@@ -35,7 +35,7 @@ Element read_naca(const std::string& input, std::size_t default_points) {
         if (error != std::errc() || end != s.data() + s.size())
             throw UsageError(fmt::format("{}: '{}' is not a number of points", input, s));
     } else if (parts.size() != 1) {
-        throw UsageError(fmt::format("{}: expected naca:DIGITS[:POINTS][:blunt]", input));
+        throw UsageError(fmt::format("{}: expected naca:DIGITS[:POINTS][:blunt|:sharp]", input));
     }
     Element element = naca_airfoil(parts[0], points, trailing_edge);
     element.file = input;

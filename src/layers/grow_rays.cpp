@@ -7,6 +7,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "core/bounding_box.hpp"
 #include "layers/heights.hpp"
 #include "layers/insert_rays.hpp"
 #include "layers/layered_rays.hpp"
@@ -28,7 +29,7 @@ constexpr int max_insertions = 2;
 /// Throws OptionError for heights below the resolution of the coordinates and for layers much thicker than the box of
 /// the configuration.
 void require_sensible_scale(const Box& box, const LayerGrowth& growth, const LayerHeights& heights) {
-    const double extent = std::max(box.width(), box.height());
+    const double extent = core::longer_side(box);
     const double max_coordinate =
         std::max({std::abs(box.lower.x), std::abs(box.lower.y), std::abs(box.upper.x), std::abs(box.upper.y)});
     if (!(growth.first_height > min_roundings * std::numeric_limits<double>::epsilon() * max_coordinate))

@@ -86,7 +86,8 @@ OptionTable<LayerOptions> make_table() {
     table.number("max-ray-angle", "DEG", "largest angle between neighbouring rays, in degrees",
                  numbers_from_to(0.01, 90), at(&LayerOptions::max_ray_angle_deg));
     table.choice("corners", "at sharp convex corners: a fan of rays, or refining rays beside the vertex",
-                 Choices<Corners>{{"fan", Corners::fan}, {"refine", Corners::refine}}, at(&LayerOptions::corners));
+                 Choices<CornerRays>{{"fan", CornerRays::fan}, {"refine", CornerRays::refine}},
+                 at(&LayerOptions::corners));
     table.choice("layer-topology",
                  "cells of the layer: Delaunay triangles, or the grid of rays and layers, cut or left whole",
                  Choices<LayerTopology>{{"delaunay", LayerTopology::delaunay},

@@ -35,7 +35,7 @@ std::vector<WallVertex> wall_vertices(std::span<const Point> outline, const Laye
     for (std::size_t i = 0; i < n; ++i) {
         const Point after = unit(outline[(i + 1) % n] - outline[i]);
         const double turning = core::angle_between(before, after);
-        const bool fan = options.corners == Corners::fan && turning > core::radians(sharp_corner_deg);
+        const bool fan = options.corners == CornerRays::fan && turning > core::radians(sharp_corner_deg);
         vertices[i] = {turning, -perpendicular(before), -perpendicular(after), bisector(before, after, turning), fan};
         before = after;
     }

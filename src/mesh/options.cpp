@@ -9,7 +9,8 @@ namespace {
 
 OptionTable<MeshCheckOptions> make_table() {
     OptionTableBuilder<MeshCheckOptions> table("Check");
-    table.number("min-angle", "DEG", "bound on the smallest angle of isotropic triangles, in degrees",
+    table.number("min-angle", "DEG",
+                 "require this smallest angle of isotropic triangles, in degrees, but in sharp corners",
                  numbers_from_to(0, 60), member_at(&MeshCheckOptions::min_angle_deg));
     return table.take();
 }

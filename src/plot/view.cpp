@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/bounding_box.hpp"
+
 namespace lamina::plot {
 
 PictureView make_view(const Mesh& mesh, const PlotOptions& options) {
@@ -14,11 +16,11 @@ PictureView make_view(const Mesh& mesh, const PlotOptions& options) {
     } else {
         for (const Point p : mesh.points) view.window.include(p);
         if (mesh.points.empty()) view.window = {{0, 0}, {1, 1}};
-        const double margin = 0.01 * std::max(view.window.width(), view.window.height());
+        const double margin = 0.01 * core::longer_side(view.window);
         view.window.lower = view.window.lower - Point{margin, margin};
         view.window.upper = view.window.upper + Point{margin, margin};
     }
-    const double longer = std::max(view.window.width(), view.window.height());
+    const double longer = core::longer_side(view.window);
     view.scale = options.width_px / longer;
     // A very slender window would round to no pixel at all.
     view.width = std::max(1.0, std::round(view.window.width() * view.scale));

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/equilateral.hpp"
 #include "core/reproducible_math.hpp"
 #include "core/text.hpp"
 #include "sizing/wake.hpp"
@@ -24,7 +23,7 @@ constexpr double max_triangles = 4294967296.0;
 /// Throws OptionError where an integral of 1 / h^2 amounts to more triangles than can be numbered. The message names
 /// the option and its value.
 void require_countable_integral(double inverse_square_integral, const std::string& option, const std::string& value) {
-    const double triangles = inverse_square_integral / core::equilateral_area;
+    const double triangles = inverse_square_integral / equilateral_area;
     if (triangles <= max_triangles) return;
     throw OptionError(
         option, core::concat(value, " asks for about ", core::rounded_text(triangles), " triangles, and no more than ",

@@ -9,6 +9,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/bounding_box.hpp"
 #include "sizing/size_tree.hpp"
 
 namespace lamina::sizing {
@@ -89,7 +90,7 @@ SizeField::SizeField(std::span<const SizeSource> sources, const SizeFieldOptions
     require_valid(sources, options, domain);
     auto tree = std::make_shared<Tree>();
     tree->domain = domain;
-    tree->side = std::max(domain.width(), domain.height());
+    tree->side = core::longer_side(domain);
     tree->keys_per_length = static_cast<double>(std::uint64_t{1} << key_bits) / tree->side;
     SizeTree part = build_size_tree(sources, options, domain.lower, tree->side);
     tree->nodes = std::move(part.nodes);

@@ -9,6 +9,7 @@
 
 #include <lamina/sizing.hpp>
 
+#include "core/bounding_box.hpp"
 #include "core/box_tree.hpp"
 
 namespace lamina::sizing {
@@ -43,7 +44,7 @@ struct SourceGroup {
 
     bool is_single() const { return right == 0; }
     /// Returns the longer side of the box.
-    double extent() const { return std::max(box.width(), box.height()); }
+    double extent() const { return core::longer_side(box); }
 };
 
 /// A binary tree of groups of sources. The first group is the root.

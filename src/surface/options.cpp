@@ -10,12 +10,13 @@ namespace {
 OptionTable<SurfaceOptions> make_table() {
     OptionTableBuilder<SurfaceOptions> table("Geometry");
     const auto at = [](auto SurfaceOptions::*member) { return member_at(member); };
-    table.choice(
-        "surface",
-        "what becomes of the given points: they are kept, replaced by new ones on a spline through them, or "
-        "replaced where they are coarse",
-        Choices<Surface>{{"auto", Surface::automatic}, {"keep", Surface::keep}, {"resample", Surface::resample}},
-        at(&SurfaceOptions::surface));
+    table.choice("surface",
+                 "what becomes of the given points: they are kept, replaced by new ones on a spline through them, or "
+                 "replaced where they are coarse",
+                 Choices<SurfaceTreatment>{{"auto", SurfaceTreatment::automatic},
+                                           {"keep", SurfaceTreatment::keep},
+                                           {"resample", SurfaceTreatment::resample}},
+                 at(&SurfaceOptions::treatment));
     table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle requires",
                 numbers_from_to(3, 1e7), at(&SurfaceOptions::points));
     table.number("smooth", "TOL", "smooth the points first; none moves by more than this, in units of the input",

@@ -80,9 +80,9 @@ Decision decide(const Element& e, const ResamplingRequest& request) {
     constexpr double max_ratio = 2, max_spacing = 0.05;
     constexpr std::size_t min_dense_points = 1000;
     const SurfaceOptions& options = request.options;
-    if (options.surface == Surface::keep) return {false, "as requested"};
+    if (options.treatment == SurfaceTreatment::keep) return {false, "as requested"};
     if (options.points) return {true, fmt::format("about {} points are requested", *options.points)};
-    if (options.surface == Surface::resample) return {true, "as requested"};
+    if (options.treatment == SurfaceTreatment::resample) return {true, "as requested"};
     if (e.format == "naca") return {false, "generated points are exact"};
     if (e.points.size() >= min_dense_points) return {false, "they are dense"};
     const std::vector<std::size_t>& corners = e.features.corners;

@@ -148,7 +148,7 @@ TEST(Separators, KRuleKeepsItsBoundsAtBothEndsOfEverySegment) {
     points.push_back(v);
     ASSERT_GT(points.size(), 10u);
     for (std::size_t i = 0; i + 2 < points.size(); ++i) {  // the last segment may be a remainder
-        const auto k = [&](Point p) { return 0.5 * std::sqrt(0.4330127 * size(p) * size(p) / std::sqrt(2.0)); };
+        const auto k = [&](Point p) { return 0.5 * std::sqrt(equilateral_area * size(p) * size(p) / std::sqrt(2.0)); };
         const double l = distance(points[i], points[i + 1]);
         EXPECT_LE(l, 2 * std::min(k(points[i]), k(points[i + 1])) * 1.08) << i;
         EXPECT_GE(l, 2 * std::max(k(points[i]), k(points[i + 1])) / std::sqrt(3.0) * 0.92) << i;

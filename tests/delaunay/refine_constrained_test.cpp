@@ -95,7 +95,7 @@ TEST(RefineConstrained, AreaBoundAndRegions) {
         const bool right = (a.x + b.x + c.x) / 3 > 1;
         EXPECT_EQ(r.refinement.regions[i], right ? 0u : ConstrainedRefinement::no_region);
         const double h = right ? 0.02 : 0.1;
-        EXPECT_LE(0.5 * cross(b - a, c - a), std::sqrt(3) / 4 * h * h * (1 + 1e-9));
+        EXPECT_LE(0.5 * cross(b - a, c - a), equilateral_area * h * h * (1 + 1e-9));
     }
 }
 

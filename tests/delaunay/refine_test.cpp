@@ -13,8 +13,6 @@
 namespace lamina::test {
 namespace {
 
-constexpr double equilateral_area = 0.43301270189221932;
-
 /// Returns the border points, then the Steiner points.
 std::vector<Point> all_points(const Border& border, const Refinement& r) {
     std::vector<Point> points = border.points;

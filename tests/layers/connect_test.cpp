@@ -138,7 +138,8 @@ TEST(Connect, CoversTheLayerOfAnySection) {
           shapes::diamond(), shapes::box(), shapes::refined(shapes::l_shape(), 9),
           shapes::refined(shapes::v_notch(0.4), 12), shapes::refined(shapes::c_shape(0.02), 12),
           shapes::refined(shapes::comb(4, 0.1), 5)})
-        for (Corners corners : {Corners::fan, Corners::refine}) expect_connected(outline, test::thesis_layer(corners));
+        for (CornerRays corners : {CornerRays::fan, CornerRays::refine})
+            expect_connected(outline, test::thesis_layer(corners));
 }
 
 TEST(Connect, CoversTruncatedLayers) {
@@ -148,7 +149,7 @@ TEST(Connect, CoversTruncatedLayers) {
         const Outline outline =
             shapes::refined(shapes::star(3 + random() % 20, 0.05 + 0.009 * static_cast<double>(random() % 100), random),
                             1 + random() % 5);
-        LayerOptions options = test::thesis_layer(random() % 2 == 0 ? Corners::fan : Corners::refine);
+        LayerOptions options = test::thesis_layer(random() % 2 == 0 ? CornerRays::fan : CornerRays::refine);
         options.first_height = std::pow(10, -5 + 0.04 * static_cast<double>(random() % 100));
         options.growth = 1.05 + 0.005 * static_cast<double>(random() % 100);
         options.layers = 1 + random() % 40;

@@ -315,7 +315,7 @@ TEST(LocalHeights, StaySoundOnRandomStars) {
         LayerOptions options = k % 2 == 0 ? automatic(1.05 + 0.01 * (random() % 60)) : options_of(GrowthLaw::adaptive);
         options.first_height = std::pow(10, -5 + 3 * static_cast<double>(random() % 1000) / 1000);
         options.max_ray_angle_deg = 3 + random() % 20;
-        options.corners = random() % 2 == 0 ? Corners::fan : Corners::refine;
+        options.corners = random() % 2 == 0 ? CornerRays::fan : CornerRays::refine;
         checked_layer(outline, options);
         if (testing::Test::HasFailure()) break;
     }

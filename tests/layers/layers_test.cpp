@@ -85,7 +85,7 @@ TEST(Layer, SmoothSectionsCarryAllLayers) {
 
 TEST(Layer, KeepsEveryVertexOfTheWallInOrder) {
     for (const Outline& outline : {shapes::section(0.12, 0, 60), shapes::l_shape(), shapes::c_shape(0.05)}) {
-        for (Corners corners : {Corners::fan, Corners::refine}) {
+        for (CornerRays corners : {CornerRays::fan, CornerRays::refine}) {
             LayerOptions options = test::thesis_layer();
             options.corners = corners;
             const Layer layer = checked_layer(outline, options);
@@ -107,7 +107,7 @@ TEST(Layer, FansStandAtSharpCornersOnly) {
     EXPECT_EQ(fans.rays[0].size(), 4u * 24u);  // 90 degrees by steps of at most 4
 
     LayerOptions refine = test::thesis_layer();
-    refine.corners = Corners::refine;
+    refine.corners = CornerRays::refine;
     const Layer refined = checked_layer(shapes::box(), refine);
     origins.clear();
     for (const Ray& ray : refined.rays[0]) origins.insert(ray.origin);
@@ -123,7 +123,7 @@ TEST(Layer, FansStandAtSharpCornersOnly) {
 
 TEST(Layer, AngleBetweenRaysKeepsItsLimitForAnyLimit) {
     for (double limit : {0.7, 4.0, 10.0, 36.0, 90.0}) {
-        for (Corners corners : {Corners::fan, Corners::refine}) {
+        for (CornerRays corners : {CornerRays::fan, CornerRays::refine}) {
             LayerOptions options = test::thesis_layer();
             options.max_ray_angle_deg = limit;
             options.corners = corners;
@@ -234,7 +234,7 @@ TEST(Layer, VeryThickLayersStayValid) {
              {shapes::l_shape(), shapes::c_shape(0.3), shapes::v_notch(1), shapes::comb(4, 0.1), shapes::wedge(),
               shapes::diamond(), shapes::joukowski(0.1, 0.3, 100)}) {
             for (std::size_t parts : {1u, 7u}) {
-                for (Corners corners : {Corners::fan, Corners::refine}) {
+                for (CornerRays corners : {CornerRays::fan, CornerRays::refine}) {
                     options.corners = corners;
                     checked_layer(shapes::refined(outline, parts), options);
                 }
@@ -255,7 +255,7 @@ TEST(Layer, RandomStarsStayValid) {
         options.layers = 1 + random() % 40;
         options.thickness = std::max(test::first_height(options), 0.5);
         options.max_ray_angle_deg = 2 + random() % 20;
-        options.corners = random() % 2 == 0 ? Corners::fan : Corners::refine;
+        options.corners = random() % 2 == 0 ? CornerRays::fan : CornerRays::refine;
         BorderOptions border;
         border.max_ratio = random() % 2 == 0 ? 1.5 : 2;
         SCOPED_TRACE(k);

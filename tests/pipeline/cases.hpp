@@ -20,7 +20,7 @@ namespace lamina::test {
 /// field 50 chords away.
 inline CaseOptions thesis_options() {
     CaseOptions options;
-    options.surface.surface = Surface::keep;
+    options.surface.treatment = SurfaceTreatment::keep;
     options.layer = thesis_layer();
     options.far_field.size = 50;
     return options;

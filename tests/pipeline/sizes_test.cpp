@@ -29,7 +29,7 @@ void expect_sizes(const MeshResult& result, const std::vector<SizeSource>& sourc
         double h = 0;
         for (Point p : {a, b, c}) h += requested_size(sources, gradation, p) / 3;
         h *= 1 + SizeField::relative_error;
-        ASSERT_LE(area, 0.4330127018922193 * h * h) << a.x << ' ' << a.y;
+        ASSERT_LE(area, equilateral_area * h * h) << a.x << ' ' << a.y;
     }
     for (const Segment& edge : result.mesh.constraints) {
         const Point a = points[edge.a.index()], b = points[edge.b.index()];

@@ -165,7 +165,7 @@ TEST(Sizes, FarSizeBoundsAllAreas) {
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
-        const double largest = 0.4330127018922193 * size * size;
+        const double largest = equilateral_area * size * size;
         for (const Triangle& t : result.mesh.triangles) {
             const auto& points = result.mesh.points;
             const Point a = points[t.v[0].index()];
@@ -256,7 +256,7 @@ TEST(LayerOptionsInThePipeline, WithoutLayers) {
 
 TEST(LayerOptionsInThePipeline, RefinedCorners) {
     CaseOptions options = quick_options();
-    options.layer.corners = Corners::refine;
+    options.layer.corners = CornerRays::refine;
     triangles_of(naca("0012"), options);
     triangles_of(naca("4412", 101, TrailingEdge::blunt), options);
 }

@@ -14,7 +14,7 @@ inline Layer make_layer(const Geometry& geometry, const LayerOptions& options = 
 
 /// Returns the options of the layers in the thesis: 30 layers on a chord of 1, each 15 % higher than the one below,
 /// with rays at most 4 degrees apart.
-inline LayerOptions thesis_layer(Corners corners = Corners::fan) {
+inline LayerOptions thesis_layer(CornerRays corners = CornerRays::fan) {
     LayerOptions options;
     options.first_height = 2.5e-5;
     options.growth = 1.15;

@@ -46,7 +46,7 @@ std::vector<Point> flat_plate_points(std::size_t n, double cosine, double sine) 
 RefinementCase unit_square_case(double triangles, double area_ratio) {
     // The mean area of triangles is about 0.62 of the largest allowed, so a uniform h makes 1 / (0.62 sqrt(3)/4 h^2) of
     // them. A linear h from h0 to h1 makes as many as a uniform h of sqrt(h0 h1).
-    const double mean = std::sqrt(1 / (0.62 * 0.43301270189221932 * triangles));
+    const double mean = std::sqrt(1 / (0.62 * equilateral_area * triangles));
     const double ratio = std::sqrt(area_ratio);
     RefinementCase c;
     c.size = mean / std::sqrt(ratio);

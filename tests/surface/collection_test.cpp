@@ -78,7 +78,7 @@ TEST_F(Collection, EveryFileIsReadOrRefusedForAReason) {
 
 TEST_F(Collection, EveryOutlineCanBeResampled) {
     SurfaceOptions options;
-    options.surface = Surface::resample;
+    options.treatment = SurfaceTreatment::resample;
     options.max_turning_deg = 5;
     std::size_t resampled = 0;
     for (const auto& entry : fs::recursive_directory_iterator(collection())) {

@@ -25,7 +25,7 @@ constexpr double to_degrees = 180 / 3.14159265358979323846;
 
 SurfaceOptions resampling(double max_turning_deg = 5) {
     SurfaceOptions options;
-    options.surface = Surface::resample;
+    options.treatment = SurfaceTreatment::resample;
     options.max_turning_deg = max_turning_deg;
     return options;
 }
@@ -301,7 +301,7 @@ TEST(AutomaticSurface, ResamplesCoarseCurvesAndSaysWhy) {
 
 TEST(KeptSurface, IsUntouched) {
     SurfaceOptions keep;
-    keep.surface = Surface::keep;
+    keep.treatment = SurfaceTreatment::keep;
     for (const Outline& outline : coarse_sections()) EXPECT_EQ(prepared(outline, keep).points, outline);
 }
 
@@ -319,7 +319,7 @@ TEST(Smoothing, RemovesNoiseWithinTheTolerance) {
     for (double noise : {1e-5, 1e-4}) {
         const Outline outline = noisy_section(noise, 200);
         SurfaceOptions options;
-        options.surface = Surface::keep;
+        options.treatment = SurfaceTreatment::keep;
         options.smooth = noise;
         const Outline smooth = prepared(outline, options).points;
         ASSERT_EQ(smooth.size(), outline.size());
@@ -372,7 +372,7 @@ TEST(Smoothing, LeavesNoSeamInAClosedCurve) {
     Outline rough = shapes::circle(1, 120);
     for (Point& p : rough) p = (1 + 1e-4 * (static_cast<double>(random()) / 2147483648.0 - 1)) * p;
     SurfaceOptions options;
-    options.surface = Surface::keep;
+    options.treatment = SurfaceTreatment::keep;
     options.smooth = 2e-4;
     const Outline smooth = prepared(rough, options).points;
     EXPECT_EQ(count_inflections(smooth), 0u);
