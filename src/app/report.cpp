@@ -4,7 +4,7 @@
 
 #include <lamina/version.hpp>
 
-#include "app/coverage.hpp"
+#include "app/coverage_share.hpp"
 
 namespace lamina::app {
 

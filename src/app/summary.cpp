@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/coverage.hpp"
+#include "app/coverage_share.hpp"
 
 namespace lamina::app {
 

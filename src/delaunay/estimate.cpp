@@ -8,11 +8,13 @@
 #include "delaunay/estimate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/parallel.hpp"
 #include "delaunay/lattice_levels.hpp"
+#include "sizing/sized_point.hpp"
 
 namespace lamina::delaunay {
 
@@ -41,13 +43,7 @@ constexpr double uncertain_factor = 1.25;
 
 // ---- integral ----
 
-/// A point with the size there.
-struct SizedPoint {
-    Point at;
-    double size;
-};
-
-double squared_edge(const SizedPoint& a, const SizedPoint& b) { return squared_length(b.at - a.at); }
+using sizing::SizedPoint;
 
 /// A part of a triangle, in which h is nearly linear.
 struct TrianglePart {
@@ -103,8 +99,8 @@ public:
     void divide(SizedPoint a, SizedPoint b, SizedPoint c, int depth) {
         const double low = std::min({a.size, b.size, c.size}), high = std::max({a.size, b.size, c.size});
         const double mean = (a.size + b.size + c.size) / 3;
-        const double ab = squared_edge(a, b), bc = squared_edge(b, c), ca = squared_edge(c, a);
-        const double squared_longest = std::max({ab, bc, ca}), squared_low = low * low;
+        const std::array<double, 3> squared = sizing::squared_edges(a, b, c);
+        const double squared_longest = std::max({squared[0], squared[1], squared[2]}), squared_low = low * low;
         const bool is_short = squared_longest < limits_.short_edge * limits_.short_edge * squared_low;
         const double inside = is_short ? mean : size_((1.0 / 3) * (a.at + b.at + c.at));
         const bool is_small = 0.5 * std::abs(cross(b.at - a.at, c.at - a.at)) < limits_.small_area * squared_low;
@@ -114,11 +110,7 @@ public:
             parts_.push_back(make_part(a, b, c, inside, size_.gradation()));
             return;
         }
-        // Renames the corners so that c-a is the longest edge.
-        if (ab >= bc && ab >= ca)
-            std::swap(b, c);
-        else if (bc >= ca)
-            std::swap(a, b);
+        sizing::rename_longest_edge(a, b, c, squared);
         const Point half = midpoint(a.at, c.at);
         const SizedPoint between{half, size_(half)};
         divide(a, b, between, depth - 1);

@@ -109,7 +109,7 @@ public:
 
 private:
     /// The measures of a triangle that the decisions hang on.
-    struct Shape {
+    struct TriangleShape {
         std::array<double, 3> squared;  ///< squared length of edge e
         double area2;                   ///< twice the area
         /// Returns the shortest edge.
@@ -119,7 +119,7 @@ private:
         }
     };
 
-    Shape shape_of(const Tri& t) const {
+    TriangleShape shape_of(const Tri& t) const {
         const Point a = points_[t.v[0]], b = points_[t.v[1]], c = points_[t.v[2]];
         return {{squared_length(c - b), squared_length(a - c), squared_length(b - a)}, cross(b - a, c - a)};
     }
@@ -138,7 +138,7 @@ private:
 
     /// Queues the triangle if it is too large or narrow.
     void classify(Index t) {
-        const Shape s = shape_of(tris_[t]);
+        const TriangleShape s = shape_of(tris_[t]);
         const double shortest = s.squared[s.shortest()];
         const QueuedTriangle entry{t, tris_[t].v[0]};
         if (s.area2 > area2_bound(tris_[t]))
@@ -173,7 +173,7 @@ private:
     /// Places a point that makes a triangle of the target area over the shortest edge.
     void mend_size(Index t) {
         const Tri& tri = tris_[t];
-        const Shape s = shape_of(tri);
+        const TriangleShape s = shape_of(tri);
         const unsigned e = s.shortest();
         const double height = target_area_share * area2_bound(tri) / s.squared[e];
         insert_near(t, e, height > min_front_height ? height : HUGE_VAL);
@@ -308,7 +308,7 @@ RefineStats Refiner::count_leftovers() const {
     RefineStats stats;
     stats.refused = refused_;
     for (const Tri& t : tris_) {
-        const Shape s = shape_of(t);
+        const TriangleShape s = shape_of(t);
         const double shortest = s.squared[s.shortest()];
         // The allowance for rounding makes this count the triangles that check_mesh() counts.
         if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest * (1 + 1e-9), s.area2)) {

@@ -215,7 +215,7 @@ private:
         const std::size_t boundary = patches_.empty() ? n : patches_.front().start;
         std::size_t patch = 0;
         for (std::size_t f = 0; f < n; ++f) {
-            const Face face = read_face(in, f);
+            const FoamFace face = read_face(in, f);
             if (f < boundary) continue;
             while (patch < patches_.size() && f >= patches_[patch].start + patches_[patch].faces) ++patch;
             if (patch == patches_.size() || f < patches_[patch].start)
@@ -225,17 +225,17 @@ private:
         in.end_list();
     }
     /// The vertices of a face; those in the upper plane are invalid.
-    struct Face {
+    struct FoamFace {
         std::array<VertexId, 4> v;
         std::size_t corners;
 
         std::span<VertexId> vertices() { return {v.data(), corners}; }
     };
-    Face read_face(FoamWords& in, std::size_t number) const {
+    FoamFace read_face(FoamWords& in, std::size_t number) const {
         const auto corners = in.number<std::size_t>("number of corners");
         if (corners != 3 && corners != 4) in.fail(fmt::format("face {} has {} corners, not 3 or 4", number, corners));
         in.expect("(");
-        Face face{{}, corners};
+        FoamFace face{{}, corners};
         for (VertexId& v : face.vertices()) {
             const auto point = in.number<std::size_t>("point");
             if (point >= vertex_.size()) in.fail(fmt::format("point {} where there are {}", point, vertex_.size()));
@@ -247,7 +247,7 @@ private:
     /// Adds a face of the boundary as a cell, as an edge of a marker, or, in the upper plane, not at all. The normals
     /// of faces point outward: faces in the lower plane run clockwise, and the lower edge of a side has its cell on the
     /// left.
-    void add_face(const FoamWords& in, std::size_t number, const FoamPatch& patch, Face face) {
+    void add_face(const FoamWords& in, std::size_t number, const FoamPatch& patch, FoamFace face) {
         const auto& v = face.v;
         const std::span<VertexId> vertices = face.vertices();
         const auto is_lower = [](VertexId vertex) { return vertex.valid(); };

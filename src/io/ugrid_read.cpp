@@ -77,7 +77,7 @@ public:
         const auto [nodes, triangles, quads, tetrahedra, pyramids, prisms, hexahedra] = counts;
         if (tetrahedra + pyramids > 0) in_.fail("tetrahedra and pyramids: the mesh is not one cell thick");
         read_nodes(nodes);
-        const std::vector<Face> faces = read_faces(triangles, quads);
+        const std::vector<UgridFace> faces = read_faces(triangles, quads);
         if (prisms + hexahedra == 0)
             gather_plane(faces);
         else
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    struct Face {
+    struct UgridFace {
         std::size_t corners = 3;
         std::array<std::uint32_t, 4> nodes{};
         int surface = 0;  ///< number of its marker or plane
@@ -111,17 +111,17 @@ private:
             in_.fail(fmt::format("node {} where there are {}", number, nodes_.size()));
         return static_cast<std::uint32_t>(number - 1);
     }
-    std::vector<Face> read_faces(std::size_t triangles, std::size_t quads) {
-        std::vector<Face> faces;
+    std::vector<UgridFace> read_faces(std::size_t triangles, std::size_t quads) {
+        std::vector<UgridFace> faces;
         for (std::size_t i = 0; i < triangles + quads; ++i) {
-            Face& face = faces.emplace_back();
+            UgridFace& face = faces.emplace_back();
             face.corners = i < triangles ? 3 : 4;
             for (std::size_t k = 0; k < face.corners; ++k) face.nodes[k] = read_node_number();
         }
-        for (Face& face : faces) face.surface = in_.number<std::int32_t>("number of a surface");
+        for (UgridFace& face : faces) face.surface = in_.number<std::int32_t>("number of a surface");
         return faces;
     }
-    FaceVertices vertices_of(const Face& face) const {
+    FaceVertices vertices_of(const UgridFace& face) const {
         FaceVertices v;
         for (std::size_t k = 0; k < face.corners; ++k) v[k] = vertex_[face.nodes[k]];
         return v;
@@ -133,12 +133,12 @@ private:
             mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
     }
 
-    void gather_plane(const std::vector<Face>& faces) {
+    void gather_plane(const std::vector<UgridFace>& faces) {
         for (const auto& [x, y, z] : nodes_) {
             vertex_.emplace_back(mesh_.points.size());
             mesh_.points.push_back({x, y});
         }
-        for (const Face& face : faces) add_cell(vertices_of(face), face.corners);
+        for (const UgridFace& face : faces) add_cell(vertices_of(face), face.corners);
         const auto edges = in_.number<std::int32_t>("number of edges of the boundary");
         for (std::int32_t i = 0; i < edges; ++i) {
             const std::uint32_t a = read_node_number(), b = read_node_number();
@@ -147,10 +147,10 @@ private:
     }
 
     /// Makes cells of the faces in the lower plane, and edges of the boundary of the faces that stand on it.
-    void gather_one_cell_thick(const std::vector<Face>& faces, std::size_t prisms, std::size_t hexahedra) {
+    void gather_one_cell_thick(const std::vector<UgridFace>& faces, std::size_t prisms, std::size_t hexahedra) {
         for (std::size_t i = 0; i < 6 * prisms + 8 * hexahedra; ++i) read_node_number();
         gather_lower_plane();
-        for (const Face& face : faces) add_face(face);
+        for (const UgridFace& face : faces) add_face(face);
         if (mesh_.triangles.size() != prisms || mesh_.quads.size() != hexahedra)
             in_.fail("the mesh is not one cell thick in y");
     }
@@ -167,7 +167,7 @@ private:
             mesh_.points.push_back({x, z});
         }
     }
-    void add_face(const Face& face) {
+    void add_face(const UgridFace& face) {
         FaceVertices v = vertices_of(face);
         const std::span<VertexId> vertices(v.data(), face.corners);
         const auto is_lower = [](VertexId vertex) { return vertex.valid(); };

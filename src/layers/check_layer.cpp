@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t max_findings = 20;
 
 /// A directed edge of a wall or border.
-struct LoopEdge {
+struct ElementEdge {
     VertexId a, b;
     std::size_t element;
 };
@@ -30,7 +30,7 @@ struct LoopEdge {
 struct Loops {
     const char* name;  ///< "wall" or "border"
     const std::vector<std::vector<VertexId>>& vertices;
-    std::vector<LoopEdge> edges;
+    std::vector<ElementEdge> edges;
     core::BoxTree tree;  ///< over the edges
 
     Loops(const char* loop_name, const std::vector<std::vector<VertexId>>& loops, const std::vector<Point>& points)
@@ -102,7 +102,7 @@ private:
                 report(fmt::format("{} is not counter-clockwise", loops.name), at(loop[0]));
         }
         for (std::size_t i = 0; i < loops.edges.size(); ++i) {
-            const LoopEdge& edge = loops.edges[i];
+            const ElementEdge& edge = loops.edges[i];
             loops.tree.overlaps(core::bounding_box(at(edge.a), at(edge.b)), [&](std::size_t j) {
                 if (j > i) check_pair(loops.name, edge, loops.edges[j]);
             });
@@ -110,7 +110,7 @@ private:
     }
 
     /// Checks that two edges of loops of one kind meet in a common end only.
-    void check_pair(const char* name, const LoopEdge& edge, const LoopEdge& other) {
+    void check_pair(const char* name, const ElementEdge& edge, const ElementEdge& other) {
         const auto [a, b, element] = edge;
         const auto [c, d, other_element] = other;
         if (b == c && a == d) {
@@ -125,13 +125,13 @@ private:
     }
 
     void check_borders_against_walls() {
-        for (const LoopEdge& border : borders_.edges)
+        for (const ElementEdge& border : borders_.edges)
             walls_.tree.overlaps(core::bounding_box(at(border.a), at(border.b)),
                                  [&](std::size_t j) { check_border_against_wall(border, walls_.edges[j]); });
     }
 
     /// Checks that an edge of a border is this edge of the wall, or meets it in a common end only.
-    void check_border_against_wall(const LoopEdge& border, const LoopEdge& wall) {
+    void check_border_against_wall(const ElementEdge& border, const ElementEdge& wall) {
         const auto [a, b, element] = border;
         const auto [c, d, wall_element] = wall;
         if (a == c && b == d) return;
@@ -245,7 +245,7 @@ private:
             for (const Ray& ray : layer_.rays[e])
                 for (std::uint32_t n = 1; n <= ray.layers; ++n) element[ray.vertex(n).index()] = e;
         for (const Loops* loops : {&walls_, &borders_})
-            for (const LoopEdge& edge : loops->edges) element[edge.a.index()] = edge.element;
+            for (const ElementEdge& edge : loops->edges) element[edge.a.index()] = edge.element;
         return element;
     }
 
@@ -254,7 +254,7 @@ private:
     void check_sides() {
         const std::vector<std::size_t> element = elements_of_points();
         std::vector<char> on_border(layer_.points.size(), 0);
-        for (const LoopEdge& edge : borders_.edges) on_border[edge.a.index()] = 1;
+        for (const ElementEdge& edge : borders_.edges) on_border[edge.a.index()] = 1;
         for (std::size_t i = 0; i < layer_.points.size(); ++i) {
             const Point p = layer_.points[i];
             if (i >= layer_.wall_points) {

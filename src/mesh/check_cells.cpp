@@ -9,7 +9,7 @@
 #include "core/predicates.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/cell_text.hpp"
-#include "mesh/regions.hpp"
+#include "mesh/isotropic_cells.hpp"
 
 namespace lamina::mesh {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "mesh/cell_text.hpp"
-#include "mesh/regions.hpp"
+#include "mesh/isotropic_cells.hpp"
 
 namespace lamina::mesh {
 

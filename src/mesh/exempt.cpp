@@ -5,7 +5,7 @@
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
 #include "mesh/adjacency.hpp"
-#include "mesh/regions.hpp"
+#include "mesh/isotropic_cells.hpp"
 
 namespace lamina::mesh {
 

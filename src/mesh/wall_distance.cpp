@@ -10,10 +10,10 @@
 namespace lamina::mesh {
 
 std::vector<double> wall_distances(const Mesh& mesh) {
-    struct WallEdge {
+    struct WallSegment {
         Point a, b;
     };
-    std::vector<WallEdge> edges;
+    std::vector<WallSegment> edges;
     std::vector<Box> boxes;
     for (const Marker& marker : mesh.markers) {
         if (marker.kind != MarkerKind::wall) continue;

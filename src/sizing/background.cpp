@@ -8,6 +8,7 @@
 #include "sizing/background.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -17,6 +18,7 @@
 
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "sizing/sized_point.hpp"
 
 namespace lamina::sizing {
 
@@ -25,15 +27,7 @@ namespace {
 /// The share of the interpolated size by which the field may exceed it.
 constexpr double tolerance = 0.1;
 
-/// A point with a size.
-struct SizedPoint {
-    Point at;
-    double size;
-};
-
 SizeSource source_at(const SizedPoint& p) { return {.a = p.at, .b = p.at, .size = p.size}; }
-
-double squared_distance(const SizedPoint& a, const SizedPoint& b) { return squared_length(b.at - a.at); }
 
 Box triangle_box(const SizedPoint& a, const SizedPoint& b, const SizedPoint& c) {
     Box box;
@@ -51,14 +45,10 @@ public:
     /// lies outside the domain.
     void sample(SizedPoint a, SizedPoint b, SizedPoint c, std::vector<SizeSource>& points) const {
         const double min_size = std::min({a.size, b.size, c.size});
-        const double ab = squared_distance(a, b), bc = squared_distance(b, c), ca = squared_distance(c, a);
-        if (std::max({ab, bc, ca}) <= squared_reach_ * min_size * min_size) return;
+        const std::array<double, 3> squared = squared_edges(a, b, c);
+        if (*std::max_element(squared.begin(), squared.end()) <= squared_reach_ * min_size * min_size) return;
         if (!triangle_box(a, b, c).overlaps(domain_)) return;
-        // Renames the corners so that c-a is the longest edge.
-        if (ab >= bc && ab >= ca)
-            std::swap(b, c);
-        else if (bc >= ca)
-            std::swap(a, b);
+        rename_longest_edge(a, b, c, squared);
         const SizedPoint middle{midpoint(a.at, c.at), 0.5 * (a.size + c.size)};
         points.push_back(source_at(middle));
         sample(a, b, middle, points);
@@ -77,7 +67,7 @@ public:
         const double max_edge = reach * std::max({a.size, b.size, c.size});
         double count = share * area / (max_edge * max_edge);
         for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-            const double length_inside = std::min(std::sqrt(squared_distance(p, q)), width + height);
+            const double length_inside = std::min(distance(p.at, q.at), width + height);
             count = std::max(count, length_inside / (reach * std::max(p.size, q.size)));
         }
         return count;
