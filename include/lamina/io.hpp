@@ -56,4 +56,9 @@ LAMINA_EXPORT SizedMesh read_sizes(const std::filesystem::path& file);
 /// minutes of meshing: UsageError for an unknown format, IoError where the folder does not exist or is not writable.
 LAMINA_EXPORT void check_writable(const std::filesystem::path& file, const WriteOptions& options = {});
 
+/// Returns the files that write_mesh() creates or replaces: one, several, or the folder of a format that is a folder.
+/// Throws UsageError for an unknown format.
+LAMINA_EXPORT std::vector<std::filesystem::path> output_files(const std::filesystem::path& file,
+                                                              const WriteOptions& options = {});
+
 }  // namespace lamina

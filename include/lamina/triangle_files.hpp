@@ -69,6 +69,10 @@ LAMINA_EXPORT std::vector<Triangle> read_triangle_elements(const std::filesystem
 /// Sets the marker of each vertex and segment on the boundary of the triangles to 1 where it is 0, as Triangle does.
 LAMINA_EXPORT void mark_boundary(TriangleOutput& output);
 
+/// Returns the files that write_triangle_files() writes where there are no edges: STEM.node, STEM.ele and, if with_poly
+/// is set, STEM.poly.
+LAMINA_EXPORT std::vector<std::filesystem::path> triangle_files(const std::filesystem::path& stem, bool with_poly);
+
 /// Writes STEM.node and STEM.ele, STEM.poly if with_poly is set, and STEM.edge if there are edges. Numbers have 17
 /// significant digits. No file gets its name before all are complete. Throws IoError.
 LAMINA_EXPORT void write_triangle_files(const TriangleOutput& output, const std::filesystem::path& stem,

@@ -12,6 +12,7 @@ namespace lamina::app {
 enum class ProgressShown { automatic, always, never };
 
 struct MeshCase {
+    std::string case_file;             ///< the case file that it was read from; empty: none
     std::vector<std::string> inputs;   ///< airfoil files and NACA names; never a case file
     std::vector<std::string> outputs;  ///< mesh files
     std::string format;                ///< of every mesh file; empty: by its extension

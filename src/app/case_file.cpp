@@ -96,6 +96,7 @@ MeshCase read_case_file(const std::filesystem::path& file) {
         assign(*option, mesh_case, value, origin);
     }
     if (mesh_case.inputs.empty()) throw UsageError(file.string() + ": no input");
+    mesh_case.case_file = file.string();
     return mesh_case;
 }
 

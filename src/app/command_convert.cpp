@@ -1,5 +1,6 @@
 // lamina convert: converts a mesh from one format to another.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
+#include "app/run_files.hpp"
 
 namespace lamina::app {
 
@@ -34,6 +36,11 @@ void set_kind(Mesh& mesh, const std::vector<std::string>& names, MarkerKind kind
 
 void convert(const ConvertArguments& arguments) {
     check_writable(arguments.to, arguments.options);
+    std::vector<RunFile> outputs;
+    for (const std::filesystem::path& file : output_files(arguments.to, arguments.options))
+        outputs.push_back({file, "OUT"});
+    require_distinct(files_of_mesh(arguments.from), outputs);
+    const SignalGuard guard(outputs);
     Mesh mesh = read_mesh(arguments.from);
     set_kind(mesh, arguments.walls, MarkerKind::wall, arguments.from);
     set_kind(mesh, arguments.far_fields, MarkerKind::far_field, arguments.from);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,7 @@
 #include "app/delaunay_run.hpp"
 #include "app/options.hpp"
 #include "app/report.hpp"
+#include "app/run_files.hpp"
 #include "app/stopwatch.hpp"
 #include "app/table_option.hpp"
 
@@ -52,6 +54,20 @@ fs::path output_stem(const DelaunayArguments& arguments) {
     fs::path stem = arguments.file;
     stem.replace_extension();
     return stem += ".1";
+}
+
+/// Returns the input, and the .node file that a .poly file may refer to.
+std::vector<RunFile> files_read(const DelaunayArguments& arguments) {
+    const fs::path file = arguments.file;
+    return {{file, "FILE"}, {fs::path(file).replace_extension(".node"), "FILE"}};
+}
+
+std::vector<RunFile> files_written(const DelaunayArguments& arguments, const fs::path& stem) {
+    std::vector<RunFile> files;
+    for (const fs::path& file : triangle_files(stem, fs::path(arguments.file).extension() == ".poly"))
+        files.push_back({file, "option --output"});
+    if (!arguments.report.empty()) files.push_back({arguments.report, "option --report"});
+    return files;
 }
 
 DelaunaySettings settings_of(const DelaunayArguments& arguments) {
@@ -129,6 +145,9 @@ void run(const DelaunayArguments& arguments) {
     DelaunayRunFacts facts{.stem = output_stem(arguments), .threads = threads_of(arguments)};
     check_folder_writable(facts.stem);
     if (!arguments.report.empty()) check_folder_writable(arguments.report);
+    const std::vector<RunFile> outputs = files_written(arguments, facts.stem);
+    require_distinct(files_read(arguments), outputs);
+    const SignalGuard guard(outputs);
 
     Stopwatch watch, total;
     TriangleInput input = read_triangle_files(arguments.file);

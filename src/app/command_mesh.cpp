@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "app/format_help.hpp"
 #include "app/options.hpp"
 #include "app/report.hpp"
+#include "app/run_files.hpp"
 #include "app/stopwatch.hpp"
 #include "app/summary.hpp"
 
@@ -71,17 +73,37 @@ WriteOptions write_options(const MeshCase& mesh_case) {
     return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance};
 }
 
+std::vector<RunFile> files_read(const MeshCase& mesh_case) {
+    std::vector<RunFile> files;
+    for (const std::string& input : mesh_case.inputs) files.push_back({input, "INPUT"});
+    if (!mesh_case.case_file.empty()) files.push_back({mesh_case.case_file, "INPUT"});
+    if (!mesh_case.background.empty()) files.push_back({mesh_case.background, "option --background"});
+    return files;
+}
+
+std::vector<RunFile> files_written(const MeshCase& mesh_case) {
+    std::vector<RunFile> files;
+    for (const std::string& output : mesh_case.outputs)
+        for (const std::filesystem::path& file : output_files(output, write_options(mesh_case)))
+            files.push_back({file, "option --output " + output});
+    if (!mesh_case.wall_data.empty()) files.push_back({mesh_case.wall_data, "option --wall-data"});
+    if (!mesh_case.report.empty()) files.push_back({mesh_case.report, "option --report"});
+    return files;
+}
+
 /// Throws where an output is missing or certainly cannot be written, before the work begins.
 void require_outputs(const MeshCase& mesh_case) {
     if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
     for (const std::string& output : mesh_case.outputs) check_writable(output, write_options(mesh_case));
     if (!mesh_case.wall_data.empty()) check_folder_writable(mesh_case.wall_data);
     if (!mesh_case.report.empty()) check_folder_writable(mesh_case.report);
+    require_distinct(files_read(mesh_case), files_written(mesh_case));
 }
 
 void mesh(const MeshCase& mesh_case) {
     require_consistent(mesh_case);
     require_outputs(mesh_case);
+    const SignalGuard guard(files_written(mesh_case));
     CaseOptions options = mesh_case.options;
     if (!mesh_case.background.empty())
         options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));

@@ -1,11 +1,13 @@
 // lamina plot: draws a picture of a mesh.
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <lamina/io.hpp>
 #include <lamina/plot.hpp>
 
 #include "app/commands.hpp"
+#include "app/run_files.hpp"
 #include "app/table_option.hpp"
 
 namespace lamina::app {
@@ -35,6 +37,9 @@ void add_plot_command(CLI::App& app) {
         set_by_name(plot_option_table(), "window", arguments->window, options);
         set_by_name(plot_option_table(), "color", arguments->color, options);
         set_by_name(plot_option_table(), "width", arguments->width, options);
+        const std::vector<RunFile> outputs{{arguments->picture, "option --output"}};
+        require_distinct(files_of_mesh(arguments->mesh), outputs);
+        const SignalGuard guard(outputs);
         plot_mesh(read_mesh(arguments->mesh), arguments->picture, options);
     });
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
 namespace lamina::core {
 
@@ -18,9 +19,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The purposes of temporary files: the new content, the old folder, and a trial of the room on the disk.
+constexpr const char *new_purpose = "tmp", *replaced_purpose = "old", *room_purpose = "room";
+
 /// Returns a hidden name beside the target, which is on the same file system and can hence be renamed to it. The
 /// extension stays last, since some writers choose the format by it.
-fs::path temporary_beside(const fs::path& target, const char* purpose = "tmp") {
+fs::path temporary_beside(const fs::path& target, const char* purpose = new_purpose) {
     fs::path temporary = target;
     temporary.replace_filename("." + target.stem().string() + "." + purpose + std::to_string(::getpid()) +
                                target.extension().string());
@@ -84,7 +88,7 @@ void write_atomically(const fs::path& target, const std::function<void(const fs:
 }
 
 void write_folder_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
-    const fs::path temporary = temporary_beside(target), replaced = temporary_beside(target, "old");
+    const fs::path temporary = temporary_beside(target), replaced = temporary_beside(target, replaced_purpose);
     std::vector<fs::path> created;  // missing folders above the target, the outermost one first
     const auto work = [&] {
         for (fs::path above = folder_of(target); !fs::exists(above); above = folder_of(above))
@@ -108,7 +112,7 @@ void write_folder_atomically(const fs::path& target, const std::function<void(co
 
 #ifdef __linux__
 void require_room(const fs::path& target, std::size_t bytes) {
-    const fs::path trial = temporary_beside(target, "room");
+    const fs::path trial = temporary_beside(target, room_purpose);
     const int file = ::open(trial.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
     const bool has_room = file >= 0 && (::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0 || errno == EOPNOTSUPP);
     const int reason = errno;
@@ -135,3 +139,27 @@ void write_stream_atomically(const fs::path& target, const std::function<void(st
 }
 
 }  // namespace lamina::core
+
+namespace lamina {
+
+using namespace core;
+
+void remove_temporaries(std::span<const fs::path> targets) noexcept {
+    for (const fs::path& target : targets) try {
+            const fs::path file = behind_links(target), replaced = temporary_beside(target, replaced_purpose);
+            std::error_code ignored;
+            for (const fs::path& temporary :
+                 {temporary_beside(file), temporary_beside(target), temporary_beside(target, room_purpose)})
+                fs::remove_all(temporary, ignored);
+            if (fs::exists(replaced, ignored)) {
+                if (fs::exists(target, ignored))
+                    fs::remove_all(replaced, ignored);
+                else
+                    fs::rename(replaced, target, ignored);
+            }
+        } catch (...) {
+            // Only a lack of memory throws here. The other targets may still be cleaned.
+        }
+}
+
+}  // namespace lamina

@@ -27,6 +27,8 @@ void write_one_file(const Mesh& mesh, const fs::path& file, const WriteOptions&)
     core::write_stream_atomically(file, [&](std::ostream& out) { write_to_stream(mesh, file, out); });
 }
 
+std::vector<fs::path> one_file(const fs::path& file) { return {file}; }
+
 /// Writes several files by a function that sees to them itself.
 template <auto write>
 void write_files(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
@@ -64,7 +66,7 @@ FormatRow su2_row() {
             .extensions = {".su2"},
             .description = "SU2 native mesh, ASCII",
             .write = write_one_file<write_su2>,
-            .check = check_folder_writable,
+            .files = one_file,
             .read = read_one_file<read_su2>};
 }
 
@@ -77,7 +79,7 @@ std::vector<FormatRow> cgns_rows() {
                         .extensions = {".cgns"},
                         .description = description,
                         .write = write,
-                        .check = check_folder_writable,
+                        .files = one_file,
                         .read = read_cgns});
     };
     add("cgns", "CGNS, HDF5", write_cgns_variant<false, false>);
@@ -94,7 +96,7 @@ std::vector<FormatRow> msh_rows() {
                         .extensions = {".msh"},
                         .description = description,
                         .write = write,
-                        .check = check_folder_writable,
+                        .files = one_file,
                         .read = read_one_file<read_msh>,
                         .read_sizes = read_msh_sizes});
     };
@@ -106,7 +108,7 @@ std::vector<FormatRow> msh_rows() {
                     .extensions = {".msh"},
                     .description = "Gmsh MSH 2.2, ASCII, one cell thick, for gmshToFoam",
                     .write = write_one_file<write_msh_extruded>,
-                    .check = check_folder_writable});
+                    .files = one_file});
     return rows;
 }
 
@@ -117,7 +119,7 @@ std::vector<FormatRow> vtu_rows() {
                         .extensions = {".vtu"},
                         .description = description,
                         .write = write,
-                        .check = check_folder_writable,
+                        .files = one_file,
                         .read = read_one_file<read_vtu>,
                         .read_sizes = read_vtu_sizes});
     };
@@ -131,6 +133,7 @@ FormatRow openfoam_row() {
             .extensions = {"polyMesh"},
             .description = "OpenFOAM polyMesh folder, ASCII, one cell thick",
             .write = write_files<write_openfoam>,
+            .files = openfoam_files,
             .check = check_openfoam_writable,
             .read = read_openfoam,
             .recognizes = holds_openfoam_mesh};
@@ -143,7 +146,7 @@ std::vector<FormatRow> ugrid_rows() {
                         .extensions = std::move(extensions),
                         .description = description,
                         .write = write,
-                        .check = check_ugrid_writable,
+                        .files = ugrid_files,
                         .read = read_one_file<read_ugrid>});
     };
     add("ugrid", {".ugrid"}, "UGRID, plane, ASCII, with .mapbc", write_files<write_ugrid>);
@@ -156,7 +159,7 @@ FormatRow triangle_row() {
             .extensions = {".node", ".ele"},
             .description = "Triangle's .node, .ele, .edge and .poly",
             .write = write_files<write_triangle_mesh>,
-            .check = check_triangle_writable,
+            .files = triangle_mesh_files,
             .read = read_triangle_mesh,
             .quads = false};
 }

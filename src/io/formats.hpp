@@ -24,7 +24,9 @@ struct FormatRow {
     /// Writes all files of the mesh, whole or not at all. Throws IoError; UsageError and MeshError for what the format
     /// cannot hold.
     void (*write)(const Mesh&, const std::filesystem::path&, const WriteOptions&) = nullptr;
-    /// Throws IoError where the file is certainly not writable.
+    /// Returns the files that `write` creates or replaces, or the one folder where the format is a folder.
+    std::vector<std::filesystem::path> (*files)(const std::filesystem::path&) = nullptr;
+    /// Throws IoError where the mesh certainly cannot be written. Null: it can where each of its files can.
     void (*check)(const std::filesystem::path&) = nullptr;
     /// Reads a mesh. Throws IoError, InputError. Null: the format is not read.
     Mesh (*read)(const std::filesystem::path&) = nullptr;
@@ -81,6 +83,8 @@ Mesh read_cgns(const std::filesystem::path& file);
 
 /// The patch for the two sides of meshes that are one cell thick.
 inline constexpr const char* front_and_back = "frontAndBack";
+/// Returns the folder alone.
+std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& file);
 void check_openfoam_writable(const std::filesystem::path& file);
 void write_openfoam(const Mesh& mesh, const std::filesystem::path& file);
 Mesh read_openfoam(const std::filesystem::path& file);
@@ -89,8 +93,8 @@ Mesh read_openfoam(const std::filesystem::path& file);
 std::filesystem::path poly_mesh_folder(const std::filesystem::path& file);
 bool holds_openfoam_mesh(const std::filesystem::path& file);
 
-/// Checks the file and the .mapbc file beside it, which holds the names of the boundaries.
-void check_ugrid_writable(const std::filesystem::path& file);
+/// Returns the file and the .mapbc file beside it, which holds the names of the boundaries.
+std::vector<std::filesystem::path> ugrid_files(const std::filesystem::path& file);
 /// Writes a plane mesh in ASCII.
 void write_ugrid(const Mesh& mesh, const std::filesystem::path& file);
 /// Writes a mesh one cell thick: big-endian for .b8.ugrid, little-endian for .lb8.ugrid, else in ASCII.
@@ -98,8 +102,8 @@ void write_fun3d(const Mesh& mesh, const std::filesystem::path& file);
 /// Reads what write_ugrid() and write_fun3d() write.
 Mesh read_ugrid(const std::string& bytes, const std::filesystem::path& file);
 
-/// Checks the four files of one stem that hold the mesh.
-void check_triangle_writable(const std::filesystem::path& file);
+/// Returns the four files of one stem that hold the mesh.
+std::vector<std::filesystem::path> triangle_mesh_files(const std::filesystem::path& file);
 void write_triangle_mesh(const Mesh& mesh, const std::filesystem::path& file);
 Mesh read_triangle_mesh(const std::filesystem::path& file);
 

@@ -1,6 +1,8 @@
 // The public functions for mesh files. They choose a row of the table of formats and call its functions.
 #include <lamina/io.hpp>
 
+#include <lamina/files.hpp>
+
 #include "io/formats.hpp"
 
 namespace lamina {
@@ -21,7 +23,13 @@ Mesh read_mesh(const fs::path& file) {
 }
 
 void check_writable(const fs::path& file, const WriteOptions& options) {
-    find_format(file, options.format).check(file);
+    const FormatRow& format = find_format(file, options.format);
+    if (format.check != nullptr) return format.check(file);
+    for (const fs::path& written : format.files(file)) check_folder_writable(written);
+}
+
+std::vector<fs::path> output_files(const fs::path& file, const WriteOptions& options) {
+    return find_format(file, options.format).files(file);
 }
 
 std::vector<MeshFormat> mesh_formats() {

@@ -218,6 +218,8 @@ bool holds_openfoam_mesh(const fs::path& file) {
     return fs::exists(poly_mesh_folder(file) / "faces", ignored);
 }
 
+std::vector<fs::path> openfoam_files(const fs::path& file) { return {poly_mesh_folder(file)}; }
+
 void check_openfoam_writable(const fs::path& file) {
     const fs::path folder = poly_mesh_folder(file);
     std::error_code ignored;

@@ -295,13 +295,16 @@ void mark_boundary(TriangleOutput& output) {
     mesh.triangles.swap(output.triangles);
 }
 
+std::vector<fs::path> triangle_files(const fs::path& stem, bool with_poly) {
+    std::vector<fs::path> files{with_suffix(stem, ".node"), with_suffix(stem, ".ele")};
+    if (with_poly) files.push_back(with_suffix(stem, ".poly"));
+    return files;
+}
+
 void write_triangle_files(const TriangleOutput& output, const fs::path& stem, bool with_poly) {
-    std::vector<fs::path> targets{with_suffix(stem, ".node"), with_suffix(stem, ".ele")};
+    std::vector<fs::path> targets = triangle_files(stem, with_poly);
     std::vector<void (*)(const TriangleOutput&, std::ostream&)> writers{write_node, write_ele};
-    if (with_poly) {
-        targets.push_back(with_suffix(stem, ".poly"));
-        writers.push_back(write_poly);
-    }
+    if (with_poly) writers.push_back(write_poly);
     if (!output.edges.empty()) {
         targets.push_back(with_suffix(stem, ".edge"));
         writers.push_back([](const TriangleOutput& contents, std::ostream& out) {

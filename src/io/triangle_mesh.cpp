@@ -76,9 +76,10 @@ std::map<long, NamedMarker> read_names(const fs::path& file) {
 
 }  // namespace
 
-void check_triangle_writable(const fs::path& file) {
-    for (const char* suffix : {".node", ".ele", ".edge", ".poly"})
-        check_folder_writable(with_suffix(stem_of(file), suffix));
+std::vector<fs::path> triangle_mesh_files(const fs::path& file) {
+    std::vector<fs::path> files = triangle_files(stem_of(file), true);
+    files.push_back(with_suffix(stem_of(file), ".edge"));
+    return files;
 }
 
 void write_triangle_mesh(const Mesh& mesh, const fs::path& file) {

@@ -22,9 +22,6 @@ std::filesystem::path mapbc_of(const std::filesystem::path& file) {
     return stem += ".mapbc";
 }
 
-void check_ugrid_writable(const std::filesystem::path& file) {
-    check_folder_writable(file);
-    check_folder_writable(mapbc_of(file));
-}
+std::vector<std::filesystem::path> ugrid_files(const std::filesystem::path& file) { return {file, mapbc_of(file)}; }
 
 }  // namespace lamina::io

@@ -177,7 +177,7 @@ void write_with_mapbc(const Mesh& mesh, const fs::path& file, bool thick) {
     require_marker_names(mesh, file, "UGRID", " ", 1000);
     if (mesh.points.size() > std::numeric_limits<std::int32_t>::max() / 2)
         throw UsageError(fmt::format("{}: UGRID numbers no more than 2^31 nodes", file.string()));
-    const std::array<fs::path, 2> targets{file, mapbc_of(file)};
+    const std::vector<fs::path> targets = ugrid_files(file);
     core::write_files_atomically(targets, [&](std::span<const fs::path> temporaries) {
         core::write_stream(temporaries[0], targets[0], [&](std::ostream& out) {
             thick ? ThickMeshWriter(mesh, encoding_of(file), out).write() : write_plane(mesh, out);

@@ -2,10 +2,13 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 extern char** environ;
 
@@ -19,10 +22,9 @@ std::string joined(const std::vector<std::string>& arguments) {
     return line;
 }
 
-}  // namespace
-
-ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
-    const TemporaryFolder captured;
+/// Starts the program with files of `captured` as its standard output and error.
+pid_t start_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                   const TemporaryFolder& captured) {
     std::vector<std::string> words{LAMINA_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -39,10 +41,31 @@ ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::stri
     const int failed = posix_spawn(&child, LAMINA_PROGRAM, &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (failed != 0) throw std::runtime_error(std::string("cannot start ") + LAMINA_PROGRAM);
+    return child;
+}
 
+}  // namespace
+
+ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+    const TemporaryFolder captured;
+    const pid_t child = start_lamina(folder, arguments, captured);
     int status = 0;
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, captured.read("out"), captured.read("err")};
+}
+
+int interrupt_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,
+                     const std::function<bool()>& moment) {
+    const TemporaryFolder captured;
+    const pid_t child = start_lamina(folder, arguments, captured);
+    int status = 0;
+    while (!moment()) {
+        if (waitpid(child, &status, WNOHANG) == child) return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(child, signal);
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
 }
 
 void expect_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int exit_code,

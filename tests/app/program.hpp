@@ -1,6 +1,7 @@
 // Runs the program in a folder, with arguments.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct ProgramRun {
 
 /// Runs `lamina ARGUMENTS...` with `folder` as its working directory.
 ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+
+/// Runs it, too, and sends it a signal as soon as `moment()` holds. Returns the signal that ended it, or 0.
+int interrupt_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,
+                     const std::function<bool()>& moment);
 
 /// Expects the program to refuse the arguments: with this exit code, one line "lamina: error: ..." that contains
 /// `said`, nothing on standard output, and a folder that did not change.

@@ -1,0 +1,116 @@
+#include "app/run_files.hpp"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <csignal>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/io.hpp>
+
+namespace lamina::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Returns the path without links and dots, as far as it exists.
+fs::path resolved(const fs::path& path) {
+    const fs::path absolute = fs::absolute(path);
+    std::error_code failed;
+    fs::path result = fs::weakly_canonical(absolute, failed);
+    if (failed) result = absolute.lexically_normal();
+    return result.has_filename() ? result : result.parent_path();
+}
+
+bool is_file_or_folder(const fs::path& path) {
+    std::error_code ignored;
+    const fs::file_type type = fs::status(path, ignored).type();
+    return type == fs::file_type::regular || type == fs::file_type::directory || type == fs::file_type::not_found;
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored);
+}
+
+bool is_inside(const fs::path& path, const fs::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+/// Returns whether writing `output` changes `other`.
+bool replaces(const fs::path& output, const fs::path& other) {
+    if (!is_file_or_folder(output) || !is_file_or_folder(other)) return false;
+    std::error_code ignored;
+    if (fs::equivalent(output, other, ignored)) return true;
+    const fs::path a = resolved(output), b = resolved(other);
+    if (a == b) return true;
+    // A folder that is written takes its files with it; a folder that is read may hold a folder that is written.
+    return is_folder(a) && (is_inside(b, a) || is_inside(a, b));
+}
+
+}  // namespace
+
+void require_distinct(std::span<const RunFile> inputs, std::span<const RunFile> outputs) {
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const RunFile& output = outputs[i];
+        for (const RunFile& input : inputs)
+            if (replaces(output.path, input.path))
+                throw UsageError(fmt::format("{}: '{}' would replace the input '{}'", output.role, output.path.string(),
+                                             input.path.string()));
+        for (const RunFile& earlier : outputs.first(i))
+            if (replaces(output.path, earlier.path) || replaces(earlier.path, output.path))
+                throw UsageError(
+                    fmt::format("{}: '{}' is written by {} already", output.role, output.path.string(), earlier.role));
+    }
+}
+
+std::vector<RunFile> files_of_mesh(const std::string& mesh) {
+    std::vector<RunFile> files{{mesh, "MESH"}};
+    try {
+        for (const fs::path& part : output_files(mesh))
+            if (part != fs::path(mesh)) files.push_back({part, "MESH"});
+    } catch (const UsageError&) {
+        // The name tells no format, so reading it fails, or it is a folder that reading recognises by its contents.
+    }
+    return files;
+}
+
+SignalGuard::SignalGuard(std::span<const RunFile> outputs) {
+    for (const RunFile& output : outputs) outputs_.push_back(output.path);
+    sigemptyset(&signals_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction action {};
+        sigaction(signal, nullptr, &action);
+        if (action.sa_handler != SIG_IGN) sigaddset(&signals_, signal);
+    }
+    sigaddset(&signals_, SIGRTMIN);  // ends the thread
+    pthread_sigmask(SIG_BLOCK, &signals_, &mask_before_);
+    thread_ = std::thread([this] { wait_for_signals(); });
+}
+
+SignalGuard::~SignalGuard() {
+    ended_ = true;
+    pthread_kill(thread_.native_handle(), SIGRTMIN);
+    thread_.join();
+    pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
+}
+
+void SignalGuard::wait_for_signals() {
+    int signal = 0;
+    do {
+        if (sigwait(&signals_, &signal) != 0) return;
+        if (ended_) return;
+    } while (signal == SIGRTMIN);
+    remove_temporaries(outputs_);
+    // The process ends as if the signal had not been caught, so that shells and scripts see it.
+    std::signal(signal, SIG_DFL);
+    pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
+    std::raise(signal);
+}
+
+}  // namespace lamina::app

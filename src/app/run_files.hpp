@@ -1,0 +1,48 @@
+// The files of one run of the program: no output replaces an input or another output, and nothing temporary stays
+// behind when a signal ends the run.
+#pragma once
+
+#include <signal.h>
+
+#include <atomic>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace lamina::app {
+
+/// A file that a run reads or writes.
+struct RunFile {
+    std::filesystem::path path;
+    std::string role;  ///< the words of the command line that name it: "option --report"
+};
+
+/// Throws UsageError where an output would replace an input or another output, under whatever name: links are followed.
+/// Folders are replaced with all that is in them. Devices and pipes may be named several times.
+void require_distinct(std::span<const RunFile> inputs, std::span<const RunFile> outputs);
+
+/// Returns the files of a mesh that is read: those that its format consists of, if the name tells the format.
+std::vector<RunFile> files_of_mesh(const std::string& mesh);
+
+/// While it lives, the signals INT, TERM and HUP remove the temporary files of the outputs before they end the process.
+/// Threads must be started after it, so that they leave the signals to it. A signal that is ignored stays ignored.
+class SignalGuard {
+public:
+    explicit SignalGuard(std::span<const RunFile> outputs);
+    ~SignalGuard();
+    SignalGuard(const SignalGuard&) = delete;
+    SignalGuard& operator=(const SignalGuard&) = delete;
+
+private:
+    std::vector<std::filesystem::path> outputs_;
+    sigset_t signals_;      ///< those that the thread waits for
+    sigset_t mask_before_;  ///< those that were blocked before
+    std::atomic<bool> ended_ = false;
+    std::thread thread_;
+
+    void wait_for_signals();
+};
+
+}  // namespace lamina::app
