@@ -81,7 +81,13 @@ std::vector<RunFile> files_of_mesh(const std::string& mesh) {
 }
 
 SignalGuard::SignalGuard(std::span<const RunFile> outputs) {
-    for (const RunFile& output : outputs) outputs_.push_back(output.path);
+    for (const RunFile& output : outputs) {
+        outputs_.push_back(output.path);
+        std::error_code ignored;
+        for (fs::path above = output.path.parent_path(); !above.empty() && !fs::exists(above, ignored);
+             above = above.parent_path())
+            missing_folders_.push_back(above);
+    }
     sigemptyset(&signals_);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction action {};
@@ -107,6 +113,8 @@ void SignalGuard::wait_for_signals() {
         if (ended_) return;
     } while (signal == SIGRTMIN);
     remove_temporaries(outputs_);
+    std::error_code ignored;
+    for (const fs::path& folder : missing_folders_) fs::remove(folder, ignored);  // fails unless it is empty
     // The process ends as if the signal had not been caught, so that shells and scripts see it.
     std::signal(signal, SIG_DFL);
     pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);

@@ -26,7 +26,8 @@ void require_distinct(std::span<const RunFile> inputs, std::span<const RunFile> 
 /// Returns the files of a mesh that is read: those that its format consists of, if the name tells the format.
 std::vector<RunFile> files_of_mesh(const std::string& mesh);
 
-/// While it lives, the signals INT, TERM and HUP remove the temporary files of the outputs before they end the process.
+/// While it lives, the signals INT, TERM and HUP remove the temporary files of the outputs, and the folders that were
+/// created for them and are still empty, before they end the process.
 /// Threads must be started after it, so that they leave the signals to it. A signal that is ignored stays ignored.
 class SignalGuard {
 public:
@@ -37,8 +38,9 @@ public:
 
 private:
     std::vector<std::filesystem::path> outputs_;
-    sigset_t signals_;      ///< those that the thread waits for
-    sigset_t mask_before_;  ///< those that were blocked before
+    std::vector<std::filesystem::path> missing_folders_;  ///< folders above the outputs, inner ones before outer ones
+    sigset_t signals_;                                    ///< those that the thread waits for
+    sigset_t mask_before_;                                ///< those that were blocked before
     std::atomic<bool> ended_ = false;
     std::thread thread_;
 

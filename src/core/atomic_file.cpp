@@ -144,22 +144,31 @@ namespace lamina {
 
 using namespace core;
 
+namespace {
+
+void remove_temporaries_of(const fs::path& target) {
+    std::error_code ignored;
+    for (const fs::path& temporary :
+         {temporary_beside(behind_links(target)), temporary_beside(target), temporary_beside(target, room_purpose)})
+        fs::remove_all(temporary, ignored);
+    const fs::path replaced = temporary_beside(target, replaced_purpose);
+    if (!fs::exists(replaced, ignored)) return;
+    if (fs::exists(target, ignored))
+        fs::remove_all(replaced, ignored);
+    else
+        fs::rename(replaced, target, ignored);
+}
+
+}  // namespace
+
 void remove_temporaries(std::span<const fs::path> targets) noexcept {
-    for (const fs::path& target : targets) try {
-            const fs::path file = behind_links(target), replaced = temporary_beside(target, replaced_purpose);
-            std::error_code ignored;
-            for (const fs::path& temporary :
-                 {temporary_beside(file), temporary_beside(target), temporary_beside(target, room_purpose)})
-                fs::remove_all(temporary, ignored);
-            if (fs::exists(replaced, ignored)) {
-                if (fs::exists(target, ignored))
-                    fs::remove_all(replaced, ignored);
-                else
-                    fs::rename(replaced, target, ignored);
-            }
+    for (const fs::path& target : targets) {
+        try {
+            remove_temporaries_of(target);
         } catch (...) {
             // Only a lack of memory throws here. The other targets may still be cleaned.
         }
+    }
 }
 
 }  // namespace lamina

@@ -14,7 +14,7 @@ inline bool segments_meet(Point a, Point b, Point c, Point d) {
     const double c_side = orient2d(a, b, c), d_side = orient2d(a, b, d);
     if ((c_side > 0 && d_side > 0) || (c_side < 0 && d_side < 0)) return false;
     const double a_side = orient2d(c, d, a), b_side = orient2d(c, d, b);
-    // Where all four are 0 the segments are collinear, and then they meet because their boxes overlap.
+    // If all four signs are 0, the segments are collinear, and they meet because their boxes overlap.
     return !((a_side > 0 && b_side > 0) || (a_side < 0 && b_side < 0));
 }
 

@@ -1,4 +1,4 @@
-// What the reader does once a file is in memory: text -> elements -> geometry.
+// Makes elements of the text of an airfoil file, and a checked geometry of elements.
 #pragma once
 
 #include <string>

@@ -13,8 +13,9 @@ namespace lamina::layers {
 struct CellColumn {
     const Ray &first, &second;
     std::span<const VertexId> top;  ///< the outer border from the tip of `first` to that of `second`
-    /// Where the neighbouring column is empty and the ray between has one layer, the outer border runs along that ray:
-    /// up `first` from its origin, or down `second`. Otherwise empty.
+    /// The stretches of the outer border that run along the rays: up `first` from its origin, and down `second`. The
+    /// border does so where the column on the other side of the ray is empty and the ray has one layer; elsewhere the
+    /// stretch is empty.
     std::span<const VertexId> up, down;
 };
 

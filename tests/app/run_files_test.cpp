@@ -104,6 +104,18 @@ TEST(RunFiles, OtherCommandsReplaceNoInputEither) {
     expect_untouched(folder, {"plot", "m.vtu", "-o", "m.png"}, "would replace the input");
 }
 
+// The folders above a polyMesh folder are created while it is written.
+TEST(RunFiles, SignalsRemoveFoldersThatWereCreated) {
+    const TemporaryFolder folder;
+    const auto moment = [&] { return fs::exists(folder / "case/constant"); };
+    EXPECT_EQ(interrupt_lamina(
+                  folder,
+                  {"mesh", "naca:0012", "--far-field", "4", "--far-size", "0.02", "--format", "openfoam", "-o", "case"},
+                  SIGTERM, moment),
+              SIGTERM);
+    EXPECT_TRUE(folder.names().empty());
+}
+
 // While a mesh is being written its temporary files have hidden names.
 TEST(RunFiles, SignalsLeaveNothingBehind) {
     const auto writing = [](const TemporaryFolder& folder) {
