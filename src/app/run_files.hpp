@@ -2,9 +2,8 @@
 // behind when a signal ends the run.
 #pragma once
 
-#include <signal.h>
-
 #include <atomic>
+#include <csignal>
 #include <filesystem>
 #include <span>
 #include <string>

@@ -10,8 +10,6 @@
 namespace lamina::test {
 namespace {
 
-constexpr int usage = 2, bad_input = 3, io_failed = 5;
-
 const std::vector<std::string> mesh_naca{"mesh", "naca:0012", "-o", "out.su2", "--report", "out.json"};
 
 std::vector<std::string> mesh_naca_with(std::vector<std::string> more) {

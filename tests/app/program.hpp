@@ -9,6 +9,9 @@
 
 namespace lamina::test {
 
+/// The exit codes of refusals (docs/guide.md, "Exit codes").
+inline constexpr int usage = 2, bad_input = 3, io_failed = 5;
+
 struct ProgramRun {
     int exit_code = -1;  ///< -1 where a signal ended it
     std::string out;

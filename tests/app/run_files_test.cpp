@@ -13,8 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int usage = 2;
-
 /// Returns the contents of all files of a folder and of the folders in it, by their paths.
 std::map<std::string, std::string> contents(const TemporaryFolder& folder) {
     std::map<std::string, std::string> contents;
