@@ -219,4 +219,32 @@ inline void fill_cavity(Tris& tris, Cavity& cavity, Index p) {
     }
 }
 
+/// Replaces the triangles of the cavity by a fan that is open at edge `gap` of its boundary: a border on which p lies,
+/// so that no triangle fits between. Returns the new triangles, counter-clockwise round p. Edge 0 of each is its edge
+/// of the boundary.
+///
+///     a ------p------ b          gap is the edge a -> b
+///      \     / \     /
+///       \   /   \   /
+///        '-o-----o-'
+inline std::vector<Index> fill_open_cavity(Tris& tris, const Cavity& cavity, Index p, std::size_t gap) {
+    const std::size_t k = cavity.boundary.size();
+    std::vector<Index> created(cavity.triangles.size() + 1);
+    for (std::size_t i = 0; i + 1 < created.size(); ++i) created[i] = cavity.triangles[i];
+    created.back() = static_cast<Index>(tris.size());
+    tris.emplace_back();
+    for (std::size_t i = 0; i < created.size(); ++i) {
+        const CavityEdge& a = cavity.boundary[(gap + 1 + i) % k];
+        const CavityEdge& b = cavity.boundary[(gap + 2 + i) % k];
+        Tri& t = tris[created[i]];
+        t.v[0] = p;
+        t.v[1] = a.a;
+        t.v[2] = b.a;
+        t.n[1] = i + 1 < created.size() ? Link(created[i + 1], 2) : Link::border();
+        t.n[2] = i > 0 ? Link(created[i - 1], 1) : Link::border();
+        connect(tris, created[i], 0, a.outer);
+    }
+    return created;
+}
+
 }  // namespace lamina::delaunay

@@ -57,12 +57,6 @@ std::size_t segment_of_edge(const SegmentInput& input, Index c, Index d) {
                      core::concat(segment_name(input, segment), " crosses ", segment_name(input, other)));
 }
 
-void constrain_edge(Tris& tris, Index triangle, unsigned edge) {
-    const Link outer = tris[triangle].n[edge];
-    tris[triangle].n[edge] = outer.constrained();
-    if (!outer.is_border()) tris[outer.triangle()].n[outer.edge()] = Link(triangle, edge, true);
-}
-
 /// How a segment leaves its first vertex a: along an edge or through a triangle.
 struct Departure {
     Index along = no_index;  ///< the other end of the edge; no_index if the segment leaves through a triangle

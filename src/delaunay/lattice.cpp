@@ -136,16 +136,19 @@ void fill_grids(std::vector<LatticeGrid>& grids, const std::vector<LatticeBlock>
     std::erase_if(grids, [](const LatticeGrid& grid) { return grid.is_empty(); });
 }
 
-/// Removes the vertices outside the region, near its border and near the patches of finer levels, and what is too
+/// Removes the vertices outside the region, near its border, near points and obstacles and near the patches of finer levels, and what is too
 /// narrow for a patch. Returns the vertices of each level's patch.
 std::vector<PatchVertices> cut_out_patches(std::vector<LatticeGrid>& grids, std::span<const Point> points,
-                                           std::span<const Segment> segments) {
+                                           std::span<const Segment> segments,
+                                           std::span<const LatticeObstacle> obstacles) {
     std::vector<PatchVertices> patches;
     std::vector<std::vector<LatticeRun>> runs;
     for (LatticeGrid& grid : grids) {
         const double margin = seam_margin * grid.edge;
         clear_outside(grid, points, segments);
         for (const Segment& s : segments) clear_near(grid, points[s.a.index()], points[s.b.index()], margin);
+        for (const Point p : points) clear_near(grid, p, p, margin);
+        for (const LatticeObstacle& o : obstacles) clear_near(grid, o.at, o.at, std::max(margin, o.radius));
         for (std::size_t finer = 0; finer < runs.size(); ++finer) {
             if (!grids[finer].box.overlaps(grid.box)) continue;
             for (const LatticeRun& run : runs[finer]) clear_near(grid, run.first, run.last, margin);
@@ -174,7 +177,8 @@ LatticePatches join_patches(std::vector<LatticeGrid> grids, std::vector<PatchVer
 }  // namespace
 
 LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const Segment> segments,
-                                 const SizeField& size, std::size_t max_points) {
+                                 const SizeField& size, std::size_t max_points,
+                                 std::span<const LatticeObstacle> obstacles) {
     Box region;
     for (const Segment& s : segments) region.include(points[s.a.index()]);
     const auto [low, high] = size.range(region);
@@ -187,7 +191,7 @@ LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const 
     const double bits = grid_capacity(grids);
     if (bits > 1e6 + 64 * smooth.triangles_in_blocks || bits > 64 * static_cast<double>(max_points)) return {};
     fill_grids(grids, smooth.blocks, edges, size);
-    std::vector<PatchVertices> vertices = cut_out_patches(grids, points, segments);
+    std::vector<PatchVertices> vertices = cut_out_patches(grids, points, segments, obstacles);
     LatticePatches patches = join_patches(std::move(grids), std::move(vertices));
     // A point on the boundary or in the collar costs about as much as two triangles of a patch save.
     if (patches.triangles.size() < 3 * (patches.boundary.size() + patches.collar.size())) return {};

@@ -6,6 +6,7 @@
 
 #include "delaunay/lattice.hpp"
 #include "delaunay/refine_region.hpp"
+#include "delaunay/refiner.hpp"
 
 namespace lamina {
 

@@ -1,260 +1,269 @@
-// Refinement of a constrained triangulation. Its segments cut it into parts. Each part is refined against frozen
-// borders, which are split beforehand, and once more where a part shows that they are too coarse.
+// Refinement of a constrained triangulation, as one domain whose borders are split where that is needed. Large, evenly
+// sized parts of it are filled with lattices, whose boundaries are frozen; all the rest is refined.
 //
-//   find parts -> split by size -> split where encroached -> refine parts -> split the subsegments that
-//                                             ^                              keep bad triangles bad
-//                                             '------------------------------------------'
-// Sources: J. Ruppert, J. Algorithms 18 (1995); G. Miller, S. Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15
-// (2005).
+//   link triangles -> find the size field of each -> fill with lattices -> refine -> join
+//                                                           ^                |
+//                                                           '----------------'
+//                                    once more, with wider room round the places that a lattice kept from being refined
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/predicates.hpp>
 
-#include "core/box_tree.hpp"
-#include "core/parallel.hpp"
-#include "core/reproducible_math.hpp"
-#include "delaunay/border_splitter.hpp"
-#include "delaunay/constrained_parts.hpp"
+#include "delaunay/border_lines.hpp"
+#include "delaunay/insert_segments.hpp"
+#include "delaunay/lattice.hpp"
+#include "delaunay/link_triangles.hpp"
+#include "delaunay/regions.hpp"
+#include "delaunay/splitting_refiner.hpp"
+#include "delaunay/triangulate_points.hpp"
 
 namespace lamina::delaunay {
 
 namespace {
 
-constexpr int max_refinement_rounds = 60;
+/// Attempts with lattices before the domain is refined without.
+constexpr int max_lattice_attempts = 4;
 
-/// A part's refinement, in the numbers of the part alone.
-struct RefinedPart {
-    std::vector<Index> global;  ///< for each border point its index in ConstrainedParts::points, ascending
-    Refinement refinement;
+/// The input as all steps see it.
+struct ConstrainedInput {
+    std::vector<Point> points;  ///< those of the user, then those of the triangulation
+    Tris tris;
+    std::vector<const SizeField*> sizes;  ///< the general field, then those of the regions
+    std::vector<std::uint32_t> fields;    ///< for each triangle the index of its size field; empty without regions
 };
 
-/// A triangle of a part's refinement, and how it stands to the bounds.
-struct JudgedTriangle {
-    Point corners[3];
-    Index splits[3];  ///< for each vertex the border that it splits; no_index for the others
-    double area2;     ///< twice the area
-    bool narrow;      ///< below the angle bound
-    bool exempt;      ///< below the angle bound, at a corner that no refinement could mend
-    bool oversized;   ///< above the size bound
-};
-
-/// The subsegments of a part's borders, found by the boxes of their diametral circles.
-class SubsegmentTree {
-public:
-    SubsegmentTree(const ConstrainedParts& parts, const ConstrainedPart& part)
-        : parts_(parts), subsegments_(list(parts, part)), circles_(boxes()) {}
-
-    /// Appends the subsegments that keep a point at `centre` from mending a triangle round `inside`: the first one on
-    /// the straight way from `inside` to `centre` or, if there is none, those that `centre` encroaches upon.
-    void find_blocking(Point inside, Point centre, std::vector<Subsegment>& found) const {
-        Box box;
-        box.include(inside);
-        box.include(centre);
-        std::optional<Subsegment> first;
-        double min_share = HUGE_VAL;
-        std::vector<Subsegment> encroached;
-        circles_.overlaps(box, [&](std::size_t i) {
-            const auto [a, b] = ends(subsegments_[i]);
-            if (dot(a - centre, b - centre) <= 0) encroached.push_back(subsegments_[i]);
-            const double inside_side = cross(b - a, inside - a), centre_side = cross(b - a, centre - a);
-            const double a_side = cross(centre - inside, a - inside), b_side = cross(centre - inside, b - inside);
-            if ((inside_side > 0) == (centre_side > 0) || (a_side > 0) == (b_side > 0)) return;
-            if (const double share = inside_side / (inside_side - centre_side); share < min_share) {
-                min_share = share;
-                first = subsegments_[i];
-            }
-        });
-        if (first) encroached.assign(1, *first);
-        found.insert(found.end(), encroached.begin(), encroached.end());
-    }
-
-private:
-    static std::vector<Subsegment> list(const ConstrainedParts& parts, const ConstrainedPart& part) {
-        std::vector<Subsegment> subsegments;
-        for (const PartSide& side : part.sides)
-            for (std::size_t i = 0; i + 1 < parts.borders[side.border].chain.size(); ++i)
-                subsegments.push_back({side.border, i});
-        return subsegments;
-    }
-
-    /// Returns the boxes of the diametral circles, which hold the subsegments as well.
-    std::vector<Box> boxes() const {
-        std::vector<Box> result;
-        result.reserve(subsegments_.size());
-        for (const Subsegment& s : subsegments_) {
-            const auto [a, b] = ends(s);
-            const Point m = midpoint(a, b);
-            const double r = 0.5 * distance(a, b) * (1 + 1e-12);
-            result.push_back({m - Point{r, r}, m + Point{r, r}});
+/// Returns the field of each triangle: 0 is the general one, and r + 1 that of region r, which is used all over the part
+/// that holds its seed. The first of several regions counts.
+std::vector<std::uint32_t> find_fields(const ConstrainedInput& input, std::span<const RegionSize> regions) {
+    std::vector<ValueSeed> seeds;
+    for (std::uint32_t r = 0; r < regions.size(); ++r) {
+        const Point seed = regions[r].seed;
+        for (Index t = 0; t < input.tris.size(); ++t) {
+            const Index* v = input.tris[t].v;
+            const Point a = input.points[v[0]], b = input.points[v[1]], c = input.points[v[2]];
+            if (orient2d(a, b, seed) < 0 || orient2d(b, c, seed) < 0 || orient2d(c, a, seed) < 0) continue;
+            seeds.push_back({t, r + 1});
+            break;
         }
-        return result;
     }
+    if (seeds.empty()) return {};
+    std::vector<std::uint32_t> fields = spread_values(input.tris, seeds);
+    std::replace(fields.begin(), fields.end(), no_index, std::uint32_t{0});
+    return fields;
+}
 
-    std::pair<Point, Point> ends(const Subsegment& s) const {
-        const auto& chain = parts_.borders[s.border].chain;
-        return {parts_.points[chain[s.place]], parts_.points[chain[s.place + 1]]};
+ConstrainedInput make_input(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                            const SizeField& size, std::span<const RegionSize> regions) {
+    ConstrainedInput input;
+    input.points.assign(points.begin(), points.end());
+    input.points.insert(input.points.end(), triangulation.steiner_points.begin(), triangulation.steiner_points.end());
+    input.tris = link_triangles(triangulation.triangles, triangulation.segments);
+    input.sizes.push_back(&size);
+    for (const RegionSize& region : regions) input.sizes.push_back(&region.size);
+    input.fields = find_fields(input, regions);
+    return input;
+}
+
+/// Returns the constrained edges and borders of the triangles with this field, once for each such triangle that they
+/// bound, with the triangle on their left.
+std::vector<Segment> edges_round_field(const ConstrainedInput& input, std::uint32_t field) {
+    std::vector<Segment> edges;
+    for (std::size_t t = 0; t < input.tris.size(); ++t) {
+        if (!input.fields.empty() && input.fields[t] != field) continue;
+        const Tri& tri = input.tris[t];
+        for (unsigned e = 0; e < 3; ++e)
+            if (tri.n[e].is_constrained()) edges.push_back({VertexId{tri.v[next(e)]}, VertexId{tri.v[previous(e)]}});
     }
+    return edges;
+}
 
-    const ConstrainedParts& parts_;
-    std::vector<Subsegment> subsegments_;
-    core::BoxTree circles_;
-};
-
-/// The steps of the refinement.
-class ConstrainedRefiner {
-public:
-    ConstrainedRefiner(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                       const SizeField& size, const ConstrainedRefineOptions& options)
-        : options_(options),
-          input_count_(points.size()),
-          triangulated_count_(points.size() + triangulation.steiner_points.size()),
-          parts_(find_parts(points, triangulation, size, options.regions)),
-          splitter_(parts_),
-          refined_(parts_.parts.size()) {}
-
-    void run() {
-        if (options_.split_segments) splitter_.split_by_size();
-        for (int round = 0; round < max_refinement_rounds; ++round) {
-            if (options_.split_segments)
-                while (splitter_.split_encroached()) {
-                }
-            refine_stale_parts();
-            if (!options_.split_segments || !split_blocking()) return;
+/// Returns the vertices so near to others that triangles round them will be smaller than their sizes demand. Lattices
+/// leave room for triangles to grow.
+std::vector<LatticeObstacle> crowded_vertices(const ConstrainedInput& input) {
+    constexpr double reach_of_growth = 2;
+    std::vector<double> size(input.points.size(), 0), nearest(input.points.size(), HUGE_VAL);
+    for (std::size_t t = 0; t < input.tris.size(); ++t) {
+        const SizeField& field = *input.sizes[input.fields.empty() ? 0 : input.fields[t]];
+        const Index* v = input.tris[t].v;
+        for (unsigned e = 0; e < 3; ++e) {
+            const Index a = v[next(e)], b = v[previous(e)];
+            const double length = distance(input.points[a], input.points[b]);
+            nearest[a] = std::min(nearest[a], length);
+            nearest[b] = std::min(nearest[b], length);
+            if (!field.is_uniform() || size[a] == 0) size[a] = std::max(size[a], field(input.points[a]));
         }
-        refine_stale_parts();
     }
+    std::vector<LatticeObstacle> obstacles;
+    for (std::size_t v = 0; v < input.points.size(); ++v)
+        if (nearest[v] < size[v])
+            obstacles.push_back({input.points[v], size[v] + reach_of_growth * (size[v] - nearest[v])});
+    return obstacles;
+}
 
-    ConstrainedRefinement result(const ConstrainedTriangulation& triangulation) const;
-
-private:
-    void refine_stale_parts() {
-        core::parallel_for(refined_.size(), 1, [&](std::size_t begin, std::size_t) {
-            ConstrainedPart& part = parts_.parts[begin];
-            if (!part.stale) return;
-            LocalPart local = parts_.localize(part);
-            refined_[begin].refinement = lamina::refine(local.points, local.segments, *part.size, options_.refine);
-            refined_[begin].global = std::move(local.global);
-            part.stale = false;
-        });
-    }
-
-    /// Splits the subsegments between bad triangles and the points that would mend them. Returns whether there were
-    /// any.
-    bool split_blocking() {
-        std::vector<std::vector<Subsegment>> found(refined_.size());
-        core::parallel_for(found.size(), 1,
-                           [&](std::size_t begin, std::size_t) { found[begin] = find_blocking(begin); });
-        return splitter_.split_all(found);
-    }
-
-    std::vector<Subsegment> find_blocking(std::size_t part) const;
-    JudgedTriangle judge(std::size_t part, const Triangle& triangle) const;
-    bool is_exempt(const RefinedPart& refined, const Triangle& triangle, const JudgedTriangle& j,
-                   unsigned shortest) const;
-    void append_triangles(std::size_t part, ConstrainedRefinement& r) const;
-
-    const ConstrainedRefineOptions& options_;
-    std::size_t input_count_;         ///< number of points of the input
-    std::size_t triangulated_count_;  ///< number of points of the triangulation
-    ConstrainedParts parts_;
-    BorderSplitter splitter_;
-    std::vector<RefinedPart> refined_;
+/// Lattice patches, with the fields of their triangles and of their boundary edges.
+struct FieldPatches {
+    LatticePatches patches;
+    std::vector<std::uint32_t> fields;
+    std::vector<std::uint32_t> boundary_fields;
 };
 
-JudgedTriangle ConstrainedRefiner::judge(std::size_t part, const Triangle& triangle) const {
-    const RefinedPart& refined = refined_[part];
-    const std::size_t border_count = refined.global.size();
-    JudgedTriangle j{};
-    double h = 0;
-    for (unsigned i = 0; i < 3; ++i) {
-        const std::size_t v = triangle.v[i].index();
-        const bool is_steiner = v >= border_count;
-        j.corners[i] =
-            is_steiner ? refined.refinement.steiner_points[v - border_count] : parts_.points[refined.global[v]];
-        j.splits[i] = is_steiner ? no_index : parts_.border_of_vertex[refined.global[v]];
-        h += (*parts_.parts[part].size)(j.corners[i]) / 3;
-    }
-    double squared[3];
-    for (unsigned e = 0; e < 3; ++e) squared[e] = squared_length(j.corners[previous(e)] - j.corners[next(e)]);
-    const auto shortest = static_cast<unsigned>(std::min_element(squared, squared + 3) - squared);
-    j.area2 = cross(j.corners[1] - j.corners[0], j.corners[2] - j.corners[0]);
-    const double sine = core::sin_reproducible(core::radians(options_.refine.min_angle_deg));
-    // The bounds have the same allowance for rounding as the counts of refine().
-    j.narrow =
-        j.area2 * j.area2 * squared[shortest] * (1 + 1e-9) < sine * sine * (squared[0] * squared[1] * squared[2]);
-    j.oversized = j.area2 > 2 * equilateral_area * h * h * (1 + 1e-9);
-    j.exempt = j.narrow && is_exempt(refined, triangle, j, shortest);
-    return j;
+/// Appends the patches of one field.
+void append(FieldPatches& all, const LatticePatches& some, std::uint32_t field) {
+    const std::size_t offset = all.patches.points.size();
+    const auto shifted = [offset](VertexId v) { return VertexId{offset + v.index()}; };
+    all.patches.points.insert(all.patches.points.end(), some.points.begin(), some.points.end());
+    for (const Triangle& t : some.triangles)
+        all.patches.triangles.push_back({{shifted(t.v[0]), shifted(t.v[1]), shifted(t.v[2])}});
+    for (const Segment& s : some.boundary) all.patches.boundary.push_back({shifted(s.a), shifted(s.b)});
+    for (const VertexId v : some.collar) all.patches.collar.push_back(shifted(v));
+    all.fields.resize(all.patches.triangles.size(), field);
+    all.boundary_fields.resize(all.patches.boundary.size(), field);
 }
 
-/// Returns whether a narrow triangle lies in a sharp corner, or its shortest edge joins two borders that make one.
-bool ConstrainedRefiner::is_exempt(const RefinedPart& refined, const Triangle& triangle, const JudgedTriangle& j,
-                                   unsigned shortest) const {
-    const Point middle = (1.0 / 3) * (j.corners[0] + j.corners[1] + j.corners[2]);
-    if (std::any_of(triangle.v, triangle.v + 3, [&](VertexId v) {
-            return v.index() < refined.global.size() && parts_.in_sharp_corner(refined.global[v.index()], middle);
-        }))
-        return true;
-    const Index a = j.splits[next(shortest)], b = j.splits[previous(shortest)];
-    return a != no_index && b != no_index && a != b && parts_.meet_sharply(a, b);
+FieldPatches fill_fields(const ConstrainedInput& input, std::span<const LatticeObstacle> obstacles,
+                         std::size_t max_points) {
+    FieldPatches all;
+    for (std::uint32_t field = 0; field < input.sizes.size(); ++field) {
+        const std::vector<Segment> edges = edges_round_field(input, field);
+        if (edges.empty()) continue;
+        const LatticePatches patches =
+            fill_with_lattice(input.points, edges, *input.sizes[field], max_points, obstacles);
+        append(all, patches, field);
+    }
+    if (all.patches.points.size() > max_points) fail_too_many_points(max_points);
+    return all;
 }
 
-std::vector<Subsegment> ConstrainedRefiner::find_blocking(std::size_t part) const {
-    std::vector<JudgedTriangle> bad;
-    for (const Triangle& triangle : refined_[part].refinement.triangles) {
-        const JudgedTriangle j = judge(part, triangle);
-        if ((j.narrow && !j.exempt) || j.oversized) bad.push_back(j);
-    }
-    if (bad.empty()) return {};
+/// The domain without its patches.
+struct Seam {
+    SplittableDomain domain;
+    std::vector<Index> shared;  ///< for each vertex behind those of the input the index of its point in the patches
+};
 
-    const SubsegmentTree tree(parts_, parts_.parts[part]);
-    std::vector<Subsegment> found;
-    for (const JudgedTriangle& j : bad) {
-        const Point inside = (1.0 / 3) * (j.corners[0] + j.corners[1] + j.corners[2]);
-        const Point u = j.corners[1] - j.corners[0], v = j.corners[2] - j.corners[0];
-        const Point circumcentre =
-            j.corners[0] + (0.5 / j.area2) * perpendicular(squared_length(v) * u - squared_length(u) * v);
-        tree.find_blocking(inside, circumcentre, found);
+/// The edges that bound the seam, each with the seam on its left, and the field there.
+struct SeamEdges {
+    std::vector<Segment> edges;
+    std::vector<std::uint32_t> fields;
+};
+
+/// Triangulates the seam inside its edges.
+void triangulate_seam(const SeamEdges& edges, SplittableDomain& domain) {
+    Tris tris = triangulate_points(domain.points);
+    insert_segments(domain.points, edges.edges, tris);
+    const std::vector<Index> at_vertex = triangle_at_vertex(tris, domain.points.size());
+    std::vector<ValueSeed> seeds;
+    for (std::size_t i = 0; i < edges.edges.size(); ++i) {
+        const Link left = find_edge(tris, at_vertex, edges.edges[i].a.value, edges.edges[i].b.value);
+        seeds.push_back({left.triangle(), edges.fields[i]});
     }
-    return found;
+    const std::vector<std::uint32_t> fields = spread_values(tris, seeds);
+    TriangleSelection selection(tris.size());
+    for (std::size_t t = 0; t < fields.size(); ++t) selection[t] = fields[t] != no_index;
+    domain.tris = keep_selected(tris, selection);
+    for (const std::uint32_t field : fields)
+        if (field != no_index) domain.fields.push_back(field);
 }
 
-ConstrainedRefinement ConstrainedRefiner::result(const ConstrainedTriangulation& triangulation) const {
-    ConstrainedRefinement r;
-    r.steiner_points.assign(parts_.points.begin() + static_cast<std::ptrdiff_t>(input_count_), parts_.points.end());
-    r.on_segments = parts_.points.size() - triangulated_count_;
-    for (std::size_t part = 0; part < refined_.size(); ++part) append_triangles(part, r);
+Seam make_seam(const ConstrainedInput& input, const FieldPatches& filled) {
+    const std::size_t count = input.points.size();
+    const LatticePatches& patches = filled.patches;
+    if (patches.empty()) return {{input.points, input.tris, input.fields, count, count}, {}};
+
+    Seam seam{{input.points, {}, {}, count, count}, {}};
+    std::vector<Point>& points = seam.domain.points;
+    std::vector<VertexId> seam_id(patches.points.size());
+    const auto seam_vertex = [&](VertexId v) {
+        VertexId& id = seam_id[v.index()];
+        if (!id.valid()) {
+            id = VertexId{points.size()};
+            points.push_back(patches.points[v.index()]);
+            seam.shared.push_back(v.value);
+        }
+        return id;
+    };
+    SeamEdges edges;
+    for (std::size_t i = 0; i < patches.boundary.size(); ++i) {
+        edges.edges.push_back({seam_vertex(patches.boundary[i].a), seam_vertex(patches.boundary[i].b)});
+        edges.fields.push_back(filled.boundary_fields[i]);
+    }
+    seam.domain.frozen_end = points.size();
+    for (const VertexId v : patches.collar) seam_vertex(v);
+    for (std::uint32_t field = 0; field < input.sizes.size(); ++field) {
+        for (const Segment& s : edges_round_field(input, field)) {
+            edges.edges.push_back(s);
+            edges.fields.push_back(field);
+        }
+    }
+    triangulate_seam(edges, seam.domain);
+    if (input.fields.empty()) seam.domain.fields.clear();
+    return seam;
+}
+
+/// Returns the numbers that the refiner's vertices have in the result, where those of the input come first, then those
+/// on lines, then the points of the patches, then the rest.
+std::vector<VertexId> number_vertices(std::size_t input_count, std::size_t vertex_count, const Seam& seam,
+                                      const BorderLines& lines, std::size_t patch_points) {
+    std::vector<VertexId> ids;
+    ids.reserve(vertex_count);
+    const std::size_t first_of_patch = input_count + lines.splits();
+    std::size_t on_line = input_count, inside = first_of_patch + patch_points;
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        if (v < input_count)
+            ids.emplace_back(v);
+        else if (v - input_count < seam.shared.size())
+            ids.emplace_back(first_of_patch + seam.shared[v - input_count]);
+        else
+            ids.emplace_back(lines.line_of_vertex(static_cast<Index>(v)) != no_index ? on_line++ : inside++);
+    }
+    return ids;
+}
+
+std::uint32_t region_of_field(std::uint32_t field) { return field == 0 ? ConstrainedRefinement::no_region : field - 1; }
+
+/// Appends the segments of the triangulation, split, to the result.
+void append_segments(const ConstrainedTriangulation& triangulation, const BorderLines& lines,
+                     std::span<const Point> vertices, std::span<const VertexId> ids, ConstrainedRefinement& r) {
+    const std::vector<std::vector<Index>> chains = lines.chains(vertices);
     for (std::size_t i = 0; i < triangulation.segments.size(); ++i) {
-        const auto& chain = parts_.borders[i].chain;
-        for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
-            r.segments.push_back({VertexId{chain[k]}, VertexId{chain[k + 1]}});
+        for (std::size_t k = 0; k + 1 < chains[i].size(); ++k) {
+            r.segments.push_back({ids[chains[i][k]], ids[chains[i][k + 1]]});
             r.parents.push_back(triangulation.parents[i]);
         }
     }
-    return r;
 }
 
-/// Appends the triangles and Steiner points of a part to the result, and counts the triangles beyond the bounds.
-void ConstrainedRefiner::append_triangles(std::size_t part, ConstrainedRefinement& r) const {
-    const auto& [global, refinement] = refined_[part];
-    const std::size_t offset = input_count_ + r.steiner_points.size();
-    for (const Triangle& triangle : refinement.triangles) {
-        Triangle& renumbered = r.triangles.emplace_back();
-        for (unsigned i = 0; i < 3; ++i) {
-            const std::size_t v = triangle.v[i].index();
-            renumbered.v[i] = v < global.size() ? VertexId{global[v]} : VertexId{offset + v - global.size()};
-        }
-        r.regions.push_back(parts_.parts[part].region);
-        const JudgedTriangle j = judge(part, triangle);
-        r.stats.below_bound += j.narrow;
-        r.stats.exempt += j.exempt;
-        r.stats.oversized += j.oversized;
+/// Joins the patches and the refined seam.
+ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulation& triangulation,
+                           const FieldPatches& filled, const Seam& seam, const BorderLines& lines,
+                           const SplittingRefiner& refiner) {
+    const LatticePatches& patches = filled.patches;
+    const std::size_t input_count = user_points + triangulation.steiner_points.size();
+    const std::size_t first_of_patch = input_count + lines.splits();
+    const std::vector<Point> vertices = refiner.vertices();
+    const std::vector<VertexId> ids = number_vertices(input_count, vertices.size(), seam, lines, patches.points.size());
+    ConstrainedRefinement r;
+    r.on_segments = lines.splits();
+    r.steiner_points.resize(vertices.size() - user_points + patches.points.size() - seam.shared.size());
+    for (std::size_t v = user_points; v < vertices.size(); ++v)
+        r.steiner_points[ids[v].index() - user_points] = vertices[v];
+    for (std::size_t i = 0; i < patches.points.size(); ++i)
+        r.steiner_points[first_of_patch + i - user_points] = patches.points[i];
+    for (std::size_t t = 0; t < patches.triangles.size(); ++t) {
+        Triangle& triangle = r.triangles.emplace_back(patches.triangles[t]);
+        for (VertexId& v : triangle.v) v = VertexId{first_of_patch + v.index()};
+        r.regions.push_back(region_of_field(filled.fields[t]));
     }
-    r.steiner_points.insert(r.steiner_points.end(), refinement.steiner_points.begin(), refinement.steiner_points.end());
-    r.stats.refused += refinement.stats.refused;
+    for (Index t = 0; t < refiner.tris().size(); ++t) {
+        const Index* v = refiner.tris()[t].v;
+        r.triangles.push_back({{ids[v[0]], ids[v[1]], ids[v[2]]}});
+        r.regions.push_back(region_of_field(refiner.field_of(t)));
+    }
+    append_segments(triangulation, lines, vertices, ids, r);
+    r.stats = refiner.count_leftovers();
+    return r;
 }
 
 }  // namespace
@@ -267,9 +276,22 @@ using namespace delaunay;
 
 ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                              const SizeField& size, const ConstrainedRefineOptions& options) {
-    ConstrainedRefiner refiner(points, triangulation, size, options);
-    refiner.run();
-    return refiner.result(triangulation);
+    validate(options.refine);
+    const ConstrainedInput input = make_input(points, triangulation, size, options.regions);
+    std::vector<LatticeObstacle> obstacles = crowded_vertices(input);
+    for (int attempt = 0;; ++attempt) {
+        FieldPatches filled;
+        if (options.refine.lattice && attempt < max_lattice_attempts)
+            filled = fill_fields(input, obstacles, options.refine.max_points);
+        Seam seam = make_seam(input, filled);
+        BorderLines lines(input.points, triangulation.segments, input.tris);
+        SplittingRefiner refiner(std::move(seam.domain), lines, input.sizes, options);
+        refiner.refine();
+        if (filled.patches.empty() || refiner.kept_out().empty())
+            return join(points.size(), triangulation, filled, seam, lines, refiner);
+        const double reach = 2 << attempt;
+        for (const Point p : refiner.kept_out()) obstacles.push_back({p, reach * size(p)});
+    }
 }
 
 }  // namespace lamina

@@ -13,7 +13,4 @@ namespace lamina::delaunay {
 Refinement refine_region(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
                          const RefineOptions& options);
 
-/// Throws MeshError for a region that needs more Steiner points than this.
-[[noreturn]] void fail_too_many_points(std::size_t max_points);
-
 }  // namespace lamina::delaunay

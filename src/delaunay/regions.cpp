@@ -125,6 +125,26 @@ void deselect_holes(std::span<const Point> points, std::span<const Point> seeds,
     }
 }
 
+std::vector<std::uint32_t> spread_values(const Tris& tris, std::span<const ValueSeed> seeds) {
+    std::vector<std::uint32_t> values(tris.size(), no_index);
+    std::vector<Index> front;
+    for (const ValueSeed& seed : seeds) {
+        const auto reach = [&](Index t) {
+            if (values[t] != no_index || tris[t].is_ghost()) return;
+            values[t] = seed.value;
+            front.push_back(t);
+        };
+        reach(seed.triangle);
+        while (!front.empty()) {
+            const Tri& t = tris[front.back()];
+            front.pop_back();
+            for (Link n : t.n)
+                if (!n.is_constrained()) reach(n.triangle());
+        }
+    }
+    return values;
+}
+
 Tris keep_selected(const Tris& tris, const TriangleSelection& selection) {
     std::vector<Index> renumbered(tris.size(), no_index);
     Index count = 0;

@@ -1,6 +1,7 @@
 // Selection of the triangles of a constrained triangulation that are kept.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,16 @@ TriangleSelection select_region(OrderedTriangulation& triangulation, std::span<c
 /// outside the hull have no effect. Throws InputError for seeds on vertices or constrained edges.
 void deselect_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris,
                     TriangleSelection& selection);
+
+/// A triangle from which spread_values() starts, and its value.
+struct ValueSeed {
+    Index triangle;
+    std::uint32_t value;
+};
+
+/// Gives each seed's value to all triangles, but no ghosts, that can be reached from it without crossing a constrained
+/// edge. The first of several seeds counts. Returns the value of each triangle; no_index for those not reached.
+std::vector<std::uint32_t> spread_values(const Tris& tris, std::span<const ValueSeed> seeds);
 
 /// Returns the selected triangles in ascending order of their old indices. Links to triangles that are not selected
 /// become borders.

@@ -59,6 +59,12 @@ public:
         link.bits_ = bits_ | 4u;
         return link;
     }
+    /// Returns the same link across an edge that is not constrained. Precondition: it is not border().
+    constexpr Link unconstrained() const {
+        Link link;
+        link.bits_ = bits_ & ~4u;
+        return link;
+    }
     friend constexpr bool operator==(Link, Link) = default;
 
 private:
@@ -80,6 +86,16 @@ using Tris = std::vector<Tri>;
 inline void connect(Tris& tris, Index triangle, unsigned edge, Link outer) {
     tris[triangle].n[edge] = outer;
     if (!outer.is_border()) tris[outer.triangle()].n[outer.edge()] = Link(triangle, edge, outer.is_constrained());
+}
+
+/// Makes an edge constrained, as both of its triangles know it.
+inline void constrain_edge(Tris& tris, Index triangle, unsigned edge) {
+    connect(tris, triangle, edge, tris[triangle].n[edge].constrained());
+}
+
+/// Makes an edge with two triangles one that cavities may reach across.
+inline void release_edge(Tris& tris, Index triangle, unsigned edge) {
+    connect(tris, triangle, edge, tris[triangle].n[edge].unconstrained());
 }
 
 /// Returns one triangle, any one, at each vertex; no_index for vertices without triangles.

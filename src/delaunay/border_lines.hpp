@@ -1,0 +1,70 @@
+// The borders of a constrained triangulation as straight lines that refinement may split: its segments, and the edges
+// of its boundary that are no segments.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <lamina/delaunay.hpp>
+#include <lamina/point.hpp>
+
+#include "delaunay/triangles.hpp"
+
+namespace lamina::delaunay {
+
+/// Two lines, u-v and u-w, that meet at less than 60 degrees. The triangles between them lie counter-clockwise from v
+/// to w.
+struct SharpCorner {
+    Index u, v, w;
+};
+
+/// The lines, and the vertices that split them. Vertices have the numbers of the triangulation that is refined.
+class BorderLines {
+public:
+    /// Takes the segments of a triangulation first, in their order, then the edges of `tris` without a neighbour that
+    /// are no segments. `points` are the vertices of `tris`.
+    BorderLines(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris);
+
+    /// Returns the line that the constrained edge a-b is a part of; no_index if it is a part of none.
+    Index line_of_edge(Index a, Index b) const;
+    /// Returns the line that vertex v splits; no_index for vertices that split none.
+    Index line_of_vertex(Index v) const { return v < line_of_vertex_.size() ? line_of_vertex_[v] : no_index; }
+    /// Notes that the new vertex v splits a line.
+    void add_vertex(Index v, Index line);
+    /// Returns the number of vertices that split lines.
+    std::size_t splits() const { return splits_; }
+
+    /// Returns the point that divides the edge a-b of a line: the middle or, if one end is a corner at which lines meet
+    /// at less than 90 degrees, the point on a circle round that end whose radius is a power of two. Each side keeps at
+    /// least a third. Source: J. Ruppert, J. Algorithms 18 (1995), "corner lopping".
+    Point division_point(std::span<const Point> points, Index a, Index b) const;
+    /// Returns whether lines meet at vertex v at less than 90 degrees.
+    bool is_acute(Index v) const { return v < acute_.size() && acute_[v] != 0; }
+
+    /// Returns whether vertices a and b split lines that meet at less than 60 degrees.
+    bool join_sharp_lines(std::span<const Point> points, Index a, Index b) const;
+    /// Returns whether vertices a and b split lines that meet at less than 60 degrees, both at the same distance from
+    /// the corner. A narrow triangle whose shortest edge is a-b is then left as it is. Source: G. Miller, S. Pav, N.
+    /// Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
+    bool join_shells(std::span<const Point> points, Index a, Index b) const;
+    /// Returns whether p lies between the lines of a sharp corner at vertex u. Exact.
+    bool in_sharp_corner(std::span<const Point> points, Index u, Point p) const;
+
+    /// Returns, for each line, its vertices from one end to the other.
+    std::vector<std::vector<Index>> chains(std::span<const Point> points) const;
+
+private:
+    void find_corners(std::span<const Point> points, const Tris& tris);
+    /// Returns the vertex at which the lines of a and b meet at less than 60 degrees; no_index if there is none.
+    Index sharp_apex(std::span<const Point> points, Index a, Index b) const;
+
+    std::vector<Segment> lines_;                            ///< the ends of each line
+    std::vector<std::pair<std::uint64_t, Index>> by_ends_;  ///< undirected_key() of the ends and the line, sorted
+    std::vector<Index> line_of_vertex_;                     ///< for each vertex; vertices behind the end split none
+    std::size_t splits_ = 0;
+    std::vector<char> acute_;                 ///< for each vertex at first: whether lines meet at less than 90 degrees
+    std::vector<SharpCorner> sharp_corners_;  ///< sorted by u
+};
+
+}  // namespace lamina::delaunay

@@ -1,0 +1,314 @@
+// An edge of a line is split by the cavity of its division point, which reaches across it to both sides.
+#include "delaunay/splitting_refiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/bounding_box.hpp"
+
+namespace lamina::delaunay {
+
+namespace {
+
+/// Edges of lines are at most this share of h, which lets triangles of the right size stand on them.
+constexpr double border_share = 0.9;
+/// No edge of a line becomes shorter than this share of the extent.
+constexpr double min_length_share = 0x1p-40;
+/// Lenses have the width that this angle bound asks for, even where the bound is lower.
+constexpr double min_lens_angle_deg = 20;
+/// Counts of triangles beyond the bounds leave this to rounding.
+constexpr double rounding = 1e-9;
+
+/// Returns which edge of t runs from a to b; 3 if none does.
+unsigned edge_between(const Tri& t, Index a, Index b) {
+    for (unsigned e = 0; e < 3; ++e)
+        if (t.v[next(e)] == a && t.v[previous(e)] == b) return e;
+    return 3;
+}
+
+}  // namespace
+
+SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
+                                   const ConstrainedRefineOptions& options)
+    : Refiner(options.refine, std::move(domain.points), std::move(domain.tris)),
+      lines_(lines),
+      sizes_of_fields_(sizes),
+      fields_(std::move(domain.fields)),
+      frozen_begin_(domain.frozen_begin),
+      frozen_end_(domain.frozen_end),
+      may_split_(options.split_segments) {
+    if (!points_.empty()) scale_ = unit_scale(core::longer_side(core::bounding_box(points_)));
+    if (scale_ != 1)
+        for (Point& p : points_) p = scale_ * p;
+    extent_ = core::bounding_box(points_);
+    if (!points_.empty()) min_length_ = min_length_share * core::longer_side(extent_);
+    const double c =
+        core::cos_reproducible(core::radians(2 * std::max(options.refine.min_angle_deg, min_lens_angle_deg)));
+    squared_lens_ = c * c;
+    give_sizes();
+}
+
+/// Gives each vertex the smallest of the sizes that the triangles round it demand.
+void SplittingRefiner::give_sizes() {
+    sizes_.assign(points_.size(), HUGE_VALF);
+    for (Index t = 0; t < tris_.size(); ++t) {
+        for (const Index v : tris_[t].v) {
+            if (fields_.empty() && sizes_[v] < HUGE_VALF) continue;
+            sizes_[v] = std::min(sizes_[v], static_cast<float>(size_at(points_[v], t)));
+        }
+    }
+}
+
+void SplittingRefiner::refine() {
+    for (Index t = 0; t < tris_.size(); ++t) queue_edges(t);
+    run();
+}
+
+std::vector<Point> SplittingRefiner::vertices() const {
+    std::vector<Point> vertices = points_;
+    if (scale_ != 1)
+        for (Point& p : vertices) p = (1 / scale_) * p;
+    return vertices;
+}
+
+/// Returns whether a vertex encroaches upon an edge whose ends are at a and b, seen from the vertex.
+bool SplittingRefiner::encroaches(Point a, Point b, double aa, double bb) const {
+    const double d = dot(a, b);
+    return d < 0 && d * d >= squared_lens_ * (aa * bb);
+}
+
+bool SplittingRefiner::is_blocked(const CavityEdge& a, const CavityEdge& b) const {
+    // A frozen edge is blocked by its diametral circle, so that the triangles behind it stay Delaunay.
+    if (is_frozen(a.a, b.a)) return a.ax * b.ax + a.ay * b.ay <= 0;
+    return encroaches({a.ax, a.ay}, {b.ax, b.ay}, a.aa, b.aa);
+}
+
+bool SplittingRefiner::must_mend(Index t) const {
+    const Tri& tri = tris_[t];
+    const unsigned e = shape_of(tri).shortest();
+    return !lines_.join_shells(points_, tri.v[next(e)], tri.v[previous(e)]);
+}
+
+void SplittingRefiner::vertex_inserted(Index t, std::size_t) {
+    if (!fields_.empty()) fields_.resize(tris_.size(), fields_[t]);
+}
+
+/// Returns whether the edge a-b of a line is too long for the sizes on it.
+bool SplittingRefiner::is_too_long(Index t, Index a, Index b) const {
+    const double length = distance(points_[a], points_[b]);
+    const double at_ends = std::min(sizes_[a], sizes_[b]);
+    if (length > border_share * at_ends) return true;
+    // The size at the middle cannot be smaller than the growth of sizes admits.
+    if (sizes_of_fields_[field_of(t)]->is_uniform()) return false;
+    return length > border_share * size_at(midpoint(points_[a], points_[b]), t);
+}
+
+/// Returns the point that splits the edge a-b. An edge that is too long is divided so that equal parts result.
+Point SplittingRefiner::division_point(Index t, Index a, Index b) const {
+    if (lines_.is_acute(a) == lines_.is_acute(b) && is_too_long(t, a, b)) {
+        const Point m = midpoint(points_[a], points_[b]);
+        const double h = std::min<double>({sizes_[a], sizes_[b], size_at(m, t)});
+        const double parts = std::ceil(distance(points_[a], points_[b]) / (border_share * h));
+        if (parts < 0x1p20) return points_[a] + (std::floor(0.5 * parts) / parts) * (points_[b] - points_[a]);
+    }
+    return lines_.division_point(points_, a, b);
+}
+
+/// Queues the edges of a triangle that its third vertex encroaches upon or that are too long.
+void SplittingRefiner::queue_edges(Index t) {
+    const Tri& tri = tris_[t];
+    for (unsigned e = 0; e < 3; ++e) {
+        if (!tri.n[e].is_constrained()) continue;
+        const Index a = tri.v[next(e)], b = tri.v[previous(e)];
+        if (is_frozen(a, b)) continue;
+        const Point u = points_[a] - points_[tri.v[e]], v = points_[b] - points_[tri.v[e]];
+        if (encroaches(u, v, squared_length(u), squared_length(v)) || is_too_long(t, a, b))
+            long_or_encroached_.push_back({t, a, b});
+    }
+}
+
+bool SplittingRefiner::split_next() {
+    if (long_or_encroached_.empty()) return false;
+    const QueuedEdge edge = long_or_encroached_.back();
+    long_or_encroached_.pop_back();
+    const unsigned e = edge_between(tris_[edge.t], edge.a, edge.b);
+    if (e < 3 && tris_[edge.t].n[e].is_constrained() && !split(edge.t, e)) ++refused_;
+    return true;
+}
+
+/// Returns the triangle of the cavity that has edge i of the cavity's boundary.
+Index SplittingRefiner::inside_triangle(std::size_t i) const {
+    const CavityEdge& a = cavity_.boundary[i];
+    if (!a.outer.is_border()) return tris_[a.outer.triangle()].n[a.outer.edge()].triangle();
+    const Index b = cavity_.boundary[i + 1 < cavity_.boundary.size() ? i + 1 : 0].a;
+    for (std::size_t k = 0; k < cavity_.triangles.size(); ++k)
+        if (edge_between(tris_[cavity_.triangles[k]], a.a, b) < 3) return cavity_.triangles[k];
+    return no_index;
+}
+
+/// Returns the edges of lines that keep p from mending triangle t: the first one on the straight way from t to p or, if
+/// there is none, those that p encroaches upon. `frozen` becomes true where one of them is frozen. Precondition: the
+/// cavity is that of p.
+std::vector<SplittingRefiner::QueuedEdge> SplittingRefiner::find_blocking(Index t, Point p, bool& frozen) const {
+    const Tri& tri = tris_[t];
+    const Point inside = (1.0 / 3) * (points_[tri.v[0]] + points_[tri.v[1]] + points_[tri.v[2]]);
+    std::vector<QueuedEdge> encroached, first;
+    double min_share = HUGE_VAL;
+    for (std::size_t i = 0; i < cavity_.boundary.size(); ++i) {
+        const CavityEdge& a = cavity_.boundary[i];
+        const CavityEdge& b = cavity_.boundary[i + 1 < cavity_.boundary.size() ? i + 1 : 0];
+        if (!a.outer.is_constrained()) continue;
+        const Point pa = points_[a.a], pb = points_[b.a];
+        if (!is_inside(a, b, p)) {
+            const double p_side = cross(pb - pa, p - pa), inside_side = cross(pb - pa, inside - pa);
+            const double a_side = cross(p - inside, pa - inside), b_side = cross(p - inside, pb - inside);
+            if ((a_side > 0) == (b_side > 0) || !(inside_side > p_side)) continue;
+            if (const double share = inside_side / (inside_side - p_side); share < min_share) {
+                min_share = share;
+                first.assign(1, {inside_triangle(i), a.a, b.a});
+            }
+        } else if (is_blocked(a, b)) {
+            encroached.push_back({inside_triangle(i), a.a, b.a});
+        }
+    }
+    std::vector<QueuedEdge>& blocking = first.empty() ? encroached : first;
+    const std::size_t all = blocking.size();
+    std::erase_if(blocking, [&](const QueuedEdge& edge) { return is_frozen(edge.a, edge.b); });
+    frozen = blocking.size() < all;
+    return std::move(blocking);
+}
+
+/// Returns the last point on the way from a point of the extent to p that is not far outside the extent.
+Point SplittingRefiner::clip(Point inside, Point p) const {
+    const double reach = 2 * core::longer_side(extent_), length = distance(inside, p);
+    return length > reach ? inside + (reach / length) * (p - inside) : p;
+}
+
+/// Splits the edges that keep the circumcentre p from mending triangle t, and queues t again if it is still there.
+void SplittingRefiner::give_up(Index t, Point p) {
+    const QueuedTriangle entry{t, tris_[t].v[0]};
+    p = clip(points_[tris_[t].v[0]], p);
+    if (!(squared_length(p) < HUGE_VAL)) {
+        ++refused_;
+        return;
+    }
+    const RelativeTriangle relative = relative_to(points_.data(), tris_[t], p);
+    find_cavity<false>(points_.data(), tris_.data(), t, relative, p, cavity_);
+    bool frozen = false, any = false;
+    for (const QueuedEdge& edge : find_blocking(t, p, frozen)) {
+        const unsigned e = edge_between(tris_[edge.t], edge.a, edge.b);
+        if (e < 3) any = split(edge.t, e) || any;
+    }
+    if (!any) {
+        ++refused_;
+        if (frozen) kept_out_.push_back((1 / scale_) * p);
+    } else if (is_current(entry)) {
+        classify(t);
+    }
+}
+
+/// Splits edge e of triangle t, which is an edge of a line. Returns false, and changes nothing, if the edge is too
+/// short or rounding leaves no room for the point.
+bool SplittingRefiner::split(Index t, unsigned e) {
+    const Index a = tris_[t].v[next(e)], b = tris_[t].v[previous(e)];
+    if (distance(points_[a], points_[b]) < 2 * min_length_) return false;
+    const Point p = division_point(t, a, b);
+    if (p == points_[a] || p == points_[b]) return false;
+    const Link across = tris_[t].n[e];
+    if (!across.is_border()) release_edge(tris_, t, e);
+    find_cavity<false>(points_.data(), tris_.data(), t, relative_to(points_.data(), tris_[t], p), p, cavity_);
+    if (!cavity_admits_split(p, a, b)) {
+        if (!across.is_border()) constrain_edge(tris_, t, e);
+        return false;
+    }
+    double size = size_at(p, t);
+    std::uint32_t right = field_of(t);
+    if (!across.is_border()) {
+        right = field_of(across.triangle());
+        size = std::min(size, size_at(p, across.triangle()));
+    }
+    const Index line = lines_.line_of_edge(a, b);
+    const std::uint32_t left = field_of(t);
+    const Index vertex = add_vertex(p, size);
+    lines_.add_vertex(vertex, line);
+    fill_and_queue(vertex, a, b, left, right);
+    return true;
+}
+
+/// Returns whether the point p that splits the edge a-b lies strictly on the inner side of all other edges of the
+/// cavity's boundary, and outside the diametral circles of those that are frozen.
+bool SplittingRefiner::cavity_admits_split(Point p, Index a, Index b) const {
+    const std::size_t k = cavity_.boundary.size();
+    for (std::size_t i = 0; i < k; ++i) {
+        const CavityEdge& from = cavity_.boundary[i];
+        const CavityEdge& to = cavity_.boundary[i + 1 < k ? i + 1 : 0];
+        if (from.a == a && to.a == b) continue;
+        if (!is_inside(from, to, p)) return false;
+        if (from.outer.is_constrained() && is_frozen(from.a, to.a) && from.ax * to.ax + from.ay * to.ay <= 0)
+            return false;
+    }
+    return true;
+}
+
+/// Fills the cavity round a vertex that splits the edge a-b, and queues what is wrong with the new triangles. `left`
+/// and `right` are the size fields on the sides of a -> b.
+///
+///            o                 The triangle on the border a -> b itself,     a ------p------ b
+///          / : \               if the line is one, is left out: the fan       \     / \     /
+///        a --p-- b             is open there.                                  \   /   \   /
+///          \ : /                                                                '-o-----o-'
+///            o
+void SplittingRefiner::fill_and_queue(Index vertex, Index a, Index b, std::uint32_t left, std::uint32_t right) {
+    const std::size_t old_count = tris_.size(), k = cavity_.boundary.size();
+    std::size_t on_border = k;  // the place of a -> b in the boundary
+    for (std::size_t i = 0; i < k; ++i)
+        if (cavity_.boundary[i].a == a && cavity_.boundary[i + 1 < k ? i + 1 : 0].a == b) on_border = i;
+    std::vector<Index> created;
+    if (on_border < k) {
+        created = fill_open_cavity(tris_, cavity_, vertex, on_border);
+    } else {
+        fill_cavity(tris_, cavity_, vertex);
+        for (std::size_t i = 0; i < k; ++i) {
+            const Index t = created.emplace_back(cavity_.created(i, old_count));
+            if (tris_[t].v[1] == a || tris_[t].v[1] == b) constrain_edge(tris_, t, 2);
+        }
+    }
+    if (!fields_.empty()) {
+        fields_.resize(tris_.size());
+        // The triangles from b counter-clockwise to a lie on the left of a -> b.
+        const auto first = static_cast<std::size_t>(
+            std::find_if(created.begin(), created.end(), [&](Index t) { return tris_[t].v[1] == b; }) -
+            created.begin());
+        bool is_left = true;
+        for (std::size_t i = 0; i < created.size(); ++i) {
+            const Index t = created[(first + i) % created.size()];
+            if (tris_[t].v[1] == a) is_left = false;
+            fields_[t] = is_left ? left : right;
+        }
+    }
+    for (const Index t : created) {
+        classify(t);
+        queue_edges(t);
+    }
+}
+
+RefineStats SplittingRefiner::count_leftovers() const {
+    RefineStats stats;
+    stats.refused = refused_;
+    for (Index t = 0; t < tris_.size(); ++t) {
+        const Tri& tri = tris_[t];
+        const TriangleShape s = shape_of(tri);
+        const unsigned e = s.shortest();
+        stats.oversized += s.area2 > area2_bound(tri) * (1 + 1e-6);
+        if (!is_narrow(s.squared[0], s.squared[1], s.squared[2], s.squared[e] * (1 + rounding), s.area2)) continue;
+        ++stats.below_bound;
+        const Point middle = (1.0 / 3) * (points_[tri.v[0]] + points_[tri.v[1]] + points_[tri.v[2]]);
+        stats.exempt +=
+            lines_.join_sharp_lines(points_, tri.v[next(e)], tri.v[previous(e)]) ||
+            std::any_of(tri.v, tri.v + 3, [&](Index v) { return lines_.in_sharp_corner(points_, v, middle); });
+    }
+    return stats;
+}
+
+}  // namespace lamina::delaunay

@@ -1,0 +1,96 @@
+// Refinement of a triangulation whose borders may be split.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <lamina/delaunay.hpp>
+
+#include "delaunay/border_lines.hpp"
+#include "delaunay/refiner.hpp"
+
+namespace lamina::delaunay {
+
+/// A triangulation, with the sizes in each of its triangles and with the vertices between which edges are frozen.
+struct SplittableDomain {
+    std::vector<Point> points;
+    Tris tris;                             ///< constrained edges and borders are parts of lines, or frozen
+    std::vector<std::uint32_t> fields;     ///< for each triangle the index of its size field; empty: all have field 0
+    std::size_t frozen_begin, frozen_end;  ///< constrained edges between two of these vertices are frozen
+};
+
+/// Splits lines and inserts vertices until every triangle meets its bounds.
+///
+///        p encroaches upon a-b                  a-b is split instead
+///     a-----------o---b                       a------m------o----b
+///      \  p      / \ /                         \    / \    / \  /
+///       \       /   o                           \  /   \  /   o
+///        '-----o----'                            o------o-----'
+///
+/// A vertex encroaches upon an edge of a line if it lies in the lens round the edge: the points that see the edge at an
+/// angle of 180 degrees less twice the angle bound, or more. Source: J. R. Shewchuk, Delaunay refinement algorithms for
+/// triangular mesh generation, Comput. Geom. 22 (2002), section 3.4.2 on diametral lenses.
+class SplittingRefiner : public Refiner<SplittingRefiner> {
+public:
+    /// Keeps references to the lines, the size fields and the options.
+    SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
+                     const ConstrainedRefineOptions& options);
+
+    /// Refines. May be called once only.
+    void refine();
+
+    /// Returns the vertices, those of the domain first, in the coordinates of the domain.
+    std::vector<Point> vertices() const;
+    const Tris& tris() const { return tris_; }
+    /// Returns the index of the size field of a triangle.
+    std::uint32_t field_of(Index t) const { return fields_.empty() ? 0 : fields_[t]; }
+    /// Returns the numbers of triangles beyond the bounds.
+    RefineStats count_leftovers() const;
+    /// Returns the circumcentres that a frozen edge kept out, in the coordinates of the domain.
+    const std::vector<Point>& kept_out() const { return kept_out_; }
+
+private:
+    friend class Refiner<SplittingRefiner>;
+
+    /// The edge a -> b of a line, with triangle t on its left when it was queued.
+    struct QueuedEdge {
+        Index t, a, b;
+    };
+
+    double size_at(Point p, Index t) const { return scale_ * (*sizes_of_fields_[field_of(t)])((1 / scale_) * p); }
+    bool is_blocked(const CavityEdge& a, const CavityEdge& b) const;
+    bool must_mend(Index t) const;
+    void vertex_inserted(Index t, std::size_t old_count);
+    void give_up(Index t, Point p);
+    bool split_next();
+
+    void give_sizes();
+    bool is_frozen(Index v) const { return v >= frozen_begin_ && v < frozen_end_; }
+    bool is_frozen(Index a, Index b) const { return !may_split_ || (is_frozen(a) && is_frozen(b)); }
+    bool encroaches(Point a, Point b, double aa, double bb) const;
+    bool is_too_long(Index t, Index a, Index b) const;
+    Point division_point(Index t, Index a, Index b) const;
+    void queue_edges(Index t);
+    std::vector<QueuedEdge> find_blocking(Index t, Point p, bool& frozen) const;
+    Index inside_triangle(std::size_t i) const;
+    Point clip(Point inside, Point p) const;
+    bool split(Index t, unsigned e);
+    bool cavity_admits_split(Point p, Index a, Index b) const;
+    void fill_and_queue(Index vertex, Index a, Index b, std::uint32_t left, std::uint32_t right);
+
+    BorderLines& lines_;
+    std::span<const SizeField* const> sizes_of_fields_;
+    std::vector<std::uint32_t> fields_;
+    std::size_t frozen_begin_, frozen_end_;
+    bool may_split_;
+    double scale_ = 1;       ///< the coordinates of the refiner over those of the domain
+    Box extent_;             ///< the box round all vertices
+    double min_length_ = 0;  ///< no edge of a line becomes shorter
+    double squared_lens_;    ///< squared cosine of the angle at which points on a lens see its edge
+    std::vector<QueuedEdge> long_or_encroached_;  ///< a stack
+    std::vector<Point> kept_out_;
+};
+
+}  // namespace lamina::delaunay
