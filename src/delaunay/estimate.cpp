@@ -106,7 +106,7 @@ public:
         const bool is_small = 0.5 * std::abs(cross(b.at - a.at, c.at - a.at)) < limits_.small_area * squared_low;
         const bool is_long = squared_longest > limits_.long_edge * limits_.long_edge * squared_low;
         const bool alike = high < (is_small ? 2 : 1.5) * low && inside < 1.2 * mean && mean < 1.2 * inside;
-        if (depth == 0 || (alike && (is_small || !is_long))) {
+        if (depth == 0 || parts_.size() >= max_parts || (alike && (is_small || !is_long))) {
             parts_.push_back(make_part(a, b, c, inside, size_.gradation()));
             return;
         }
@@ -118,6 +118,10 @@ public:
     }
 
 private:
+    /// Beyond this number parts are left as they are: the triangles cannot all be made, and only their order of
+    /// magnitude counts.
+    static constexpr std::size_t max_parts = std::size_t{1} << 20;
+
     const SizeField& size_;
     const DivisionLimits limits_;
     std::vector<TrianglePart>& parts_;

@@ -30,6 +30,10 @@ constexpr double seam_margin = 0.75;
 /// No lattice is made where smooth blocks hold less than this share of the triangles.
 constexpr double min_smooth_share = 0.4;
 
+/// Rounding leaves 1e-16 of an edge where a coordinate of a lattice should vanish. Lattices of smaller sizes would have
+/// coordinates below the range of exact arithmetic (docs/decisions/0005).
+constexpr double min_lattice_size = 1e-40;
+
 /// A part of the region's box, the sizes in it, and the levels that serve them.
 struct LatticeBlock {
     Box box;
@@ -182,6 +186,7 @@ LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const 
     Box region;
     for (const Segment& s : segments) region.include(points[s.a.index()]);
     const auto [low, high] = size.range(region);
+    if (low < min_lattice_size) return {};
     SmoothBlocks smooth = find_smooth_blocks(region, size, level_edges(low, high, {}));
     if (smooth.triangles_in_blocks < min_smooth_share * smooth.triangles) return {};
 

@@ -37,16 +37,16 @@ public:
     FrozenRefiner(std::span<const Point> border, std::span<const Segment> segments, const SizeField& size,
                   const RefineOptions& options)
         : Refiner(options, {border.begin(), border.end()}, triangulate_region(border, segments)), size_(size) {
-        const std::size_t expected =
-            options.expected_triangles > 0
-                ? options.expected_triangles
-                : static_cast<std::size_t>(std::min(estimate_loads(points_, tris_, size).total, 1e9));
+        // n vertices have at most 2 n triangles.
+        const double max_triangles = 2 * (static_cast<double>(border.size()) + static_cast<double>(options.max_points));
+        const double expected = options.expected_triangles > 0 ? static_cast<double>(options.expected_triangles)
+                                                               : estimate_loads(points_, tris_, size).total;
         if (!border.empty()) scale_ = unit_scale(core::longer_side(core::bounding_box(border)));
         if (scale_ != 1)
             for (Point& p : points_) p = scale_ * p;
         sizes_.reserve(border.size());
         for (Point p : border) sizes_.push_back(static_cast<float>(scale_ * size(p)));
-        reserve(expected);
+        reserve(static_cast<std::size_t>(std::min(expected, max_triangles)));
     }
 
     /// Returns the refinement. It may be called once only, since it frees the refiner's memory as it goes.

@@ -13,8 +13,10 @@ namespace {
 
 /// Edges of lines are at most this share of h, which lets triangles of the right size stand on them.
 constexpr double border_share = 0.9;
-/// No edge of a line becomes shorter than this share of the extent.
+/// No edge of a line becomes shorter than this share of its coordinates, so that rounding does not bend lines much.
 constexpr double min_length_share = 0x1p-40;
+/// Nor does it become shorter than this share of the extent, so that sixth powers of lengths do not vanish.
+constexpr double min_extent_share = 0x1p-120;
 /// Lenses have the width that this angle bound asks for, even where the bound is lower.
 constexpr double min_lens_angle_deg = 20;
 /// Counts of triangles beyond the bounds leave this to rounding.
@@ -42,7 +44,6 @@ SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, 
     if (scale_ != 1)
         for (Point& p : points_) p = scale_ * p;
     extent_ = core::bounding_box(points_);
-    if (!points_.empty()) min_length_ = min_length_share * core::longer_side(extent_);
     const double c =
         core::cos_reproducible(core::radians(2 * std::max(options.refine.min_angle_deg, min_lens_angle_deg)));
     squared_lens_ = c * c;
@@ -130,8 +131,8 @@ void SplittingRefiner::queue_edges(Index t) {
 
 bool SplittingRefiner::split_next() {
     if (long_or_encroached_.empty()) return false;
-    const QueuedEdge edge = long_or_encroached_.back();
-    long_or_encroached_.pop_back();
+    const QueuedEdge edge = long_or_encroached_.front();
+    long_or_encroached_.pop_front();
     const unsigned e = edge_between(tris_[edge.t], edge.a, edge.b);
     if (e < 3 && tris_[edge.t].n[e].is_constrained() && !split(edge.t, e)) ++refused_;
     return true;
@@ -176,6 +177,9 @@ std::vector<SplittingRefiner::QueuedEdge> SplittingRefiner::find_blocking(Index 
     const std::size_t all = blocking.size();
     std::erase_if(blocking, [&](const QueuedEdge& edge) { return is_frozen(edge.a, edge.b); });
     frozen = blocking.size() < all;
+    std::stable_sort(blocking.begin(), blocking.end(), [&](const QueuedEdge& l, const QueuedEdge& r) {
+        return distance(points_[l.a], points_[l.b]) > distance(points_[r.a], points_[r.b]);
+    });
     return std::move(blocking);
 }
 
@@ -199,6 +203,7 @@ void SplittingRefiner::give_up(Index t, Point p) {
     for (const QueuedEdge& edge : find_blocking(t, p, frozen)) {
         const unsigned e = edge_between(tris_[edge.t], edge.a, edge.b);
         if (e < 3) any = split(edge.t, e) || any;
+        if (any) break;
     }
     if (!any) {
         ++refused_;
@@ -208,11 +213,19 @@ void SplittingRefiner::give_up(Index t, Point p) {
     }
 }
 
+/// Returns whether an edge is too short to be split.
+bool SplittingRefiner::is_too_short(Point a, Point b) const {
+    const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+    const double min_length =
+        std::max(min_length_share * magnitude, min_extent_share * core::longer_side(extent_));
+    return distance(a, b) < 2 * min_length;
+}
+
 /// Splits edge e of triangle t, which is an edge of a line. Returns false, and changes nothing, if the edge is too
 /// short or rounding leaves no room for the point.
 bool SplittingRefiner::split(Index t, unsigned e) {
     const Index a = tris_[t].v[next(e)], b = tris_[t].v[previous(e)];
-    if (distance(points_[a], points_[b]) < 2 * min_length_) return false;
+    if (is_too_short(points_[a], points_[b])) return false;
     const Point p = division_point(t, a, b);
     if (p == points_[a] || p == points_[b]) return false;
     const Link across = tris_[t].n[e];

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -76,6 +77,7 @@ private:
     std::vector<QueuedEdge> find_blocking(Index t, Point p, bool& frozen) const;
     Index inside_triangle(std::size_t i) const;
     Point clip(Point inside, Point p) const;
+    bool is_too_short(Point a, Point b) const;
     bool split(Index t, unsigned e);
     bool cavity_admits_split(Point p, Index a, Index b) const;
     void fill_and_queue(Index vertex, Index a, Index b, std::uint32_t left, std::uint32_t right);
@@ -87,9 +89,8 @@ private:
     bool may_split_;
     double scale_ = 1;       ///< the coordinates of the refiner over those of the domain
     Box extent_;             ///< the box round all vertices
-    double min_length_ = 0;  ///< no edge of a line becomes shorter
     double squared_lens_;    ///< squared cosine of the angle at which points on a lens see its edge
-    std::vector<QueuedEdge> long_or_encroached_;  ///< a stack
+    std::deque<QueuedEdge> long_or_encroached_;  ///< a stack
     std::vector<Point> kept_out_;
 };
 
