@@ -144,7 +144,7 @@ LAMINA_EXPORT void validate(const RefineOptions& options);
 
 /// The numbers of triangles that could not be refined as requested.
 struct RefineStats {
-    std::size_t refused = 0;      ///< points that were not placed because they would encroach upon the frozen border
+    std::size_t refused = 0;  ///< points that were not placed because a border would be too near that cannot be split
     std::size_t below_bound = 0;  ///< triangles that stayed below the angle bound
     std::size_t exempt = 0;       ///< those of them at a corner below 60 degrees between two border edges
     std::size_t oversized = 0;    ///< triangles that stayed above the size bound
@@ -199,14 +199,15 @@ struct ConstrainedRefinement {
     static constexpr std::uint32_t no_region = 0xffffffffu;
 };
 
-/// Refines a constrained triangulation of the points, with its inner segments and holes. Each part that segments
-/// separate is refined by itself, in parallel, against borders that are split first: until none is too long for the
-/// size field, none has a vertex in its diametral circle that sees it, and none keeps a triangle beyond the bounds.
-/// Segments that meet at less than 90 degrees are split on common circles round their vertex, whose radii are powers of
-/// two. Triangles in a corner where segments meet at less than 60 degrees, and those whose shortest edge joins two such
-/// segments, are exempt from the angle bound (stats.exempt). Throws as the other refine() does.
-/// Source: J. Ruppert, J. Algorithms 18 (1995), section 3 and "corner lopping"; exempt triangles: G. Miller, S. Pav, N.
-/// Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
+/// Refines a constrained triangulation of the points, with its inner segments and holes. Segments and the boundary are
+/// split where they are too long for the size field, where a vertex lies in the lens from which they appear at 180
+/// degrees less twice the angle bound, and where they keep a triangle beyond the bounds. Segments that meet at less than
+/// 90 degrees are split on common circles round their vertex, whose radii are powers of two. Triangles in a corner where
+/// segments meet at less than 60 degrees, and those whose shortest edge joins two such segments, are exempt from the
+/// angle bound (stats.exempt). Without rounding, no other angle stays below it: stats.refused counts the triangles that
+/// rounding, or split_segments = false, kept from being mended. Throws as the other refine() does.
+/// Source: J. Ruppert, J. Algorithms 18 (1995), section 3 and "corner lopping"; lenses: J. R. Shewchuk, Comput. Geom. 22
+/// (2002); exempt triangles: G. Miller, S. Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
 LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                                            const SizeField& size, const ConstrainedRefineOptions& options = {});
 

@@ -216,8 +216,7 @@ void SplittingRefiner::give_up(Index t, Point p) {
 /// Returns whether an edge is too short to be split.
 bool SplittingRefiner::is_too_short(Point a, Point b) const {
     const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-    const double min_length =
-        std::max(min_length_share * magnitude, min_extent_share * core::longer_side(extent_));
+    const double min_length = std::max(min_length_share * magnitude, min_extent_share * core::longer_side(extent_));
     return distance(a, b) < 2 * min_length;
 }
 

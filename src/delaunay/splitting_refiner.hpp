@@ -87,9 +87,9 @@ private:
     std::vector<std::uint32_t> fields_;
     std::size_t frozen_begin_, frozen_end_;
     bool may_split_;
-    double scale_ = 1;       ///< the coordinates of the refiner over those of the domain
-    Box extent_;             ///< the box round all vertices
-    double squared_lens_;    ///< squared cosine of the angle at which points on a lens see its edge
+    double scale_ = 1;                           ///< the coordinates of the refiner over those of the domain
+    Box extent_;                                 ///< the box round all vertices
+    double squared_lens_;                        ///< squared cosine of the angle at which points on a lens see its edge
     std::deque<QueuedEdge> long_or_encroached_;  ///< a stack
     std::vector<Point> kept_out_;
 };

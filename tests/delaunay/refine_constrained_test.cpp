@@ -6,26 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
+#include "support/planar_graphs.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulation_checks.hpp"
 
 namespace lamina::test {
 namespace {
-
-/// Points and segments to be triangulated.
-struct PlanarGraph {
-    std::vector<Point> points;
-    std::vector<Segment> segments;
-    void add_loop(const std::vector<Point>& corners) {
-        const std::size_t first = points.size();
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            segments.push_back({VertexId{first + i}, VertexId{first + (i + 1) % corners.size()}});
-            points.push_back(corners[i]);
-        }
-    }
-};
 
 /// A refinement with all its points, and the area that it covers.
 struct Refined {
@@ -163,6 +152,113 @@ TEST(RefineConstrained, RandomSegmentsTerminate) {
         EXPECT_EQ(r.refinement.stats.below_bound, r.refinement.stats.exempt);
         EXPECT_LT(r.refinement.triangles.size(), 100000u);
     }
+}
+
+TEST(RefineConstrained, LatticesLeaveRoomForIsolatedVertices) {
+    // Lattices used to ignore vertices that lie on no segment: one of them left an angle of 3.96 degrees, a hundred
+    // left 0.47.
+    for (const std::size_t count : {1u, 2u, 5u, 20u, 100u, 300u}) {
+        SCOPED_TRACE(count);
+        PlanarGraph graph;
+        graph.add_loop({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
+        for (const Point p : random_points(count, count)) graph.points.push_back(9.8 * p + Point{0.1, 0.1});
+        // Two vertices much nearer to each other than triangles are wide.
+        graph.points.push_back(graph.points.back() + Point{1e-4, 0});
+        const SizeField size(size_for_area(0.1));
+        const Refined r = refine_and_check(graph, size, {});
+        EXPECT_EQ(count_below(r, 20.7), 0u);
+        EXPECT_EQ(r.refinement.stats.oversized, 0u);
+        const Refined pure = refine_and_check(graph, size, {.refine = {.lattice = false}});
+        EXPECT_LT(r.refinement.triangles.size(), 1.3 * double(pure.refinement.triangles.size()));
+    }
+}
+
+TEST(RefineConstrained, RandomGraphsMeetTheirBounds) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        const RandomGraph random = random_planar_graph(seed);
+        SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+        const double angle = seed % 2 == 0 ? 20.7 : 33;
+        const SizeField size(seed % 3 == 0 ? 0.15 : 100);
+        const Refined r = refine_and_check(random.graph, size, {.refine = {.min_angle_deg = angle}});
+        EXPECT_EQ(r.refinement.stats.below_bound, r.refinement.stats.exempt);
+        EXPECT_EQ(r.refinement.stats.oversized, 0u);
+        EXPECT_EQ(r.refinement.stats.refused, 0u);
+        EXPECT_LE(count_below(r, angle), r.refinement.stats.exempt);
+    }
+}
+
+TEST(RefineConstrained, TriangleCountsOfSlits) {
+    // Counts of Triangle 1.6 with the same input and bound, without a bound of the area.
+    struct Case {
+        double width, angle;
+        std::size_t triangles;
+    };
+    for (const Case& c :
+         {Case{0.004, 20.7, 7722}, Case{0.004, 28, 10686}, Case{0.004, 33, 19924}, Case{0.03, 20.7, 1010},
+          Case{0.03, 28, 1421}, Case{0.03, 33, 4906}, Case{0.11, 20.7, 259}, Case{0.11, 28, 362}, Case{0.11, 33, 1271},
+          Case{0.3, 20.7, 82}, Case{0.3, 28, 197}, Case{0.3, 33, 370}}) {
+        PlanarGraph graph;
+        graph.add_loop({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
+        graph.add_segment({2, 5}, {8, 5});
+        graph.add_segment({2, 5 + c.width}, {8, 5 + c.width});
+        const Refined r = refine_and_check(graph, SizeField(1000), {.refine = {.min_angle_deg = c.angle}});
+        EXPECT_LT(r.refinement.triangles.size(), 1.25 * double(c.triangles)) << c.width << " " << c.angle;
+        EXPECT_EQ(count_below(r, c.angle), 0u);
+    }
+}
+
+TEST(RefineConstrained, HighAnglesNeedFewTriangles) {
+    // At 33 degrees the outline of a tank used to make five times the triangles that 32 degrees need, five of them
+    // below the bound.
+    PlanarGraph tank;
+    std::vector<Point> outline;
+    for (int i = 0; i < 40; ++i) {
+        const double t = 2 * M_PI * i / 40;
+        outline.push_back({10 * std::cos(t) + 2 * std::cos(3 * t), 6 * std::sin(t)});
+    }
+    tank.add_loop(outline);
+    tank.add_segment({-2, 0}, {2, 0});
+    const auto count = [&](double angle) {
+        const Refined r = refine_and_check(tank, SizeField(1000), {.refine = {.min_angle_deg = angle}});
+        EXPECT_EQ(count_below(r, angle), 0u) << angle;
+        return double(r.refinement.triangles.size());
+    };
+    const double at_30 = count(30), at_32 = count(32), at_33 = count(33);
+    EXPECT_LT(at_32, 2 * at_30);
+    EXPECT_LT(at_33, 2 * at_32);
+}
+
+TEST(RefineConstrained, SameTrianglesAtEveryScale) {
+    // Multiplication by powers of two is exact, so that the result must be the same but for the scale.
+    const PlanarGraph graph = random_planar_graph(5).graph;
+    const auto refined_at = [&](int exponent) {
+        PlanarGraph scaled = graph;
+        for (Point& p : scaled.points) p = std::ldexp(1.0, exponent) * p;
+        return refine_and_check(scaled, SizeField(std::ldexp(0.5, exponent)), {.refine = {.lattice = false}});
+    };
+    const Refined at_one = refined_at(0);
+    EXPECT_EQ(at_one.refinement.stats.oversized, 0u);
+    for (const int exponent : {-170, -120, 80, 130, 190}) {
+        SCOPED_TRACE(exponent);
+        const Refined r = refined_at(exponent);
+        EXPECT_EQ(r.refinement.triangles, at_one.refinement.triangles);
+        for (std::size_t i = 0; i < r.points.size(); ++i)
+            EXPECT_EQ(r.points[i], std::ldexp(1.0, exponent) * at_one.points[i]) << i;
+    }
+}
+
+TEST(RefineConstrained, StopsAtTheLimitOfPoints) {
+    PlanarGraph graph;
+    graph.add_loop({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    for (const bool lattice : {false, true}) {
+        const ConstrainedRefineOptions options{.refine = {.max_points = 100'000, .lattice = lattice}};
+        EXPECT_THROW(refine_and_check(graph, SizeField(1e-6), options), MeshError);
+        EXPECT_THROW(refine_and_check(graph, SizeField(1e-12), options), MeshError);
+    }
+    // A strip so long that the angle bound alone asks for 1e10 triangles.
+    PlanarGraph strip;
+    strip.add_loop({{0, 0}, {4e9, 0}, {4e9, 0.5}, {0, 0.5}});
+    EXPECT_THROW(refine_and_check(strip, SizeField(1e10), {.refine = {.max_points = 20'000}}), MeshError);
 }
 
 }  // namespace
