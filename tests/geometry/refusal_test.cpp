@@ -132,12 +132,38 @@ TEST(Refusal, TitlesThatMayBeCounts) {
     expect_refusal("2 2\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n", 6, "put # before that line if it is a title");
 }
 
+TEST(Refusal, PointsBehindTheEnd) {
+    expect_refusal("t\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n0.9 -0.2\n", 7,
+                   "the outline is back at its start (1, 0) on line 6, but goes on to line 7", Point{0.9, -0.2});
+}
+
 TEST(Refusal, TextInUtf16) {
     expect_refusal(std::string("\xFF\xFE"
                                "1\0 \0"
                                "0\0",
                                8),
                    1, "UTF-16");
+}
+
+TEST(Refusal, SectionsThatAreNoConfiguration) {
+    const test::TemporaryFolder folder;
+    const auto message = [&](const std::string& other) -> std::string {
+        const std::vector<std::string> inputs{folder.write("a1.dat", fixtures::selig).string(),
+                                              folder.write("a2.dat", other).string()};
+        try {
+            read_geometry(inputs);
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "accepted";
+    };
+    const std::string advice = "mesh each in a run of its own, as in: for f in *.dat; do lamina mesh";
+    EXPECT_NE(message(fixtures::selig).find(advice), std::string::npos);
+    EXPECT_NE(message("thin\n1 0.001\n0.5 0.02\n0.02 0.001\n0.5 -0.02\n1 0.001\n").find(advice), std::string::npos);
+    // A flap that touches the main element belongs to it.
+    const std::string flap = message("flap\n1.3 0\n1.1 0.1\n0.9 0\n1.1 -0.1\n1.3 0\n");
+    EXPECT_NE(flap.find("crosses that of 'a2'"), std::string::npos) << flap;
+    EXPECT_EQ(flap.find("run of its own"), std::string::npos) << flap;
 }
 
 TEST(Refusal, LonePoints) {
