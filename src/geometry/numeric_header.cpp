@@ -55,8 +55,8 @@ std::optional<SurfaceCounts> read_counts(const PointRun& points, const std::stri
 }
 
 std::optional<std::string> why_title(const PointRun& points, const CoordinateDocument& document) {
-    constexpr std::size_t min_points = 3;
-    if (document.first_row.empty() || points.size() <= min_points) return std::nullopt;
+    constexpr std::size_t min_rows = 3;
+    if (document.first_row.empty() || points.size() <= min_rows) return std::nullopt;
     const RowPoint& first = points[0];
     const PointRun rest(points.begin() + 1, points.end());
     const double a = first.values[0], b = first.values[1], available = static_cast<double>(rest.size());

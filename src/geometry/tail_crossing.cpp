@@ -104,8 +104,8 @@ private:
 }  // namespace
 
 std::optional<TailCut> cut_crossing_tail(std::vector<SourcePoint>& points) {
-    constexpr std::size_t min_points = 5;
-    if (points.size() < min_points) return std::nullopt;
+    constexpr std::size_t min_vertices = 5;
+    if (points.size() < min_vertices) return std::nullopt;
     const Tail tail(points);
     const std::optional<Crossing> crossing = tail.outermost_crossing();
     if (!crossing) return std::nullopt;

@@ -19,7 +19,7 @@ namespace lamina {
 namespace {
 
 /// Returns the geometry of the text of a file.
-Geometry read(const std::string& content) {
+Geometry parsed(const std::string& content) {
     return geometry::make_geometry(geometry::parse_airfoil(content, "sample.dat"), {});
 }
 
@@ -77,9 +77,9 @@ std::string with_separator(const std::string& line, const std::string& separator
 /// Expects the same outlines from both texts.
 void expect_same(const std::string& plain, const std::string& changed) {
     SCOPED_TRACE(changed.substr(0, 500));
-    const Geometry expected = read(plain);
+    const Geometry expected = parsed(plain);
     try {
-        const Geometry found = read(changed);
+        const Geometry found = parsed(changed);
         ASSERT_EQ(found.elements.size(), expected.elements.size());
         for (std::size_t i = 0; i < found.elements.size(); ++i)
             EXPECT_EQ(found.elements[i].points, expected.elements[i].points);
@@ -114,7 +114,7 @@ TEST(Comments, BehindCoordinatesChangeNothing) {
 TEST(Comments, DivideElementsThatAreComplete) {
     const std::string first = fixtures::selig.substr(10), second = fixtures::second_body;
     for (const std::string& body : {first, first.substr(0, first.rfind("1.0"))}) {  // closed, and open at the tail
-        const Geometry geometry = read("# main\n" + body + "# flap\n" + second);
+        const Geometry geometry = parsed("# main\n" + body + "# flap\n" + second);
         ASSERT_EQ(geometry.elements.size(), 2u);
         EXPECT_EQ(geometry.elements[0].points.size(), 8u);
         EXPECT_EQ(geometry.elements[1].points.size(), 5u);
@@ -124,8 +124,8 @@ TEST(Comments, DivideElementsThatAreComplete) {
 TEST(Comments, BehindEveryPointOfSeveralElements) {
     for (const std::string between : {"\n# c", "\n", "\n\n% c\n"}) {
         const Geometry geometry =
-            read(with_lines("0.25 0\n" + fixtures::loop_lines + fixtures::second_body,
-                            [&](const std::string& line, std::size_t) { return line + between; }));
+            parsed(with_lines("0.25 0\n" + fixtures::loop_lines + fixtures::second_body,
+                              [&](const std::string& line, std::size_t) { return line + between; }));
         ASSERT_EQ(geometry.elements.size(), 2u);
         EXPECT_EQ(geometry.elements[0].points, fixtures::loop);
         EXPECT_TRUE(says(geometry.elements[0], "line 1: lone point left out"));
@@ -136,7 +136,7 @@ TEST(Comments, BetweenTheSurfacesOfSeveralElements) {
     const std::string upper = "0 0\n.2 .06\n.5 .07\n.75 .04\n1 0\n", lower = "0 0\n.2 -.04\n.5 -.05\n.75 -.03\n1 0\n";
     const std::string flap =
         "1.02 -0.06\n1.1 -0.04\n1.2 -0.05\n1.3 -0.1\n# lower\n1.02 -0.06\n1.1 -0.09\n1.2 -.1\n1.3 -0.1\n";
-    const Geometry geometry = read("# upper\n" + upper + "# lower\n" + lower + "# flap, upper\n" + flap);
+    const Geometry geometry = parsed("# upper\n" + upper + "# lower\n" + lower + "# flap, upper\n" + flap);
     ASSERT_EQ(geometry.elements.size(), 2u);
     EXPECT_EQ(geometry.elements[0].points, fixtures::loop);
     EXPECT_EQ(geometry.elements[1].points.size(), 6u);
@@ -168,7 +168,7 @@ TEST(Quotes, RoundWholeLinesAndDecimalCommas) {
     expect_same(plain,
                 "\"x\",\"y\"\n\"1,0\",\"0,0\"\n\"0,75\",\"0,04\"\n\"0,5\",\"0,07\"\n\"0,2\",\"0,06\"\n\"0\",\"0\"\n"
                 "\"0,2\",\"-0,04\"\n\"0,5\",\"-0,05\"\n\"0,75\",\"-0,03\"\n\"1\",\"0\"\n");
-    EXPECT_EQ(read("\"NACA's 23 012\"\n" + plain).elements[0].title, "\"NACA's 23 012\"");
+    EXPECT_EQ(parsed("\"NACA's 23 012\"\n" + plain).elements[0].title, "\"NACA's 23 012\"");
     expect_same(plain, "'tis Peter's\n" + plain);
 }
 
@@ -183,10 +183,10 @@ TEST(Columns, AConstantOneIsLeftOut) {
                             return with_separator(line, "," + value + ",");
                         }));
         }
-    EXPECT_TRUE(says(read(fixtures::z_column).elements[0], "line 2: third column ignored, 0 throughout"));
+    EXPECT_TRUE(says(parsed(fixtures::z_column).elements[0], "line 2: third column ignored, 0 throughout"));
     const std::string x_first =
         with_lines(fixtures::loop_lines, [](const std::string& line, std::size_t) { return "7 " + line; });
-    EXPECT_TRUE(says(read(x_first).elements[0], "line 1: first column ignored, 7 throughout"));
+    EXPECT_TRUE(says(parsed(x_first).elements[0], "line 1: first column ignored, 7 throughout"));
 }
 
 TEST(Columns, AnIndexIsLeftOut) {
@@ -204,7 +204,7 @@ TEST(Columns, AnIndexIsLeftOut) {
     const std::string indexed = with_lines(fixtures::loop_lines, [](const std::string& line, std::size_t number) {
         return std::to_string(number) + " " + line;
     });
-    EXPECT_TRUE(says(read(indexed).elements[0], "line 1: first column ignored, it counts the points"));
+    EXPECT_TRUE(says(parsed(indexed).elements[0], "line 1: first column ignored, it counts the points"));
 }
 
 TEST(Columns, AnIndexMayBeginAgain) {
@@ -217,11 +217,11 @@ TEST(Columns, AnIndexMayBeginAgain) {
 TEST(Columns, ATableInStepsOfOneIsATable) {
     std::string table = "t\n";
     for (int x = 0; x <= 40; ++x) table += fmt::format("{} {} {}\n", x, 0.02 * x * (40 - x), -0.01 * x * (40 - x));
-    EXPECT_EQ(read(table).elements[0].format, "table");
+    EXPECT_EQ(parsed(table).elements[0].format, "table");
     const std::string indexed = with_lines(table.substr(2), [](const std::string& line, std::size_t number) {
         return std::to_string(number) + " " + line;
     });
-    EXPECT_EQ(read(indexed).elements[0].points, read(table).elements[0].points);
+    EXPECT_EQ(parsed(indexed).elements[0].points, parsed(table).elements[0].points);
 }
 
 TEST(Columns, NamesDecide) {
@@ -232,7 +232,7 @@ TEST(Columns, NamesDecide) {
     for (const std::string header :
          {"x y Cp\n", "# x y Cp\n", "\"X\",\"Y\",\"Cp\"\n", "x[m];y[m];p[Pa]\n", "x/c y/c cp\n"})
         expect_same(plain, header + with_lines(plain, with_pressure));
-    EXPECT_THROW(read(with_lines(plain, with_pressure)), InputError);
+    EXPECT_THROW(parsed(with_lines(plain, with_pressure)), InputError);
     const std::string swapped = with_lines(plain, [](const std::string& line, std::size_t) {
         const std::size_t space = line.find(' ');
         return line.substr(space + 1) + "," + line.substr(0, space);
@@ -250,13 +250,13 @@ TEST(Headers, OfNumbersAloneAreTitlesOrCounts) {
             expect_same(plain, "title\n" + header + "\n" + plain);
         }
     }
-    const Element e = read("23 012\n" + fixtures::loop_lines).elements[0];
+    const Element e = parsed("23 012\n" + fixtures::loop_lines).elements[0];
     EXPECT_EQ(e.title, "23 012");
     EXPECT_TRUE(says(e, "line 1: '23 012' taken as a title, not as coordinates: one of its numbers starts with 0"));
 }
 
 TEST(Headers, OfNumbersAndThenText) {
-    const Element e = read("23 012\n12 % thick\n" + fixtures::loop_lines).elements[0];
+    const Element e = parsed("23 012\n12 % thick\n" + fixtures::loop_lines).elements[0];
     EXPECT_EQ(e.points, fixtures::loop);
     EXPECT_EQ(e.title, "23 012");
     EXPECT_TRUE(says(e, "line 1: '23 012' taken as a title, not as coordinates: text follows"));
@@ -268,7 +268,7 @@ TEST(Headers, ATitleThatAddsUpToTheNumberOfPoints) {
 }
 
 TEST(Headers, CountsBeforeEachElement) {
-    const Geometry geometry = read("9\n" + fixtures::selig.substr(10) + "6\n" + fixtures::second_body);
+    const Geometry geometry = parsed("9\n" + fixtures::selig.substr(10) + "6\n" + fixtures::second_body);
     ASSERT_EQ(geometry.elements.size(), 2u);
     EXPECT_EQ(geometry.elements[1].points.size(), 5u);
 }
