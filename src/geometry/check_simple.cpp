@@ -3,6 +3,8 @@
 #include <lamina/geometry.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,12 +52,26 @@ std::string describe(const OutlineEdge& edge) {
     return fmt::format("the {} of lines {} and {}", closes ? "closing edge" : "edge", std::min(a, b), std::max(a, b));
 }
 
+/// Returns advice where two elements of different files cover about the same stretch of x, as sections do that are to be
+/// meshed one by one; else nothing.
+std::string advice_on_separate_sections(const Element& e, const Element& f) {
+    constexpr double max_offset = 0.1;  // of the shorter section
+    const Box a = core::bounding_box(e.points), b = core::bounding_box(f.points);
+    const double offset = std::max(std::abs(a.lower.x - b.lower.x), std::abs(a.upper.x - b.upper.x));
+    if (e.file == f.file || offset > max_offset * std::min(a.width(), b.width())) return "";
+    return fmt::format(
+        "; both reach from about x = {:.3g} to {:.3g}, like sections of their own rather than elements of one "
+        "configuration: mesh each in a run of its own, as in: for f in *.dat; do lamina mesh \"$f\" -o "
+        "\"${{f%.*}}.vtu\"; done",
+        a.lower.x, a.upper.x);
+}
+
 [[noreturn]] void refuse(const OutlineEdge& first, const OutlineEdge& second, Point at, const std::string& verb) {
     const Element &e = *first.element, &f = *second.element;
     const std::string reason =
         &e == &f ? fmt::format("the outline {} itself: {} and {}", verb, describe(first), describe(second))
-                 : fmt::format("the outline {} that of '{}' ({}): {} and there {}", verb, f.name, f.file,
-                               describe(first), describe(second));
+                 : fmt::format("the outline {} that of '{}' ({}): {} and there {}{}", verb, f.name, f.file,
+                               describe(first), describe(second), advice_on_separate_sections(e, f));
     throw InputError({e.file, line_near(e, first.index, false), at}, reason);
 }
 
@@ -152,9 +168,10 @@ void check_side_by_side(const std::vector<Element>& elements) {
         const Element& inner = elements[i];
         for (std::size_t j = 0; j < elements.size(); ++j) {
             if (i == j || !boxes[j].contains(inner.points[0]) || !contains(elements[j], inner.points[0])) continue;
-            throw InputError({inner.file, line_near(inner, 0, true), inner.points[0]},
-                             fmt::format("'{}' lies inside '{}' ({}); elements must lie side by side", inner.name,
-                                         elements[j].name, elements[j].file));
+            throw InputError(
+                {inner.file, line_near(inner, 0, true), inner.points[0]},
+                fmt::format("'{}' lies inside '{}' ({}); elements must lie side by side{}", inner.name,
+                            elements[j].name, elements[j].file, advice_on_separate_sections(inner, elements[j])));
         }
     }
 }

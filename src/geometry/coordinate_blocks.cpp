@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
-#include <lamina/predicates.hpp>
 
 #include "core/text.hpp"
+#include "geometry/characters.hpp"
 
 namespace lamina::geometry {
 
@@ -34,7 +34,7 @@ public:
             if (rows_[i].kind == RowKind::numbers) {
                 read_numbers(i);
             } else {
-                read_other(rows_[i]);
+                read_other(i);
             }
         }
         return std::move(document_);
@@ -47,6 +47,8 @@ private:
     std::string label_;        ///< text since the last block, the title of the next one
     bool has_points_ = false;  ///< coordinates were read
     bool in_run_ = false;      ///< the row before holds coordinates
+    /// Whether a comment, and whether a text or a separator, stands between the last coordinates and this row.
+    bool comment_between_ = false, text_between_ = false;
 
     void read_numbers(std::size_t i) {
         const TextRow& row = rows_[i];
@@ -58,6 +60,7 @@ private:
         } else if (is_separator(row)) {
             document_.sections.emplace_back();
             in_run_ = false;
+            text_between_ = true;
         } else if (has_points_ || !is_domain_line(rows_, i)) {
             add_point(row);
         }
@@ -67,41 +70,85 @@ private:
         if (row.number_count > row.values.size())
             throw InputError({file_, row.line, {}},
                              fmt::format("{} numbers where x and y are expected", row.number_count));
-        const Point at{row.values[0], row.values[1]};
-        if (!in_exact_range(at))
-            throw InputError({file_, row.line, at}, fmt::format("coordinates must be 0 or of a magnitude from {} to {}",
-                                                                min_exact_coordinate, max_exact_coordinate));
+        if (!has_points_) {
+            if (!row.has_fractions) document_.first_row = row.text;
+            document_.has_leading_zeros = row.has_leading_zeros;
+        } else if (row.has_leading_zeros) {
+            document_.has_leading_zeros = false;
+        }
         document_.csv |= row.has_separators;
         if (row.has_decimal_commas && document_.notes.empty())
             document_.notes.push_back(fmt::format("line {}: decimal commas read as points", row.line));
         CoordinateSection& section = document_.sections.back();
-        if (!in_run_) section.push_back({{}, std::exchange(label_, {})});
-        section.back().points.push_back({{at, row.line}, row.number_count, row.values[2]});
+        if (!in_run_) section.push_back({{}, std::exchange(label_, {}), comment_between_ && !text_between_});
+        section.back().points.push_back({{{row.values[0], row.values[1]}, row.line}, row.number_count, row.values});
         has_points_ = true;
         in_run_ = true;
+        comment_between_ = text_between_ = false;
     }
 
-    void read_other(const TextRow& row) {
+    void read_other(std::size_t i) {
+        const TextRow& row = rows_[i];
         if (row.kind == RowKind::text) {
-            read_text(row);
+            read_text(i);
+            text_between_ = true;
         } else if (row.kind == RowKind::comment && document_.first_comment.empty() && !has_points_) {
             document_.first_comment = row.text;
         }
+        comment_between_ |= row.kind == RowKind::comment;
         if (!has_points_) read_heading(row);
         in_run_ = false;
     }
 
-    void read_text(const TextRow& row) {
+    void read_text(std::size_t i) {
+        const TextRow& row = rows_[i];
+        if (in_run_ && announces_points(i)) return;
+        if (in_run_ && row.damage.empty() && !row.damage_in_run.empty() && first_row_may_be_title(row))
+            make_first_row_title();
         const std::string& damage = in_run_ && row.damage.empty() ? row.damage_in_run : row.damage;
         if (!damage.empty()) throw InputError({file_, row.line, {}}, damage);
         if (label_.empty()) label_ = row.text;
         if (!has_points_) document_.titled = true;
     }
 
+    /// Returns whether the only row of coordinates so far has whole numbers alone, as a title may have, and words and no
+    /// title stand beside it.
+    bool first_row_may_be_title(const TextRow& next) const {
+        constexpr std::ptrdiff_t min_letters = 3;
+        const CoordinateSection& section = document_.sections.back();
+        return !document_.titled && document_.sections.size() == 1 && section.size() == 1 &&
+               section[0].points.size() == 1 && !document_.first_row.empty() &&
+               std::count_if(next.text.begin(), next.text.end(), is_letter) >= min_letters;
+    }
+
+    void make_first_row_title() {
+        CoordinateSection& section = document_.sections.back();
+        document_.notes.push_back(fmt::format("line {}: '{}' taken as a title, not as coordinates: text follows",
+                                              section[0].points[0].line, document_.first_row));
+        label_ = std::exchange(document_.first_row, {});
+        section.clear();
+        document_.titled = true;
+        document_.has_leading_zeros = has_points_ = in_run_ = false;
+    }
+
+    /// Returns whether a row among coordinates is a lone number that tells how many rows of them follow, as before each
+    /// element of some files.
+    bool announces_points(std::size_t i) const {
+        constexpr double min_points = 3;
+        const TextRow& row = rows_[i];
+        const double count = row.values[0];
+        if (row.number_count != 1 || row.has_remark || row.has_fractions || count < min_points) return false;
+        std::size_t following = 0;
+        for (++i; i < rows_.size() && rows_[i].kind != RowKind::text; ++i)
+            if (rows_[i].kind == RowKind::numbers) ++following;
+        return count == static_cast<double>(following);
+    }
+
     /// Remembers a row without coordinates that may say how to read those that follow.
     void read_heading(const TextRow& row) {
         const std::string text = core::lower_case(row.text);
         document_.heading += text + '\n';
+        if (!row.names.empty()) document_.column_names = row.names;
         // OpenVSP writes "1  Sym Flag (0 - No, 1 - Yes)".
         if (text.starts_with("1") && text.find("sym flag") != std::string::npos) document_.symmetry_line = row.line;
     }

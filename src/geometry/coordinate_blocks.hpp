@@ -1,6 +1,7 @@
 // Rows of an airfoil file -> blocks: runs of coordinates without anything between them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@ namespace lamina::geometry {
 
 /// A point with the numbers of its row.
 struct RowPoint : SourcePoint {
-    std::size_t columns = 2;  ///< how many numbers the row has
-    double third = 0;         ///< the third number; 0 where there are two
+    std::size_t columns = 2;                   ///< how many numbers the row has
+    std::array<double, max_columns> values{};  ///< these numbers; x and y are the first two until columns are chosen
 };
 
 using PointRun = std::vector<RowPoint>;
@@ -21,7 +22,8 @@ using PointRun = std::vector<RowPoint>;
 /// Coordinates that follow each other without a blank line, comment, label or separator between them.
 struct CoordinateBlock {
     PointRun points;
-    std::string title;  ///< the text before the block
+    std::string title;           ///< the text before the block
+    bool after_comment = false;  ///< comments, and perhaps blank lines, are all that divides it from the block before
 };
 
 /// The blocks between two separators, which are rows "999 999".
@@ -30,16 +32,19 @@ using CoordinateSection = std::vector<CoordinateBlock>;
 /// All coordinates of a file, and what the text round them says.
 struct CoordinateDocument {
     std::vector<CoordinateSection> sections{1};
-    bool csv = false;               ///< a row has commas or semicolons between its fields
-    bool titled = false;            ///< text stands before the first coordinates
-    std::string first_comment;      ///< the first comment before the first coordinates
-    std::string heading;            ///< all text before the first coordinates, in lower case
-    std::size_t symmetry_line = 0;  ///< the line that says that one surface stands for both; 0 where none does
+    bool csv = false;                       ///< a row has commas or semicolons between its fields
+    bool titled = false;                    ///< text stands before the first coordinates
+    std::string first_comment;              ///< the first comment before the first coordinates
+    std::string heading;                    ///< all text before the first coordinates, in lower case
+    std::vector<std::string> column_names;  ///< fields of the last row before the first coordinates, in lower case
+    std::string first_row;                  ///< the first row of coordinates where it has whole numbers alone
+    bool has_leading_zeros = false;         ///< a number of this row is written like "0012", but no later one is
+    std::size_t symmetry_line = 0;          ///< the line that says that one surface stands for both; 0 where none does
     std::vector<std::string> notes;
 };
 
-/// Divides rows into blocks and sections. Throws InputError, which names `file`, for damaged coordinates, rows of more
-/// than three numbers and coordinates outside the exact range.
+/// Divides rows into blocks and sections. Throws InputError, which names `file`, for damaged coordinates and rows of
+/// more than `max_columns` numbers.
 CoordinateDocument split_into_blocks(const std::vector<TextRow>& rows, const std::string& file);
 
 }  // namespace lamina::geometry

@@ -67,7 +67,19 @@ struct SplitLine {
     bool has_separators = false;
 };
 
-/// Splits a line at white space, at semicolons and, if `comma_separates`, at commas.
+/// Returns the length of the quoted text at the start of s, with its quotes, or 0 if there is none. The closing quote
+/// must end the field, so that the apostrophe of a title quotes nothing.
+std::size_t quoted_length(std::string_view s) {
+    if (s[0] != '"' && s[0] != '\'') return 0;
+    const std::size_t close = s.find(s[0], 1);
+    if (close == std::string_view::npos) return 0;
+    const bool ends_field =
+        close + 1 == s.size() || is_space(s[close + 1]) || s[close + 1] == ',' || s[close + 1] == ';';
+    return ends_field ? close + 1 : 0;
+}
+
+/// Splits a line at white space, at semicolons and, if `comma_separates`, at commas; not inside quotes, which are
+/// removed.
 SplitLine split(std::string_view s, bool comma_separates) {
     SplitLine result;
     const auto is_separator = [&](char c) { return c == ';' || (comma_separates && c == ','); };
@@ -81,6 +93,10 @@ SplitLine split(std::string_view s, bool comma_separates) {
             after_separator = true;
             result.has_separators = true;
             ++i;
+        } else if (const std::size_t length = quoted_length(s.substr(i)); length > 0) {
+            result.texts.emplace_back(trimmed(s.substr(i + 1, length - 2)));
+            after_separator = false;
+            i += length;
         } else {
             const std::size_t start = i;
             while (i < s.size() && !is_space(s[i]) && !is_separator(s[i])) ++i;
@@ -98,9 +114,16 @@ bool uses_decimal_commas(const std::vector<std::string>& texts) {
            std::any_of(texts.begin(), texts.end(), has_comma);
 }
 
+/// Returns a line without the quotes that enclose it as a whole: "1.0 0.0" in quotes is a pair of numbers.
+std::string_view without_outer_quotes(std::string_view line) {
+    if (line.size() < 2 || quoted_length(line) != line.size()) return line;
+    return trimmed(line.substr(1, line.size() - 2));
+}
+
 }  // namespace
 
 FieldList read_fields(std::string_view line) {
+    line = without_outer_quotes(line);
     FieldList result;
     SplitLine parts = split(line, false);
     result.has_decimal_commas = uses_decimal_commas(parts.texts);
@@ -108,6 +131,12 @@ FieldList read_fields(std::string_view line) {
         for (std::string& text : parts.texts) std::replace(text.begin(), text.end(), ',', '.');
     } else {
         parts = split(line, true);
+        // In a line whose fields are quoted or divided by semicolons, decimal commas stand within the fields.
+        for (std::string& text : parts.texts)
+            if (text.find(',') != std::string::npos && fits_decimal_comma(text)) {
+                std::replace(text.begin(), text.end(), ',', '.');
+                result.has_decimal_commas = true;
+            }
     }
     result.has_separators = parts.has_separators;
     for (std::string& text : parts.texts) result.fields.push_back(make_field(std::move(text)));

@@ -6,6 +6,7 @@
 
 #include <lamina/error.hpp>
 
+#include "core/text.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/coordinate_fields.hpp"
 
@@ -59,12 +60,42 @@ bool starts_comment(std::string_view line) {
     return line[0] == '#' || line[0] == '!' || line[0] == ';' || line[0] == '%' || line.starts_with("//");
 }
 
+/// Returns whether a text is a whole number: "17", "-3", "17.".
+bool is_whole(const std::string& text) {
+    const std::size_t start = text[0] == '+' || text[0] == '-' ? 1 : 0;
+    const std::size_t end =
+        std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(start), text.end(), is_digit) - text.begin();
+    return end > start && (end == text.size() || text.substr(end) == ".");
+}
+
+/// Returns a line without the comment at its end. A semicolon starts a comment where white space divides the numbers
+/// before it; else it is a separator.
+std::string_view without_comment(std::string_view line) {
+    line = line.substr(0, std::min({line.find_first_of("#!%"), line.find("//")}));
+    const std::size_t semicolon = line.find(';');
+    if (semicolon == std::string_view::npos) return trimmed(line);
+    const std::string_view before = trimmed(line.substr(0, semicolon));
+    const bool divided = std::any_of(before.begin(), before.end(), is_space) && read_fields(before).fields.size() >= 2;
+    return divided ? before : trimmed(line);
+}
+
+std::vector<std::string> lower_case_texts(const std::vector<Field>& fields) {
+    std::vector<std::string> texts;
+    texts.reserve(fields.size());
+    for (const Field& field : fields) texts.push_back(core::lower_case(field.text));
+    return texts;
+}
+
 /// Reads the fields of a line that is neither blank nor a comment into `row`.
 void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row) {
-    const FieldList list = read_fields(trimmed(line.substr(0, line.find_first_of("#!"))));
+    const FieldList list = read_fields(without_comment(line));
     const std::vector<Field>& fields = list.fields;
     while (row.number_count < fields.size() && fields[row.number_count].kind == FieldKind::number) {
-        if (row.number_count < row.values.size()) row.values[row.number_count] = fields[row.number_count].value;
+        const Field& field = fields[row.number_count];
+        if (row.number_count < row.values.size()) row.values[row.number_count] = field.value;
+        row.has_fractions |= !is_whole(field.text);
+        row.has_leading_zeros |=
+            is_whole(field.text) && field.text.size() > 1 && field.text[0] == '0' && is_digit(field.text[1]);
         ++row.number_count;
     }
     row.has_remark = row.number_count < fields.size();
@@ -73,11 +104,12 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     if (row.number_count >= 2) {
         row.kind = RowKind::numbers;
         row.has_decimal_points = has_point(fields[0]) && has_point(fields[1]);
-        if (row.has_remark || row.number_count > row.values.size()) row.text = printable(line);
+        if (row.has_remark || !row.has_fractions) row.text = printable(line);
         return;
     }
     row.kind = RowKind::text;
     row.text = printable(line);
+    row.names = lower_case_texts(fields);
     if (fields.empty()) return;
     if (must_be_coordinates(fields, is_first_row)) row.damage = describe_damage(fields);
     if (must_be_coordinates_in_run(fields)) row.damage_in_run = describe_damage(fields);
@@ -92,7 +124,10 @@ TextRow read_row(std::string_view line, std::size_t number, bool is_first_row) {
     if (starts_comment(line)) {
         row.kind = RowKind::comment;
         const std::size_t start = line.find_first_not_of("#!;%/ \t");
-        if (start != std::string_view::npos) row.text = printable(line.substr(start));
+        if (start != std::string_view::npos) {
+            row.text = printable(line.substr(start));
+            row.names = lower_case_texts(read_fields(line.substr(start)).fields);
+        }
     } else {
         read_text_or_numbers(line, is_first_row, row);
     }
@@ -102,6 +137,8 @@ TextRow read_row(std::string_view line, std::size_t number, bool is_first_row) {
 }  // namespace
 
 std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+        throw InputError({file, 1, {}}, "the text is UTF-16; save it as UTF-8 or ASCII");
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of UTF-8
     std::vector<TextRow> rows;
     bool is_first_row = true;

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <lamina/predicates.hpp>
 
 #include "core/polygon.hpp"
 #include "core/segments.hpp"
+#include "geometry/tail_crossing.hpp"
 
 namespace lamina::geometry {
 
@@ -93,10 +96,45 @@ void cut_flat_tail(SourcePoints& points, std::vector<std::string>& repairs) {
     }
 }
 
+/// Returns "line 7: ", or "lines 2, 3 and 98: ", or the first and the last of many; nothing without lines.
+std::string line_prefix(const std::vector<std::size_t>& lines) {
+    constexpr std::size_t max_listed = 8;
+    if (lines.empty()) return "";
+    if (lines.size() == 1) return fmt::format("line {}: ", lines[0]);
+    if (lines.size() > max_listed) return fmt::format("{} lines from {} to {}: ", lines.size(), lines[0], lines.back());
+    return fmt::format("lines {} and {}: ", fmt::join(lines.begin(), lines.end() - 1, ", "), lines.back());
+}
+
+/// Cuts off a tail behind a crossing of the two surfaces, and says so.
+void cut_crossed_tail(SourcePoints& points, Element& element) {
+    while (const std::optional<TailCut> cut = cut_crossing_tail(points)) {
+        const std::string text = fmt::format(
+            "the surfaces {} near the trailing edge, at {}; the tail behind that, {:.2g} % of the section's "
+            "length, was cut off",
+            cut->at_vertex ? "meet" : "cross", coordinates(cut->at), 100 * cut->share);
+        element.repairs.push_back(line_prefix(cut->removed_lines) + text);
+        element.warnings.push_back({"crossing_tail_cut", text, cut->at, cut->share});
+    }
+}
+
+/// Throws InputError where an open outline came back to its start before its end.
+void check_closed_once(const SourcePoints& points, const std::string& file) {
+    const SourcePoint &first = points.front(), &last = points.back();
+    const auto again =
+        std::find_if(points.begin() + 1, points.end(), [&](const SourcePoint& p) { return p.at == first.at; });
+    if (again == points.end()) return;
+    throw InputError(
+        {file, last.line, last.at},
+        fmt::format("the outline is back at its start {} on line {}, but goes on to line {}: a point out of "
+                    "place, or a second body without a line that divides them",
+                    coordinates(first.at), again->line, last.line));
+}
+
 /// Divides the edge from the last point back to the first into edges about as long as the shorter of its neighbours.
 /// Throws InputError where that edge is too long to be a base.
 void close_outline(SourcePoints& points, const std::string& file, std::vector<std::string>& repairs) {
     constexpr double max_edges = 64;
+    check_closed_once(points, file);
     const SourcePoint last = points.back(), first = points.front();
     const double base = distance(last.at, first.at);
     double perimeter = 0;
@@ -145,11 +183,13 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     const SourcePoint last = points.back();
     merge_crossed_neighbours(points, element.repairs);
     cut_flat_tail(points, element.repairs);
+    cut_crossed_tail(points, element);
     if (!closed && points.back().at == last.at) close_outline(points, file, element.repairs);
     if (is_clockwise(points)) {
         std::reverse(points.begin() + 1, points.end());
-        element.repairs.push_back(fmt::format("line {}: clockwise order reversed, starting from {}", points[0].line,
-                                              coordinates(points[0].at)));
+        const std::string line = points[0].line > 0 ? fmt::format("line {}: ", points[0].line) : "";
+        element.repairs.push_back(
+            fmt::format("{}clockwise order reversed, starting from {}", line, coordinates(points[0].at)));
     }
     for (const SourcePoint& p : points) {
         element.points.push_back(p.at);

@@ -4,6 +4,7 @@
 
 #include "geometry/coordinate_rows.hpp"
 #include "geometry/element_names.hpp"
+#include "geometry/orientation_warnings.hpp"
 #include "geometry/outline_repair.hpp"
 #include "geometry/outlines.hpp"
 
@@ -20,6 +21,7 @@ Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& opt
     Geometry geometry{std::move(elements)};
     name_elements(geometry.elements, options);
     check_simple(geometry);
+    add_orientation_warnings(geometry);
     return geometry;
 }
 

@@ -27,8 +27,8 @@ std::optional<SurfaceTable> read_surface_table(const PointRun& points, const std
     if (points.size() < 5 || !has_rising_x(points)) return std::nullopt;
     const double chord = points.back().at.x - points.front().at.x;
     const bool lower_first = names_lower_first(heading);
-    const auto upper_at = [&](const RowPoint& p) { return lower_first ? p.third : p.at.y; };
-    const auto lower_at = [&](const RowPoint& p) { return lower_first ? p.at.y : p.third; };
+    const auto upper_at = [&](const RowPoint& p) { return lower_first ? p.values[2] : p.values[1]; };
+    const auto lower_at = [&](const RowPoint& p) { return lower_first ? p.at.y : p.values[2]; };
     // Tells whether the surfaces meet at the ends alone; `sign` is -1 if lower ordinates count downward, else 1.
     const auto are_apart = [&](double sign) {
         const auto thickness = [&](const RowPoint& p) { return upper_at(p) - sign * lower_at(p); };

@@ -183,10 +183,6 @@ TEST(Reader, MergesSurfacesThatCrossByRounding) {
     EXPECT_EQ(nose.points.size(), 6u);
     EXPECT_TRUE(
         has_repair(nose, "lines 6 and 5: the edges on both sides of them cross; (0, 1e-05) merged with (0, 0)"));
-    // A crossing that can be seen is left to the user.
-    EXPECT_THROW(read("CROSSED\n1 0\n0.98 0.002\n0.7 0.04\n0.3 0.06\n0 0\n0.3 -0.03\n0.7 -0.01\n0.98 0.001\n"
-                      "1.003 0.002\n"),
-                 InputError);
 }
 
 TEST(Reader, CutsOffATailWithoutThickness) {

@@ -78,7 +78,10 @@ TEST(Refusal, CoordinatesOutsideTheExactRange) {
 
 TEST(Refusal, Tables) {
     expect_refusal("x lower upper\n0 0 0\n0.5 0.1 0.2\n1 0 0\n", 3, "three columns that vary", Point{0.5, 0.1});
-    expect_refusal("t\n1 0 2 3 4 5\n0 0 2 3 4 5\n1 1 1 1 1 1\n", 2, "6 numbers where x and y are expected");
+    expect_refusal("t\n1 0 2 3 4 5\n0 0 2 3 4 5\n1 1 1 1 1 1\n", 4, "6 columns that vary, where x and y are expected");
+    expect_refusal("t\n1 2 3 4 5 6 7 8 9\n1 2 3 4 5 6 7 8 8\n", 2, "9 numbers where x and y are expected");
+    // A constant third column is z unless a heading says that it is the lower surface.
+    expect_refusal("t\n0 0 0\n0.2 0.06 0\n0.5 0.07 0\n1 0 0\n", 5, "the outline is open");
     expect_refusal("t\n1 0\n0.5 0.1 0\n0 0\n0.5 -0.1\n", 3, "3 numbers where line 2 has 2");
 }
 
@@ -121,6 +124,46 @@ TEST(Refusal, HalfAnOutline) {
 TEST(Refusal, CountsThatDoNotFit) {
     expect_refusal("t\n10 10\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n", 2, "the counts 10 + 10 announce 20 points, but 5");
     expect_refusal("t\n3 3\n\n0 0\n.5 .1\n1 0\n\n0 0\n.5 -.1\n1 0\n1.1 0\n", 11, "a point beyond the 6");
+}
+
+// Such a row is either, and only the user knows which.
+TEST(Refusal, TitlesThatMayBeCounts) {
+    expect_refusal("12 10\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n", 1, "put # before the line if it is a title");
+    expect_refusal("2 2\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n", 6, "put # before that line if it is a title");
+}
+
+TEST(Refusal, PointsBehindTheEnd) {
+    expect_refusal("t\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n0.9 -0.2\n", 7,
+                   "the outline is back at its start (1, 0) on line 6, but goes on to line 7", Point{0.9, -0.2});
+}
+
+TEST(Refusal, TextInUtf16) {
+    expect_refusal(std::string("\xFF\xFE"
+                               "1\0 \0"
+                               "0\0",
+                               8),
+                   1, "UTF-16");
+}
+
+TEST(Refusal, SectionsThatAreNoConfiguration) {
+    const test::TemporaryFolder folder;
+    const auto message = [&](const std::string& other) -> std::string {
+        const std::vector<std::string> inputs{folder.write("a1.dat", fixtures::selig).string(),
+                                              folder.write("a2.dat", other).string()};
+        try {
+            read_geometry(inputs);
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "accepted";
+    };
+    const std::string advice = "mesh each in a run of its own, as in: for f in *.dat; do lamina mesh";
+    EXPECT_NE(message(fixtures::selig).find(advice), std::string::npos);
+    EXPECT_NE(message("thin\n1 0.001\n0.5 0.02\n0.02 0.001\n0.5 -0.02\n1 0.001\n").find(advice), std::string::npos);
+    // A flap that touches the main element belongs to it.
+    const std::string flap = message("flap\n1.3 0\n1.1 0.1\n0.9 0\n1.1 -0.1\n1.3 0\n");
+    EXPECT_NE(flap.find("crosses that of 'a2'"), std::string::npos) << flap;
+    EXPECT_EQ(flap.find("run of its own"), std::string::npos) << flap;
 }
 
 TEST(Refusal, LonePoints) {

@@ -19,6 +19,12 @@ inline const std::string selig =
 inline const std::vector<Point> loop = {{1, 0}, {0.75, 0.04}, {0.5, 0.07},  {0.2, 0.06},
                                         {0, 0}, {0.2, -0.04}, {0.5, -0.05}, {0.75, -0.03}};
 
+/// The rows of the file above, without its title.
+inline const std::string loop_lines = selig.substr(selig.find('\n') + 1);
+
+/// A wedge of few points.
+inline const std::string wedge = "1 0\n0 0.3\n0 0\n0 -0.2\n1 0\n";
+
 inline const std::string crlf =
     "SAMPLE 12\r\n1.0 0.0\r\n0.75 0.04\r\n0.5 0.07\r\n0.2 0.06\r\n0.0 0.0\r\n0.2 -0.04\r\n0.5 -0.05\r\n"
     "0.75 -0.03\r\n1.0 0.0";
