@@ -47,7 +47,9 @@ struct Element {
     std::vector<std::string> repairs;  ///< repairs by the reader: "line 12: duplicate of line 11 removed (0.5, 0.1)"
     std::vector<std::string> surface_notes;  ///< changes that prepare_surfaces() made to the points, and why
     bool resampled = false;                  ///< whether prepare_surfaces() chose the spacing of the points
-    OutlineFeatures features;                ///< set by prepare_surfaces()
+    /// Whether prepare_surfaces() kept the points although the options ask for others, which would have crossed.
+    bool surface_restored = false;
+    OutlineFeatures features;  ///< set by prepare_surfaces()
 };
 
 /// Bodies that are closed, simple and pairwise disjoint.
@@ -57,6 +59,10 @@ struct Geometry {
 
 /// Returns the box round all elements.
 LAMINA_EXPORT Box bounding_box(const Geometry& geometry);
+
+/// Returns how many times as high as wide the longest element is, where that is so much that the columns of x and y
+/// were probably swapped; empty elsewhere.
+LAMINA_EXPORT std::optional<double> swapped_columns_ratio(const Geometry& geometry);
 
 /// Options of read_geometry().
 struct GeometryOptions {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "delaunay/constrained_parts.hpp"
 #include "delaunay/lattice_levels.hpp"
 #include "sizing/sized_point.hpp"
 
@@ -22,9 +23,9 @@ namespace {
 
 // ---- measured ----
 
-/// Triangles that refinement makes for each of min_triangles where h is constant, how many more it makes in proportion
-/// to the growth of h, and how many more for each frozen edge.
-constexpr double refined_where_even = 1.435, refined_by_growth = 0.28, refined_along_border = 0.184;
+/// Triangles that refinement makes for each of min_triangles where h is constant, and how many more it makes in
+/// proportion to the growth of h.
+constexpr double refined_where_even = 1.435, refined_by_growth = 0.28;
 constexpr double refined(double gradient) { return refined_where_even + refined_by_growth * gradient; }
 /// Triangles of the mesh for each triangle of a lattice that covers the region, and how many more for each frozen edge,
 /// in the seam.
@@ -216,14 +217,45 @@ double lattice_probability(const LatticeSums& sums) {
     return uncertain_factor * sums.lattice > needed ? 0.5 : 0;
 }
 
+/// Returns the number of triangles made for each of min_triangles in a region far larger than its triangles, in which h
+/// grows by `gradient` per unit of distance.
+double made_for_each_of_min_triangles(double gradient) {
+    // Below this gradient one level serves the whole region, above it all levels do.
+    constexpr double max_one_level_gradient = 0.001;
+    if (gradient < max_one_level_gradient) return latticed / (lattice_share * lattice_share);
+    return gradient < even_gradient ? latticed / mean_level_share : refined(gradient);
+}
+
+// ---- constrained triangulations ----
+
+/// The lengths of borders, in edges, and the areas between them, in triangles of the largest area allowed.
+struct UndividedSums {
+    double min_triangles = 0;
+    double border_edges = 0;
+};
+
+/// Adds the part of a triangulation on the left of its sides. h is taken for constant: the size at its vertices, which
+/// is finest.
+void add_part(const ConstrainedParts& parts, const ConstrainedPart& part, UndividedSums& sums) {
+    // Splitting by halves leaves borders with edges of 0.45 h to 0.9 h.
+    constexpr double mean_border_edge = 0.65;
+    double h = HUGE_VAL;
+    for (const Index v : part.vertices) h = std::min(h, (*part.size)(parts.points[v]));
+    double doubled_area = 0;
+    for (const PartSide& side : part.sides) {
+        const auto& chain = parts.borders[side.border].chain;
+        const Point origin = parts.points[parts.borders[part.sides.front().border].chain.front()];
+        const Point a = parts.points[chain.front()] - origin, b = parts.points[chain.back()] - origin;
+        doubled_area += side.forward ? cross(a, b) : cross(b, a);
+        sums.border_edges += std::max(1.0, distance(a, b) / (mean_border_edge * h));
+    }
+    sums.min_triangles += 0.5 * std::abs(doubled_area) / (equilateral_area * h * h);
+}
+
 }  // namespace
 
 double estimated_triangles(double area, double mean_inverse_square_size, double gradient) {
-    // Below this gradient one level serves the whole region, above it all levels do.
-    constexpr double max_one_level_gradient = 0.001;
-    const double min_triangles = area * mean_inverse_square_size / equilateral_area;
-    if (gradient < max_one_level_gradient) return latticed / (lattice_share * lattice_share) * min_triangles;
-    return (gradient < even_gradient ? latticed / mean_level_share : refined(gradient)) * min_triangles;
+    return made_for_each_of_min_triangles(gradient) * (area * mean_inverse_square_size / equilateral_area);
 }
 
 LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size) {
@@ -255,3 +287,26 @@ LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, con
 }
 
 }  // namespace lamina::delaunay
+
+namespace lamina {
+
+using namespace delaunay;
+
+double estimate_triangles(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                          const SizeField& size, const ConstrainedRefineOptions& options) {
+    // Where angles alone are bounded, refinement makes this many triangles for each of the triangulation, as measured.
+    constexpr double made_for_angles = 2;
+    const auto given = static_cast<double>(triangulation.triangles.size());
+    std::vector<Point> all(points.begin(), points.end());
+    all.insert(all.end(), triangulation.steiner_points.begin(), triangulation.steiner_points.end());
+    const ConstrainedParts parts = find_parts(all, triangulation, size, options.regions);
+    UndividedSums sums;
+    for (const ConstrainedPart& part : parts.parts) add_part(parts, part, sums);
+    const double by_lattice = sums.min_triangles * made_for_each_of_min_triangles(0);
+    const bool lattice = options.refine.lattice && by_lattice > min_lattice_per_border_edge * sums.border_edges;
+    const double by_size = lattice ? by_lattice + latticed_along_border * sums.border_edges
+                                   : refined(0) * sums.min_triangles + refined_along_border * sums.border_edges;
+    return std::max(by_size, (options.refine.min_angle_deg > 0 ? made_for_angles : 1) * given);
+}
+
+}  // namespace lamina
