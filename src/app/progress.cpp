@@ -56,7 +56,7 @@ void ProgressPrinter::repeat() {
     while (!ended_changed_.wait_for(lock, repeat_after, [this] { return ended_; })) {
         seconds += watch_.lap();
         std::string line = fmt::format("{} ({:.0f} s", stage_, seconds);
-        if (estimate_) line += fmt::format(" of about {:.0f} s", std::max(estimate_->seconds, seconds));
+        if (estimate_ && estimate_->seconds > seconds) line += fmt::format(" of about {:.0f} s", estimate_->seconds);
         print_line(line + ")");
     }
 }

@@ -132,7 +132,7 @@ struct DividedTriangles {
 };
 
 DividedTriangles divide_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size) {
-    constexpr int max_depth = 40;       // only a guard
+    constexpr int max_depth = 200;      // only a guard: an edge that is 1e9 sizes long needs some 70 halvings
     constexpr std::size_t grain = 256;  // triangles in a block
     const DivisionLimits limits = division_limits(size, points.size());
     std::vector<double> sizes(points.size());

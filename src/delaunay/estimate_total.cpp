@@ -20,7 +20,7 @@ using sizing::SizedPoint;
 constexpr double max_ratio = 1.5;
 /// h in the middle of a part may differ by this factor from the mean at its ends.
 constexpr double max_bend = 1.2;
-constexpr int max_depth = 60;  // only a guard
+constexpr int max_depth = 200;  // only a guard
 
 double inverse_square(double h) { return 1 / (h * h); }
 

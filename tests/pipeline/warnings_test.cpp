@@ -138,6 +138,21 @@ TEST(Limits, RunsBeyondThemAreRefusedBeforeTheWork) {
     EXPECT_THROW(mesh_of({naca("0012")}, options), LimitError);
 }
 
+TEST(Limits, SpikesAcrossNineOrdersOfMagnitudeAreNotOverestimated) {
+    shapes::Outline spike = naca("0012", 28);
+    for (Point& p : spike)
+        if (p.x >= 1) p = {1e9, 0};
+    CaseOptions options = quick_options(2);
+    options.surface = {};
+    options.layer.first_height = 0.05;
+    options.layer.layers = 2;
+    options.layer.max_ray_angle_deg = 40;
+    options.sizing.field.gradation = 0.9;
+    const MeshResult result = mesh_of({spike}, options);
+    EXPECT_LT(result.estimate.triangles, 10 * static_cast<double>(result.mesh.triangles.size()));
+    expect_warning(result, WarningCode::first_height_implausible);
+}
+
 TEST(Limits, SingleOptionsAreRefusedByName) {
     CaseOptions options = quick_options(20);
     options.limits.max_memory_bytes = std::size_t{16} << 30;
