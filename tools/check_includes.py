@@ -26,8 +26,8 @@ SOURCE = REPOSITORY / "src"
 PUBLIC = REPOSITORY / "include" / "lamina"
 
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
-OWNERS = {name: "core" for name in ("angle_bounds", "error", "export", "files", "ids", "option", "option_builders",
-                                    "point", "predicates", "threads", "version")}
+OWNERS = {name: "core" for name in ("angle_bounds", "error", "export", "files", "ids", "limits", "option",
+                                    "option_builders", "point", "predicates", "threads", "version", "warning")}
 OWNERS["triangle_files"] = "io"
 
 # The colours of docs/images/stages.dot.

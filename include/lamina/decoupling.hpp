@@ -103,6 +103,12 @@ LAMINA_EXPORT Decoupling decouple(std::span<const Point> points, std::span<const
                                   const SizeField& size, const FarField& far_field,
                                   const DecouplingOptions& options = {}, const RefineOptions& refine = {});
 
+/// Returns the number of triangles that the refinement of the outer region will make, by estimate, before it is cut
+/// into subdomains. Takes the arguments of decouple() and a few milliseconds. Throws OptionError where the far field
+/// does not enclose the borders with some room.
+LAMINA_EXPORT double estimate_triangles(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
+                                        const SizeField& size, const FarField& far_field);
+
 /// Refines one subdomain. Throws as refine(points, segments, size, options) does.
 LAMINA_EXPORT Refinement refine(const Subdomain& subdomain);
 

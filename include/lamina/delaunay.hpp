@@ -211,6 +211,11 @@ struct ConstrainedRefinement {
 LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                                            const SizeField& size, const ConstrainedRefineOptions& options = {});
 
+/// Returns the number of triangles that this refinement will make, by estimate, in less time than it takes to
+/// triangulate. It is good where the sizes decide, and within a factor of a few where the angle bound does.
+LAMINA_EXPORT double estimate_triangles(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                                        const SizeField& size, const ConstrainedRefineOptions& options = {});
+
 // ---- checks ----
 
 /// Options of check_triangulation().

@@ -12,6 +12,7 @@
 #include <lamina/export.hpp>
 #include <lamina/option.hpp>
 #include <lamina/point.hpp>
+#include <lamina/warning.hpp>
 
 namespace lamina {
 
@@ -34,16 +35,6 @@ struct OutlineFeatures {
     Point trailing_edge{};
 };
 
-/// A fact about an element that its user should look at, because the input may mean something else.
-struct InputWarning {
-    std::string code;  ///< "swapped_columns", "reversed_flow" or "crossing_tail_cut"
-    std::string text;  ///< what was found and what to do about it, without file, line and name of the element
-    Point at{};        ///< where
-    /// "swapped_columns": height over length; "reversed_flow": thickness near the rear end over that near the front;
-    /// "crossing_tail_cut": length of the tail that was cut, as a share of the element's extent.
-    double value = 0;
-};
-
 /// One closed body.
 struct Element {
     std::string name;             ///< name of its marker in the mesh: no spaces, at most 32 characters, unique
@@ -53,12 +44,14 @@ struct Element {
     std::size_t points_read = 0;  ///< number of points in the file; 0 for generated sections
     /// The outline, counter-clockwise: the body lies on the left of every edge. The first point is not repeated.
     std::vector<Point> points;
-    std::vector<std::size_t> lines;      ///< per point: its line in the file; 0 where lamina added the point
-    std::vector<std::string> repairs;    ///< repairs by the reader: "line 12: duplicate of line 11 removed (0.5, 0.1)"
-    std::vector<InputWarning> warnings;  ///< by the reader
+    std::vector<std::size_t> lines;    ///< per point: its line in the file; 0 where lamina added the point
+    std::vector<std::string> repairs;  ///< repairs by the reader: "line 12: duplicate of line 11 removed (0.5, 0.1)"
+    std::vector<Warning> warnings;     ///< by the reader; their messages do not name the element
     std::vector<std::string> surface_notes;  ///< changes that prepare_surfaces() made to the points, and why
     bool resampled = false;                  ///< whether prepare_surfaces() chose the spacing of the points
-    OutlineFeatures features;                ///< set by prepare_surfaces()
+    /// Whether prepare_surfaces() kept the points although the options ask for others, which would have crossed.
+    bool surface_restored = false;
+    OutlineFeatures features;  ///< set by prepare_surfaces()
 };
 
 /// Bodies that are closed, simple and pairwise disjoint.

@@ -248,8 +248,9 @@ struct LAMINA_EXPORT ElementCoverage {
     /// circle touches the wall, open_space x (height of all layers requested) in diameter, and of the cells between two
     /// of these rays.
     LayerCoverage open;
+    Point worst_in_the_open{};  ///< origin of the ray in the open that lacks the largest share of its layers, if any
 
-    /// Adds the numbers of another element.
+    /// Adds the numbers of another element. The place is left as it is.
     ElementCoverage& operator+=(const ElementCoverage& other);
 };
 

@@ -25,10 +25,12 @@
 #include <lamina/export.hpp>
 #include <lamina/geometry.hpp>
 #include <lamina/layers.hpp>
+#include <lamina/limits.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/option.hpp>
 #include <lamina/sizing.hpp>
 #include <lamina/surface.hpp>
+#include <lamina/warning.hpp>
 
 namespace lamina {
 
@@ -48,6 +50,7 @@ struct CaseOptions {
     DecompositionOptions decomposition{};  ///< fill_layer(): the pieces of the layer
     RefineOptions refine{};                ///< refine()
     AssembleOptions assemble{};            ///< assemble()
+    WorkLimits limits{};                   ///< generate_mesh() refuses what is beyond them, before the work
     unsigned threads = 0;                  ///< number of threads; 0: one per core. Never changes the mesh
 };
 
@@ -116,13 +119,22 @@ struct MeshResult {
     std::optional<YPlus> y_plus;                ///< the flow that the first height follows from, with its chord
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     RefineStats refinement;                       ///< summed over the subdomains
+    RunEstimate estimate;                         ///< made before the work
+    std::vector<Warning> warnings;                ///< what the user should know about the mesh; empty: nothing
 };
 
-/// A function that is called with the name of each stage when the stage begins. It may be empty.
-using Progress = std::function<void(const std::string& stage)>;
+/// What a run tells while it goes on.
+struct ProgressEvent {
+    std::string stage;                      ///< the name of the stage that begins
+    std::optional<RunEstimate> estimate{};  ///< given once, when the work that takes the time begins
+};
+
+/// A function that is called when a stage begins. It may be empty.
+using Progress = std::function<void(const ProgressEvent&)>;
 
 /// Runs all stages on bodies in memory. Never returns a mesh that is not valid. Throws OptionError, InputError and
-/// MeshError. Precondition: check_simple(geometry).
+/// MeshError, and LimitError in the first second or two where the run would exceed options.limits by estimate.
+/// Precondition: check_simple(geometry).
 LAMINA_EXPORT MeshResult generate_mesh(Geometry geometry, const CaseOptions& options = {},
                                        const Progress& progress = {});
 

@@ -17,6 +17,8 @@
 
 namespace lamina {
 
+struct WorkLimits;  // limits.hpp
+
 /// Frozen edges (separators, outer borders of layers) are at most this share of h long. Refinement makes edges of 0.82
 /// h on average, and none of its vertices encroaches upon a frozen edge of up to 1.24 sqrt(A) = 0.82 h, A being the
 /// area of an equilateral triangle of edge h (docs/decisions/0003).
@@ -166,12 +168,10 @@ struct SizedBodies {
     double chord = 1;                       ///< extent in x of the whole configuration
 };
 
-/// Throws OptionError where an option by itself requests more triangles in `domain` than 32-bit numbers can tell apart.
-/// The message says how many.
-LAMINA_EXPORT void require_countable(const SizingOptions& options, const SizedBodies& bodies, const Box& domain);
-
-/// Throws OptionError where all sizes together request more triangles than 32-bit numbers can tell apart.
-LAMINA_EXPORT void require_countable(const SizeField& size);
+/// Throws LimitError where an option by itself requests far more triangles in `domain` than the limits allow, or than
+/// 32-bit numbers can tell apart. It takes no time. The message says how many.
+LAMINA_EXPORT void require_within_limits(const SizingOptions& options, const SizedBodies& bodies, const Box& domain,
+                                         const WorkLimits& limits);
 
 /// Sources of the size field, besides the outer borders of the layers.
 struct SizeRequests {

@@ -23,6 +23,7 @@ struct MeshCase {
     CaseOptions options;               ///< without the background mesh, which is read when the work begins
     ProgressShown progress = ProgressShown::automatic;
     bool quiet = false;              ///< whether the summary is left out
+    bool strict = false;             ///< whether warnings make the run fail
     std::vector<std::string> given;  ///< names of the options that a case file or the command line gave
 };
 

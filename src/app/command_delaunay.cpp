@@ -19,6 +19,7 @@
 #include "app/commands.hpp"
 #include "app/delaunay_run.hpp"
 #include "app/options.hpp"
+#include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
 #include "app/stopwatch.hpp"
@@ -33,9 +34,9 @@ namespace fs = std::filesystem;
 struct DelaunayArguments {
     std::string file;
     std::string stem;
-    std::string min_angle, max_area, threads;
+    std::string min_angle, max_area, threads, max_triangles, max_memory;
     std::string report;
-    bool quiet = false;
+    bool quiet = false, strict = false;
     DelaunaySettings settings;  ///< the flags
 };
 
@@ -81,10 +82,13 @@ DelaunaySettings settings_of(const DelaunayArguments& arguments) {
     return settings;
 }
 
-unsigned threads_of(const DelaunayArguments& arguments) {
+/// Returns the options that the command has in common with `lamina mesh`: the threads and the limits.
+CaseOptions case_options_of(const DelaunayArguments& arguments) {
     CaseOptions options;
     set_by_name(case_option_table(), "threads", arguments.threads, options);
-    return options.threads;
+    set_by_name(case_option_table(), "max-triangles", arguments.max_triangles, options);
+    set_by_name(case_option_table(), "max-memory", arguments.max_memory, options);
+    return options;
 }
 
 Json thread_seconds_report(const std::vector<TriangulationThread>& threads) {
@@ -112,6 +116,9 @@ Json delaunay_report(const DelaunayResult& result, const DelaunayRunFacts& facts
                    {"angles_below_bound", result.refinement.below_bound},
                    {"angles_exempt", result.refinement.exempt},
                    {"oversized", result.refinement.oversized},
+                   {"refused_points", result.refinement.refused},
+                   {"warnings", warnings_report(result.warnings)},
+                   {"estimate", estimate_report(result.estimate)},
                    {"seconds",
                     {{"read", facts.read_seconds},
                      {"triangulation", result.triangulation_seconds},
@@ -141,21 +148,29 @@ std::string delaunay_summary(const DelaunayResult& result, const DelaunayRunFact
 }
 
 void run(const DelaunayArguments& arguments) {
-    const DelaunaySettings settings = settings_of(arguments);
-    DelaunayRunFacts facts{.stem = output_stem(arguments), .threads = threads_of(arguments)};
+    const CaseOptions options = case_options_of(arguments);
+    DelaunaySettings settings = settings_of(arguments);
+    settings.limits = with_default_limits(options.limits);
+    DelaunayRunFacts facts{.stem = output_stem(arguments), .threads = options.threads};
     check_folder_writable(facts.stem);
     if (!arguments.report.empty()) check_folder_writable(arguments.report);
     const std::vector<RunFile> outputs = files_written(arguments, facts.stem);
     require_distinct(files_read(arguments), outputs);
     const SignalGuard guard(outputs);
 
+    ProgressPrinter progress(ProgressShown::automatic, arguments.quiet);
     Stopwatch watch, total;
+    progress.begin({"reading"});
     TriangleInput input = read_triangle_files(arguments.file);
     facts.with_poly = !input.segment_file.empty();
     facts.read_seconds = watch.lap();
     DelaunayResult result;
-    with_threads(facts.threads, [&] { result = run_delaunay(std::move(input), settings); });
+    with_threads(facts.threads, [&] {
+        result = run_delaunay(std::move(input), settings, [&](const auto& event) { progress.begin(event); });
+    });
+    print_warnings(result.warnings);
     watch.lap();
+    progress.begin({"writing"});
     write_triangle_files(result.output, facts.stem, facts.with_poly);
     facts.write_seconds = watch.lap();
     facts.smallest_angle_deg = smallest_angle_deg(result.output.points, result.output.triangles);
@@ -163,6 +178,7 @@ void run(const DelaunayArguments& arguments) {
 
     if (!arguments.report.empty()) write_file(arguments.report, to_text(delaunay_report(result, facts)));
     if (!arguments.quiet) fmt::print("{}", delaunay_summary(result, facts));
+    require_no_warnings(result.warnings, arguments.strict);
 }
 
 }  // namespace
@@ -188,8 +204,12 @@ void add_delaunay_command(CLI::App& app) {
     command->add_flag("--insert-crossings", arguments->settings.insert_crossings,
                       "add a vertex where segments cross; else this is an error");
     add_table_option(*command, case_option_table(), "threads", arguments->threads);
+    add_table_option(*command, case_option_table(), "max-triangles", arguments->max_triangles);
+    add_table_option(*command, case_option_table(), "max-memory", arguments->max_memory);
     command->add_option("--report", arguments->report, "JSON report of the run to write")->type_name("FILE");
-    command->add_flag("--quiet", arguments->quiet, "print no summary");
+    command->add_flag("--quiet", arguments->quiet, "print no summary and no progress; warnings and errors are printed");
+    command->add_flag("--strict", arguments->strict,
+                      "end with exit code 4 where there is any warning; the outputs are written");
     command->callback([arguments] { run(*arguments); });
 }
 

@@ -1,7 +1,4 @@
 // lamina mesh: makes a mesh round airfoils and writes it.
-#include <unistd.h>
-
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -20,6 +17,7 @@
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/options.hpp"
+#include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
 #include "app/stopwatch.hpp"
@@ -61,14 +59,6 @@ MeshCase case_of_command_line(const GivenOptions& options) {
     return mesh_case;
 }
 
-Progress progress_printer(const MeshCase& mesh_case) {
-    const bool on_terminal = !mesh_case.quiet && isatty(STDERR_FILENO) != 0;
-    const bool shown =
-        mesh_case.progress == ProgressShown::always || (mesh_case.progress == ProgressShown::automatic && on_terminal);
-    if (!shown) return {};
-    return [](const std::string& stage) { fmt::print(stderr, "lamina: {}\n", stage); };
-}
-
 WriteOptions write_options(const MeshCase& mesh_case) {
     return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance};
 }
@@ -107,8 +97,13 @@ void mesh(const MeshCase& mesh_case) {
     CaseOptions options = mesh_case.options;
     if (!mesh_case.background.empty())
         options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));
-    const MeshResult result = generate_mesh(mesh_case.inputs, options, progress_printer(mesh_case));
+    options.limits = with_default_limits(options.limits);
+    ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
+    const MeshResult result =
+        generate_mesh(mesh_case.inputs, options, [&](const auto& event) { progress.begin(event); });
+    print_warnings(result.warnings);
 
+    progress.begin({"writing"});
     Stopwatch watch;
     for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, write_options(mesh_case));
     if (!mesh_case.wall_data.empty()) write_wall_data(result.mesh, mesh_case.wall_data);
@@ -116,6 +111,7 @@ void mesh(const MeshCase& mesh_case) {
 
     if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(mesh_report(result, write_seconds)));
     if (!mesh_case.quiet) fmt::print("{}", mesh_summary(result, mesh_case.outputs, write_seconds));
+    require_no_warnings(result.warnings, mesh_case.strict);
 }
 
 }  // namespace

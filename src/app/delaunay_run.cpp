@@ -4,7 +4,10 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <lamina/error.hpp>
+#include <lamina/threads.hpp>
 
 #include "app/stopwatch.hpp"
 
@@ -54,16 +57,45 @@ SizeField size_field_for_area(double max_area, const std::vector<Point>& points)
     return SizeField(size_for_area(std::min(max_area, 16 * squared_diagonal)));
 }
 
+/// Throws LimitError where the triangulation of the points of the input would exceed the limits, and records its size.
+void require_triangulation_within(const TriangleInput& input, const DelaunaySettings& settings,
+                                  const Progress& progress, DelaunayResult& result) {
+    result.estimate = estimate_run(2 * static_cast<double>(input.points.size()), triangulation_cost, thread_count());
+    require_within(settings.limits, result.estimate, input.segments.empty() ? "max_triangles" : "max_memory",
+                   fmt::format("the triangulation of {} points", input.points.size()));
+    if (progress) progress({"triangulation", result.estimate});
+}
+
+/// Throws LimitError where the refinement would exceed the limits, and records its size.
+void require_refinement_within(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
+                               const DelaunaySettings& settings, const SizeField& size,
+                               const ConstrainedRefineOptions& options, DelaunayResult& result) {
+    // Beyond this many times the triangles of the triangulation, it is the areas that ask for them.
+    constexpr double most_for_angles = 4;
+    const double triangles = estimate_triangles(input.points, triangulation, size, options);
+    const bool for_angles = triangles < most_for_angles * static_cast<double>(triangulation.triangles.size());
+    result.estimate = estimate_run(triangles, for_angles ? angle_refinement_cost : refinement_cost, thread_count());
+    const bool by_area = std::isfinite(settings.max_area);
+    require_within(settings.limits, result.estimate, by_area ? "option --max-area" : "min_angle",
+                   by_area ? fmt::format("{:.6g}", settings.max_area)
+                           : fmt::format("{}, with the areas of the regions,", settings.refine.min_angle_deg));
+}
+
 ConstrainedRefinement refine_input(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
-                                   const DelaunaySettings& settings) {
+                                   const DelaunaySettings& settings, const Progress& progress, DelaunayResult& result) {
     ConstrainedRefineOptions options;
     options.refine = settings.refine;
+    const auto points = static_cast<std::size_t>(0.5 * allowed_triangles(settings.limits, refinement_cost));
+    options.refine.max_points = std::max<std::size_t>(1, std::min(options.refine.max_points, points));
     options.split_segments = !settings.keep_border;
     for (const TriangleRegion& region : input.regions) {
         const double max_area = region.max_area > 0 ? std::min(region.max_area, settings.max_area) : settings.max_area;
         options.regions.push_back({region.at, size_field_for_area(max_area, input.points)});
     }
-    return refine(input.points, triangulation, size_field_for_area(settings.max_area, input.points), options);
+    const SizeField size = size_field_for_area(settings.max_area, input.points);
+    require_refinement_within(input, triangulation, settings, size, options, result);
+    if (progress) progress({"refinement", result.estimate});
+    return refine(input.points, triangulation, size, options);
 }
 
 /// Returns whether refinement is needed. Regions without bounds need it as well, since it finds their triangles.
@@ -116,23 +148,82 @@ TriangleOutput make_output(TriangleInput input, ConstrainedRefinement mesh) {
     return output;
 }
 
+/// Throws LimitError where there are more triangles than allowed, since the estimate was too low.
+void require_made_within(const WorkLimits& limits, const TriangleOutput& output) {
+    const std::size_t made = output.triangles.size();
+    if (limits.max_triangles && made > *limits.max_triangles)
+        throw LimitError("max_triangles",
+                         fmt::format("{} triangles are allowed, and {} were made, more than was estimated",
+                                     *limits.max_triangles, made),
+                         estimate_run(static_cast<double>(made), refinement_cost, thread_count()));
+}
+
+/// Returns the middle of the triangle with the largest badness; the first of several.
+template <class Badness>
+Point worst_place(const TriangleOutput& output, Badness badness) {
+    Point worst{};
+    double worst_badness = -HUGE_VAL;
+    for (const Triangle& t : output.triangles) {
+        const Point a = output.points[t.v[0].index()], b = output.points[t.v[1].index()],
+                    c = output.points[t.v[2].index()];
+        if (const double value = badness(a, b, c); value > worst_badness) {
+            worst_badness = value;
+            worst = (1.0 / 3) * (a + b + c);
+        }
+    }
+    return worst;
+}
+
+std::vector<Warning> find_warnings(const TriangleOutput& output, const RefineStats& stats,
+                                   const DelaunaySettings& settings) {
+    std::vector<Warning> warnings;
+    const auto add = [&](WarningCode code, std::size_t count, const std::string& unit, Point at,
+                         const std::string& text) {
+        if (count == 0) return;
+        warnings.push_back({code, "", at, static_cast<double>(count), unit,
+                            fmt::format("{} {} (worst at ({:.6g}, {:.6g}))", count, text, at.x, at.y)});
+    };
+    if (const std::size_t narrow = stats.below_bound - stats.exempt; narrow > 0 || stats.refused > 0) {
+        // The squared sine of the smallest angle, but for a factor: squared area over the squared longer two edges.
+        const Point at = worst_place(output, [](Point a, Point b, Point c) {
+            const double ab = squared_length(b - a), bc = squared_length(c - b), ca = squared_length(a - c);
+            const double area = cross(b - a, c - a);
+            return -area * area / (ab * bc * ca) * std::min({ab, bc, ca});
+        });
+        add(WarningCode::small_angle, narrow, "triangles", at,
+            fmt::format("triangles have an angle below the bound of {} degrees, and no sharp corner of the input "
+                        "excuses them",
+                        settings.refine.min_angle_deg));
+        add(WarningCode::refused_points, stats.refused, "points", at,
+            "points were left out, since they would encroach upon the border");
+    }
+    if (stats.oversized > 0)
+        add(WarningCode::oversized_triangles, stats.oversized, "triangles",
+            worst_place(output, [](Point a, Point b, Point c) { return cross(b - a, c - a); }),
+            "triangles are larger than asked for");
+    return warnings;
+}
+
 }  // namespace
 
-DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& settings) {
+DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& settings, const Progress& progress) {
     DelaunayResult result;
     Stopwatch watch;
+    require_triangulation_within(input, settings, progress, result);
     ConstrainedTriangulation triangulation =
         with_file_name(input, [&] { return triangulate_input(input, settings, result); });
     result.triangulation_seconds = watch.lap();
 
     ConstrainedRefinement mesh;
     if (needs_refinement(input, settings))
-        mesh = with_file_name(input, [&] { return refine_input(input, triangulation, settings); });
+        mesh = with_file_name(input, [&] { return refine_input(input, triangulation, settings, progress, result); });
     else
         mesh = unrefined(std::move(triangulation));
     result.refinement_seconds = watch.lap();
     result.refinement = mesh.stats;
     result.output = make_output(std::move(input), std::move(mesh));
+    require_made_within(settings.limits, result.output);
+    result.warnings = find_warnings(result.output, result.refinement, settings);
     return result;
 }
 

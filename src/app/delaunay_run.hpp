@@ -6,7 +6,10 @@
 #include <vector>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/limits.hpp>
+#include <lamina/pipeline.hpp>
 #include <lamina/triangle_files.hpp>
+#include <lamina/warning.hpp>
 
 namespace lamina::app {
 
@@ -16,11 +19,14 @@ struct DelaunaySettings {
     bool keep_border = false;       ///< whether segments and boundary edges stay as they are
     bool keep_hull = false;         ///< whether triangles outside the segments are kept
     bool insert_crossings = false;  ///< whether crossing segments get a vertex instead of being refused
+    WorkLimits limits{};            ///< runs beyond them are refused
 };
 
 struct DelaunayResult {
     TriangleOutput output;
     RefineStats refinement;
+    RunEstimate estimate;  ///< made before the refinement, or before the triangulation where there is none
+    std::vector<Warning> warnings;
     double triangulation_seconds = 0, refinement_seconds = 0;
     /// The pieces and the times of the threads, for points without segments.
     std::optional<DecompositionStats> decomposition{};
@@ -29,7 +35,7 @@ struct DelaunayResult {
 
 /// Triangulates the input, and refines it where the settings or the regions of the input bound angles or areas. Points,
 /// attributes and markers of the input are kept. New vertices get attributes 0 and the marker of their segment. Throws
-/// the errors of triangulate() and refine(), with the name of the file.
-DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& settings);
+/// the errors of triangulate() and refine(), with the name of the file, and LimitError before the work.
+DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& settings, const Progress& progress = {});
 
 }  // namespace lamina::app

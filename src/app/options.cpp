@@ -48,11 +48,16 @@ OptionTable<MeshCase> other_options() {
     OptionTable<MeshCase> table = sizes.take();
     OptionTableBuilder<MeshCase> run("Run");
     run.choice(
-        "progress", "print the names of the stages on standard error; auto: where it is a terminal",
+        "progress",
+        "print the names of the stages on standard error; auto: where it is a terminal, elsewhere a line every few "
+        "seconds",
         Choices<ProgressShown>{
             {"auto", ProgressShown::automatic}, {"always", ProgressShown::always}, {"never", ProgressShown::never}},
         member_at(&MeshCase::progress));
-    run.flag("quiet", "print no summary", true, member_at(&MeshCase::quiet));
+    run.flag("quiet", "print no summary and no progress; warnings and errors are printed", true,
+             member_at(&MeshCase::quiet));
+    run.flag("strict", "end with exit code 4 where there is any warning; the outputs are written", true,
+             member_at(&MeshCase::strict));
     OptionTable<MeshCase> rows = run.take();
     std::move(rows.begin(), rows.end(), std::back_inserter(table));
     return table;

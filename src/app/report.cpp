@@ -101,6 +101,24 @@ Json decomposition_report(const DecompositionStats& stats) {
             {"sequential_fallbacks", stats.fallbacks}};
 }
 
+Json warnings_report(std::span<const Warning> warnings) {
+    Json report = Json::array();
+    for (const Warning& warning : warnings) {
+        report.push_back({{"code", warning_name(warning.code)},
+                          {"element", warning.element},
+                          {"at", nullptr},
+                          {"number", warning.number},
+                          {"unit", warning.unit},
+                          {"message", warning.message}});
+        if (const auto& at = warning.at) report.back()["at"] = {at->x, at->y};
+    }
+    return report;
+}
+
+Json estimate_report(const RunEstimate& estimate) {
+    return {{"triangles", estimate.triangles}, {"memory_bytes", estimate.memory_bytes}, {"seconds", estimate.seconds}};
+}
+
 Json quality_report(const MeshCheck& check) {
     const QualitySummary& isotropic = check.isotropic;
     const QualitySummary& layer = check.layer;
@@ -150,6 +168,8 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
               {"estimates_within_15_percent", result.estimates_within_15_percent}}},
             {"first_layer", first_height_report(result)},
             {"layer_cells", layer_cells_report(result)},
+            {"warnings", warnings_report(result.warnings)},
+            {"estimate", estimate_report(result.estimate)},
             {"seconds", seconds_report(result.seconds, write_seconds)},
             {"thread_seconds", threads_report(result.thread_seconds)},
             {"quality", quality},

@@ -1,12 +1,15 @@
 // The JSON reports of runs (docs/guide.md, "Report").
 #pragma once
 
+#include <span>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include <lamina/limits.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/warning.hpp>
 
 namespace lamina::app {
 
@@ -17,6 +20,10 @@ Json quality_report(const MeshCheck& check);
 
 /// Returns the key "decomposition" of the reports.
 Json decomposition_report(const DecompositionStats& stats);
+
+/// Returns the keys "warnings" and "estimate" of the reports.
+Json warnings_report(std::span<const Warning> warnings);
+Json estimate_report(const RunEstimate& estimate);
 
 /// Returns the report of `lamina mesh`. `write_seconds` is the time for writing the mesh files; "total" includes it.
 Json mesh_report(const MeshResult& result, double write_seconds);

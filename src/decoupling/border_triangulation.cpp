@@ -36,7 +36,19 @@ Link next_link(Link in, bool vertex_on_left) {
     return Link(in.triangle(), vertex_on_left ? delaunay::next(in.edge()) : delaunay::previous(in.edge()));
 }
 
+/// Triangulates the points, and keeps what lies on the left of the segments.
+delaunay::Tris triangulate_inside(std::span<const Point> points, std::span<const Segment> segments) {
+    delaunay::Tris tris = delaunay::triangulate_points(points);
+    delaunay::insert_segments(points, segments, tris);
+    return delaunay::keep_left_of_segments(segments, tris, points.size());
+}
+
 }  // namespace
+
+double estimate_undivided(std::span<const Point> points, const SubdomainBorder& border, const SizeField& size) {
+    const LocalBorder local = localize(border, points);
+    return delaunay::estimate_undivided(local.points, triangulate_inside(local.points, local.segments), size);
+}
 
 BorderTriangulation::BorderTriangulation(std::span<const Point> points, const SubdomainBorder& border,
                                          const SizeField& size) {
@@ -48,9 +60,7 @@ BorderTriangulation::BorderTriangulation(std::span<const Point> points, const Su
         vertices.reserve(loop.size());
         for (std::size_t i = 0; i < loop.size(); ++i, ++edge) vertices.push_back(edge->a.value);
     }
-    tris_ = delaunay::triangulate_points(points_);
-    delaunay::insert_segments(points_, local.segments, tris_);
-    tris_ = delaunay::keep_left_of_segments(local.segments, tris_, points_.size());
+    tris_ = triangulate_inside(points_, local.segments);
     loads_ = delaunay::estimate_loads(points_, tris_, size);
     collect_loop_edges();
     if (loops_.size() == 1) sum_up_subtrees();

@@ -80,4 +80,7 @@ private:
     std::vector<double> subtree_;         ///< estimated triangles in each triangle and all triangles below it
 };
 
+/// Estimates the number of triangles in a region that will be cut into subdomains, from its border.
+double estimate_undivided(std::span<const Point> points, const SubdomainBorder& border, const SizeField& size);
+
 }  // namespace lamina::decoupling

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "decoupling/border_triangulation.hpp"
 #include "decoupling/cut_to_size.hpp"
 #include "decoupling/far_field.hpp"
 #include "decoupling/rings.hpp"
@@ -52,6 +53,17 @@ Subdomain make_subdomain(const Skeleton& skeleton, const EstimatedBorder& estima
     return subdomain;
 }
 
+/// Returns the corners of the far field, or of a polygon of many sides in a circle; counter-clockwise.
+std::vector<Point> outline_of(const FarField& far_field) {
+    if (far_field.shape == FarFieldShape::outline) return far_field.outline;
+    if (far_field.shape == FarFieldShape::box) {
+        const auto corners = far_field.box().corners();
+        return {corners.begin(), corners.end()};
+    }
+    constexpr std::size_t sides = 64;
+    return divide_circle(far_field.center, far_field.radius, SizeField(far_field.radius), sides);
+}
+
 }  // namespace
 
 }  // namespace lamina::decoupling
@@ -59,6 +71,20 @@ Subdomain make_subdomain(const Skeleton& skeleton, const EstimatedBorder& estima
 namespace lamina {
 
 using namespace decoupling;
+
+double estimate_triangles(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
+                          const SizeField& size, const FarField& far_field) {
+    near_body_box(box_round(points, borders), inscribed_box(far_field), far_field);  // throws where there is no room
+    Skeleton skeleton = start_skeleton(points, borders);
+    std::vector<VertexId> outline;
+    for (const Point corner : outline_of(far_field)) outline.push_back(skeleton.add_point(corner));
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        skeleton.edges.push_back({outline[i], outline[(i + 1) % outline.size()]});
+    double triangles = 0;
+    for (const SubdomainBorder& border : trace_borders(skeleton.points, skeleton.edges))
+        triangles += estimate_undivided(skeleton.points, border, size);
+    return triangles;
+}
 
 Decoupling decouple(std::span<const Point> points, std::span<const std::vector<VertexId>> borders,
                     const SizeField& size, const FarField& far_field, const DecouplingOptions& options,

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "delaunay/constrained_input.hpp"
 #include "delaunay/lattice_levels.hpp"
 #include "sizing/sized_point.hpp"
 
@@ -22,9 +23,9 @@ namespace {
 
 // ---- measured ----
 
-/// Triangles that refinement makes for each of min_triangles where h is constant, how many more it makes in proportion
-/// to the growth of h, and how many more for each frozen edge.
-constexpr double refined_where_even = 1.435, refined_by_growth = 0.28, refined_along_border = 0.184;
+/// Triangles that refinement makes for each of min_triangles where h is constant, and how many more it makes in
+/// proportion to the growth of h.
+constexpr double refined_where_even = 1.435, refined_by_growth = 0.28;
 constexpr double refined(double gradient) { return refined_where_even + refined_by_growth * gradient; }
 /// Triangles of the mesh for each triangle of a lattice that covers the region, and how many more for each frozen edge,
 /// in the seam.
@@ -135,7 +136,7 @@ struct DividedTriangles {
 };
 
 DividedTriangles divide_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size) {
-    constexpr int max_depth = 40;       // only a guard
+    constexpr int max_depth = 200;      // only a guard: an edge that is 1e9 sizes long needs some 70 halvings
     constexpr std::size_t grain = 256;  // triangles in a block
     const DivisionLimits limits = division_limits(size, points.size());
     std::vector<double> sizes(points.size());
@@ -220,14 +221,43 @@ double lattice_probability(const LatticeSums& sums) {
     return uncertain_factor * sums.lattice > needed ? 0.5 : 0;
 }
 
+/// Returns the number of triangles made for each of min_triangles in a region far larger than its triangles, in which h
+/// grows by `gradient` per unit of distance.
+double made_for_each_of_min_triangles(double gradient) {
+    // Below this gradient one level serves the whole region, above it all levels do.
+    constexpr double max_one_level_gradient = 0.001;
+    if (gradient < max_one_level_gradient) return latticed / (lattice_share * lattice_share);
+    return gradient < even_gradient ? latticed / mean_level_share : refined(gradient);
+}
+
+// ---- constrained triangulations ----
+
+/// The lengths of borders, in edges, and the areas between them, in triangles of the largest area allowed.
+struct UndividedSums {
+    double min_triangles = 0;
+    double border_edges = 0;
+};
+
+/// Adds a triangle. h is taken for constant in it: the size at its vertices, which is finest.
+void add_triangle(const ConstrainedInput& input, Index t, UndividedSums& sums) {
+    // Borders are divided into equal parts of at most 0.9 h.
+    constexpr double mean_border_edge = 0.85;
+    const Tri& tri = input.tris[t];
+    const Point a = input.points[tri.v[0]], b = input.points[tri.v[1]], c = input.points[tri.v[2]];
+    const SizeField& size = *input.sizes[input.field_of(t)];
+    const double h = std::min({size(a), size(b), size(c)});
+    sums.min_triangles += 0.5 * cross(b - a, c - a) / (equilateral_area * h * h);
+    for (unsigned e = 0; e < 3; ++e) {
+        if (!tri.n[e].is_constrained()) continue;
+        const double length = distance(input.points[tri.v[next(e)]], input.points[tri.v[previous(e)]]);
+        sums.border_edges += std::max(1.0, length / (mean_border_edge * h));
+    }
+}
+
 }  // namespace
 
 double estimated_triangles(double area, double mean_inverse_square_size, double gradient) {
-    // Below this gradient one level serves the whole region, above it all levels do.
-    constexpr double max_one_level_gradient = 0.001;
-    const double min_triangles = area * mean_inverse_square_size / equilateral_area;
-    if (gradient < max_one_level_gradient) return latticed / (lattice_share * lattice_share) * min_triangles;
-    return (gradient < even_gradient ? latticed / mean_level_share : refined(gradient)) * min_triangles;
+    return made_for_each_of_min_triangles(gradient) * (area * mean_inverse_square_size / equilateral_area);
 }
 
 LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size) {
@@ -259,3 +289,24 @@ LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, con
 }
 
 }  // namespace lamina::delaunay
+
+namespace lamina {
+
+using namespace delaunay;
+
+double estimate_triangles(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                          const SizeField& size, const ConstrainedRefineOptions& options) {
+    // Where angles alone are bounded, refinement makes this many triangles for each of the triangulation, as measured.
+    constexpr double made_for_angles = 2;
+    const auto given = static_cast<double>(triangulation.triangles.size());
+    const ConstrainedInput input = make_constrained_input(points, triangulation, size, options.regions);
+    UndividedSums sums;
+    for (Index t = 0; t < input.tris.size(); ++t) add_triangle(input, t, sums);
+    const double by_lattice = sums.min_triangles * made_for_each_of_min_triangles(0);
+    const bool lattice = options.refine.lattice && by_lattice > min_lattice_per_border_edge * sums.border_edges;
+    const double by_size = lattice ? by_lattice + latticed_along_border * sums.border_edges
+                                   : refined(0) * sums.min_triangles + refined_along_border * sums.border_edges;
+    return std::max(by_size, (options.refine.min_angle_deg > 0 ? made_for_angles : 1) * given);
+}
+
+}  // namespace lamina

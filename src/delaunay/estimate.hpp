@@ -13,6 +13,9 @@
 
 namespace lamina::delaunay {
 
+/// Number of triangles that refinement makes for each frozen edge, besides those that fill the region.
+inline constexpr double refined_along_border = 0.184;
+
 /// Returns the estimated number of triangles in a region of this area and this mean of 1 / h^2. The region is far
 /// larger than its triangles, and h grows in it by `gradient` per unit of distance.
 LAMINA_EXPORT double estimated_triangles(double area, double mean_inverse_square_size, double gradient);
@@ -33,5 +36,9 @@ struct LoadEstimate {
 
 /// Estimates the triangles in a region from a triangulation of its border. All constrained edges are frozen.
 LAMINA_EXPORT LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size);
+
+/// Estimates the triangles in a region that will be cut into subdomains. They are judged place by place: what is even
+/// round a place decides whether a lattice is made there.
+LAMINA_EXPORT double estimate_undivided(std::span<const Point> points, const Tris& tris, const SizeField& size);
 
 }  // namespace lamina::delaunay

@@ -10,12 +10,11 @@
 #include <utility>
 
 #include <lamina/delaunay.hpp>
-#include <lamina/predicates.hpp>
 
 #include "delaunay/border_lines.hpp"
+#include "delaunay/constrained_input.hpp"
 #include "delaunay/insert_segments.hpp"
 #include "delaunay/lattice.hpp"
-#include "delaunay/link_triangles.hpp"
 #include "delaunay/regions.hpp"
 #include "delaunay/splitting_refiner.hpp"
 #include "delaunay/triangulate_points.hpp"
@@ -27,66 +26,13 @@ namespace {
 /// Attempts with lattices before the domain is refined without.
 constexpr int max_lattice_attempts = 4;
 
-/// The input as all steps see it.
-struct ConstrainedInput {
-    std::vector<Point> points;  ///< those of the user, then those of the triangulation
-    Tris tris;
-    std::vector<const SizeField*> sizes;  ///< the general field, then those of the regions
-    std::vector<std::uint32_t> fields;    ///< for each triangle the index of its size field; empty without regions
-};
-
-/// Returns the field of each triangle: 0 is the general one, and r + 1 that of region r, which is used all over the part
-/// that holds its seed. The first of several regions counts.
-std::vector<std::uint32_t> find_fields(const ConstrainedInput& input, std::span<const RegionSize> regions) {
-    std::vector<ValueSeed> seeds;
-    for (std::uint32_t r = 0; r < regions.size(); ++r) {
-        const Point seed = regions[r].seed;
-        for (Index t = 0; t < input.tris.size(); ++t) {
-            const Index* v = input.tris[t].v;
-            const Point a = input.points[v[0]], b = input.points[v[1]], c = input.points[v[2]];
-            if (orient2d(a, b, seed) < 0 || orient2d(b, c, seed) < 0 || orient2d(c, a, seed) < 0) continue;
-            seeds.push_back({t, r + 1});
-            break;
-        }
-    }
-    if (seeds.empty()) return {};
-    std::vector<std::uint32_t> fields = spread_values(input.tris, seeds);
-    std::replace(fields.begin(), fields.end(), no_index, std::uint32_t{0});
-    return fields;
-}
-
-ConstrainedInput make_input(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                            const SizeField& size, std::span<const RegionSize> regions) {
-    ConstrainedInput input;
-    input.points.assign(points.begin(), points.end());
-    input.points.insert(input.points.end(), triangulation.steiner_points.begin(), triangulation.steiner_points.end());
-    input.tris = link_triangles(triangulation.triangles, triangulation.segments);
-    input.sizes.push_back(&size);
-    for (const RegionSize& region : regions) input.sizes.push_back(&region.size);
-    input.fields = find_fields(input, regions);
-    return input;
-}
-
-/// Returns the constrained edges and borders of the triangles with this field, once for each such triangle that they
-/// bound, with the triangle on their left.
-std::vector<Segment> edges_round_field(const ConstrainedInput& input, std::uint32_t field) {
-    std::vector<Segment> edges;
-    for (std::size_t t = 0; t < input.tris.size(); ++t) {
-        if (!input.fields.empty() && input.fields[t] != field) continue;
-        const Tri& tri = input.tris[t];
-        for (unsigned e = 0; e < 3; ++e)
-            if (tri.n[e].is_constrained()) edges.push_back({VertexId{tri.v[next(e)]}, VertexId{tri.v[previous(e)]}});
-    }
-    return edges;
-}
-
 /// Returns the vertices so near to others that triangles round them will be smaller than their sizes demand. Lattices
 /// leave room for triangles to grow.
 std::vector<LatticeObstacle> crowded_vertices(const ConstrainedInput& input) {
     constexpr double reach_of_growth = 2;
     std::vector<double> size(input.points.size(), 0), nearest(input.points.size(), HUGE_VAL);
-    for (std::size_t t = 0; t < input.tris.size(); ++t) {
-        const SizeField& field = *input.sizes[input.fields.empty() ? 0 : input.fields[t]];
+    for (Index t = 0; t < input.tris.size(); ++t) {
+        const SizeField& field = *input.sizes[input.field_of(t)];
         const Index* v = input.tris[t].v;
         for (unsigned e = 0; e < 3; ++e) {
             const Index a = v[next(e)], b = v[previous(e)];
@@ -101,6 +47,19 @@ std::vector<LatticeObstacle> crowded_vertices(const ConstrainedInput& input) {
         if (nearest[v] < size[v])
             obstacles.push_back({input.points[v], size[v] + reach_of_growth * (size[v] - nearest[v])});
     return obstacles;
+}
+
+/// Returns the constrained edges and borders of the triangles with this field, once for each such triangle that they
+/// bound, with the triangle on their left.
+std::vector<Segment> edges_round_field(const ConstrainedInput& input, std::uint32_t field) {
+    std::vector<Segment> edges;
+    for (Index t = 0; t < input.tris.size(); ++t) {
+        if (input.field_of(t) != field) continue;
+        const Tri& tri = input.tris[t];
+        for (unsigned e = 0; e < 3; ++e)
+            if (tri.n[e].is_constrained()) edges.push_back({VertexId{tri.v[next(e)]}, VertexId{tri.v[previous(e)]}});
+    }
+    return edges;
 }
 
 /// Lattice patches, with the fields of their triangles and of their boundary edges.
@@ -277,7 +236,7 @@ using namespace delaunay;
 ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                              const SizeField& size, const ConstrainedRefineOptions& options) {
     validate(options.refine);
-    const ConstrainedInput input = make_input(points, triangulation, size, options.regions);
+    const ConstrainedInput input = make_constrained_input(points, triangulation, size, options.regions);
     std::vector<LatticeObstacle> obstacles = crowded_vertices(input);
     for (int attempt = 0;; ++attempt) {
         FieldPatches filled;

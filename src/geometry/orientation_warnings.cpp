@@ -50,22 +50,26 @@ double rear_to_front(const Element& e, const Box& box) {
 
 void warn_of_swapped_columns(Element& e, const Box& box) {
     e.warnings.push_back(
-        {"swapped_columns",
-         fmt::format("it stands upright in the flow, {:.3g} high and {:.3g} long; if the columns of {} "
-                     "are y and x, swap them: awk '{{ print $2, $1 }}'",
-                     box.height(), box.width(), e.file),
-         box.lower, box.height() / box.width()});
+        {.code = WarningCode::swapped_columns,
+         .at = box.lower,
+         .number = box.height() / box.width(),
+         .unit = "height / length",
+         .message = fmt::format("it stands upright in the flow, {:.3g} high and {:.3g} long; if the columns of {} "
+                                "are y and x, swap them: awk '{{ print $2, $1 }}'",
+                                box.height(), box.width(), e.file)});
 }
 
 void warn_of_reversed_flow(Element& e, const Box& box, double ratio) {
     const auto nose = std::max_element(e.points.begin(), e.points.end(), lexicographically_less);
     e.warnings.push_back(
-        {"reversed_flow",
-         fmt::format("its round nose is at x = {:.6g} and its thin tail at x = {:.6g}, but lamina "
-                     "expects flow in the direction of x; if the flow comes from the right, write {:.6g} "
-                     "- x for x in {}",
-                     box.upper.x, box.lower.x, box.lower.x + box.upper.x, e.file),
-         *nose, ratio});
+        {.code = WarningCode::reversed_flow,
+         .at = *nose,
+         .number = ratio,
+         .unit = "rear / front thickness",
+         .message = fmt::format("its round nose is at x = {:.6g} and its thin tail at x = {:.6g}, but lamina "
+                                "expects flow in the direction of x; if the flow comes from the right, write {:.6g} "
+                                "- x for x in {}",
+                                box.upper.x, box.lower.x, box.lower.x + box.upper.x, e.file)});
 }
 
 }  // namespace

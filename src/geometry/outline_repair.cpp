@@ -113,7 +113,11 @@ void cut_crossed_tail(SourcePoints& points, Element& element) {
             "length, was cut off",
             cut->at_vertex ? "meet" : "cross", coordinates(cut->at), 100 * cut->share);
         element.repairs.push_back(line_prefix(cut->removed_lines) + text);
-        element.warnings.push_back({"crossing_tail_cut", text, cut->at, cut->share});
+        element.warnings.push_back({.code = WarningCode::crossing_tail_cut,
+                                    .at = cut->at,
+                                    .number = cut->share,
+                                    .unit = "extent",
+                                    .message = text});
     }
 }
 

@@ -24,8 +24,8 @@ struct TailCut {
 ///     ___---/                         ___---/
 ///
 /// A tail is cut only if it holds the rearmost vertex and none of it lies farther from the crossing than 2 % of the
-/// section's extent. Seven sections of the UIUC collection cross in the last 0.1 to 1.7 %; other crossings begin at
-/// 24 %. Where the surfaces cross more than once, the crossing farthest from the tail counts. The outline may be open:
+/// section's extent. Seven sections of the UIUC collection cross in the last 0.1 to 1.7 %; others cross at
+/// the nose or at two thirds of the chord. Where the surfaces cross more than once, the crossing farthest from the tail counts. The outline may be open:
 /// the edge from its last point to its first one counts, too. Returns nothing where no crossing was found.
 std::optional<TailCut> cut_crossing_tail(std::vector<SourcePoint>& points);
 

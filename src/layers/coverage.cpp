@@ -56,7 +56,8 @@ std::vector<ElementCoverage> layer_coverage(const RaySet& set, const LayerHeight
     const std::vector<char> open = open_rays(set, heights, next);
     std::vector<ElementCoverage> coverage(set.elements());
     for (std::size_t e = 0; e < set.elements(); ++e) {
-        auto& [all, in_the_open] = coverage[e];
+        auto& [all, in_the_open, worst] = coverage[e];
+        double most_missing = 0;
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
             const std::uint32_t requested = heights.column(i).layers;
             const std::uint32_t requested_cells = std::min(requested, heights.column(next[i]).layers),
@@ -64,6 +65,11 @@ std::vector<ElementCoverage> layer_coverage(const RaySet& set, const LayerHeight
             add_ray(counts[i] == requested, all);
             add_cells(requested_cells, made_cells, all);
             if (open[i]) add_ray(counts[i] == requested, in_the_open);
+            const double missing = 1 - double(counts[i]) / std::max(1.0, double(requested));
+            if (open[i] && missing > most_missing) {
+                most_missing = missing;
+                worst = set.lines[i].origin;
+            }
             if (open[i] && open[next[i]]) add_cells(requested_cells, made_cells, in_the_open);
         }
     }

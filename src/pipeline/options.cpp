@@ -27,6 +27,13 @@ OptionTable<CaseOptions> make_pipeline_rows() {
                member_at(&CaseOptions::assemble, &AssembleOptions::base_marker));
     run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
               member_at(&CaseOptions::threads));
+    run.count("max-triangles", "N",
+              "largest number of triangles; a run that needs more, by estimate, is refused before the work",
+              numbers_from_to(1, 1e15), member_at(&CaseOptions::limits, &WorkLimits::max_triangles));
+    run.spec("max-memory", "SIZE",
+             "largest memory of the process, such as 500M or 2G; a run that needs more, by estimate, is refused before "
+             "the work; the program's default is 80 % of what is free",
+             parse_memory, memory_text, member_at(&CaseOptions::limits, &WorkLimits::max_memory_bytes));
     OptionTable<CaseOptions> rows;
     for (auto* builder : {&outer, &files, &run})
         for (Option<CaseOptions>& option : builder->take()) rows.push_back(std::move(option));

@@ -13,6 +13,8 @@
 #include "core/parallel.hpp"
 #include "decoupling/refine_all.hpp"
 #include "layers/fill.hpp"
+#include "pipeline/mesh_limits.hpp"
+#include "pipeline/warnings.hpp"
 
 namespace lamina::pipeline {
 
@@ -33,8 +35,8 @@ double seconds_now() {
 class StageClock {
 public:
     explicit StageClock(const Progress& progress) : progress_(progress), start_(seconds_now()), last_(start_) {}
-    void begin(const std::string& stage) const {
-        if (progress_) progress_(stage);
+    void begin(const std::string& stage, std::optional<RunEstimate> estimate = {}) const {
+        if (progress_) progress_({stage, estimate});
     }
     /// Returns the seconds since the last call.
     double lap() {
@@ -118,7 +120,7 @@ MeshResult run(Geometry geometry, const CaseOptions& options, StageClock& clock,
     geometry = prepare_surfaces(std::move(geometry), options.surface, spacing_limits(options, growth));
     const SizedBodies bodies = sized_bodies(geometry);
     const FarField far_field = place_far_field(bounding_box(geometry), options.far_field);
-    require_countable(options.sizing, bodies, far_field.box());
+    require_options_within(options, growth, bodies, far_field.box());
     seconds.geometry = geometry_seconds + clock.lap();
 
     clock.begin("layers");
@@ -129,11 +131,12 @@ MeshResult run(Geometry geometry, const CaseOptions& options, StageClock& clock,
 
     clock.begin("sizing");
     const SizeField size = make_size_field(border_loops(layer), requests.sources, options.sizing, far_field.box());
-    require_countable(size);
+    result.estimate = estimate_within_limits(options, layer, size, far_field);
     seconds.sizing = clock.lap();
 
-    clock.begin("decoupling");
-    Decoupling decoupling = decouple(layer.points, layer.borders, size, far_field, options.decoupling, options.refine);
+    clock.begin("decoupling", result.estimate);
+    Decoupling decoupling =
+        decouple(layer.points, layer.borders, size, far_field, options.decoupling, limited(options));
     seconds.decoupling = clock.lap();
 
     // Each of the first cuts of the layer occupies one thread, so the other threads refine meanwhile (thesis 6.6).
@@ -152,6 +155,7 @@ MeshResult run(Geometry geometry, const CaseOptions& options, StageClock& clock,
     summarize_refinement(decoupling.subdomains, refinements, result);
     result.mesh =
         assemble(geometry, layer, std::move(cells), std::move(decoupling), std::move(refinements), options.assemble);
+    require_made_within(options.limits, result.mesh);
     seconds.assembly = clock.lap();
 
     clock.begin("check");
@@ -160,6 +164,7 @@ MeshResult run(Geometry geometry, const CaseOptions& options, StageClock& clock,
     seconds.check = clock.lap();
 
     result.geometry = std::move(geometry);
+    result.warnings = find_warnings(result, options, chord, size);
     seconds.total = clock.total();
     return result;
 }

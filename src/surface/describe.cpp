@@ -84,7 +84,7 @@ std::string describe(const Geometry& geometry) {
                 fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "repairs" : "", e.repairs[i]);
         }
         for (std::size_t i = 0; i < e.warnings.size(); ++i)
-            fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "warnings" : "", e.warnings[i].text);
+            fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "warnings" : "", e.warnings[i].message);
         for (std::size_t i = 0; i < e.surface_notes.size(); ++i)
             fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "surface" : "", e.surface_notes[i]);
     }

@@ -107,6 +107,7 @@ void restore(Geometry& geometry, std::size_t element, const Geometry& given, con
     const Element& original = given.elements[element];
     if (geometry.elements[element].points == original.points) return;
     geometry.elements[element] = original;
+    geometry.elements[element].surface_restored = true;
     geometry.elements[element].surface_notes.push_back(
         fmt::format("{} points kept as given: {}", original.points.size(), reason));
 }

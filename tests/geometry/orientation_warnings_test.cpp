@@ -16,7 +16,7 @@ namespace {
 using Map = Point (*)(Point);
 
 /// Returns the warnings of a closed outline after a map of its points.
-std::vector<InputWarning> warnings_of(const std::vector<Point>& outline, Map map) {
+std::vector<Warning> warnings_of(const std::vector<Point>& outline, Map map) {
     std::string text = "t\n";
     for (Point p : outline) text += fmt::format("{} {}\n", map(p).x, map(p).y);
     text += fmt::format("{} {}\n", map(outline[0]).x, map(outline[0]).y);
@@ -32,9 +32,9 @@ TEST(OrientationWarnings, SwappedColumns) {
     for (const std::vector<Point>& section : sections()) {
         const auto warnings = warnings_of(section, [](Point p) { return Point{p.y, p.x}; });
         ASSERT_EQ(warnings.size(), 1u);
-        EXPECT_EQ(warnings[0].code, "swapped_columns");
-        EXPECT_GT(warnings[0].value, 2);
-        EXPECT_NE(warnings[0].text.find("awk '{ print $2, $1 }'"), std::string::npos);
+        EXPECT_EQ(warnings[0].code, WarningCode::swapped_columns);
+        EXPECT_GT(warnings[0].number, 2);
+        EXPECT_NE(warnings[0].message.find("awk '{ print $2, $1 }'"), std::string::npos);
     }
 }
 
@@ -42,8 +42,8 @@ TEST(OrientationWarnings, FlowFromTheRight) {
     for (const std::vector<Point>& section : sections()) {
         const auto warnings = warnings_of(section, [](Point p) { return Point{1 - p.x, p.y}; });
         ASSERT_EQ(warnings.size(), 1u);
-        EXPECT_EQ(warnings[0].code, "reversed_flow");
-        EXPECT_GT(warnings[0].value, 2);
+        EXPECT_EQ(warnings[0].code, WarningCode::reversed_flow);
+        EXPECT_GT(warnings[0].number, 2);
     }
 }
 

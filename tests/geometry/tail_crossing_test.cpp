@@ -53,9 +53,9 @@ TEST(TailCrossing, IsTheNewTrailingEdge) {
                 EXPECT_NEAR(std::hypot(end.x, end.y), 1 - tail, 1e-3);
                 EXPECT_NEAR(std::atan2(end.y, end.x), angle, 1e-3);
                 ASSERT_EQ(e.warnings.size(), 1u);
-                EXPECT_EQ(e.warnings[0].code, "crossing_tail_cut");
+                EXPECT_EQ(e.warnings[0].code, WarningCode::crossing_tail_cut);
                 EXPECT_EQ(e.warnings[0].at, end);
-                EXPECT_NEAR(e.warnings[0].value, tail, 5e-3);
+                EXPECT_NEAR(e.warnings[0].number, tail, 5e-3);
                 EXPECT_TRUE(std::any_of(e.repairs.begin(), e.repairs.end(), [](const std::string& repair) {
                     return repair.starts_with("lines 2") &&
                            repair.find("the surfaces cross near the trailing edge, at (") != std::string::npos;

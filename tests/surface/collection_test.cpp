@@ -79,7 +79,7 @@ TEST_F(Collection, CrossingTailsAreCutAndNothingElseIsWarnedOf) {
             continue;
         for (const Element& e : read({name}).elements) {
             EXPECT_EQ(e.warnings.size(), cut.contains(name) ? 1u : 0u) << name;
-            for (const InputWarning& warning : e.warnings) EXPECT_EQ(warning.code, "crossing_tail_cut") << name;
+            for (const Warning& warning : e.warnings) EXPECT_EQ(warning.code, WarningCode::crossing_tail_cut) << name;
         }
     }
 }

@@ -1,5 +1,5 @@
-// Estimates of the number of triangles that sources request: the integral of 1 / h^2, divided by the area of the
-// equilateral triangle of edge 1. Inside a source of size s the integral is the area divided by s^2. Beside a border of
+// Lower bounds of the number of triangles that single options request: the integral of 1 / h^2, divided by the area of
+// the equilateral triangle of edge 1. Inside a source of size s the integral is the area divided by s^2. Beside a border of
 // length L, where h = s + g d at the distance d, g being the gradation, the integral up to the distance D is
 //
 //     L D / (s (s + g D)).
@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include <lamina/limits.hpp>
+#include <lamina/threads.hpp>
 
 #include "core/reproducible_math.hpp"
 #include "core/text.hpp"
@@ -16,18 +19,15 @@ namespace lamina::sizing {
 
 namespace {
 
-/// The largest number of triangles that may be requested. Vertices have 32-bit numbers, and there are twice as many
-/// triangles as vertices. Half of these leave room for triangles that the estimate does not foresee.
-constexpr double max_triangles = 4294967296.0;
-
-/// Throws OptionError where an integral of 1 / h^2 amounts to more triangles than can be numbered. The message names
-/// the option and its value.
-void require_countable_integral(double inverse_square_integral, const std::string& option, const std::string& value) {
+/// Throws LimitError where an integral of 1 / h^2 amounts to far more triangles than the limits allow. The message
+/// names the option and its value.
+void require_within_limits(double inverse_square_integral, const std::string& option, const std::string& value,
+                           const WorkLimits& limits) {
+    // Some of the integral may lie inside bodies and layers.
+    constexpr double certain = 2;
     const double triangles = inverse_square_integral / equilateral_area;
-    if (triangles <= max_triangles) return;
-    throw OptionError(
-        option, core::concat(value, " asks for about ", core::rounded_text(triangles), " triangles, and no more than ",
-                             core::rounded_text(max_triangles), " can be numbered"));
+    if (triangles > certain * allowed_triangles(limits, mesh_cost))
+        throw_limit_error(limits, estimate_run(triangles, mesh_cost, thread_count()), option, value);
 }
 
 /// Returns the integral of 1 / h^2 beside a border of this length and size, up to the distance `reach`.
@@ -84,28 +84,24 @@ namespace lamina {
 
 using namespace sizing;
 
-void require_countable(const SizingOptions& options, const SizedBodies& bodies, const Box& domain) {
+void require_within_limits(const SizingOptions& options, const SizedBodies& bodies, const Box& domain,
+                           const WorkLimits& limits) {
     const double gradation = options.field.gradation, reach = 0.1 * std::min(domain.width(), domain.height());
     if (const double size = options.field.max_size; size < HUGE_VAL)
-        require_countable_integral(domain.width() * domain.height() / (size * size), "far_size", core::to_text(size));
+        require_within_limits(domain.width() * domain.height() / (size * size), "far_size", core::to_text(size),
+                              limits);
     for (const SizeSource& source : options.sources)
-        require_countable_integral(integral_round(source, gradation, reach, domain), "refine",
-                                   size_source_text(source));
+        require_within_limits(integral_round(source, gradation, reach, domain), "refine", size_source_text(source),
+                              limits);
     if (const auto& size = options.wall_size)
-        require_countable_integral(integral_beside(total_length(bodies.walls), *size, gradation, reach), "wall_size",
-                                   core::to_text(*size));
+        require_within_limits(integral_beside(total_length(bodies.walls), *size, gradation, reach), "wall_size",
+                              core::to_text(*size), limits);
     if (options.wake && options.wake->size) {
         double integral = 0;
         for (const SizeSource& source : given_wake_sources(options, bodies))
             integral += integral_round(source, gradation, reach, domain);
-        require_countable_integral(integral, "wake", wake_text(*options.wake));
+        require_within_limits(integral, "wake", wake_text(*options.wake), limits);
     }
-}
-
-void require_countable(const SizeField& size) {
-    if (!size.is_uniform())
-        require_countable_integral(size.inverse_square_integral(), "gradation",
-                                   core::concat(size.gradation(), " with these sizes at walls and sources"));
 }
 
 }  // namespace lamina

@@ -1,0 +1,88 @@
+// The size of a run: how many triangles, how much memory and how much time it will take, by estimate before the work
+// begins, and the limits that a user sets on it. Source of the figures: docs/decisions/0020.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <lamina/error.hpp>
+#include <lamina/export.hpp>
+
+namespace lamina {
+
+/// Limits on a run. Empty ones do not limit; vertices have 32-bit numbers in any case.
+struct WorkLimits {
+    std::optional<std::size_t> max_triangles{};     ///< largest number of triangles; a quadrilateral counts as two
+    std::optional<std::size_t> max_memory_bytes{};  ///< largest memory of the process
+};
+
+/// What a run takes, by estimate.
+struct RunEstimate {
+    double triangles = 0;     ///< number of triangles; a quadrilateral counts as two
+    double memory_bytes = 0;  ///< largest memory of the process
+    double seconds = 0;       ///< wall-clock time until the mesh is made and checked, on a machine of 2020 or so
+};
+
+/// What one triangle of a kind of run costs.
+struct WorkCost {
+    double base_bytes;            ///< memory of the process without any triangle
+    double bytes_per_triangle;    ///< memory at the peak
+    double seconds_per_triangle;  ///< processor time
+};
+
+/// The costs of generate_mesh(), of a triangulation of points and segments, of its refinement to sizes, and of its
+/// refinement to angles alone.
+inline constexpr WorkCost mesh_cost{20e6, 50, 0.3e-6}, triangulation_cost{15e6, 90, 0.5e-6},
+    refinement_cost{15e6, 70, 0.35e-6}, angle_refinement_cost{15e6, 290, 8e-6};
+
+/// Returns the estimate for a number of triangles, when the work is divided among so many threads. `more_seconds` are
+/// those of processor time that do not depend on the number of triangles.
+LAMINA_EXPORT RunEstimate estimate_run(double triangles, const WorkCost& cost, unsigned threads,
+                                       double more_seconds = 0);
+
+/// Returns the estimate in words: "about 1.2 million triangles, 90 MiB of memory and 0.4 s".
+LAMINA_EXPORT std::string estimate_text(const RunEstimate& estimate);
+
+/// A run that would exceed a limit. option() is the option to change.
+class LAMINA_EXPORT LimitError : public OptionError {
+public:
+    /// Makes an error whose what() reads "option: reason".
+    LimitError(const std::string& option, const std::string& reason, const RunEstimate& estimate)
+        : OptionError(option, reason), estimate_(estimate) {}
+    /// Returns what the run would take.
+    const RunEstimate& estimate() const noexcept { return estimate_; }
+
+private:
+    RunEstimate estimate_;
+};
+
+/// Throws a LimitError for a run of this size. `option` is the one to change, and `request` its value: the message
+/// reads "REQUEST asks for about 4.3 billion triangles, ...".
+[[noreturn]] LAMINA_EXPORT void throw_limit_error(const WorkLimits& limits, const RunEstimate& estimate,
+                                                  const std::string& option, const std::string& request);
+
+/// Throws this error where the run would exceed a limit, or have more triangles than can be numbered.
+LAMINA_EXPORT void require_within(const WorkLimits& limits, const RunEstimate& estimate, const std::string& option,
+                                  const std::string& request);
+
+/// Returns the number of triangles that the limits allow at this cost; at most max_numbered_triangles.
+LAMINA_EXPORT double allowed_triangles(const WorkLimits& limits, const WorkCost& cost);
+
+/// The largest number of triangles that may be requested. Vertices have 32-bit numbers, and there are twice as many
+/// triangles as vertices. Half of these leave room for triangles that no estimate foresees.
+inline constexpr double max_numbered_triangles = 4294967296.0;
+
+/// Reads a number of bytes: "500M", "2G", "1.5GiB", "1000000". K, M, G and T are powers of 1024. Throws UsageError with
+/// the bare reason.
+LAMINA_EXPORT std::size_t parse_memory(const std::string& text);
+/// Returns a text that parse_memory() reads back.
+LAMINA_EXPORT std::string memory_text(std::size_t bytes);
+
+/// Returns the memory that the process could still use without swapping: what the system has available
+/// (/proc/meminfo), or what the control groups of the process leave it, if that is less. Empty where the system does
+/// not tell. `root` is the root of the file system.
+LAMINA_EXPORT std::optional<std::size_t> free_memory(const std::filesystem::path& root = "/");
+
+}  // namespace lamina

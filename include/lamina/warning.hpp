@@ -1,0 +1,42 @@
+// Warnings: a valid result that is probably not what the user wants. They are data beside the result; the program
+// prints each as one line (docs/guide.md, "Warnings").
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <lamina/export.hpp>
+#include <lamina/point.hpp>
+
+namespace lamina {
+
+/// The kinds of warnings.
+enum class WarningCode {
+    first_layer_lost,          ///< wall edges without a cell of the first height
+    rays_cut_in_the_open,      ///< rays with fewer layers than requested although no other wall is near
+    transition_out_of_range,   ///< the last cells of the layer are far larger or smaller than the triangles beyond
+    first_height_implausible,  ///< the first height is out of proportion to the chord
+    large_angle,               ///< a nearly flat cell
+    small_angle,               ///< angles below the bound that no sharp corner excuses
+    refused_points,            ///< refinement left out points that would encroach upon a frozen border
+    oversized_triangles,       ///< triangles larger than was asked for
+    surface_not_as_asked,      ///< the points of a wall are not those that the options ask for
+    swapped_columns,           ///< a section stands upright: the columns of x and y are probably swapped
+    reversed_flow,             ///< a section has its nose at its rear end: the flow probably comes from the right
+    crossing_tail_cut,         ///< surfaces that cross near the trailing edge were cut off at the crossing
+};
+
+/// Returns the stable name of a kind: "first_layer_lost".
+LAMINA_EXPORT std::string warning_name(WarningCode code);
+
+/// One warning.
+struct Warning {
+    WarningCode code;           ///< the kind
+    std::string element{};      ///< name of the body; empty where the whole mesh is meant
+    std::optional<Point> at{};  ///< the worst place, where there is one
+    double number = 0;          ///< how many or how much, as the kind says
+    std::string unit{};         ///< of the number: "wall edges", "degrees", "chords"
+    std::string message{};      ///< one sentence for a person, with number and place
+};
+
+}  // namespace lamina

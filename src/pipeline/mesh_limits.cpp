@@ -1,0 +1,84 @@
+#include "pipeline/mesh_limits.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <lamina/threads.hpp>
+
+namespace lamina::pipeline {
+
+namespace {
+
+/// Returns the number of triangles in the layer, as many as rows of cells between neighbouring rays have halves.
+double layer_triangles(const Layer& layer) {
+    std::size_t cells = 0;
+    for (const ElementCoverage& element : layer.coverage) cells += element.all.made_cells;
+    return 2 * static_cast<double>(cells);
+}
+
+double triangles_of(const Mesh& mesh) {
+    return static_cast<double>(mesh.triangles.size()) + 2 * static_cast<double>(mesh.quads.size());
+}
+
+RunEstimate estimate_mesh(const Layer& layer, const SizeField& size, const FarField& far_field) {
+    // Measured: the processor time and the memory that the sizes and the decoupling take for each edge of the border,
+    // and how much more time a triangle of the layer takes than another one.
+    constexpr double seconds_per_border_edge = 100e-6, bytes_per_border_edge = 8e3,
+                     more_seconds_per_layer_triangle = 0.3e-6;
+    const double in_layer = layer_triangles(layer);
+    double border_edges = 0;
+    for (const auto& border : layer.borders) border_edges += static_cast<double>(border.size());
+    RunEstimate estimate = estimate_run(
+        in_layer + estimate_triangles(layer.points, layer.borders, size, far_field), mesh_cost, thread_count(),
+        seconds_per_border_edge * border_edges + more_seconds_per_layer_triangle * in_layer);
+    estimate.memory_bytes += bytes_per_border_edge * border_edges;
+    return estimate;
+}
+
+}  // namespace
+
+void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
+                            const Box& domain) {
+    require_within_limits(options.sizing, bodies, domain, options.limits);
+    if (!options.layer.enabled || !growth.layers) return;
+    // Rays may be cut short.
+    constexpr double certain = 2;
+    double vertices = 0;
+    for (const auto& wall : bodies.walls) vertices += static_cast<double>(wall.size());
+    const double triangles = 2 * vertices * *growth.layers;
+    if (triangles > certain * allowed_triangles(options.limits, mesh_cost))
+        throw_limit_error(options.limits, estimate_run(triangles, mesh_cost, thread_count()), "layers",
+                          fmt::format("{} on {} wall vertices", *growth.layers, vertices));
+}
+
+RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
+                                   const FarField& far_field) {
+    const RunEstimate estimate = estimate_mesh(layer, size, far_field);
+    if (const double in_layer = layer_triangles(layer); in_layer > 0.5 * estimate.triangles)
+        require_within(options.limits, estimate, "layers",
+                       fmt::format("the mesh, with {:.2g} triangles in the layer,", in_layer));
+    require_within(
+        options.limits, estimate, "gradation",
+        fmt::format("{}, with these sizes at walls and sources and this far field,", options.sizing.field.gradation));
+    return estimate;
+}
+
+RefineOptions limited(const CaseOptions& options) {
+    RefineOptions refine = options.refine;
+    // A triangulation has twice as many triangles as vertices.
+    const auto points = static_cast<std::size_t>(0.5 * allowed_triangles(options.limits, mesh_cost));
+    refine.max_points = std::max<std::size_t>(1, std::min(refine.max_points, points));
+    return refine;
+}
+
+void require_made_within(const WorkLimits& limits, const Mesh& mesh) {
+    const double made = triangles_of(mesh);
+    if (limits.max_triangles && made > static_cast<double>(*limits.max_triangles))
+        throw LimitError("max_triangles",
+                         fmt::format("{} triangles are allowed, and the mesh has {}, more than was estimated",
+                                     *limits.max_triangles, made),
+                         estimate_run(made, mesh_cost, thread_count()));
+}
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,22 @@
+// The size of a mesh by estimate, and the refusal of runs that would exceed their limits.
+#pragma once
+
+#include <lamina/pipeline.hpp>
+
+namespace lamina::pipeline {
+
+/// Throws LimitError where a single option asks for far more triangles than the limits allow. It takes no time.
+void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
+                            const Box& domain);
+
+/// Estimates the run from the layer and the size field beyond it. Throws LimitError where it would exceed the limits.
+RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
+                                   const FarField& far_field);
+
+/// Returns the options of refinement, with which no subdomain goes beyond the limits. Estimates may be wrong.
+RefineOptions limited(const CaseOptions& options);
+
+/// Throws LimitError where the mesh made has more triangles than allowed, since the estimate was too low.
+void require_made_within(const WorkLimits& limits, const Mesh& mesh);
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,255 @@
+// The bounds below separate good meshes from others: docs/decisions/0020 has the measurements. Places are searched only
+// where there is something to warn of.
+#include "pipeline/warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/cell_shape.hpp"
+#include "mesh/quality.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+using core::CellShape;
+
+std::string place_text(Point p) { return fmt::format("({:.6g}, {:.6g})", p.x, p.y); }
+
+std::string counted(std::size_t n, const std::string& singular, const std::string& plural) {
+    return fmt::format("{} {}", n, n == 1 ? singular : plural);
+}
+
+// ---- search for places ----
+
+std::size_t cell_count(const Mesh& mesh) { return mesh.triangles.size() + mesh.quads.size(); }
+
+/// Returns the vertices of a cell.
+std::span<const VertexId> corners_of(const Mesh& mesh, std::size_t cell) {
+    if (cell < mesh.triangles.size()) return mesh.triangles[cell].v;
+    return mesh.quads[cell - mesh.triangles.size()].v;
+}
+
+CellShape shape_of(const Mesh& mesh, std::size_t cell) {
+    const auto corner = [&](std::size_t i) { return mesh.points[corners_of(mesh, cell)[i].index()]; };
+    if (cell < mesh.triangles.size()) return core::measure_triangle(corner(0), corner(1), corner(2));
+    return mesh::measure_quad(corner(0), corner(1), corner(2), corner(3));
+}
+
+Point middle_of(const Mesh& mesh, std::size_t cell) {
+    const auto corners = corners_of(mesh, cell);
+    Point sum{};
+    for (const VertexId v : corners) sum = sum + mesh.points[v.index()];
+    return (1.0 / static_cast<double>(corners.size())) * sum;
+}
+
+/// Returns the middle of the cell of a region for which badness(cell) is largest; the first of several.
+template <class Badness>
+Point worst_place(const Mesh& mesh, Region region, Badness badness) {
+    std::size_t worst = 0;
+    double worst_badness = -HUGE_VAL;
+    for (std::size_t cell = 0; cell < cell_count(mesh); ++cell) {
+        if (mesh.region[cell] != region) continue;
+        if (const double b = badness(cell); b > worst_badness) {
+            worst = cell;
+            worst_badness = b;
+        }
+    }
+    return middle_of(mesh, worst);
+}
+
+/// Returns the place of the wall edge whose cell reaches to the highest layer.
+Point highest_first_cell(const Mesh& mesh) {
+    std::vector<Segment> walls;
+    for (const Marker& marker : mesh.markers)
+        if (marker.kind == MarkerKind::wall) walls.insert(walls.end(), marker.edges.begin(), marker.edges.end());
+    std::sort(walls.begin(), walls.end());
+    return worst_place(mesh, Region::layer, [&](std::size_t cell) {
+        const auto corners = corners_of(mesh, cell);
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            if (std::binary_search(walls.begin(), walls.end(), Segment{corners[i], corners[(i + 1) % corners.size()]}))
+                return static_cast<double>(mesh.layer[cell]);
+        return 0.0;
+    });
+}
+
+// ---- the layer ----
+
+void warn_of_first_layer(const MeshResult& result, std::vector<Warning>& warnings) {
+    const std::size_t lost = result.check.edges_without_first_layer;
+    if (lost == 0) return;
+    const Point at = highest_first_cell(result.mesh);
+    warnings.push_back(
+        {.code = WarningCode::first_layer_lost,
+         .at = at,
+         .number = static_cast<double>(lost),
+         .unit = "wall edges",
+         .message = fmt::format("the first height is lost on {} of {} (worst at {}): --layer-topology layered or quads "
+                                "keeps it, and so do more surface points (--surface-points)",
+                                lost, counted(result.surface_vertices, "wall edge", "wall edges"), place_text(at))});
+}
+
+void warn_of_cut_rays(const MeshResult& result, std::vector<Warning>& warnings) {
+    // Beside a slot or a cove some rays that count as open are cut, and lack few of their layers.
+    constexpr double max_cut_share = 0.25, min_made_share = 0.95;
+    for (std::size_t e = 0; e < result.layer_coverage.size(); ++e) {
+        const ElementCoverage& coverage = result.layer_coverage[e];
+        const std::size_t cut = coverage.open.incomplete_rays, rays = coverage.open.rays;
+        const bool many_cut = static_cast<double>(cut) > max_cut_share * static_cast<double>(rays);
+        const bool few_made = static_cast<double>(coverage.open.made_cells) <
+                              min_made_share * static_cast<double>(coverage.open.requested_cells);
+        if (!many_cut && !few_made) continue;
+        const std::string& name = result.geometry.elements[e].name;
+        warnings.push_back(
+            {.code = WarningCode::rays_cut_in_the_open,
+             .element = name,
+             .at = coverage.worst_in_the_open,
+             .number = static_cast<double>(cut),
+             .unit = "rays",
+             .message = fmt::format("{}: {} of {} rays in the open are cut short (worst at {}): the layers are thicker "
+                                    "than the room round the wall (--layers, --thickness, --first-height)",
+                                    name, cut, rays, place_text(coverage.worst_in_the_open))});
+    }
+}
+
+void warn_of_transition(const MeshResult& result, std::vector<Warning>& warnings) {
+    constexpr double min_ratio = 0.1, max_ratio = 5;
+    const TransitionSummary& transition = result.check.transition;
+    const double median = transition.median_area_ratio;
+    if (transition.edges == 0 || (median >= min_ratio && median <= max_ratio)) return;
+    warnings.push_back(
+        {.code = WarningCode::transition_out_of_range,
+         .number = median,
+         .unit = "area ratio",
+         .message =
+             fmt::format("the last cells of the layer have {:.2g} times the area of the "
+                         "triangles beyond (median): {} would match them better",
+                         median, median < 1 ? "more layers, or --layers auto," : "fewer layers, or --layers auto,")});
+}
+
+void warn_of_first_height(const MeshResult& result, const LayerOptions& options, double chord,
+                          std::vector<Warning>& warnings) {
+    // A y+ of 1 asks for 1e-7 chords at a Reynolds number of 4e8, and a y+ of 300 for 1e-2 at 5e5.
+    constexpr double min_share = 1e-7, max_share = 1e-2;
+    if (!options.enabled || result.y_plus) return;
+    const double share = result.first_height / chord;
+    if (share >= min_share && share <= max_share) return;
+    warnings.push_back({.code = WarningCode::first_height_implausible,
+                        .number = share,
+                        .unit = "chords",
+                        .message = fmt::format("the first height {:.4g} is {:.2g} of the chord {:.6g}: is it in the "
+                                               "units of the input (--first-height, --y-plus)?",
+                                               result.first_height, share, chord)});
+}
+
+void warn_of_large_angles(const MeshResult& result, std::vector<Warning>& warnings) {
+    constexpr double max_isotropic = 145, max_layer = 175;
+    const auto warn = [&](const QualitySummary& quality, Region region, double bound, const std::string& where) {
+        if (quality.cells == 0 || quality.max_angle_deg <= bound) return;
+        const Point at = worst_place(result.mesh, region,
+                                     [&](std::size_t cell) { return shape_of(result.mesh, cell).max_angle_deg; });
+        warnings.push_back({.code = WarningCode::large_angle,
+                            .at = at,
+                            .number = quality.max_angle_deg,
+                            .unit = "degrees",
+                            .message = fmt::format("a cell {} has an angle of {:.2f} degrees, at {}", where,
+                                                   quality.max_angle_deg, place_text(at))});
+    };
+    warn(result.check.isotropic, Region::isotropic, max_isotropic, "outside the layer");
+    warn(result.check.layer, Region::layer, max_layer, "of the layer");
+}
+
+// ---- the isotropic region ----
+
+void warn_of_refinement(const MeshResult& result, const CaseOptions& options, const SizeField& size,
+                        std::vector<Warning>& warnings) {
+    const Mesh& mesh = result.mesh;
+    const auto add = [&](WarningCode code, std::size_t count, const std::string& unit, Point at,
+                         const std::string& message) {
+        warnings.push_back({.code = code,
+                            .at = at,
+                            .number = static_cast<double>(count),
+                            .unit = unit,
+                            .message = fmt::format("{} (worst at {})", message, place_text(at))});
+    };
+    const auto smallest_angle = [&] {
+        return worst_place(mesh, Region::isotropic,
+                           [&](std::size_t cell) { return -shape_of(mesh, cell).min_angle_deg; });
+    };
+    const QualitySummary& quality = result.check.isotropic;
+    if (const std::size_t narrow = quality.angles_below_bound - quality.exempt; narrow > 0)
+        add(WarningCode::small_angle, narrow, "triangles", smallest_angle(),
+            fmt::format("{} below the bound of {} degrees, down to {:.2f}",
+                        counted(narrow, "triangle has an angle", "triangles have an angle"),
+                        options.refine.min_angle_deg, quality.min_angle_deg));
+    if (const std::size_t refused = result.refinement.refused; refused > 0)
+        add(WarningCode::refused_points, refused, "points", smallest_angle(),
+            fmt::format("refinement left out {} too near to the layer's border or to a separator",
+                        counted(refused, "point", "points")));
+    if (const std::size_t oversized = result.refinement.oversized; oversized > 0) {
+        const auto relative_size = [&](std::size_t cell) {
+            const double h = size(middle_of(mesh, cell));
+            return shape_of(mesh, cell).area / (h * h);
+        };
+        add(WarningCode::oversized_triangles, oversized, "triangles",
+            worst_place(mesh, Region::isotropic, relative_size),
+            counted(oversized, "triangle is", "triangles are") + " larger than the sizes ask for");
+    }
+}
+
+// ---- the input ----
+
+void warn_of_surfaces(const Geometry& geometry, const SurfaceOptions& options, std::vector<Warning>& warnings) {
+    constexpr double max_ratio = 1.25;  // of the numbers of points made and asked for
+    const bool asked = options.treatment == SurfaceTreatment::resample || options.points || options.smooth;
+    for (const Element& element : geometry.elements) {
+        const auto made = static_cast<double>(element.points.size());
+        std::string reason;
+        if (asked && element.surface_restored) reason = "new points would cross the outline";
+        if (reason.empty() && options.points) {
+            const auto wanted = static_cast<double>(*options.points);
+            if (made > max_ratio * wanted || wanted > max_ratio * made)
+                reason = fmt::format("about {} were asked for", *options.points);
+        }
+        if (reason.empty()) continue;
+        warnings.push_back({.code = WarningCode::surface_not_as_asked,
+                            .element = element.name,
+                            .at = element.features.trailing_edge,
+                            .number = made,
+                            .unit = "points",
+                            .message = fmt::format("{}: the wall has {} {} points, since {} (--surface)", element.name,
+                                                   made, element.surface_restored ? "given" : "new", reason)});
+    }
+}
+
+/// Adds what the reader found, with the name of the element.
+void add_reader_warnings(const Geometry& geometry, std::vector<Warning>& warnings) {
+    for (const Element& element : geometry.elements) {
+        for (Warning warning : element.warnings) {
+            warning.element = element.name;
+            warning.message = element.name + ": " + warning.message;
+            warnings.push_back(std::move(warning));
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, double chord,
+                                   const SizeField& size) {
+    std::vector<Warning> warnings;
+    add_reader_warnings(result.geometry, warnings);
+    warn_of_surfaces(result.geometry, options.surface, warnings);
+    warn_of_first_height(result, options.layer, chord, warnings);
+    warn_of_first_layer(result, warnings);
+    warn_of_cut_rays(result, warnings);
+    warn_of_transition(result, warnings);
+    warn_of_large_angles(result, warnings);
+    warn_of_refinement(result, options, size, warnings);
+    return warnings;
+}
+
+}  // namespace lamina::pipeline

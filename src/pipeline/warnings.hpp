@@ -1,0 +1,15 @@
+// What a user should know about a mesh that is valid.
+#pragma once
+
+#include <vector>
+
+#include <lamina/pipeline.hpp>
+
+namespace lamina::pipeline {
+
+/// Returns the warnings about a result that is complete but for them. `chord` is that of the configuration, and `size`
+/// the size field of the isotropic region.
+std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, double chord,
+                                   const SizeField& size);
+
+}  // namespace lamina::pipeline
