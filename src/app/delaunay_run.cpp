@@ -124,6 +124,8 @@ DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& setting
     ConstrainedTriangulation triangulation =
         with_file_name(input, [&] { return triangulate_input(input, settings, result); });
     result.triangulation_seconds = watch.lap();
+    result.zero_length_segments = triangulation.zero_length_segments;
+    result.repeated_segments = triangulation.repeated_segments;
 
     ConstrainedRefinement mesh;
     if (needs_refinement(input, settings))

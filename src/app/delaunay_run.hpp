@@ -21,6 +21,7 @@ struct DelaunaySettings {
 struct DelaunayResult {
     TriangleOutput output;
     RefineStats refinement;
+    std::size_t zero_length_segments = 0, repeated_segments = 0;  ///< segments of the input that change nothing
     double triangulation_seconds = 0, refinement_seconds = 0;
     /// The pieces and the times of the threads, for points without segments.
     std::optional<DecompositionStats> decomposition{};

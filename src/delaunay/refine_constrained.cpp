@@ -12,6 +12,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/predicates.hpp>
 
+#include "delaunay/arguments.hpp"
 #include "delaunay/border_lines.hpp"
 #include "delaunay/insert_segments.hpp"
 #include "delaunay/lattice.hpp"
@@ -276,7 +277,7 @@ using namespace delaunay;
 
 ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                              const SizeField& size, const ConstrainedRefineOptions& options) {
-    validate(options.refine);
+    check_arguments(points, triangulation, options);
     const ConstrainedInput input = make_input(points, triangulation, size, options.regions);
     std::vector<LatticeObstacle> obstacles = crowded_vertices(input);
     for (int attempt = 0;; ++attempt) {
