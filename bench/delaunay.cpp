@@ -101,6 +101,26 @@ std::vector<Point> flat_plate_at_10_degrees(std::size_t n) {
     return test::flat_plate_points(n, 0.984807753012208, 0.17364817766693033);
 }
 
+/// Returns points on two lines parallel to the x axis, or slanted.
+std::vector<Point> two_lines(std::size_t n, double slope) {
+    test::Random random(4);
+    std::vector<Point> points(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double x = random.real();
+        points[i] = {x, slope * x + static_cast<double>(i % 2)};
+    }
+    return points;
+}
+std::vector<Point> two_flat_lines(std::size_t n) { return two_lines(n, 0); }
+std::vector<Point> two_slanted_lines(std::size_t n) { return two_lines(n, 0.3); }
+/// Returns points on the two axes.
+std::vector<Point> points_on_a_cross(std::size_t n) {
+    test::Random random(4);
+    std::vector<Point> points(n);
+    for (std::size_t i = 0; i < n; ++i) (i % 2 == 0 ? points[i].x : points[i].y) = random.real(-1, 1);
+    return points;
+}
+
 void triangulate(benchmark::State& state, std::vector<Point> (*make)(std::size_t)) {
     const std::vector<Point> points = make(static_cast<std::size_t>(state.range(0)));
     std::vector<Reference> references;
@@ -129,12 +149,39 @@ BENCHMARK_CAPTURE(triangulate, square_lattice, square_lattice)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, hexagonal_lattice, hexagonal_lattice)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, flat_plate, flat_plate)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, flat_plate_at_10_degrees, flat_plate_at_10_degrees)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, two_flat_lines, two_flat_lines)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, two_slanted_lines, two_slanted_lines)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, cross, points_on_a_cross)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, uniform, uniform)->Apply(large);
 BENCHMARK_CAPTURE(triangulate, layer, test::naca_layer_points)->Apply(large);
 
-/// Constrains one edge in `one_edge_in` of a triangulation that is not Delaunay.
-void constrain(benchmark::State& state, std::size_t one_edge_in) {
-    const test::ConstrainedCase c = test::stretched_edges_case(static_cast<std::size_t>(state.range(0)), one_edge_in);
+/// Returns a hub with n segments.
+test::ConstrainedCase hub(std::size_t n) {
+    test::Random random(5);
+    test::ConstrainedCase c;
+    c.points.push_back({0, 0});
+    for (std::size_t i = 1; i <= n; ++i) {
+        const double angle = 6.28 * static_cast<double>(i) / static_cast<double>(n), r = random.real(0.1, 1);
+        c.points.push_back({r * std::cos(angle), r * std::sin(angle)});
+        c.segments.push_back({VertexId{0u}, VertexId{i}});
+    }
+    return c;
+}
+/// Returns n random points and 1,000 segments from one side of them to the other.
+test::ConstrainedCase long_lines(std::size_t n) {
+    test::Random random(6);
+    test::ConstrainedCase c;
+    c.points = uniform(n);
+    for (int i = 0; i < 1000; ++i) {
+        const double y = (i + 0.5) / 1000;
+        c.segments.push_back({VertexId{c.points.size()}, VertexId{c.points.size() + 1}});
+        c.points.push_back({-0.01, y});
+        c.points.push_back({1.01, y + random.real(0, 1e-4)});
+    }
+    return c;
+}
+
+void constrain_case(benchmark::State& state, const test::ConstrainedCase& c) {
     std::vector<Reference> references;
 #ifdef LAMINA_BENCH_TRIANGLE
     references.push_back({"triangle", triangle_constrained(c.points, c.segments)});
@@ -146,6 +193,23 @@ void constrain(benchmark::State& state, std::size_t one_edge_in) {
         state, "triangles", [&] { return triangulate(c.points, c.segments).triangles.size(); }, references);
     state.counters["segments"] = static_cast<double>(c.segments.size());
 }
+/// Constrains one edge in `one_edge_in` of a triangulation that is not Delaunay.
+void constrain(benchmark::State& state, std::size_t one_edge_in) {
+    constrain_case(state, test::stretched_edges_case(static_cast<std::size_t>(state.range(0)), one_edge_in));
+}
+void constrain_family(benchmark::State& state, test::ConstrainedCase (*make)(std::size_t)) {
+    constrain_case(state, make(static_cast<std::size_t>(state.range(0))));
+}
+BENCHMARK_CAPTURE(constrain_family, hub, hub)
+    ->Arg(30'000)
+    ->Iterations(3)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(constrain_family, long_lines, long_lines)
+    ->Arg(300'000)
+    ->Iterations(3)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(constrain, some, 30)->Apply(usual);
 BENCHMARK_CAPTURE(constrain, every_third, 3)->Apply(usual);
 

@@ -87,8 +87,9 @@ enum class KeptRegion {
 /// How triangulate() treats segments that cross in their interiors.
 enum class Crossings {
     refuse,  ///< throws an InputError that names both segments
-    insert,  ///< inserts a Steiner point at each crossing, rounded to doubles; segments bend by a rounding error and
-             ///< stay planar
+    insert,  ///< inserts a Steiner point at each crossing, rounded to doubles, or leads both segments through a point
+             ///< that stands within rounding of it. Segments stay planar and bend by at most 16 units in the last place
+             ///< of their largest coordinate; coordinates of crossings below 1e-60 become 0 or 1e-60
 };
 
 /// Options of constrained triangulation.
@@ -107,15 +108,18 @@ struct ConstrainedTriangulation {
     /// The edges of the triangles that are parts of segments: each once, directed as its segment is, in the order of
     /// the segments and, within a segment, from its a to its b.
     std::vector<Segment> segments;
-    std::vector<std::uint32_t> parents;  ///< for each edge the segment that it is a part of; the first of several
+    std::vector<std::uint32_t> parents;    ///< for each edge the segment that it is a part of; the first of several
+    std::size_t zero_length_segments = 0;  ///< number of segments from a point to itself, which are left out
+    /// Number of segments that change nothing because they lie on earlier ones, as repeated ones do.
+    std::size_t repeated_segments = 0;
 };
 
 /// Returns the constrained Delaunay triangulation: every segment is an edge or, where it runs through points, a chain
-/// of edges; the other edges are locally Delaunay by the tie rule. Segments may overlap and repeat. The set of
-/// triangles is unique: it depends on the order of neither points nor segments (except for the numbers of crossing
-/// points). Throws InputError for points as the plain triangulate() does, for segments that do not join two of the
-/// points, for segments that cross unless Steiner points are inserted there (place().segments), and for any segment if
-/// all points lie on one line.
+/// of edges; the other edges are locally Delaunay by the tie rule. Segments may overlap and repeat; those from a point
+/// to itself are left out. The set of triangles is unique: it depends on the order of neither points nor segments
+/// (except for the numbers of crossing points). Throws InputError for points as the plain triangulate() does, for
+/// segments whose ends are not both among the points, for segments that cross unless Steiner points are inserted there
+/// (place().segments), for holes outside the exact range, and for segments if all points lie on one line.
 /// Source: M. V. Anglada, Computers & Graphics 21 (1997).
 LAMINA_EXPORT ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
                                                    const ConstrainedOptions& options = {});

@@ -40,7 +40,7 @@ struct TriangleInput {
 };
 
 /// Reads a .poly or .node file. A .poly file without vertices takes those of the .node file with its stem. Blank lines
-/// and comments, from # to the end of the line, are skipped. Throws IoError, InputError with file and line, UsageError
+/// and comments, from # to the end of the line, are skipped. Segments from a vertex to itself are kept. Throws IoError, InputError with file and line, UsageError
 /// for other extensions.
 LAMINA_EXPORT TriangleInput read_triangle_files(const std::filesystem::path& file);
 
@@ -67,6 +67,7 @@ LAMINA_EXPORT std::vector<Triangle> read_triangle_elements(const std::filesystem
                                                            std::size_t points);
 
 /// Sets the marker of each vertex and segment on the boundary of the triangles to 1 where it is 0, as Triangle does.
+/// Throws InputError unless each point and segment has a marker, and for indices out of range.
 LAMINA_EXPORT void mark_boundary(TriangleOutput& output);
 
 /// Returns the files that write_triangle_files() writes where there are no edges: STEM.node, STEM.ele and, if with_poly
@@ -74,7 +75,8 @@ LAMINA_EXPORT void mark_boundary(TriangleOutput& output);
 LAMINA_EXPORT std::vector<std::filesystem::path> triangle_files(const std::filesystem::path& stem, bool with_poly);
 
 /// Writes STEM.node and STEM.ele, STEM.poly if with_poly is set, and STEM.edge if there are edges. Numbers have 17
-/// significant digits. No file gets its name before all are complete. Throws IoError.
+/// significant digits. No file gets its name before all are complete. Throws IoError; InputError for counts that do not
+/// agree, indices out of range and numbers that are not finite.
 LAMINA_EXPORT void write_triangle_files(const TriangleOutput& output, const std::filesystem::path& stem,
                                         bool with_poly);
 

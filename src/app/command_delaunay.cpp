@@ -119,6 +119,8 @@ Json delaunay_report(const DelaunayResult& result, const DelaunayRunFacts& facts
                    {"refused_points", result.refinement.refused},
                    {"warnings", warnings_report(result.warnings)},
                    {"estimate", estimate_report(result.estimate)},
+                   {"zero_length_segments", result.zero_length_segments},
+                   {"repeated_segments", result.repeated_segments},
                    {"seconds",
                     {{"read", facts.read_seconds},
                      {"triangulation", result.triangulation_seconds},
@@ -143,6 +145,10 @@ std::string delaunay_summary(const DelaunayResult& result, const DelaunayRunFact
             "  {} triangles have an angle below the bound ({} of them in sharp corners of the input, where no "
             "triangulation can keep it)\n",
             stats.below_bound, stats.exempt);
+    if (result.zero_length_segments > 0)
+        text += fmt::format("  {} segments from a vertex to itself were left out\n", result.zero_length_segments);
+    if (result.repeated_segments > 0)
+        text += fmt::format("  {} segments lie on earlier ones and change nothing\n", result.repeated_segments);
     if (stats.oversized > 0) text += fmt::format("  {} triangles are larger than asked for\n", stats.oversized);
     return text;
 }

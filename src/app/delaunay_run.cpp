@@ -15,6 +15,25 @@ namespace lamina::app {
 
 namespace {
 
+/// Returns the reason of an error with segments named as the file numbers their vertices, and with their lines. The
+/// library names segments by indices.
+std::string reason_in_numbers_of_file(const TriangleInput& input, const InputError& error) {
+    std::string reason = error.reason();
+    bool renamed = false;
+    for (const std::size_t i : error.place().segments) {
+        if (i >= input.segments.size()) continue;
+        const auto [a, b] = input.segments[i];
+        const std::string name = fmt::format("segment {} ({}-{})", i, a.value, b.value);
+        const std::size_t at = reason.find(name);
+        if (at == std::string::npos) continue;
+        reason.replace(at, name.size(),
+                       fmt::format("segment {}-{} (line {})", a.index() + input.first_index,
+                                   b.index() + input.first_index, input.segment_lines[i]));
+        renamed = true;
+    }
+    return renamed ? reason : reason + " (counted from 0)";
+}
+
 /// Calls f() and adds the name of the file to its errors, which give points and segments by their indices.
 template <class F>
 auto with_file_name(const TriangleInput& input, F&& f) {
@@ -24,7 +43,7 @@ auto with_file_name(const TriangleInput& input, F&& f) {
         if (!error.place().file.empty()) throw;
         InputPlace place = error.place();
         place.file = (input.segment_file.empty() ? input.point_file : input.segment_file).string();
-        throw InputError(place, error.reason() + " (counted from 0)");
+        throw InputError(place, reason_in_numbers_of_file(input, error));
     }
 }
 
@@ -213,6 +232,8 @@ DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& setting
     ConstrainedTriangulation triangulation =
         with_file_name(input, [&] { return triangulate_input(input, settings, result); });
     result.triangulation_seconds = watch.lap();
+    result.zero_length_segments = triangulation.zero_length_segments;
+    result.repeated_segments = triangulation.repeated_segments;
 
     ConstrainedRefinement mesh;
     if (needs_refinement(input, settings))

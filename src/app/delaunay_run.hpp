@@ -27,6 +27,7 @@ struct DelaunayResult {
     RefineStats refinement;
     RunEstimate estimate;  ///< made before the refinement, or before the triangulation where there is none
     std::vector<Warning> warnings;
+    std::size_t zero_length_segments = 0, repeated_segments = 0;  ///< segments of the input that change nothing
     double triangulation_seconds = 0, refinement_seconds = 0;
     /// The pieces and the times of the threads, for points without segments.
     std::optional<DecompositionStats> decomposition{};

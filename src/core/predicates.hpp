@@ -34,7 +34,8 @@ inline double inline_orient2d(Point a, Point b, Point c) {
     const double left = (a.x - c.x) * (b.y - c.y);
     const double right = (a.y - c.y) * (b.x - c.x);
     const double det = left - right;
-    if (std::abs(det) > orient2d_bound * (std::abs(left) + std::abs(right))) return det;
+    // Where both products are 0, as on lines parallel to an axis, so is the determinant, exactly.
+    if (std::abs(det) >= orient2d_bound * (std::abs(left) + std::abs(right))) return det;
     return orient2d_after_filter(a, b, c);
 }
 

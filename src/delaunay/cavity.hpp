@@ -117,7 +117,8 @@ template <bool Ghosts>
         for (unsigned g = 0; g < 3; ++g)
             if (t.v[g] == growing_ghost_vertex) return in_ghost_circle(points, t, g, p);
     }
-    return core::incircle_after_filter(points[t.v[0]], points[t.v[1]], points[t.v[2]], p) > 0;
+    // The filter with the permanent is narrower than the one of find_cavity() where the vertices are unequally far.
+    return core::inline_incircle_perturbed(points[t.v[0]], points[t.v[1]], points[t.v[2]], p) > 0;
 }
 
 /// Finds the cavity of p. With `Ghosts` the triangulation is closed by ghosts, without it by borders.

@@ -5,6 +5,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/predicates.hpp>
 
+#include "core/arguments.hpp"
 #include "core/cell_shape.hpp"
 #include "core/text.hpp"
 
@@ -140,6 +141,7 @@ std::vector<std::string> check_triangulation(std::span<const Point> points, std:
 }
 
 double smallest_angle_deg(std::span<const Point> points, std::span<const Triangle> triangles) {
+    core::require_indices_below(points.size(), triangles);
     double smallest = triangles.empty() ? 0 : 180;
     for (const Triangle& t : triangles) {
         const auto at = [&](int i) { return points[t.v[i].index()]; };

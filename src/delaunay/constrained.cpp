@@ -1,9 +1,11 @@
 // The constrained triangulate(): insert segments, select triangles, list the segments that are left.
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include <lamina/delaunay.hpp>
 
+#include "core/arguments.hpp"
 #include "delaunay/insert_segments.hpp"
 #include "delaunay/planarize.hpp"
 #include "delaunay/regions.hpp"
@@ -36,15 +38,18 @@ TriangulatedPieces triangulate_planar(std::span<const Point> points, std::span<c
 /// Triangulates points and segments that may cross. `steiner_points` receives the crossing points.
 TriangulatedPieces triangulate_crossing(std::span<const Point> points, std::span<const Segment> segments,
                                         std::vector<Point>& steiner_points) {
-    // These calls refuse duplicate points and bad segments before crossings are looked for.
     Tris tris = triangulate_points(points);
-    check_segments(points, segments, tris);
+    // Most segments do not cross after all, and the insertion of those is quicker than the search for crossings.
+    if (auto pieces = insert_planar_segments(points, segments, tris)) return {std::move(tris), std::move(*pieces)};
     PlanarSegments planar = planarize(points, segments);
     steiner_points = std::move(planar.steiner_points);
     std::vector<Point> all(points.begin(), points.end());
     all.insert(all.end(), steiner_points.begin(), steiner_points.end());
-    if (!steiner_points.empty()) tris = triangulate_points(all);
-    insert_segments(all, segments_of(planar.pieces), tris);
+    tris = triangulate_points(all);
+    const std::vector<Segment> parts = segments_of(planar.pieces);
+    const std::vector<SegmentPiece> inserted = insert_and_split_segments(all, parts, tris);
+    assert(inserted.size() == parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) planar.pieces[i].repeats = inserted[i].repeats;
     return {std::move(tris), std::move(planar.pieces)};
 }
 
@@ -75,6 +80,18 @@ void list_segments(const Tris& kept, const std::vector<SegmentPiece>& pieces, Co
     }
 }
 
+/// Counts the segments that change nothing: those from a point to itself, and those that lie on earlier ones.
+void count_idle_segments(std::span<const Segment> segments, const std::vector<SegmentPiece>& pieces,
+                         ConstrainedTriangulation& result) {
+    for (const Segment& s : segments) result.zero_length_segments += s.a == s.b;
+    for (std::size_t i = 0; i < pieces.size();) {
+        const Index parent = pieces[i].parent;
+        bool repeats = true;
+        for (; i < pieces.size() && pieces[i].parent == parent; ++i) repeats = repeats && pieces[i].repeats;
+        result.repeated_segments += repeats;
+    }
+}
+
 }  // namespace
 
 }  // namespace lamina::delaunay
@@ -85,6 +102,7 @@ using namespace delaunay;
 
 ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
                                      const ConstrainedOptions& options) {
+    core::require_exact_range(options.holes, "hole");
     ConstrainedTriangulation result;
     const TriangulatedPieces triangulated = options.crossings == Crossings::insert
                                                 ? triangulate_crossing(points, segments, result.steiner_points)
@@ -100,6 +118,7 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
     const Tris kept = keep_selected(triangulated.tris, selection);
     result.triangles = without_ghosts(kept).triangles;
     list_segments(kept, triangulated.pieces, result);
+    count_idle_segments(segments, triangulated.pieces, result);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "delaunay/crossed_polygons.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <utility>
 
@@ -83,23 +84,34 @@ Link CrossedPolygons::fill_chain() {
     // Seen from the crossed triangles the edges run against the chain, which has its polygon on the right.
     vertices_.assign(1, edges_[chain_.front()].b);
     for (Index e : chain_) vertices_.push_back(edges_[e].a);
-    constexpr std::size_t long_chain = 100;
-    return chain_.size() < long_chain ? fill_short_chain() : fill_long_chain();
+    return fill_ranges();
 }
 
-/// Fills the polygon recursively, in O(k^2) for k edges. The vertex k whose circle with the base holds no other vertex
-/// of the chain makes the triangle at the base; the parts on both sides of it are problems of the same kind.
+/// Fills the polygon recursively. The vertex k whose circle with the base holds no other vertex of the chain makes the
+/// triangle at the base; the parts on both sides of it are problems of the same kind. As in quicksort n edges usually
+/// take O(n log n) steps. Where they take more because most parts are unequal, long parts are filled in another way.
 ///
 ///             k
 ///           /   \.
 ///       ../       \..
 ///      low ------- high
-Link CrossedPolygons::fill_short_chain() {
+Link CrossedPolygons::fill_ranges() {
+    constexpr std::size_t long_range = 100;
+    std::size_t steps = 0;
+    const std::size_t usual_steps = 4 * chain_.size() * static_cast<std::size_t>(std::bit_width(chain_.size()));
     Link at_base = Link::border();
     ranges_.assign(1, {0, chain_.size(), Link::border()});
     while (!ranges_.empty()) {
         const ChainRange r = ranges_.back();
         ranges_.pop_back();
+        if (r.high - r.low >= long_range && (steps += r.high - r.low) > usual_steps) {
+            const Link base = fill_long_range(r.low, r.high);
+            if (r.base.is_border())
+                at_base = base;
+            else
+                connect(tris_, base.triangle(), base.edge(), r.base);
+            continue;
+        }
         const std::size_t k = opposite_vertex(r.low, r.high);
         const Index t = crossed_.back();
         crossed_.pop_back();
@@ -155,26 +167,30 @@ void CrossedPolygons::attach(Index chain_edge, Index triangle, unsigned edge) {
         connect(tris_, triangle, edge, Link(other.triangle(), other.edge(), c.outer.is_constrained()));
 }
 
-/// Fills the polygon by the constrained triangulation of its vertices, of which the polygon's is a part. Chain edges
-/// were Delaunay edges of more points, or segments: nearly all of them are edges of the plain triangulation, and
-/// inserting the others is a smaller problem of this kind. So long chains do not cost O(k^2).
-Link CrossedPolygons::fill_long_chain() {
-    std::vector<Index> global = vertices_;  // local number -> number; a vertex may stand in the chain several times
+/// Fills the polygon between a part of the chain and its base by the constrained triangulation of its vertices, of which
+/// the polygon's is a part. Chain edges were Delaunay edges of more points, or segments: nearly all of them are edges of
+/// the plain triangulation, and inserting the others is a smaller problem of this kind. So no chain costs O(k^2).
+/// Returns the new triangle at the base, and its edge there.
+Link CrossedPolygons::fill_long_range(std::size_t low, std::size_t high) {
+    const std::span<const Index> vertices = std::span(vertices_).subspan(low, high - low + 1);
+    std::vector<Index> global(vertices.begin(), vertices.end());  // local number -> number
     std::sort(global.begin(), global.end());
-    global.erase(std::unique(global.begin(), global.end()), global.end());
+    global.erase(std::unique(global.begin(), global.end()),
+                 global.end());  // a vertex may stand in the chain repeatedly
     const auto local = [&](Index v) {
         return VertexId(static_cast<std::size_t>(std::lower_bound(global.begin(), global.end(), v) - global.begin()));
     };
     std::vector<Point> points;
     points.reserve(global.size());
     for (Index v : global) points.push_back(points_[v]);
-    // The border is directed with the polygon on its left; edge i is chain edge i, and the base is the last.
+    // The border is directed with the polygon on its left; edge i is chain edge low + i, and the base is the last.
     std::vector<Segment> border;
-    border.reserve(vertices_.size());
-    for (std::size_t i = 0; i < chain_.size(); ++i) border.push_back({local(vertices_[i + 1]), local(vertices_[i])});
-    border.push_back({local(vertices_.front()), local(vertices_.back())});
+    border.reserve(vertices.size());
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
+        border.push_back({local(vertices[i + 1]), local(vertices[i])});
+    border.push_back({local(vertices.front()), local(vertices.back())});
     const Tris inside = triangulate_polygon(points, border);
-    assert(inside.size() + 1 == chain_.size());
+    assert(inside.size() + 1 == high - low);
 
     std::vector<std::pair<Segment, Index>> border_index;
     border_index.reserve(border.size());
@@ -191,7 +207,7 @@ Link CrossedPolygons::fill_long_chain() {
             if (index + 1 == border.size())
                 at_base = Link(places[i], e);
             else
-                attach(chain_[index], places[i], e);
+                attach(chain_[low + index], places[i], e);
         }
     return at_base;
 }

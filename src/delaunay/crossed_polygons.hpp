@@ -56,8 +56,8 @@ private:
     void add(std::vector<Index>& chain, Index triangle, unsigned edge);
     void pair_dangling_edges();
     Link fill_chain();
-    Link fill_short_chain();
-    Link fill_long_chain();
+    Link fill_ranges();
+    Link fill_long_range(std::size_t low, std::size_t high);
     std::vector<Index> replace_crossed(const Tris& inside, std::span<const Index> global);
     std::size_t opposite_vertex(std::size_t low, std::size_t high) const;
     void attach(Index chain_edge, Index triangle, unsigned edge);

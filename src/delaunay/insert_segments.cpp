@@ -4,12 +4,14 @@
 // 21 (1997).
 #include "delaunay/insert_segments.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <string>
 
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
+#include "core/arguments.hpp"
 #include "core/predicates.hpp"
 #include "core/text.hpp"
 #include "delaunay/crossed_polygons.hpp"
@@ -24,9 +26,7 @@ struct SegmentInput {
     std::span<const Segment> segments;
 };
 
-std::string segment_name(const SegmentInput& input, std::size_t i) {
-    return core::concat("segment ", i, " (", input.segments[i].a.value, "-", input.segments[i].b.value, ")");
-}
+std::string segment_name(const SegmentInput& input, std::size_t i) { return core::segment_name(input.segments, i); }
 
 /// Returns the index of the first segment that the constrained edge c-d is a part of.
 std::size_t segment_of_edge(const SegmentInput& input, Index c, Index d) {
@@ -57,10 +57,50 @@ std::size_t segment_of_edge(const SegmentInput& input, Index c, Index d) {
                      core::concat(segment_name(input, segment), " crosses ", segment_name(input, other)));
 }
 
-/// How a segment leaves its first vertex a: along an edge or through a triangle.
+/// How a segment leaves one of its ends: along an edge or through a triangle.
 struct Departure {
-    Index along = no_index;  ///< the other end of the edge; no_index if the segment leaves through a triangle
-    Link exit;               ///< that triangle and its edge opposite a, which the segment crosses
+    Index at;                ///< the end
+    Index along = no_index;  ///< the other vertex of the edge; no_index if the segment leaves through a triangle
+    Link exit;               ///< the edge; or the edge opposite `at` of the triangle, which the segment crosses
+};
+
+/// Turns round a vertex, from triangle to triangle, to find how the segment to `target` leaves it.
+class DepartureSearch {
+public:
+    DepartureSearch(const SegmentInput& input, const Tris& tris, Index first, Index at, Index target)
+        : points_(input.points), tris_(tris), at_(at), target_(target), t_(first) {}
+
+    /// Looks at the next triangle. Returns whether the departure is known.
+    bool step(Departure& departure) {
+        const Tri& tri = tris_[t_];
+        const unsigned i = tri.v[0] == at_ ? 0 : tri.v[1] == at_ ? 1 : 2;
+        const Index u = tri.v[next(i)], w = tri.v[previous(i)];
+        if (u != ghost_vertex) {
+            const double at_u = core::inline_orient2d(points_[at_], points_[u], points_[target_]);
+            if (at_u == 0 && dot(points_[u] - points_[at_], points_[target_] - points_[at_]) > 0) {
+                departure = {at_, u, Link(t_, previous(i))};
+                return true;
+            }
+            if (w != ghost_vertex && at_u > 0 &&
+                core::inline_orient2d(points_[at_], points_[w], points_[target_]) < 0) {
+                departure = {at_, no_index, Link(t_, i)};
+                return true;
+            }
+        }
+        t_ = tri.n[next(i)].triangle();  // counter-clockwise, across at-w
+        return false;
+    }
+
+private:
+    std::span<const Point> points_;
+    const Tris& tris_;
+    Index at_, target_;
+    Index t_;  ///< the triangle to look at
+};
+
+/// The ends of a constrained edge.
+struct PieceEnds {
+    Index c, d;
 };
 
 /// Inserts one segment after another into a triangulation.
@@ -69,51 +109,55 @@ public:
     SegmentInserter(const SegmentInput& input, Tris& tris, std::vector<Index>& at_vertex)
         : input_(input), tris_(tris), at_vertex_(at_vertex), polygons_(input.points, tris, at_vertex) {}
 
-    /// Inserts the part of a segment from its vertex a to the first vertex on it, at the latest its end b. Returns that
-    /// vertex.
-    Index insert_piece(std::size_t segment, Index a, Index b) {
-        const Departure departure = depart(a, b);
-        if (departure.along != no_index) return departure.along;
-        const Index end = collect_crossed(segment, departure.exit, a, b);
-        polygons_.fill();
-        return end;
+    /// Inserts a segment, and appends its pieces. Returns false where it crosses a constrained edge, which crossed()
+    /// then gives.
+    bool insert(std::size_t segment, std::vector<SegmentPiece>& pieces) {
+        const auto parent = static_cast<Index>(segment);
+        Index from = input_.segments[segment].a.value, to = input_.segments[segment].b.value;
+        at_far_end_.clear();
+        while (from != to) {
+            const Departure departure = depart(from, to);
+            const bool forward = departure.at == from;
+            bool repeats = false;
+            Index end = departure.along;
+            if (end != no_index) {
+                const Link edge = departure.exit;
+                repeats = tris_[edge.triangle()].n[edge.edge()].is_constrained();
+                constrain_edge(tris_, edge.triangle(), edge.edge());
+            } else {
+                end = collect_crossed(departure.exit, departure.at, forward ? to : from);
+                if (end == no_index) return false;
+                polygons_.fill();
+            }
+            if (forward)
+                pieces.push_back({{VertexId{from}, VertexId{end}}, parent, repeats});
+            else
+                at_far_end_.push_back({{VertexId{end}, VertexId{to}}, parent, repeats});
+            (forward ? from : to) = end;
+        }
+        pieces.insert(pieces.end(), at_far_end_.rbegin(), at_far_end_.rend());
+        return true;
     }
 
+    PieceEnds crossed() const { return crossed_; }
+
 private:
-    /// Returns how the segment a-b leaves a. An edge that it leaves along becomes constrained.
-    Departure depart(Index a, Index b) {
-        const std::span<const Point> points = input_.points;
+    /// Returns how the segment a-b leaves a or, where many edges meet at a, one of its ends. So hubs of n segments do
+    /// not take O(n^2): in a planar graph the smaller degrees of the ends of its n edges add up to O(n).
+    Departure depart(Index a, Index b) const {
         // Most segments are edges already, and no arithmetic is needed to see that.
-        if (const Link edge = find_edge(tris_, at_vertex_, a, b); !edge.is_border()) {
-            constrain_edge(tris_, edge.triangle(), edge.edge());
-            return {b, Link::border()};
-        }
-        const Index at_a = at_vertex_[a];
-        Index t = at_a;
-        Link exit = Link::border();
-        do {
-            const Tri& tri = tris_[t];
-            const unsigned i = tri.v[0] == a ? 0 : tri.v[1] == a ? 1 : 2;
-            const Index u = tri.v[next(i)], w = tri.v[previous(i)];
-            if (u != ghost_vertex) {
-                const double at_u = core::inline_orient2d(points[a], points[u], points[b]);
-                if (at_u == 0 && dot(points[u] - points[a], points[b] - points[a]) > 0) {
-                    constrain_edge(tris_, t, previous(i));
-                    return {u, Link::border()};
-                }
-                if (w != ghost_vertex && at_u > 0 && core::inline_orient2d(points[a], points[w], points[b]) < 0)
-                    exit = Link(t, i);
-            }
-            t = tri.n[next(i)].triangle();  // counter-clockwise, across a-w
-        } while (t != at_a);
-        assert(!exit.is_border());
-        return {no_index, exit};
+        if (const Link edge = find_edge(tris_, at_vertex_, a, b); !edge.is_border()) return {a, b, edge};
+        constexpr unsigned many_edges = 64;
+        Departure departure{};
+        DepartureSearch from_a(input_, tris_, at_vertex_[a], a, b), from_b(input_, tris_, at_vertex_[b], b, a);
+        for (unsigned steps = 0;; ++steps)
+            if (from_a.step(departure) || (steps >= many_edges && from_b.step(departure))) return departure;
     }
 
     /// Walks along a -> b and collects the crossed triangles and the chains on both sides. Stops at the first vertex on
-    /// the segment, at the latest b, and returns it. Does not change the triangulation. Throws InputError at a
-    /// constrained edge.
-    Index collect_crossed(std::size_t segment, Link exit, Index a, Index b) {
+    /// the segment, at the latest b, and returns it; or at a constrained edge, and returns no_index. Does not change the
+    /// triangulation.
+    Index collect_crossed(Link exit, Index a, Index b) {
         const std::span<const Point> points = input_.points;
         polygons_.clear();
         Index t = exit.triangle();
@@ -123,7 +167,10 @@ private:
         polygons_.add_right(t, previous(e));
         for (;;) {
             const Link across = tris_[t].n[e];
-            if (across.is_constrained()) fail_crossing(input_, segment, tris_[t].v[next(e)], tris_[t].v[previous(e)]);
+            if (across.is_constrained()) {
+                crossed_ = {tris_[t].v[next(e)], tris_[t].v[previous(e)]};
+                return no_index;
+            }
             t = across.triangle();
             const unsigned k = across.edge();
             polygons_.add_crossed(t);
@@ -148,18 +195,15 @@ private:
     Tris& tris_;
     std::vector<Index>& at_vertex_;
     CrossedPolygons polygons_;
+    PieceEnds crossed_{};
+    std::vector<SegmentPiece> at_far_end_;  ///< pieces of the present segment, from its end on
 };
 
 }  // namespace
 
 void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris) {
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        const auto [a, b] = segments[i];
-        if (a.index() >= points.size() || b.index() >= points.size() || a == b)
-            throw InputError({.segments = {i}}, core::concat(segment_name({points, segments}, i),
-                                                             " does not join two of the ", points.size(), " points"));
-    }
-    if (tris.empty() && !segments.empty())
+    core::require_indices_below(points.size(), segments);
+    if (tris.empty() && std::any_of(segments.begin(), segments.end(), [](const Segment& s) { return s.a != s.b; }))
         throw InputError({}, "all points lie on one line: segments cannot be inserted");
 }
 
@@ -176,14 +220,21 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
     std::vector<SegmentPiece> pieces;
     pieces.reserve(segments.size());
     SegmentInserter inserter(input, tris, at_vertex);
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        Index from = segments[i].a.value;
-        while (from != segments[i].b.value) {
-            const Index to = inserter.insert_piece(i, from, segments[i].b.value);
-            pieces.push_back({{VertexId{from}, VertexId{to}}, static_cast<Index>(i)});
-            from = to;
-        }
-    }
+    for (std::size_t i = 0; i < segments.size(); ++i)
+        if (!inserter.insert(i, pieces)) fail_crossing(input, i, inserter.crossed().c, inserter.crossed().d);
+    return pieces;
+}
+
+std::optional<std::vector<SegmentPiece>> insert_planar_segments(std::span<const Point> points,
+                                                                std::span<const Segment> segments, Tris& tris) {
+    const SegmentInput input{points, segments};
+    check_segments(points, segments, tris);
+    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
+    std::vector<SegmentPiece> pieces;
+    pieces.reserve(segments.size());
+    SegmentInserter inserter(input, tris, at_vertex);
+    for (std::size_t i = 0; i < segments.size(); ++i)
+        if (!inserter.insert(i, pieces)) return std::nullopt;
     return pieces;
 }
 

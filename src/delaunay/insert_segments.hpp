@@ -1,6 +1,7 @@
 // Insertion of segments as constrained edges into a triangulation.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,18 +13,20 @@
 
 namespace lamina::delaunay {
 
-/// Throws InputError for a segment that does not join two of the points, and for any segment if there are no triangles.
+/// Throws InputError for a segment whose ends are not both among the points, and for a segment between two different
+/// ones if there are no triangles.
 void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris);
 
 /// A part of a segment that is one edge of the triangulation, directed as the segment is.
 struct SegmentPiece {
     Segment segment;
-    Index parent;  ///< index of the whole segment
+    Index parent;          ///< index of the whole segment
+    bool repeats = false;  ///< whether the edge was constrained before, as a part of an earlier segment
 };
 
 /// Makes every segment a chain of constrained edges, split where it runs through vertices, and keeps the constrained
 /// Delaunay property by the tie rule. Returns the pieces in the order of the segments, each chain from a to b;
-/// overlapping segments give equal pieces. Throws InputError where segments cross; the message names both.
+/// overlapping segments give equal pieces, and segments from a point to itself none. Throws InputError where segments cross; the message names both.
 /// Precondition: `tris` is closed by ghosts.
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
                                                     Tris& tris);
@@ -32,6 +35,10 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
 /// triangle_at_vertex() returns them, and is kept up to date.
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
                                                     Tris& tris, std::vector<Index>& at_vertex);
+
+/// Does the same; returns nothing where segments cross, and the triangulation is then of no use.
+std::optional<std::vector<SegmentPiece>> insert_planar_segments(std::span<const Point> points,
+                                                                std::span<const Segment> segments, Tris& tris);
 
 /// Makes every segment a constrained edge. Throws InputError as insert_and_split_segments() does, and where a segment
 /// runs through a vertex.

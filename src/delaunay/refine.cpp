@@ -4,6 +4,7 @@
 
 #include <lamina/delaunay.hpp>
 
+#include "delaunay/arguments.hpp"
 #include "delaunay/lattice.hpp"
 #include "delaunay/refine_region.hpp"
 #include "delaunay/refiner.hpp"
@@ -78,6 +79,7 @@ Refinement refine_with_lattice(std::span<const Point> points, std::span<const Se
 Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
                   const RefineOptions& options) {
     validate(options);
+    check_points_and_segments(points, segments);
     if (options.lattice) {
         LatticePatches patches = fill_with_lattice(points, segments, size, options.max_points);
         if (!patches.empty()) return refine_with_lattice(points, segments, size, options, std::move(patches));

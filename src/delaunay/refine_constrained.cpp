@@ -11,6 +11,7 @@
 
 #include <lamina/delaunay.hpp>
 
+#include "delaunay/arguments.hpp"
 #include "delaunay/border_lines.hpp"
 #include "delaunay/constrained_input.hpp"
 #include "delaunay/insert_segments.hpp"
@@ -235,7 +236,7 @@ using namespace delaunay;
 
 ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                              const SizeField& size, const ConstrainedRefineOptions& options) {
-    validate(options.refine);
+    check_arguments(points, triangulation, options);
     const ConstrainedInput input = make_constrained_input(points, triangulation, size, options.regions);
     std::vector<LatticeObstacle> obstacles = crowded_vertices(input);
     for (int attempt = 0;; ++attempt) {

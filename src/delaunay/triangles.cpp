@@ -12,14 +12,24 @@ std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count)
 }
 
 Link find_edge(const Tris& tris, const std::vector<Index>& at_vertex, Index a, Index b) {
-    const Index start = at_vertex[a];
-    Index t = start;
+    // The turns round b begin late, since few vertices have more edges than this and at_vertex[b] is far in memory.
+    constexpr unsigned many_edges = 32;
+    const Index start_a = at_vertex[a];
+    Index at_a = start_a, at_b = no_index, start_b = no_index;
+    unsigned steps = 0;
     do {
-        const Tri& tri = tris[t];
+        const Tri& tri = tris[at_a];
         const unsigned i = tri.v[0] == a ? 0 : tri.v[1] == a ? 1 : 2;
-        if (tri.v[next(i)] == b) return Link(t, previous(i));
-        t = tri.n[next(i)].triangle();
-    } while (t != start);
+        if (tri.v[next(i)] == b) return Link(at_a, previous(i));
+        at_a = tri.n[next(i)].triangle();
+        if (++steps < many_edges) continue;
+        if (steps == many_edges) at_b = start_b = at_vertex[b];
+        const Tri& other = tris[at_b];
+        const unsigned k = other.v[0] == b ? 0 : other.v[1] == b ? 1 : 2;
+        if (other.v[previous(k)] == a) return Link(at_b, next(k));
+        at_b = other.n[next(k)].triangle();
+        if (at_b == start_b) break;
+    } while (at_a != start_a);
     return Link::border();
 }
 

@@ -102,7 +102,8 @@ inline void release_edge(Tris& tris, Index triangle, unsigned edge) {
 std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count);
 
 /// Returns the triangle on the left of the directed edge a -> b, and which of its edges that is; border() if a-b is no
-/// edge. Turns round a through all its triangles. Precondition: a is surrounded by triangles, ghosts among them.
+/// edge. Turns round a and, if it has many triangles, round b at the same time. Precondition: both are surrounded by
+/// triangles, ghosts among them.
 Link find_edge(const Tris& tris, const std::vector<Index>& at_vertex, Index a, Index b);
 
 }  // namespace lamina::delaunay

@@ -13,6 +13,7 @@
 #include <lamina/predicates.hpp>
 
 #include "core/text.hpp"
+#include "delaunay/arguments.hpp"
 #include "delaunay/brio.hpp"
 #include "delaunay/cavity.hpp"
 
@@ -23,20 +24,6 @@ namespace {
 [[noreturn]] void fail_duplicate(std::span<const Point> points, Index a, Index b) {
     throw InputError({.at = points[a], .points = {std::min(a, b), std::max(a, b)}},
                      core::concat("points ", std::min(a, b), " and ", std::max(a, b), " are the same"));
-}
-
-/// Throws InputError for too many points and for coordinates outside the exact range.
-void check_points(std::span<const Point> points) {
-    if (points.size() > max_triangles / 2)
-        throw InputError(
-            {}, core::concat(points.size(), " points are more than the ", max_triangles / 2, " of one triangulation"));
-    bool in_range = true;
-    for (const Point p : points) in_range &= in_exact_range(p);
-    if (in_range) return;
-    const auto bad = std::find_if_not(points.begin(), points.end(), [](Point p) { return in_exact_range(p); });
-    const auto index = static_cast<std::size_t>(bad - points.begin());
-    throw InputError({.at = *bad, .points = {index}},
-                     core::concat("point ", index, " is outside the range of exact arithmetic"));
 }
 
 /// Moves three points that do not lie on one line to the front of the order. Returns false if there are none.
@@ -100,13 +87,13 @@ void add_first_triangle(const Point* points, Tris& tris) {
 inline bool right_of(const Point* points, const Tri& t, unsigned e, Point a, Point b, Point p) {
     const double left = a.x * b.y, right = a.y * b.x;
     const double area2 = left - right;
-    if (std::abs(area2) > core::orient2d_bound * (std::abs(left) + std::abs(right))) return area2 < 0;
+    if (std::abs(area2) >= core::orient2d_bound * (std::abs(left) + std::abs(right))) return area2 < 0;
     return core::orient2d_after_filter(points[t.v[next(e)]], points[t.v[previous(e)]], p) < 0;
 }
 
 /// Returns a triangle whose circle holds p, or a triangle that has p as a vertex. Walks from `start`, which is no
-/// ghost, towards p. The walk ends because the triangulation is Delaunay.
-Index locate(const Point* points, const Tri* tris, Index start, Point p) {
+/// ghost and has a vertex at `from`, towards p. The walk ends because the triangulation is Delaunay.
+Index locate(const Point* points, const Tri* tris, Index start, Point from, Point p) {
     unsigned e = 0;
     Point a, b;
     for (;; ++e) {
@@ -116,6 +103,7 @@ Index locate(const Point* points, const Tri* tris, Index start, Point p) {
         if (right_of(points, tris[start], e, a, b, p)) break;
     }
     Link across = tris[start].n[e];
+    unsigned steps = 0;
     for (;;) {
         // The walk has entered the triangle (b, a, w) through its edge k, so p lies on the same side of a -> b as w.
         //        a
@@ -127,10 +115,15 @@ Index locate(const Point* points, const Tri* tris, Index start, Point p) {
         const unsigned k = across.edge();
         if (t.v[k] == growing_ghost_vertex) return across.triangle();
         const Point w = points[t.v[k]] - p;
-        if (right_of(points, t, next(k), a, w, p)) {
+        const bool across_aw = right_of(points, t, next(k), a, w, p);
+        // Where p is on the right of both, either way is good, but in the needles between points that lie almost on a
+        // line it may be long. So long walks take the one that the straight way from `from` to p takes.
+        constexpr unsigned many_steps = 64;
+        if (across_aw &&
+            (++steps < many_steps || cross(p - from, w) > 0 || !right_of(points, t, previous(k), w, b, p))) {
             across = t.n[next(k)];
             b = w;
-        } else if (right_of(points, t, previous(k), w, b, p)) {
+        } else if (across_aw || right_of(points, t, previous(k), w, b, p)) {
             across = t.n[previous(k)];
             a = w;
         } else {
@@ -146,7 +139,7 @@ void insert_vertices(std::span<const Point> vertices, std::span<const Point> poi
     Index recent = 0;
     for (Index vertex = 4; vertex < vertices.size(); ++vertex) {
         const Point p = vertices[vertex];
-        const Index start = locate(vertices.data(), tris.data(), recent, p);
+        const Index start = locate(vertices.data(), tris.data(), recent, vertices[vertex - 1], p);
         const RelativeTriangle relative = relative_to(vertices.data(), tris[start], p);
         for (unsigned i = 0; i < 3; ++i)
             if (relative.r[i] == Point{}) fail_duplicate(points, order[tris[start].v[i] - 1], order[vertex - 1]);

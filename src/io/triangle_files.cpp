@@ -15,6 +15,7 @@
 #include <lamina/files.hpp>
 #include <lamina/predicates.hpp>
 
+#include "core/arguments.hpp"
 #include "core/atomic_file.hpp"
 #include "io/file_names.hpp"
 #include "io/text_lines.hpp"
@@ -127,7 +128,6 @@ void read_segments(NumberLines& in, TriangleInput& input) {
         in.next("a segment");
         in.number<std::size_t>("segment index");
         const VertexId a = vertex(), b = vertex();
-        if (a == b) in.fail("a segment from a vertex to itself");
         input.segments.push_back({a, b});
         if (markers == 1) input.segment_markers.push_back(in.number<long>("boundary marker"));
         in.end_line();
@@ -216,6 +216,43 @@ void write_poly(const TriangleOutput& contents, std::ostream& out) {
     });
 }
 
+// --- Checks
+
+/// Throws InputError where there are not as many attributes and markers as things that they belong to.
+void require_counts(const TriangleOutput& output) {
+    const std::size_t points = output.points.size();
+    core::require_count(output.attributes.size(), "attributes", output.attribute_count * points,
+                        "numbers, since points have " + std::to_string(output.attribute_count) + " each");
+    const auto require_all_or_none = [](std::size_t count, const char* things, std::size_t expected,
+                                        const char* others) {
+        if (count != 0) core::require_count(count, things, expected, others);
+    };
+    require_all_or_none(output.markers.size(), "markers", points, "points");
+    require_all_or_none(output.triangle_attributes.size(), "attributes", output.triangles.size(), "triangles");
+    require_all_or_none(output.segment_markers.size(), "markers", output.segments.size(), "segments");
+    require_all_or_none(output.edge_markers.size(), "markers", output.edges.size(), "edges");
+}
+
+/// Throws InputError for counts that do not agree, for indices out of range and for numbers that are not finite.
+void require_writable(const TriangleOutput& output) {
+    if (output.first_index > 1)
+        throw InputError({}, fmt::format("files count from 0 or 1, not from {}", output.first_index));
+    require_counts(output);
+    core::require_indices_below(output.points.size(), output.triangles);
+    core::require_indices_below(output.points.size(), output.segments);
+    core::require_indices_below(output.points.size(), output.edges);
+    const auto is_finite = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
+    const auto finite = [](double x) { return std::isfinite(x); };
+    const bool all = std::all_of(output.points.begin(), output.points.end(), is_finite) &&
+                     std::all_of(output.holes.begin(), output.holes.end(), is_finite) &&
+                     std::all_of(output.attributes.begin(), output.attributes.end(), finite) &&
+                     std::all_of(output.triangle_attributes.begin(), output.triangle_attributes.end(), finite) &&
+                     std::all_of(output.regions.begin(), output.regions.end(), [&](const TriangleRegion& r) {
+                         return is_finite(r.at) && finite(r.attribute) && finite(r.max_area);
+                     });
+    if (!all) throw InputError({}, "a coordinate, an attribute or an area is not a finite number");
+}
+
 }  // namespace
 
 }  // namespace lamina::io
@@ -251,6 +288,7 @@ TriangleInput read_triangle_files(const fs::path& file) {
 }
 
 std::vector<Triangle> read_triangle_elements(const fs::path& file, std::size_t first_index, std::size_t points) {
+    if (first_index > 1) throw InputError({}, fmt::format("files count from 0 or 1, not from {}", first_index));
     const std::string bytes = read_file(file);
     NumberLines in(bytes, file.string());
     in.next("the number of triangles");
@@ -277,6 +315,10 @@ std::vector<Triangle> read_triangle_elements(const fs::path& file, std::size_t f
 }
 
 void mark_boundary(TriangleOutput& output) {
+    core::require_count(output.markers.size(), "markers", output.points.size(), "points");
+    core::require_count(output.segment_markers.size(), "markers", output.segments.size(), "segments");
+    core::require_indices_below(output.points.size(), output.triangles);
+    core::require_indices_below(output.points.size(), output.segments);
     Mesh mesh;
     mesh.points.swap(output.points);
     mesh.triangles.swap(output.triangles);
@@ -302,6 +344,7 @@ std::vector<fs::path> triangle_files(const fs::path& stem, bool with_poly) {
 }
 
 void write_triangle_files(const TriangleOutput& output, const fs::path& stem, bool with_poly) {
+    require_writable(output);
     std::vector<fs::path> targets = triangle_files(stem, with_poly);
     std::vector<void (*)(const TriangleOutput&, std::ostream&)> writers{write_node, write_ele};
     if (with_poly) writers.push_back(write_poly);

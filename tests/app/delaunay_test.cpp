@@ -98,7 +98,7 @@ TEST(DelaunayCommand, Refusals) {
     folder.write("cross.poly", "4 2\n1 0 0\n2 1 1\n3 0 1\n4 1 0\n2 0\n1 1 2\n2 3 4\n0\n");
     folder.write("bad.node", "2 2\n1 0 0\n2 0 oops\n");
     expect_refused(folder, {"delaunay", "cross.poly"}, 3,
-                   "segment 1 (2-3) crosses segment 0 (0-1) (counted from 0) (at 0.5, 0.5)");
+                   "cross.poly: segment 3-4 (line 8) crosses segment 1-2 (line 7) (at 0.5, 0.5)");
     expect_refused(folder, {"delaunay", "bad.node"}, 3, "bad.node:3: coordinate expected, found 'oops'");
     expect_refused(folder, {"delaunay", "none.node"}, 5, "none.node");
     expect_refused(folder, {"delaunay", "bad.txt"}, 2, "neither a .node nor a .poly file");
@@ -108,6 +108,19 @@ TEST(DelaunayCommand, Refusals) {
     const ProgramRun run = run_lamina(folder, {"delaunay", "cross.poly", "--insert-crossings", "--keep-hull"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(read_triangle_files(folder / "cross.1.poly").points.size(), 5u);
+}
+
+TEST(DelaunayCommand, SegmentsThatChangeNothingAreCounted) {
+    const TemporaryFolder folder;
+    folder.write("a.poly", "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n6 0\n1 1 2\n2 2 2\n3 2 3\n4 3 4\n5 4 1\n6 1 4\n0\n");
+    const ProgramRun run = run_lamina(folder, {"delaunay", "a.poly", "--report", "r.json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("1 segments from a vertex to itself were left out"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("1 segments lie on earlier ones"), std::string::npos) << run.out;
+    const auto report = nlohmann::json::parse(folder.read("r.json"));
+    EXPECT_EQ(report["zero_length_segments"], 1);
+    EXPECT_EQ(report["repeated_segments"], 1);
+    EXPECT_EQ(read_triangle_files(folder / "a.1.poly").segments.size(), 4u);
 }
 
 }  // namespace

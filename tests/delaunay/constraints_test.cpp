@@ -461,5 +461,79 @@ TEST(Constraints, OneSegmentThroughManyTriangles) {
     expect_constrained(points, segments, triangulate(points, segments));
 }
 
+/// Returns a hub and n points round it, at random distances, or all at one.
+std::vector<Point> hub_points(std::size_t n, bool on_circle) {
+    Random random(n);
+    std::vector<Point> points{{0, 0}};
+    for (std::size_t i = 0; i < n; ++i) {
+        const double angle = 2 * std::acos(-1.0) * static_cast<double>(i) / static_cast<double>(n);
+        const double r = on_circle ? 1 : random.real(0.1, 1);
+        points.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+    return points;
+}
+
+// Quadratic time would make this test take a minute.
+TEST(Constraints, HubsOfManySegments) {
+    constexpr std::size_t n = 30'000;
+    for (const bool on_circle : {false, true})
+        for (const bool outwards : {false, true}) {
+            const std::vector<Point> points = hub_points(n, on_circle);
+            Segments segments;
+            for (std::size_t i = 1; i <= n; ++i) segments.push_back(outwards ? segment(0, i) : segment(i, 0));
+            const auto t = triangulate(points, segments, {.crossings = Crossings::insert});
+            EXPECT_EQ(t.segments, segments);
+            expect_valid(points, t.triangles, t.segments);
+        }
+}
+
+TEST(Constraints, SegmentsFromHubsRunThroughVertices) {
+    // A segment that is walked from its far end meets the vertices on it in the other order.
+    std::vector<Point> points = hub_points(200, true);
+    Segments segments;
+    for (std::size_t i = 1; i <= 200; ++i) segments.push_back(segment(0, i));
+    const std::size_t first = points.size();
+    for (const double x : {1.5, 2.0, 2.5, 3.0}) points.push_back({x, 0});
+    points.push_back({2.2, 1});
+    points.push_back({2.3, -1});
+    segments.push_back(segment(0, first + 3));
+    segments.push_back(segment(first + 3, 0));
+    const auto t = triangulate(points, segments);
+    expect_constrained(points, segments, t);
+    Segments chain(t.segments.end() - 4, t.segments.end());
+    EXPECT_EQ(chain, (Segments{segment(1, first), segment(first, first + 1), segment(first + 1, first + 2),
+                               segment(first + 2, first + 3)}));
+    EXPECT_EQ(t.repeated_segments, 1u);
+}
+
+TEST(Constraints, LongSegmentsThroughRandomPoints) {
+    auto points = random_points(40'000, 8);
+    Segments segments;
+    for (int i = 0; i < 50; ++i) {
+        const double y = (i + 0.5) / 50;
+        segments.push_back(segment(points.size(), points.size() + 1));
+        points.push_back({-0.01, y});
+        points.push_back({1.01, y + 0.002 * (i % 7)});
+    }
+    const auto t = triangulate(points, segments);
+    expect_valid(points, t.triangles, t.segments);
+    EXPECT_EQ(t.segments, segments);
+}
+
+TEST(Constraints, SegmentsThatSplitOffOneEndAfterAnother) {
+    // Beside a convex arc the vertex opposite the base is next to its end each time, the worst case of the recursion.
+    std::vector<Point> points;
+    const int n = 3000;
+    for (int i = 0; i <= n; ++i) {
+        const double x = static_cast<double>(i) / n;
+        points.push_back({x, 0.001 + x * x * x});
+        points.push_back({x, -0.001 - (1 - x) * (1 - x) * (1 - x)});
+    }
+    points.push_back({-1, 0});
+    points.push_back({2, 0});
+    const Segments segments{segment(points.size() - 2, points.size() - 1)};
+    expect_valid(points, triangulate(points, segments).triangles, segments);
+}
+
 }  // namespace
 }  // namespace lamina::test

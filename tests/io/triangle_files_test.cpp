@@ -99,10 +99,41 @@ TEST(TriangleFiles, RefusalsNameFileAndLine) {
     const std::string two = "2 2 0 0\n1 0 0\n2 1 0\n";
     EXPECT_EQ(message("a.poly", two), ":3: the file ends where the number of segments is expected");
     EXPECT_EQ(message("a.poly", two + "1 0\n1 1 3\n0\n"), ":5: vertex index 3, but vertices are numbered from 1 to 2");
-    EXPECT_EQ(message("a.poly", two + "1 0\n1 2 2\n0\n"), ":5: a segment from a vertex to itself");
     EXPECT_EQ(message("a.poly", two + "1 0\n1 1 2 9\n0\n"), ":5: end of line expected, found '9'");
     EXPECT_THROW(read_triangle_files(folder / "missing.poly"), IoError);
     EXPECT_THROW(read_triangle_files(folder.write("a.txt", two)), UsageError);
+}
+
+TEST(TriangleFiles, OutputThatContradictsItselfIsRefused) {
+    const TemporaryFolder folder;
+    TriangleOutput good;
+    good.points = {{0, 0}, {1, 0}, {0, 1}};
+    good.markers = {0, 0, 0};
+    good.triangles = {{{VertexId{0u}, VertexId{1u}, VertexId{2u}}}};
+    good.segments = {{VertexId{0u}, VertexId{1u}}};
+    good.segment_markers = {0};
+    const auto expect_unwritten = [&](auto&& spoil, bool also_by_mark_boundary) {
+        TriangleOutput bad = good;
+        spoil(bad);
+        EXPECT_THROW(write_triangle_files(bad, folder / "bad", true), InputError);
+        if (also_by_mark_boundary) {
+            EXPECT_THROW(mark_boundary(bad), InputError);
+        }
+    };
+    expect_unwritten([](TriangleOutput& o) { o.triangles[0].v[1] = VertexId{3u}; }, true);
+    expect_unwritten([](TriangleOutput& o) { o.segments[0].b = VertexId{7u}; }, true);
+    expect_unwritten([](TriangleOutput& o) { o.markers.pop_back(); }, true);
+    expect_unwritten([](TriangleOutput& o) { o.segment_markers.push_back(1); }, true);
+    expect_unwritten([](TriangleOutput& o) { o.attribute_count = 1; }, false);
+    expect_unwritten([](TriangleOutput& o) { o.triangle_attributes = {1, 2}; }, false);
+    expect_unwritten([](TriangleOutput& o) { o.edges = {{VertexId{0u}, VertexId{9u}}}; }, false);
+    expect_unwritten([](TriangleOutput& o) { o.points[2].x = std::nan(""); }, false);
+    expect_unwritten([](TriangleOutput& o) { o.holes = {{0, HUGE_VAL}}; }, false);
+    expect_unwritten([](TriangleOutput& o) { o.regions = {{{0, 0}, 1, std::nan("")}}; }, false);
+    expect_unwritten([](TriangleOutput& o) { o.first_index = 2; }, false);
+    mark_boundary(good);
+    EXPECT_EQ(good.markers, (std::vector<long>{1, 1, 1}));
+    write_triangle_files(good, folder / "good", true);
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+// Checks of the arguments of triangulation and refinement.
+#pragma once
+
+#include <span>
+
+#include <lamina/delaunay.hpp>
+
+namespace lamina::delaunay {
+
+/// Throws InputError for more points than one triangulation can number, and for coordinates outside the exact range.
+void check_points(std::span<const Point> points);
+
+/// Throws InputError as check_points() does, and for segments whose ends are not both among the points.
+void check_points_and_segments(std::span<const Point> points, std::span<const Segment> segments);
+
+/// Throws OptionError for options out of range; InputError for points as check_points() does, for seeds of regions
+/// outside the exact range, and for a triangulation that does not belong to the points.
+void check_arguments(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                     const ConstrainedRefineOptions& options);
+
+}  // namespace lamina::delaunay
