@@ -27,7 +27,7 @@ PUBLIC = REPOSITORY / "include" / "lamina"
 
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
 OWNERS = {name: "core" for name in ("angle_bounds", "error", "export", "files", "ids", "option", "option_builders",
-                                    "point", "predicates", "threads", "version")}
+                                    "point", "predicates", "suggestion", "threads", "version")}
 OWNERS["triangle_files"] = "io"
 
 # The colours of docs/images/stages.dot.
