@@ -27,7 +27,8 @@ PUBLIC = REPOSITORY / "include" / "lamina"
 
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
 OWNERS = {name: "core" for name in ("angle_bounds", "error", "export", "files", "ids", "limits", "option",
-                                    "option_builders", "point", "predicates", "threads", "version", "warning")}
+                                    "option_builders", "point", "predicates", "suggestion", "threads", "version",
+                                    "warning")}
 OWNERS["triangle_files"] = "io"
 
 # The colours of docs/images/stages.dot.

@@ -1,4 +1,5 @@
-// Reading and writing of whole files.
+// Reading and writing of whole files. The name "-" stands for standard input where a file is read, and for standard
+// output where one is written.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +10,17 @@
 
 namespace lamina {
 
+/// Returns whether the name is "-", which stands for standard input or standard output.
+LAMINA_EXPORT bool is_standard_stream(const std::filesystem::path& file);
+
+/// Returns the name of a file that is read as messages show it: "standard input" for "-".
+LAMINA_EXPORT std::string input_name(const std::filesystem::path& file);
+
 /// Returns the whole file as bytes. Throws IoError.
 LAMINA_EXPORT std::string read_file(const std::filesystem::path& file);
 
 /// Writes the text to a temporary file beside `file` and renames it, so that a failure leaves no half-written file. A
-/// device or a pipe is written to directly. Throws IoError.
+/// device, a pipe or standard output is written to directly. Throws IoError.
 LAMINA_EXPORT void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// Throws IoError unless a file can be created in the folder of this file. Throws it, too, where the name is that of a

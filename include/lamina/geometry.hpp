@@ -75,10 +75,11 @@ LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const GeometryOptions& options);
 
-/// Reads every input, which is a path or `naca:DIGITS[:POINTS][:blunt|:sharp]`, and repairs, orients, names and checks
-/// its elements. Coordinates are neither scaled nor moved. Throws InputError for input that cannot be repaired (no or
-/// too few points, NaN, an outline that crosses itself, elements that cross or contain each other, coordinates outside
-/// the exact range of predicates.hpp), IoError for files that cannot be read, UsageError for names that are no markers.
+/// Reads every input, which is a path, "-" for standard input, or `naca:DIGITS[:POINTS][:blunt|:sharp]`, and repairs,
+/// orients, names and checks its elements. Coordinates are neither scaled nor moved. Throws InputError for input that
+/// cannot be repaired (no or too few points, NaN, an outline that crosses itself, elements that cross or contain each
+/// other, coordinates outside the exact range of predicates.hpp), IoError for files that cannot be read, UsageError for
+/// names that are no markers.
 LAMINA_EXPORT Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
 
 /// Reads one file, which may hold several elements. Takes the same steps and throws the same errors as read_geometry().

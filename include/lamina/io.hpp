@@ -1,4 +1,5 @@
-// Stage "write": meshes to and from files. The format follows from the extension of the file unless it is named.
+// Stage "write": meshes to and from files. The format follows from the extension of the file unless it is named. The
+// file "-" is standard input or standard output, whose format must be named (files.hpp).
 #pragma once
 
 #include <filesystem>
@@ -20,6 +21,7 @@ struct MeshFormat {
     std::string description;  ///< one line
     bool readable = false;    ///< whether read_mesh() reads it
     bool quads = true;        ///< whether it holds quadrilaterals, too
+    bool one_stream = false;  ///< whether it is one stream of bytes, which a pipe can carry
 };
 
 /// Returns all formats of this build, in the order of the guide's table.
@@ -42,9 +44,14 @@ LAMINA_EXPORT void write_mesh(const Mesh& mesh, const std::filesystem::path& fil
 /// beside the wall vertex. Numbers have 17 significant digits. Throws IoError.
 LAMINA_EXPORT void write_wall_data(const Mesh& mesh, const std::filesystem::path& file);
 
-/// Reads a mesh in the format that the extension of the file stands for. Throws IoError where the file cannot be read,
-/// InputError (with the line, for text formats) where it is malformed, UsageError for an unknown extension.
-LAMINA_EXPORT Mesh read_mesh(const std::filesystem::path& file);
+/// Options of read_mesh().
+struct ReadOptions {
+    std::string format{};  ///< a name, or an extension without its dot; empty: by the extension of the file
+};
+
+/// Reads a mesh. Throws IoError where the file cannot be read, InputError (with the line, for text formats) where it is
+/// malformed, UsageError for an unknown format or extension.
+LAMINA_EXPORT Mesh read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Reads a background mesh from a VTU file (point data) or an MSH file ($NodeData of one component). The sizes are the
 /// array named `size`; a file without one must have a single scalar array. Quadrilaterals are cut in two; points of no
@@ -53,7 +60,8 @@ LAMINA_EXPORT Mesh read_mesh(const std::filesystem::path& file);
 LAMINA_EXPORT SizedMesh read_sizes(const std::filesystem::path& file);
 
 /// Throws what write_mesh() would throw for the name of the file and the format, so that a wrong name is found before
-/// minutes of meshing: UsageError for an unknown format, IoError where the folder does not exist or is not writable.
+/// minutes of meshing: UsageError for an unknown format and for one that standard output cannot carry, IoError where the
+/// folder does not exist or is not writable.
 LAMINA_EXPORT void check_writable(const std::filesystem::path& file, const WriteOptions& options = {});
 
 /// Returns the files that write_mesh() creates or replaces: one, several, or the folder of a format that is a folder.

@@ -123,6 +123,13 @@ LAMINA_EXPORT void validate(const MeshCheckOptions& options);
 /// quality are measured but not required. Throws OptionError for options out of range.
 LAMINA_EXPORT MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
 
+/// Returns regions for a mesh without them, judged by the shapes of the cells. Thin cells are quadrilaterals, and
+/// triangles with an angle below proved_min_angle_deg. Those that hang together with a wall, from vertex to vertex
+/// through thin and right-angled cells, are taken for the layer; a marker counts as a wall unless it is a far field or
+/// a symmetry. Other cells of a layer, such as its last rows, count as isotropic. Empty where no cell is taken for the
+/// layer. Precondition: all indices are in range.
+LAMINA_EXPORT std::vector<Region> estimate_regions(const Mesh& mesh);
+
 /// Returns a hash of the mesh as 32 lower-case hexadecimal digits. It does not depend on the numbering, and hence not
 /// on the file format: it is the sum modulo 2^128 of one hash per cell and per marker edge. Each covers the IEEE bits
 /// of the vertices' coordinates (-0 as +0), from the lexicographically smallest vertex of a cell on, and the name of

@@ -38,6 +38,9 @@ LAMINA_EXPORT std::vector<std::string> as_words(const OptionValue& value, const 
 /// Throws OptionError where the range does not contain the value.
 LAMINA_EXPORT void require_in_range(const OptionRange& range, double value, const std::string& option);
 
+/// Returns why a word is refused: it is none of these names. Says which of them was probably meant.
+LAMINA_EXPORT std::string unknown_choice(const std::string& word, const std::vector<std::string>& names);
+
 /// Collects the rows of one table under one heading of the help.
 template <class Options>
 class OptionTableBuilder {
@@ -114,8 +117,7 @@ public:
             const std::string word = as_word(value, key);
             const auto found =
                 std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == word; });
-            if (found == choices.end())
-                throw OptionError(key, "'" + word + "' is not known; known: " + joined(choices));
+            if (found == choices.end()) throw OptionError(key, unknown_choice(word, names_of(choices)));
             member(o) = found->second;
         };
         const auto get = [=](const Options& o) -> std::optional<OptionValue> {
@@ -209,9 +211,9 @@ private:
     }
 
     template <class Choice>
-    static std::string joined(const Choices<Choice>& choices) {
-        std::string names;
-        for (const auto& entry : choices) names += (names.empty() ? "" : ", ") + entry.first;
+    static std::vector<std::string> names_of(const Choices<Choice>& choices) {
+        std::vector<std::string> names;
+        for (const auto& entry : choices) names.push_back(entry.first);
         return names;
     }
 

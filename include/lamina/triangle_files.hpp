@@ -39,10 +39,11 @@ struct TriangleInput {
     std::vector<std::size_t> hole_lines;     ///< per hole: its line in segment_file
 };
 
-/// Reads a .poly or .node file. A .poly file without vertices takes those of the .node file with its stem. Blank lines
+/// Reads a .poly or .node file; `format`, "poly" or "node", says which it is where the extension does not. A .poly file
+/// without vertices takes those of the .node file with its stem; on standard input ("-") it must hold them. Blank lines
 /// and comments, from # to the end of the line, are skipped. Segments from a vertex to itself are kept. Throws IoError, InputError with file and line, UsageError
-/// for other extensions.
-LAMINA_EXPORT TriangleInput read_triangle_files(const std::filesystem::path& file);
+/// for other extensions and formats.
+LAMINA_EXPORT TriangleInput read_triangle_files(const std::filesystem::path& file, const std::string& format = {});
 
 /// The contents of the files to write.
 struct TriangleOutput {

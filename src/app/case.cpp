@@ -4,13 +4,18 @@
 #include <filesystem>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
 #include "app/case_file.hpp"
+#include "app/option_hint.hpp"
 
 namespace lamina::app {
 
 MeshCase case_of_inputs(const std::vector<std::string>& inputs) {
     if (inputs.empty()) throw UsageError("no INPUT: give an airfoil file, naca:DIGITS or a case file");
+    for (const std::string& input : inputs)
+        if (input.starts_with('-') && !is_standard_stream(input))
+            throw UsageError("unknown option " + input + hint_text(hint_for_other_word("mesh", input), "--"));
     const auto is_case_file = [](const std::string& input) {
         return std::filesystem::path(input).extension() == ".toml";
     };

@@ -11,23 +11,25 @@
 #include <lamina/files.hpp>
 #include <lamina/version.hpp>
 
+#include "app/option_hint.hpp"
 #include "app/options.hpp"
 
 namespace lamina::app {
 
 namespace {
 
-bool is_naca_name(const std::string& input) { return input.starts_with("naca:"); }
+/// Returns whether the text stands for something else than a file: a NACA section, standard input or standard output.
+bool is_no_path(const std::string& text) { return text.starts_with("naca:") || is_standard_stream(text); }
 
 bool holds_paths(const Option<MeshCase>& option) {
     return option.kind == OptionKind::path || option.kind == OptionKind::paths;
 }
 
-/// Returns the value with `change` applied to each of its paths. NACA names are no paths.
+/// Returns the value with `change` applied to each of its paths. Names of NACA sections and "-" are no paths.
 template <class Change>
 OptionValue with_paths(OptionValue value, Change change) {
     const auto apply = [&](std::string& text) {
-        if (!text.empty() && !is_naca_name(text)) text = change(std::filesystem::path(text)).string();
+        if (!text.empty() && !is_no_path(text)) text = change(std::filesystem::path(text)).string();
     };
     if (auto* text = std::get_if<std::string>(&value)) apply(*text);
     if (auto* texts = std::get_if<std::vector<std::string>>(&value)) std::for_each(texts->begin(), texts->end(), apply);
@@ -60,6 +62,15 @@ toml::table parse(const std::filesystem::path& file) {
     }
 }
 
+/// Returns the key that an unknown key probably means, as the end of a message.
+std::string hint_for_key(std::string_view key) {
+    std::vector<std::string> names;
+    for (const Option<MeshCase>& option : mesh_options()) names.push_back(option.name);
+    Hint hint = hint_for_option("mesh", std::string(key), names);
+    hint.name = option_key(hint.name);
+    return hint_text(hint, "");
+}
+
 std::string toml_text(const OptionValue& value) {
     if (const auto* real = std::get_if<double>(&value))
         return fmt::to_string(*real);  // the shortest text that reads back
@@ -87,7 +98,7 @@ MeshCase read_case_file(const std::filesystem::path& file) {
         const auto& options = mesh_options();
         const auto option =
             std::find_if(options.begin(), options.end(), [name](const Option<MeshCase>& o) { return o.key() == name; });
-        if (option == options.end()) throw UsageError(origin + ": no such option");
+        if (option == options.end()) throw UsageError(origin + ": no such option" + hint_for_key(name));
 
         OptionValue value = value_of(node, origin);
         if (holds_paths(*option)) {

@@ -7,12 +7,16 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/version.hpp>
 
 #include "app/commands.hpp"
+#include "app/format_help.hpp"
 #include "app/report.hpp"
+#include "app/run_files.hpp"
+#include "app/standard_output.hpp"
 #include "app/summary.hpp"
 #include "app/table_option.hpp"
 
@@ -21,7 +25,7 @@ namespace lamina::app {
 namespace {
 
 struct CheckArguments {
-    std::string mesh;
+    std::string mesh, format;
     bool json = false;
     std::vector<std::string> walls;
     std::string far_field;
@@ -43,6 +47,18 @@ void require_marker(Mesh& mesh, const std::string& name, MarkerKind kind, Shortc
     }
 }
 
+/// How it is known which cells belong to the boundary layer.
+enum class RegionOrigin {
+    file,
+    estimate,  ///< estimate_regions()
+    none,      ///< not at all: every cell counts as isotropic
+};
+
+const char* origin_name(RegionOrigin origin) {
+    if (origin == RegionOrigin::none) return "none";
+    return origin == RegionOrigin::file ? "file" : "estimate";
+}
+
 const char* kind_name(MarkerKind kind) {
     switch (kind) {
         case MarkerKind::wall:
@@ -57,7 +73,7 @@ const char* kind_name(MarkerKind kind) {
     return "other";
 }
 
-Json check_report(const Mesh& mesh, const MeshCheck& check, const Shortcomings& shortcomings) {
+Json check_report(const Mesh& mesh, const MeshCheck& check, RegionOrigin regions, const Shortcomings& shortcomings) {
     Json defects = Json::array();
     for (const MeshDefect& defect : check.defects) {
         defects.push_back({{"what", defect.description}, {"at", {defect.at.x, defect.at.y}}});
@@ -78,11 +94,12 @@ Json check_report(const Mesh& mesh, const MeshCheck& check, const Shortcomings& 
             {"area", check.area},
             {"euler_characteristic", check.euler_characteristic},
             {"boundary_loops", check.boundary_loops},
+            {"regions", origin_name(regions)},
             {"quality", quality_report(check)},
             {"hash", mesh_hash(mesh)}};
 }
 
-std::string check_summary(const std::string& file, const Mesh& mesh, const MeshCheck& check,
+std::string check_summary(const std::string& file, const Mesh& mesh, const MeshCheck& check, RegionOrigin regions,
                           const Shortcomings& shortcomings) {
     std::string text = fmt::format("{}: {}\n", file, check.valid() ? "valid" : "not valid");
     for (const MeshDefect& defect : check.defects)
@@ -96,8 +113,14 @@ std::string check_summary(const std::string& file, const Mesh& mesh, const MeshC
     for (const Marker& marker : mesh.markers)
         text += summary_line(
             "marker", fmt::format("{} ({}), {} edges", marker.name, kind_name(marker.kind), marker.edges.size()));
-    if (mesh.region.empty())
-        text += summary_line("regions", "none in the file: every cell counts as isotropic, those of layers included");
+    if (regions == RegionOrigin::estimate)
+        text += summary_line("regions", fmt::format("none in the file: {} thin cells that hang together with a wall "
+                                                    "are taken for the boundary layer; others of its cells count as "
+                                                    "isotropic",
+                                                    check.layer.cells));
+    if (regions == RegionOrigin::none)
+        text +=
+            summary_line("regions", "none in the file, and no thin cells at a wall: every cell counts as isotropic");
     return text + quality_summary(check);
 }
 
@@ -116,26 +139,35 @@ void check(const CheckArguments& arguments) {
     MeshCheckOptions options;
     set_by_name(mesh_check_option_table(), "min-angle", arguments.min_angle, options);
 
-    Mesh mesh = read_mesh(arguments.mesh);
+    require_format(arguments.mesh, arguments.format, "--input-format");
+    const std::string name = input_name(arguments.mesh);
+    Mesh mesh = read_mesh(arguments.mesh, {.format = arguments.format});
     Shortcomings shortcomings;
     for (const std::string& wall : arguments.walls) require_marker(mesh, wall, MarkerKind::wall, shortcomings);
     if (!arguments.far_field.empty()) {
         require_marker(mesh, arguments.far_field, MarkerKind::far_field, shortcomings);
     }
-    const MeshCheck result = check_mesh(mesh, options);
+    const bool has_regions = !mesh.region.empty();
+    if (!has_regions) mesh.region = estimate_regions(mesh);
+    const RegionOrigin regions = has_regions           ? RegionOrigin::file
+                                 : mesh.region.empty() ? RegionOrigin::none
+                                                       : RegionOrigin::estimate;
+    MeshCheck result = check_mesh(mesh, options);
+    // The last thin cell of a layer is rarely the last one.
+    if (regions == RegionOrigin::estimate) result.transition = {};
     if (arguments.require_delaunay && result.delaunay_violations > 0) {
         shortcomings.push_back(fmt::format("{} edges between isotropic triangles violate the Delaunay property",
                                            result.delaunay_violations));
     }
     if (!arguments.min_angle.empty()) require_angles(result.isotropic, options.min_angle_deg, shortcomings);
 
-    fmt::print("{}", arguments.json ? to_text(check_report(mesh, result, shortcomings))
-                                    : check_summary(arguments.mesh, mesh, result, shortcomings));
+    print_result(arguments.json ? to_text(check_report(mesh, result, regions, shortcomings))
+                                : check_summary(name, mesh, result, regions, shortcomings));
     if (!result.valid()) {
-        throw MeshError(fmt::format("{}: not valid, {} defects; the first: {}", arguments.mesh, result.defect_count,
+        throw MeshError(fmt::format("{}: not valid, {} defects; the first: {}", name, result.defect_count,
                                     result.defects.front().description));
     }
-    if (!shortcomings.empty()) throw MeshError(arguments.mesh + ": " + shortcomings.front());
+    if (!shortcomings.empty()) throw MeshError(name + ": " + shortcomings.front());
 }
 
 }  // namespace
@@ -143,7 +175,8 @@ void check(const CheckArguments& arguments) {
 void add_check_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("check", "check a mesh and measure its quality; exit code 0 only if valid");
     auto arguments = std::make_shared<CheckArguments>();
-    command->add_option("MESH", arguments->mesh, "mesh file")->required();
+    command->add_option("MESH", arguments->mesh, "mesh file; - for standard input")->required();
+    add_input_format(*command, arguments->format);
     command->add_flag("--json", arguments->json, "print the result as one JSON object");
     command->add_option("--wall", arguments->walls, "require a marker of this name, and take it for a wall")
         ->type_name("NAME");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 #include <lamina/io.hpp>
 
 #include "app/commands.hpp"
@@ -19,7 +20,7 @@ namespace lamina::app {
 namespace {
 
 struct ConvertArguments {
-    std::string from, to;
+    std::string from, from_format, to;
     WriteOptions options;
     std::vector<std::string> walls, far_fields, symmetries;
 };
@@ -35,16 +36,19 @@ void set_kind(Mesh& mesh, const std::vector<std::string>& names, MarkerKind kind
 }
 
 void convert(const ConvertArguments& arguments) {
+    require_format(arguments.from, arguments.from_format, "--input-format");
+    require_format(arguments.to, arguments.options.format, "--format");
     check_writable(arguments.to, arguments.options);
     std::vector<RunFile> outputs;
     for (const std::filesystem::path& file : output_files(arguments.to, arguments.options))
         outputs.push_back({file, "OUT"});
     require_distinct(files_of_mesh(arguments.from), outputs);
     const SignalGuard guard(outputs);
-    Mesh mesh = read_mesh(arguments.from);
-    set_kind(mesh, arguments.walls, MarkerKind::wall, arguments.from);
-    set_kind(mesh, arguments.far_fields, MarkerKind::far_field, arguments.from);
-    set_kind(mesh, arguments.symmetries, MarkerKind::symmetry, arguments.from);
+    Mesh mesh = read_mesh(arguments.from, {.format = arguments.from_format});
+    const std::string name = input_name(arguments.from);
+    set_kind(mesh, arguments.walls, MarkerKind::wall, name);
+    set_kind(mesh, arguments.far_fields, MarkerKind::far_field, name);
+    set_kind(mesh, arguments.symmetries, MarkerKind::symmetry, name);
     write_mesh(mesh, arguments.to, arguments.options);
 }
 
@@ -53,10 +57,13 @@ void convert(const ConvertArguments& arguments) {
 void add_convert_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("convert", "convert a mesh from one format to another");
     auto arguments = std::make_shared<ConvertArguments>();
-    command->add_option("IN", arguments->from, "mesh file")->required();
-    command->add_option("OUT", arguments->to, "mesh file; its extension says the format, unless --format does")
+    command->add_option("IN", arguments->from, "mesh file; - for standard input")->required();
+    command
+        ->add_option("OUT", arguments->to,
+                     "mesh file; its extension says the format, unless --format does; - for standard output")
         ->required();
-    command->add_option("--format", arguments->options.format, "format of OUT")->type_name("NAME");
+    add_input_format(*command, arguments->from_format);
+    command->add_option("--format", arguments->options.format, "format of OUT")->type_name(format_names());
     command->add_option("--wall", arguments->walls, "set the kind of this marker to wall; may be given several times")
         ->type_name("NAME")
         ->allow_extra_args(false);

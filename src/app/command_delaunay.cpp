@@ -22,6 +22,7 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
+#include "app/standard_output.hpp"
 #include "app/stopwatch.hpp"
 #include "app/table_option.hpp"
 
@@ -32,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DelaunayArguments {
-    std::string file;
+    std::string file, format;
     std::string stem;
     std::string min_angle, max_area, threads, max_triangles, max_memory;
     std::string report;
@@ -51,7 +52,11 @@ struct DelaunayRunFacts {
 
 /// Returns the stem of the output files: FILE.1 where none is given.
 fs::path output_stem(const DelaunayArguments& arguments) {
+    if (is_standard_stream(arguments.stem))
+        throw UsageError("option --output: Triangle's format is several files, which standard output cannot carry");
     if (!arguments.stem.empty()) return arguments.stem;
+    if (is_standard_stream(arguments.file))
+        throw UsageError("standard input has no name that the outputs could be named after: give -o STEM");
     fs::path stem = arguments.file;
     stem.replace_extension();
     return stem += ".1";
@@ -60,13 +65,14 @@ fs::path output_stem(const DelaunayArguments& arguments) {
 /// Returns the input, and the .node file that a .poly file may refer to.
 std::vector<RunFile> files_read(const DelaunayArguments& arguments) {
     const fs::path file = arguments.file;
+    if (is_standard_stream(file)) return {{file, "FILE"}};
     return {{file, "FILE"}, {fs::path(file).replace_extension(".node"), "FILE"}};
 }
 
 std::vector<RunFile> files_written(const DelaunayArguments& arguments, const fs::path& stem) {
     std::vector<RunFile> files;
-    for (const fs::path& file : triangle_files(stem, fs::path(arguments.file).extension() == ".poly"))
-        files.push_back({file, "option --output"});
+    const bool is_poly = fs::path(arguments.file).extension() == ".poly" || arguments.format == "poly";
+    for (const fs::path& file : triangle_files(stem, is_poly)) files.push_back({file, "option --output"});
     if (!arguments.report.empty()) files.push_back({arguments.report, "option --report"});
     return files;
 }
@@ -158,6 +164,7 @@ void run(const DelaunayArguments& arguments) {
     DelaunaySettings settings = settings_of(arguments);
     settings.limits = with_default_limits(options.limits);
     DelaunayRunFacts facts{.stem = output_stem(arguments), .threads = options.threads};
+    require_format(arguments.file, arguments.format, "--input-format");
     check_folder_writable(facts.stem);
     if (!arguments.report.empty()) check_folder_writable(arguments.report);
     const std::vector<RunFile> outputs = files_written(arguments, facts.stem);
@@ -167,7 +174,7 @@ void run(const DelaunayArguments& arguments) {
     ProgressPrinter progress(ProgressShown::automatic, arguments.quiet);
     Stopwatch watch, total;
     progress.begin({"reading"});
-    TriangleInput input = read_triangle_files(arguments.file);
+    TriangleInput input = read_triangle_files(arguments.file, arguments.format);
     facts.with_poly = !input.segment_file.empty();
     facts.read_seconds = watch.lap();
     DelaunayResult result;
@@ -183,7 +190,7 @@ void run(const DelaunayArguments& arguments) {
     facts.total_seconds = total.lap();
 
     if (!arguments.report.empty()) write_file(arguments.report, to_text(delaunay_report(result, facts)));
-    if (!arguments.quiet) fmt::print("{}", delaunay_summary(result, facts));
+    if (!arguments.quiet) print_summary(delaunay_summary(result, facts), outputs);
     require_no_warnings(result.warnings, arguments.strict);
 }
 
@@ -193,8 +200,12 @@ void add_delaunay_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "delaunay", "triangulate the points and segments of Triangle's files, and refine the triangulation");
     auto arguments = std::make_shared<DelaunayArguments>();
-    command->add_option("FILE", arguments->file, "FILE.poly (segments, holes, regions) or FILE.node (points)")
+    command
+        ->add_option("FILE", arguments->file,
+                     "FILE.poly (segments, holes, regions) or FILE.node (points); - for standard input")
         ->required();
+    command->add_option("--input-format", arguments->format, "format of FILE, node or poly; else its extension says it")
+        ->type_name("node|poly");
     command
         ->add_option("-o,--output", arguments->stem,
                      "write STEM.node, STEM.ele and, for a .poly file, STEM.poly [FILE.1]")

@@ -4,20 +4,20 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/core.h>
-
 #include <lamina/pipeline.hpp>
 
 #include "app/case.hpp"
 #include "app/commands.hpp"
 #include "app/options.hpp"
+#include "app/standard_output.hpp"
 
 namespace lamina::app {
 
 void add_info_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "describe airfoils: what was read, repaired and detected");
     auto inputs = std::make_shared<std::vector<std::string>>();
-    command->add_option("INPUT", *inputs, "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)");
+    command->add_option("INPUT", *inputs,
+                        "airfoil files, naca:DIGITS[:POINTS][:blunt], - for standard input, or one case file (.toml)");
     command->callback([inputs] {
         const MeshCase mesh_case = case_of_inputs(*inputs);
         require_consistent(mesh_case);
@@ -25,7 +25,7 @@ void add_info_command(CLI::App& app) {
         Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
         const LayerGrowth growth = layer_growth(options.layer, bounding_box(geometry).width());
         const SpacingLimits limits = spacing_limits(options, growth);
-        fmt::print("{}", describe(prepare_surfaces(std::move(geometry), options.surface, limits)));
+        print_result(describe(prepare_surfaces(std::move(geometry), options.surface, limits)));
     });
 }
 

@@ -1,4 +1,8 @@
 // lamina mesh: makes a mesh round airfoils and writes it.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -20,6 +24,7 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
+#include "app/standard_output.hpp"
 #include "app/stopwatch.hpp"
 #include "app/summary.hpp"
 
@@ -81,10 +86,21 @@ std::vector<RunFile> files_written(const MeshCase& mesh_case) {
     return files;
 }
 
+/// Throws where standard input is asked for what it cannot give.
+void require_inputs(const MeshCase& mesh_case) {
+    if (std::count_if(mesh_case.inputs.begin(), mesh_case.inputs.end(), is_standard_stream) > 1)
+        throw UsageError("INPUT: '-' is given twice, but standard input can be read only once");
+    if (is_standard_stream(mesh_case.background))
+        throw UsageError("option --background: must be a file: standard input holds sections alone");
+}
+
 /// Throws where an output is missing or certainly cannot be written, before the work begins.
 void require_outputs(const MeshCase& mesh_case) {
     if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
-    for (const std::string& output : mesh_case.outputs) check_writable(output, write_options(mesh_case));
+    for (const std::string& output : mesh_case.outputs) {
+        require_format(output, mesh_case.format, "--format");
+        check_writable(output, write_options(mesh_case));
+    }
     if (!mesh_case.wall_data.empty()) check_folder_writable(mesh_case.wall_data);
     if (!mesh_case.report.empty()) check_folder_writable(mesh_case.report);
     require_distinct(files_read(mesh_case), files_written(mesh_case));
@@ -92,8 +108,10 @@ void require_outputs(const MeshCase& mesh_case) {
 
 void mesh(const MeshCase& mesh_case) {
     require_consistent(mesh_case);
+    require_inputs(mesh_case);
     require_outputs(mesh_case);
-    const SignalGuard guard(files_written(mesh_case));
+    const std::vector<RunFile> outputs = files_written(mesh_case);
+    const SignalGuard guard(outputs);
     CaseOptions options = mesh_case.options;
     if (!mesh_case.background.empty())
         options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));
@@ -110,7 +128,7 @@ void mesh(const MeshCase& mesh_case) {
     const double write_seconds = watch.lap();
 
     if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(mesh_report(result, write_seconds)));
-    if (!mesh_case.quiet) fmt::print("{}", mesh_summary(result, mesh_case.outputs, write_seconds));
+    if (!mesh_case.quiet) print_summary(mesh_summary(result, mesh_case.outputs, write_seconds), outputs);
     require_no_warnings(result.warnings, mesh_case.strict);
 }
 
@@ -127,11 +145,11 @@ void add_mesh_command(CLI::App& app) {
     command->add_flag("--options-as-markdown", *markdown, "print a table of all options, and do nothing else")
         ->group("Run");
     command->callback([options, dump, markdown] {
-        if (*markdown) return fmt::print("{}", options_as_markdown());
+        if (*markdown) return print_result(options_as_markdown());
         const MeshCase mesh_case = case_of_command_line(*options);
         if (!*dump) return mesh(mesh_case);
         require_consistent(mesh_case);
-        fmt::print("{}", dump_case(mesh_case));
+        print_result(dump_case(mesh_case));
     });
 }
 

@@ -12,5 +12,6 @@ void add_plot_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_delaunay_command(CLI::App& app);
+void add_completion_command(CLI::App& app);
 
 }  // namespace lamina::app

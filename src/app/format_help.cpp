@@ -7,10 +7,26 @@
 
 namespace lamina::app {
 
-std::string format_names() {
+namespace {
+
+/// Returns the names of the formats that are selected, with bars between them.
+template <class Select>
+std::string names_of_formats(Select select) {
     std::string names;
-    for (const MeshFormat& format : mesh_formats()) names += (names.empty() ? "" : "|") + format.name;
+    for (const MeshFormat& format : mesh_formats())
+        if (select(format)) names += (names.empty() ? "" : "|") + format.name;
     return names;
+}
+
+}  // namespace
+
+void add_input_format(CLI::App& command, std::string& format) {
+    command.add_option("--input-format", format, "format of the mesh that is read; else its extension says it")
+        ->type_name(names_of_formats([](const MeshFormat& row) { return row.readable; }));
+}
+
+std::string format_names() {
+    return names_of_formats([](const MeshFormat&) { return true; });
 }
 
 std::string format_help() {

@@ -3,7 +3,12 @@
 
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 namespace lamina::app {
+
+/// Adds the option --input-format, which receives the format of a mesh that is read.
+void add_input_format(CLI::App& command, std::string& format);
 
 /// Returns the names of all formats: "su2|cgns|...".
 std::string format_names();

@@ -7,13 +7,13 @@
 #include <string>
 #include <system_error>
 
-#include <fmt/core.h>
-
 #include <lamina/error.hpp>
 #include <lamina/version.hpp>
 
+#include "app/arguments.hpp"
 #include "app/commands.hpp"
 #include "app/options.hpp"
+#include "app/standard_output.hpp"
 
 namespace lamina::app {
 
@@ -33,42 +33,6 @@ std::string name_on_command_line(const std::string& key) {
     return key;
 }
 
-/// Throws UsageError for unknown commands, for which CLI11 would say that the command is missing.
-void require_known_command(const CLI::App& app, int argc, char** argv) {
-    if (argc < 2) throw UsageError("no command (see lamina --help)");
-    const std::string command = argv[1];
-    if (command.starts_with("-")) return;
-    std::string known;
-    for (const CLI::App* each : app.get_subcommands({})) {
-        if (each->get_name() == command) return;
-        known += (known.empty() ? "" : ", ") + each->get_name();
-    }
-    throw UsageError("command '" + command + "' is not known; known: " + known);
-}
-
-std::string help_hint(const CLI::App& app) {
-    std::string command = app.get_name();
-    for (const CLI::App* named : app.get_subcommands()) command += " " + named->get_name();
-    return " (see " + command + " --help)";
-}
-
-void run(CLI::App& app, int argc, char** argv) {
-    require_known_command(app, argc, argv);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ExtrasError&) {
-        const std::string extra = app.remaining(true).front();
-        throw UsageError((extra.starts_with("-") ? "unknown option " : "unexpected argument ") + extra +
-                         help_hint(app));
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) {
-            throw UsageError(error.what() + help_hint(app));
-        }
-        app.exit(error);  // prints the answer to --help or --version
-    }
-    if (std::fflush(stdout) != 0) throw IoError("standard output", "cannot be written");
-}
-
 }  // namespace
 
 }  // namespace lamina::app
@@ -77,9 +41,12 @@ int main(int argc, char** argv) {
     using namespace lamina;
     using namespace lamina::app;
     std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the size limit then fails like a full disk
+    std::signal(SIGPIPE, SIG_IGN);  // so does a pipe that nobody reads
+    guard_closed_streams();
     try {
+        const std::string version = "lamina " LAMINA_VERSION;
         CLI::App app("Two-dimensional viscous meshes round airfoils", "lamina");
-        app.set_version_flag("--version", "lamina " LAMINA_VERSION);
+        app.set_version_flag("-V,--version", version);
         app.require_subcommand(1);
         app.footer(
             "Exit codes: 0 done; 2 wrong usage; 3 bad input; 4 no valid mesh could be made, or a checked mesh is not "
@@ -90,7 +57,10 @@ int main(int argc, char** argv) {
         add_convert_command(app);
         add_info_command(app);
         add_delaunay_command(app);
-        run(app, argc, argv);
+        add_completion_command(app);
+        for (CLI::App* command : app.get_subcommands({})) command->set_version_flag("--version", version)->group("");
+        run_arguments(app, {argv + std::min(argc, 1), argv + argc});
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw IoError("standard output", "cannot be written");
         return static_cast<int>(ExitCode::done);
     } catch (const OptionError& error) {
         return report_error(error.exit_code(), name_on_command_line(error.option()) + ": " + error.reason());

@@ -24,8 +24,10 @@ constexpr std::array<std::string_view, 5> groups{"Files", "Geometry", "Layer", "
 OptionTable<MeshCase> file_options() {
     OptionTableBuilder<MeshCase> table("Files");
     table.list("input", OptionKind::paths, "INPUT",
-               "airfoil files, naca:DIGITS[:POINTS][:blunt], or one case file (.toml)", member_at(&MeshCase::inputs));
-    table.list("output", OptionKind::paths, "FILE", "mesh file to write; may be given several times",
+               "airfoil files, naca:DIGITS[:POINTS][:blunt], - for standard input, or one case file (.toml)",
+               member_at(&MeshCase::inputs));
+    table.list("output", OptionKind::paths, "FILE",
+               "mesh file to write; may be given several times; - is standard output, with --format",
                member_at(&MeshCase::outputs));
     table.text("format", OptionKind::word, format_names(),
                "format of every mesh file; else the extension of each says its format", member_at(&MeshCase::format));

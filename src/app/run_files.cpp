@@ -41,7 +41,7 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Returns whether writing `output` changes `other`.
+/// Returns whether writing `output` changes `other`. Standard streams are given by their devices.
 bool replaces(const fs::path& output, const fs::path& other) {
     if (!is_file_or_folder(output) || !is_file_or_folder(other)) return false;
     std::error_code ignored;
@@ -52,20 +52,36 @@ bool replaces(const fs::path& output, const fs::path& other) {
     return is_folder(a) && (is_inside(b, a) || is_inside(a, b));
 }
 
+/// Returns the path to compare a file of a run by. A shell may have opened a file as standard input or output.
+fs::path comparable(const fs::path& path, const char* device) { return is_standard_stream(path) ? device : path; }
+fs::path comparable_input(const RunFile& input) { return comparable(input.path, "/dev/stdin"); }
+fs::path comparable_output(const RunFile& output) { return comparable(output.path, "/dev/stdout"); }
+
+bool are_one_file(const RunFile& output, const RunFile& other) {
+    if (is_standard_stream(output.path) && is_standard_stream(other.path)) return true;
+    const fs::path a = comparable_output(output), b = comparable_output(other);
+    return replaces(a, b) || replaces(b, a);
+}
+
 }  // namespace
 
 void require_distinct(std::span<const RunFile> inputs, std::span<const RunFile> outputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const RunFile& output = outputs[i];
         for (const RunFile& input : inputs)
-            if (replaces(output.path, input.path))
+            if (replaces(comparable_output(output), comparable_input(input)))
                 throw UsageError(fmt::format("{}: '{}' would replace the input '{}'", output.role, output.path.string(),
                                              input.path.string()));
         for (const RunFile& earlier : outputs.first(i))
-            if (replaces(output.path, earlier.path) || replaces(earlier.path, output.path))
+            if (are_one_file(output, earlier))
                 throw UsageError(
                     fmt::format("{}: '{}' is written by {} already", output.role, output.path.string(), earlier.role));
     }
+}
+
+void require_format(const std::string& file, const std::string& format, const std::string& option) {
+    if (is_standard_stream(file) && format.empty())
+        throw UsageError(fmt::format("'-' has no extension that tells the format: give {} NAME", option));
 }
 
 std::vector<RunFile> files_of_mesh(const std::string& mesh) {

@@ -19,8 +19,12 @@ struct RunFile {
 };
 
 /// Throws UsageError where an output would replace an input or another output, under whatever name: links are followed.
-/// Folders are replaced with all that is in them. Devices and pipes may be named several times.
+/// Folders are replaced with all that is in them. Devices and pipes may be named several times; "-", which stands for
+/// standard input and standard output, may stand for one output.
 void require_distinct(std::span<const RunFile> inputs, std::span<const RunFile> outputs);
+
+/// Throws UsageError where the file is standard input or output and no format is given; `option` would give it.
+void require_format(const std::string& file, const std::string& format, const std::string& option);
 
 /// Returns the files of a mesh that is read: those that its format consists of, if the name tells the format.
 std::vector<RunFile> files_of_mesh(const std::string& mesh);

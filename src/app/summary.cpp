@@ -91,7 +91,7 @@ std::string mesh_summary(const MeshResult& result, const std::vector<std::string
     text += summary_line(
         "time", fmt::format("{:.3f} s to make and check the mesh, {:.3f} s to write it, on {} thread{}",
                             result.seconds.total, write_seconds, result.threads, result.threads == 1 ? "" : "s"));
-    for (const std::string& output : outputs) text += summary_line("wrote", output);
+    for (const std::string& output : outputs) text += summary_line("wrote", output == "-" ? "standard output" : output);
     return text;
 }
 

@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -133,7 +135,20 @@ void write_stream(const fs::path& file, const fs::path& target, const std::funct
     if (!out) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(errno ? errno : EIO));
 }
 
+namespace {
+
+void write_standard_output(const std::function<void(std::ostream&)>& write) {
+    errno = 0;
+    write(std::cout);
+    std::cout.flush();
+    if (!std::cout || std::fflush(stdout) != 0)
+        throw IoError("standard output", std::string("cannot write: ") + std::strerror(errno ? errno : EIO));
+}
+
+}  // namespace
+
 void write_stream_atomically(const fs::path& target, const std::function<void(std::ostream&)>& write) {
+    if (is_standard_stream(target)) return write_standard_output(write);
     if (is_device(target)) return write_stream(target, target, write);
     write_atomically(target, [&](const fs::path& temporary) { write_stream(temporary, target, write); });
 }

@@ -43,7 +43,7 @@ LAMINA_EXPORT void write_stream(const std::filesystem::path& file, const std::fi
                                 const std::function<void(std::ostream&)>& write);
 
 /// Calls write(stream) with a binary stream to a temporary file, which then becomes `target`, as in write_atomically().
-/// A device or a pipe is written to directly.
+/// A device, a pipe or standard output ("-") is written to directly.
 LAMINA_EXPORT void write_stream_atomically(const std::filesystem::path& target,
                                            const std::function<void(std::ostream&)>& write);
 

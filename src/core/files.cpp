@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -17,7 +18,31 @@ using namespace core;
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::string read_standard_input() {
+    std::string bytes;
+    constexpr std::size_t block = std::size_t{1} << 20;
+    errno = 0;
+    for (std::size_t got = block; got > 0;) {
+        const std::size_t before = bytes.size();
+        bytes.resize(before + block);
+        got = std::fread(bytes.data() + before, 1, block, stdin);
+        bytes.resize(before + got);
+    }
+    if (std::ferror(stdin) != 0)
+        throw IoError(input_name("-"), std::string("cannot read: ") + std::strerror(errno ? errno : EIO));
+    return bytes;
+}
+
+}  // namespace
+
+bool is_standard_stream(const fs::path& file) { return file == "-"; }
+
+std::string input_name(const fs::path& file) { return is_standard_stream(file) ? "standard input" : file.string(); }
+
 void check_folder_writable(const fs::path& file) {
+    if (is_standard_stream(file)) return;
     const fs::path folder = folder_of(file);
     std::error_code ignored;
     if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot write: is a directory");
@@ -29,6 +54,7 @@ void check_folder_writable(const fs::path& file) {
 }
 
 std::string read_file(const fs::path& file) {
+    if (is_standard_stream(file)) return read_standard_input();
     std::error_code ignored;
     if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot read: is a directory");
     errno = 0;

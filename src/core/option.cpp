@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <lamina/option_builders.hpp>
+#include <lamina/suggestion.hpp>
 
 #include "core/text.hpp"
 
@@ -54,6 +55,12 @@ std::vector<std::string> as_words(const OptionValue& value, const std::string& o
     if (const auto* words = std::get_if<std::vector<std::string>>(&value)) return *words;
     if (const auto* word = std::get_if<std::string>(&value)) return {*word};
     throw OptionError(option, "must be an array of strings");
+}
+
+std::string unknown_choice(const std::string& word, const std::vector<std::string>& names) {
+    std::string known;
+    for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+    return "'" + word + "' is not known" + did_you_mean(closest_word(word, names)) + " (known: " + known + ")";
 }
 
 void require_in_range(const OptionRange& range, double value, const std::string& option) {

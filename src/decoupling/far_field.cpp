@@ -56,9 +56,13 @@ Box inscribed_box(const FarField& far_field) {
     return {far_field.center - Point{half, half}, far_field.center + Point{half, half}};
 }
 
+bool leaves_room(const FarField& far_field, const Box& bodies) {
+    return room_around(bodies, far_field) > 0.1 * core::longer_side(bodies);
+}
+
 std::optional<Box> near_body_box(const Box& bodies, const Box& outermost, const FarField& far_field) {
     const double extent = core::longer_side(bodies);
-    if (!(room_around(bodies, far_field) > 0.1 * extent))
+    if (!leaves_room(far_field, bodies))
         throw OptionError("far_field", "leaves no room around the bodies and their layers");
     if (room_between(bodies, outermost) < 1.5 * extent) return std::nullopt;
     const double margin = 0.5 * extent;

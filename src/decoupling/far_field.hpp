@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <lamina/decoupling.hpp>
+#include <lamina/export.hpp>
 
 namespace lamina::decoupling {
 
@@ -11,9 +12,12 @@ namespace lamina::decoupling {
 /// of 0.8 times the size of the largest one that fits in.
 Box inscribed_box(const FarField& far_field);
 
+/// Returns whether the far field encloses the bodies with some room.
+LAMINA_EXPORT bool leaves_room(const FarField& far_field, const Box& bodies);
+
 /// Returns the near-body box, which stands half the extent of `bodies` away from them, inside the outermost box.
 /// Returns nothing where the far field leaves little room, because rings between boxes so near to each other would have
-/// sharp corners. Throws OptionError where the far field does not enclose the bodies with some room.
+/// sharp corners. Throws OptionError unless leaves_room().
 std::optional<Box> near_body_box(const Box& bodies, const Box& outermost, const FarField& far_field);
 
 }  // namespace lamina::decoupling

@@ -7,7 +7,9 @@
 
 #include <lamina/files.hpp>
 #include <lamina/geometry.hpp>
+#include <lamina/suggestion.hpp>
 
+#include "geometry/characters.hpp"
 #include "geometry/element_names.hpp"
 #include "geometry/parse_airfoil.hpp"
 
@@ -42,6 +44,32 @@ Element read_naca(const std::string& input, std::size_t default_points) {
     return element;
 }
 
+/// Returns "naca:DIGITS" for a word that probably means a section: "naca0012", "NACA 0012", "0012". Empty for others.
+std::string meant_section(const std::string& input) {
+    std::size_t at = 0;
+    const std::string prefix = "naca";
+    while (at < prefix.size() && at < input.size() && (input[at] | ' ') == prefix[at]) ++at;
+    if (at == prefix.size() && at == input.size()) return "naca:0012";
+    if (at != prefix.size() && at != 0) return {};
+    const std::size_t digits = std::min(input.find_first_not_of("-_: ", at), input.size());
+    const std::size_t end = std::min(input.find(':', digits), input.size());
+    const bool all_digits = std::all_of(input.begin() + static_cast<std::ptrdiff_t>(digits),
+                                        input.begin() + static_cast<std::ptrdiff_t>(end), is_digit);
+    if (!all_digits || end - digits < 4 || end - digits > 5) return {};
+    return std::string(naca_prefix) + input.substr(digits);
+}
+
+/// Returns the contents of an airfoil file. An error says where the name was probably meant to be a section.
+std::string read_input(const std::string& input) {
+    try {
+        return read_file(input);
+    } catch (const IoError& error) {
+        const std::string section = meant_section(input);
+        if (section.empty()) throw;
+        throw IoError(error.file(), error.reason() + did_you_mean(section));
+    }
+}
+
 }  // namespace
 
 }  // namespace lamina::geometry
@@ -62,7 +90,8 @@ Geometry read_geometry(std::span<const std::string> inputs, const GeometryOption
         if (input.starts_with(naca_prefix)) {
             elements.push_back(read_naca(input, options.naca_points));
         } else {
-            for (Element& element : parse_airfoil(read_file(input), input)) elements.push_back(std::move(element));
+            for (Element& element : parse_airfoil(read_input(input), input_name(input)))
+                elements.push_back(std::move(element));
         }
     }
     return make_geometry(std::move(elements), options);

@@ -8,6 +8,7 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
+#include <lamina/suggestion.hpp>
 
 #include "core/atomic_file.hpp"
 #include "core/text.hpp"
@@ -37,7 +38,7 @@ void write_files(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
 
 template <auto parse>
 Mesh read_one_file(const fs::path& file) {
-    return parse(read_file(file), file);
+    return parse(read_file(file), input_name(file));
 }
 
 template <bool version_4, bool binary>
@@ -67,7 +68,8 @@ FormatRow su2_row() {
             .description = "SU2 native mesh, ASCII",
             .write = write_one_file<write_su2>,
             .files = one_file,
-            .read = read_one_file<read_su2>};
+            .read = read_one_file<read_su2>,
+            .one_stream = true};
 }
 
 /// Returns no rows where this build is without CGNS.
@@ -98,7 +100,8 @@ std::vector<FormatRow> msh_rows() {
                         .write = write,
                         .files = one_file,
                         .read = read_one_file<read_msh>,
-                        .read_sizes = read_msh_sizes});
+                        .read_sizes = read_msh_sizes,
+                        .one_stream = true});
     };
     add("msh41", "Gmsh MSH 4.1, ASCII", write_one_file<write_msh_variant<true, false>>);
     add("msh41-binary", "Gmsh MSH 4.1, binary", write_one_file<write_msh_variant<true, true>>);
@@ -108,7 +111,8 @@ std::vector<FormatRow> msh_rows() {
                     .extensions = {".msh"},
                     .description = "Gmsh MSH 2.2, ASCII, one cell thick, for gmshToFoam",
                     .write = write_one_file<write_msh_extruded>,
-                    .files = one_file});
+                    .files = one_file,
+                    .one_stream = true});
     return rows;
 }
 
@@ -121,7 +125,8 @@ std::vector<FormatRow> vtu_rows() {
                         .write = write,
                         .files = one_file,
                         .read = read_one_file<read_vtu>,
-                        .read_sizes = read_vtu_sizes});
+                        .read_sizes = read_vtu_sizes,
+                        .one_stream = true});
     };
     add("vtu", "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>);
     add("vtu-zlib", "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>);
@@ -177,6 +182,13 @@ std::vector<FormatRow> make_table() {
     return table;
 }
 
+std::vector<std::string> stream_formats() {
+    std::vector<std::string> names;
+    for (const FormatRow& row : format_table())
+        if (row.one_stream) names.emplace_back(row.name);
+    return names;
+}
+
 // --- Formats that lamina knows but that this build may leave out
 
 /// Throws UsageError where a name, or the ending of a file's name, stands for CGNS and this build is without it.
@@ -189,14 +201,23 @@ void refuse_missing_cgns(const fs::path& file, const std::string& name, const st
                                      name.empty() ? file.string() : fmt::format("format '{}'", name)));
 }
 
-}  // namespace
-
-const std::vector<FormatRow>& format_table() {
-    static const std::vector<FormatRow> table = make_table();
-    return table;
+/// Returns a name of ours for what other programs call a format, or the closest name that is known.
+std::string meant_format(const std::string& name, const std::vector<std::string>& names) {
+    static constexpr std::array<std::pair<const char*, const char*>, 8> other_names{{{"gmsh", "msh41"},
+                                                                                     {"gmsh2", "msh22"},
+                                                                                     {"gmsh4", "msh41"},
+                                                                                     {"vtk", "vtu"},
+                                                                                     {"paraview", "vtu"},
+                                                                                     {"foam", "openfoam"},
+                                                                                     {"hdf5", "cgns"},
+                                                                                     {"aflr", "ugrid"}}};
+    for (const auto& [other, ours] : other_names)
+        if (core::lower_case(name) == other) return ours;
+    return closest_word(name, names);
 }
 
-const FormatRow& find_format(const fs::path& file, const std::string& name) {
+/// Returns the format of this name, or with this extension; where no name is given, by the name of the file.
+const FormatRow& look_up(const fs::path& file, const std::string& name) {
     for (const FormatRow& row : format_table())
         if (name == row.name) return row;
 
@@ -220,9 +241,30 @@ const FormatRow& find_format(const fs::path& file, const std::string& name) {
     if (found != nullptr) return *found;
     refuse_missing_cgns(file, name, ending);
     if (!name.empty())
-        throw UsageError(fmt::format("no mesh format is named '{}' (known: {})", name, fmt::join(names, ", ")));
-    throw UsageError(fmt::format("{}: no mesh format has the extension '{}' (known: {})", file.string(),
-                                 core::extension_of(file), fmt::join(extensions, ", ")));
+        throw UsageError(fmt::format("no mesh format is named '{}'{} (known: {})", name,
+                                     did_you_mean(meant_format(name, names)), fmt::join(names, ", ")));
+    const std::string extension = core::extension_of(file);
+    throw UsageError(fmt::format("{}: no mesh format has the extension '{}'{} (known: {})", file.string(), extension,
+                                 did_you_mean(closest_word(extension, extensions)), fmt::join(extensions, ", ")));
+}
+
+}  // namespace
+
+const std::vector<FormatRow>& format_table() {
+    static const std::vector<FormatRow> table = make_table();
+    return table;
+}
+
+const FormatRow& find_format(const fs::path& file, const std::string& name) {
+    if (!is_standard_stream(file)) return look_up(file, name);
+    if (name.empty()) throw UsageError("'-' has no extension that tells the format: name the format");
+    const FormatRow& format = look_up(file, name);
+    if (!format.one_stream)
+        throw UsageError(
+            fmt::format("format '{}' is not one stream of bytes, so standard input and output cannot carry "
+                        "it ({} can)",
+                        format.name, fmt::join(stream_formats(), ", ")));
+    return format;
 }
 
 }  // namespace lamina::io

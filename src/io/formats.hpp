@@ -34,14 +34,16 @@ struct FormatRow {
     PointValues (*read_sizes)(const std::string& bytes, const std::filesystem::path&) = nullptr;
     /// Returns whether the path holds a mesh of this format, whatever its name. Null: the name alone decides.
     bool (*recognizes)(const std::filesystem::path&) = nullptr;
-    bool quads = true;  ///< whether the format holds quadrilaterals, too
+    bool quads = true;        ///< whether the format holds quadrilaterals, too
+    bool one_stream = false;  ///< whether standard input and standard output can carry it
 };
 
 /// Returns the formats of this build. --format, the help text, the guide's table and the choice by extension follow it.
 const std::vector<FormatRow>& format_table();
 
 /// Returns the format of this name, or with this extension (without its dot); where no name is given, the format that
-/// the file's name stands for. Throws UsageError where there is none.
+/// the file's name stands for. Throws UsageError where there is none, and where the file is "-" and the format is not
+/// one stream.
 const FormatRow& find_format(const std::filesystem::path& file, const std::string& name = {});
 
 // --- The functions of the formats

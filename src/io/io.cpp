@@ -1,6 +1,9 @@
 // The public functions for mesh files. They choose a row of the table of formats and call its functions.
 #include <lamina/io.hpp>
 
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
 #include <lamina/files.hpp>
 
 #include "io/formats.hpp"
@@ -16,10 +19,13 @@ void write_mesh(const Mesh& mesh, const fs::path& file, const WriteOptions& opti
     find_format(file, options.format).write(mesh, file, options);
 }
 
-Mesh read_mesh(const fs::path& file) {
-    for (const FormatRow& format : format_table())
-        if (format.recognizes != nullptr && format.recognizes(file)) return format.read(file);
-    return find_format(file).read(file);
+Mesh read_mesh(const fs::path& file, const ReadOptions& options) {
+    if (options.format.empty())
+        for (const FormatRow& format : format_table())
+            if (format.recognizes != nullptr && format.recognizes(file)) return format.read(file);
+    const FormatRow& format = find_format(file, options.format);
+    if (format.read == nullptr) throw UsageError(fmt::format("format '{}' is only written, not read", format.name));
+    return format.read(file);
 }
 
 void check_writable(const fs::path& file, const WriteOptions& options) {
@@ -35,7 +41,7 @@ std::vector<fs::path> output_files(const fs::path& file, const WriteOptions& opt
 std::vector<MeshFormat> mesh_formats() {
     std::vector<MeshFormat> formats;
     for (const FormatRow& row : format_table())
-        formats.push_back({row.name, row.extensions, row.description, row.read != nullptr, row.quads});
+        formats.push_back({row.name, row.extensions, row.description, row.read != nullptr, row.quads, row.one_stream});
     return formats;
 }
 

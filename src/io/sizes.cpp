@@ -79,7 +79,7 @@ SizedMesh read_sizes(const std::filesystem::path& file) {
     if (format.read_sizes == nullptr)
         throw UsageError(fmt::format("{}: sizes are read from files with the extensions {}", file.string(),
                                      fmt::join(extensions_with_sizes(), ", ")));
-    return make_sized_mesh(format.read_sizes(read_file(file), file), file);
+    return make_sized_mesh(format.read_sizes(read_file(file), input_name(file)), input_name(file));
 }
 
 }  // namespace lamina

@@ -95,6 +95,16 @@ bool read_vertices(NumberLines& in, TriangleInput& input) {
     return n > 0;
 }
 
+/// Returns whether the file is a .poly file, by its format or, without one, by its extension; else it is a .node file.
+bool is_poly(const fs::path& file, const std::string& format) {
+    const std::string kind = format.empty() ? file.extension().string() : "." + format;
+    if (kind == ".poly") return true;
+    if (kind == ".node") return false;
+    if (!format.empty()) throw UsageError(fmt::format("format '{}': must be node or poly", format));
+    throw UsageError(is_standard_stream(file) ? "'-' has no extension that tells the format: name it, node or poly"
+                                              : fmt::format("{}: neither a .node nor a .poly file", file.string()));
+}
+
 void refuse_duplicates(const TriangleInput& input) {
     std::vector<std::size_t> order(input.points.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -261,17 +271,16 @@ namespace lamina {
 
 using namespace io;
 
-TriangleInput read_triangle_files(const fs::path& file) {
-    const std::string extension = file.extension().string();
-    if (extension != ".node" && extension != ".poly")
-        throw UsageError(fmt::format("{}: neither a .node nor a .poly file", file.string()));
+TriangleInput read_triangle_files(const fs::path& file, const std::string& format) {
+    const bool has_segments = is_poly(file, format);
     TriangleInput input;
     const std::string bytes = read_file(file);
-    NumberLines in(bytes, file.string());
-    input.point_file = file;
+    NumberLines in(bytes, input_name(file));
+    input.point_file = input_name(file);
     const bool has_vertices = read_vertices(in, input);
-    if (extension == ".poly") {
-        input.segment_file = file;
+    if (has_segments) {
+        input.segment_file = input_name(file);
+        if (!has_vertices && is_standard_stream(file)) in.fail("no vertices, which must stand before the segments");
         if (!has_vertices) {
             input.point_file = fs::path(file).replace_extension(".node");
             const std::string nodes = read_file(input.point_file);

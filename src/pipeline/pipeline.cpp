@@ -11,6 +11,7 @@
 
 #include "core/busy_times.hpp"
 #include "core/parallel.hpp"
+#include "decoupling/far_field.hpp"
 #include "decoupling/refine_all.hpp"
 #include "layers/fill.hpp"
 #include "pipeline/mesh_limits.hpp"
@@ -100,6 +101,29 @@ void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOpt
     }
 }
 
+/// Throws OptionError where the bodies fit into the far field, but not with their layers: the heights are wrong then,
+/// rather than the far field.
+void require_room_for_layers(const Geometry& geometry, const std::vector<std::vector<Point>>& fronts,
+                             const FarField& far_field, const LayerOptions& options, const LayerGrowth& growth) {
+    const Box bodies = bounding_box(geometry), domain = far_field.box();
+    Box with_layers = bodies;
+    for (const std::vector<Point>& front : fronts)
+        for (const Point p : front) with_layers.include(p);
+    if (!decoupling::leaves_room(far_field, bodies) || decoupling::leaves_room(far_field, with_layers)) return;
+    const bool by_y_plus = std::holds_alternative<YPlus>(options.first_height);
+    const double thickness = std::max({bodies.lower.x - with_layers.lower.x, bodies.lower.y - with_layers.lower.y,
+                                       with_layers.upper.x - bodies.upper.x, with_layers.upper.y - bodies.upper.y});
+    const double distance = std::min({bodies.lower.x - domain.lower.x, bodies.lower.y - domain.lower.y,
+                                      domain.upper.x - bodies.upper.x, domain.upper.y - bodies.upper.y});
+    throw OptionError(
+        by_y_plus ? "y_plus" : "first_height",
+        fmt::format("a first height of {:.4g}{} {} a layer that is {:.4g} thick, but the far field is "
+                    "only {:.4g} away: lower the first height, {}the growth ({:.4g}), or set a thickness",
+                    growth.first_height, growth.layers ? fmt::format(" and {} layers", *growth.layers) : "",
+                    growth.layers ? "make" : "makes", thickness, distance,
+                    growth.layers ? "the number of layers or " : "", growth.growth));
+}
+
 void require_valid(const MeshCheck& check) {
     if (check.valid()) return;
     const MeshDefect& first = check.defects.front();
@@ -125,7 +149,9 @@ MeshResult run(Geometry geometry, const CaseOptions& options, StageClock& clock,
 
     clock.begin("layers");
     Rays rays = grow_rays(geometry, options.layer, growth);
-    const SizeRequests requests = gather_size_requests(options.sizing, bodies, fronts(rays), far_field.box());
+    const auto tips = fronts(rays);
+    if (options.layer.enabled) require_room_for_layers(geometry, tips, far_field, options.layer, growth);
+    const SizeRequests requests = gather_size_requests(options.sizing, bodies, tips, far_field.box());
     const Layer layer = close_border(std::move(rays), border_options(options, requests.at_borders));
     seconds.layers = clock.lap();
 

@@ -32,6 +32,8 @@ OptionTable<PlotOptions> make_table() {
                  member_at(&PlotOptions::color));
     table.spec("window", "X0,X1,Y0,Y1", "part of the plane to show, in units of the input; else the whole mesh",
                parse_window, window_text, member_at(&PlotOptions::window));
+    table.choice("format", "format of the picture; else its extension says it",
+                 Choices<std::string>{{"png", "png"}, {"svg", "svg"}, {"pdf", "pdf"}}, member_at(&PlotOptions::format));
     constexpr int max_cairo_pixels = 32767;
     table.count("width", "PX", "longer side of the picture, in pixels", numbers_from_to(16, max_cairo_pixels),
                 member_at(&PlotOptions::width_px));

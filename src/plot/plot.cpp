@@ -187,10 +187,12 @@ struct PictureFormat {
 constexpr PictureFormat picture_formats[] = {
     {".png", make_png, true}, {".svg", make_svg, false}, {".pdf", make_pdf, false}};
 
-const PictureFormat& picture_format_of(const fs::path& file) {
-    const std::string extension = core::extension_of(file);
+/// Returns the format of this name, or the one that the extension of the file stands for where no name is given.
+const PictureFormat& picture_format_of(const fs::path& file, const std::string& name) {
+    const std::string extension = name.empty() ? core::extension_of(file) : "." + name;
     for (const PictureFormat& format : picture_formats)
         if (extension == format.extension) return format;
+    if (is_standard_stream(file)) throw UsageError("'-' has no extension that tells the format: png, svg or pdf");
     throw UsageError(
         fmt::format("{}: pictures are written as .png, .svg or .pdf, not as '{}'", file.string(), extension));
 }
@@ -205,7 +207,7 @@ using namespace plot;
 
 void plot_mesh(const Mesh& mesh, const fs::path& file, const PlotOptions& options) {
     validate(options);
-    const PictureFormat& format = picture_format_of(file);
+    const PictureFormat& format = picture_format_of(file, options.format);
     const PictureView view = make_view(mesh, options);
     check_folder_writable(file);
     core::write_stream_atomically(file, [&](std::ostream& out) {
@@ -215,7 +217,8 @@ void plot_mesh(const Mesh& mesh, const fs::path& file, const PlotOptions& option
         if (format.is_image) status = cairo_surface_write_to_png_stream(surface.get(), write_to_stream, &out);
         cairo_surface_finish(surface.get());
         if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
-        if (status != CAIRO_STATUS_SUCCESS)
+        // A stream that failed tells its own reason.
+        if (status != CAIRO_STATUS_SUCCESS && out)
             throw IoError(file.string(), fmt::format("cannot draw: {}", cairo_status_to_string(status)));
     });
 }

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,9 +23,10 @@ std::string joined(const std::vector<std::string>& arguments) {
     return line;
 }
 
-/// Starts the program with files of `captured` as its standard output and error.
+/// Starts the program with files of `captured` as its standard input, output and error. Its output is `output` where
+/// that is a descriptor.
 pid_t start_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
-                   const TemporaryFolder& captured) {
+                   const TemporaryFolder& captured, int output = -1) {
     std::vector<std::string> words{LAMINA_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -34,7 +36,11 @@ pid_t start_lamina(const TemporaryFolder& folder, const std::vector<std::string>
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     const int flags = O_WRONLY | O_CREAT;
-    posix_spawn_file_actions_addopen(&actions, 1, (captured / "out").c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, 0, (captured / "in").c_str(), O_RDONLY | O_CREAT, 0600);
+    if (output >= 0)
+        posix_spawn_file_actions_adddup2(&actions, output, 1);
+    else
+        posix_spawn_file_actions_addopen(&actions, 1, (captured / "out").c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, 2, (captured / "err").c_str(), flags, 0600);
     posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
     pid_t child = 0;
@@ -46,12 +52,26 @@ pid_t start_lamina(const TemporaryFolder& folder, const std::vector<std::string>
 
 }  // namespace
 
-ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                      const std::string& input) {
     const TemporaryFolder captured;
+    if (!input.empty()) captured.write("in", input);
     const pid_t child = start_lamina(folder, arguments, captured);
     int status = 0;
     waitpid(child, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, captured.read("out"), captured.read("err")};
+}
+
+ProgramRun run_lamina_unread(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+    const TemporaryFolder captured;
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    close(ends[0]);
+    const pid_t child = start_lamina(folder, arguments, captured, ends[1]);
+    close(ends[1]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", captured.read("err")};
 }
 
 int interrupt_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,

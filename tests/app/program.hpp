@@ -18,8 +18,12 @@ struct ProgramRun {
     std::string err;
 };
 
-/// Runs `lamina ARGUMENTS...` with `folder` as its working directory.
-ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+/// Runs `lamina ARGUMENTS...` with `folder` as its working directory and `input` as its standard input.
+ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                      const std::string& input = "");
+
+/// Runs it, too, with a pipe as its standard output that nobody reads. `out` stays empty.
+ProgramRun run_lamina_unread(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
 /// Runs it, too, and sends it a signal as soon as `moment()` holds. Returns the signal that ended it, or 0.
 int interrupt_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,

@@ -25,7 +25,8 @@ std::vector<ElementCoverage> coverage_of(std::initializer_list<shapes::Outline> 
 
 TEST(Coverage, CountsRaysAndTheCellsBetween) {
     const LayerOptions options = ten_layers(0.1);
-    const auto [all, open] = coverage_of({shapes::circle(1, 90)}, options)[0];
+    const ElementCoverage coverage = coverage_of({shapes::circle(1, 90)}, options)[0];
+    const LayerCoverage &all = coverage.all, &open = coverage.open;
     EXPECT_EQ(all.rays, 90u);
     EXPECT_EQ(all.requested_cells, 900u);
     EXPECT_EQ(all.made_cells, 900u);

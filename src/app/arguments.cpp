@@ -1,0 +1,97 @@
+#include "app/arguments.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <lamina/error.hpp>
+
+#include "app/option_hint.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+/// Returns the arguments with the options for the words that stand for them: help, help COMMAND, version.
+std::vector<std::string> with_options_for_words(std::vector<std::string> arguments) {
+    if (arguments.empty()) throw UsageError("no command (see lamina --help)");
+    if (arguments.front() == "version") arguments.front() = "--version";
+    if (arguments.front() != "help") return arguments;
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
+    return arguments;
+}
+
+/// Throws UsageError for unknown commands, for which CLI11 would say that the command is missing.
+void require_known_command(const CLI::App& app, const std::string& command) {
+    if (command.starts_with("-")) return;
+    std::vector<std::string> names;
+    std::string known;
+    for (const CLI::App* each : app.get_subcommands({})) {
+        if (each->get_name() == command) return;
+        if (each->get_group().empty()) continue;
+        names.push_back(each->get_name());
+        known += (known.empty() ? "" : ", ") + each->get_name();
+    }
+    throw UsageError("command '" + command + "' is not known" + hint_text(hint_for_command(command, names), "lamina ") +
+                     " (known: " + known + ")");
+}
+
+std::string help_hint(const CLI::App& app) {
+    std::string command = app.get_name();
+    for (const CLI::App* named : app.get_subcommands()) command += " " + named->get_name();
+    return " (see " + command + " --help)";
+}
+
+std::vector<std::string> long_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back(name);
+    return names;
+}
+
+/// Returns the name of the command that has this option; empty where none has it.
+std::string command_with(const CLI::App& app, const std::string& option) {
+    for (const CLI::App* command : app.get_subcommands({}))
+        for (const std::string& name : long_names(*command))
+            if (option == "--" + name) return command->get_name();
+    return {};
+}
+
+/// Returns what was probably meant by an option that the command in use does not have.
+std::string unknown_option_hint(const CLI::App& app, const std::string& option) {
+    const std::vector<CLI::App*> used = app.get_subcommands();
+    if (used.empty()) return {};
+    const std::string word = option.substr(0, option.find('=')), command = used.front()->get_name();
+    Hint hint = hint_for_other_word(command, word);
+    if (const std::string other = command_with(app, word); hint.empty() && !other.empty())
+        hint.advice = "it belongs to lamina " + other;
+    if (hint.empty()) hint = hint_for_option(command, word, long_names(*used.front()));
+    return hint_text(hint, "--");
+}
+
+/// Throws UsageError where the command line holds what no option and no argument of the command took.
+void require_known_arguments(const CLI::App& app) {
+    const std::vector<std::string> extras = app.remaining(true);
+    if (extras.empty()) return;
+    const std::string& extra = extras.front();
+    if (!extra.starts_with("-")) throw UsageError("unexpected argument " + extra + help_hint(app));
+    throw UsageError("unknown option " + extra + unknown_option_hint(app, extra) + help_hint(app));
+}
+
+}  // namespace
+
+void run_arguments(CLI::App& app, std::vector<std::string> arguments) {
+    arguments = with_options_for_words(std::move(arguments));
+    require_known_command(app, arguments.front());
+    std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes
+    try {
+        app.parse(std::move(arguments));
+    } catch (const CLI::ParseError& error) {
+        // CLI11 names a missing argument first. An unknown option is more often the reason, as in --out for -o.
+        if (error.get_exit_code() != 0) require_known_arguments(app);
+        if (error.get_exit_code() != 0) throw UsageError(error.what() + help_hint(app));
+        app.exit(error);  // prints the answer to --help or --version
+    }
+}
+
+}  // namespace lamina::app

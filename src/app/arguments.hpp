@@ -1,0 +1,15 @@
+// The arguments of the program: reads them, and says what was probably meant where they are wrong.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace lamina::app {
+
+/// Runs the command that the arguments name. `lamina help COMMAND` and `lamina version` do the same as the options.
+/// Throws UsageError with a hint for unknown commands and options, and the errors of the command.
+void run_arguments(CLI::App& app, std::vector<std::string> arguments);
+
+}  // namespace lamina::app

@@ -1,0 +1,259 @@
+#include "app/option_hint.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <lamina/suggestion.hpp>
+
+namespace lamina::app {
+
+namespace {
+
+/// A word of other programs: Construct2D, pyHyp, Pointwise, AFLR, Gmsh, SU2, Triangle, and plain English. Words are in
+/// lower case, without hyphens and underscores.
+struct OtherWord {
+    const char* word;
+    const char* ours;              ///< the name of our option; empty: advice alone
+    const char* advice = nullptr;  ///< a sentence in place of it
+};
+
+constexpr const char* no_angle_of_attack =
+    "a mesh has no angle of attack, which the flow solver sets; --wake ANGLE refines along the flow";
+constexpr const char* inputs_have_no_option = "inputs are named without an option, as in lamina mesh FILE";
+constexpr const char* solver_sets_it = "the flow solver sets it; --y-plus and --reynolds set the first height";
+
+constexpr OtherWord mesh_words[] = {
+    {"boxsize", "far-field"},
+    {"distance", "far-field"},
+    {"domain", "far-field"},
+    {"domainsize", "far-field"},
+    {"extent", "far-field"},
+    {"fardistance", "far-field"},
+    {"farfielddistance", "far-field"},
+    {"farfieldradius", "far-field"},
+    {"farfieldsize", "far-field"},
+    {"outerradius", "far-field"},
+    {"radi", "far-field"},
+    {"radius", "far-field"},
+    {"ds", "first-height"},
+    {"deltas", "first-height"},
+    {"dwall", "first-height"},
+    {"firstcell", "first-height"},
+    {"firstcellheight", "first-height"},
+    {"firstcellsize", "first-height"},
+    {"firstlayer", "first-height"},
+    {"firstlayerheight", "first-height"},
+    {"firstlayerthickness", "first-height"},
+    {"firstspacing", "first-height"},
+    {"h0", "first-height"},
+    {"hwall", "first-height"},
+    {"hwalln", "first-height"},
+    {"initialheight", "first-height"},
+    {"initialspacing", "first-height"},
+    {"normalspacing", "first-height"},
+    {"s0", "first-height"},
+    {"wallspacing", "first-height"},
+    {"y1", "first-height"},
+    {"yp", "y-plus"},
+    {"ypls", "y-plus"},
+    {"y+", "y-plus"},
+    {"re", "reynolds"},
+    {"recd", "reynolds"},
+    {"rec", "reynolds"},
+    {"reynoldsnumber", "reynolds"},
+    {"expansion", "growth"},
+    {"expansionratio", "growth"},
+    {"gr", "growth"},
+    {"growthfactor", "growth"},
+    {"growthrate", "growth"},
+    {"growthratio", "growth"},
+    {"ratio", "growth"},
+    {"stretching", "growth"},
+    {"stretchingratio", "growth"},
+    {"jmax", "layers"},
+    {"maxlayers", "layers"},
+    {"n", "layers"},
+    {"nl", "layers"},
+    {"nlayers", "layers"},
+    {"nnormal", "layers"},
+    {"numberoflayers", "layers"},
+    {"numlayers", "layers"},
+    {"blthickness", "thickness"},
+    {"boundarylayerthickness", "thickness"},
+    {"delta", "thickness"},
+    {"height", "thickness"},
+    {"layerthickness", "thickness"},
+    {"marchdist", "thickness"},
+    {"totalheight", "thickness"},
+    {"inviscid", "no-layers"},
+    {"euler", "no-layers"},
+    {"nobl", "no-layers"},
+    {"imax", "surface-points"},
+    {"npoints", "surface-points"},
+    {"nsrf", "surface-points"},
+    {"numpoints", "surface-points"},
+    {"panels", "surface-points"},
+    {"points", "surface-points"},
+    {"repanel", "surface-points"},
+    {"markers", "names"},
+    {"tags", "names"},
+    {"clmax", "far-size"},
+    {"maxsize", "far-size"},
+    {"meshsizemax", "far-size"},
+    {"sizemax", "far-size"},
+    {"clmin", "wall-size"},
+    {"h", "wall-size"},
+    {"lc", "wall-size"},
+    {"size", "wall-size"},
+    {"surfacesize", "wall-size"},
+    {"minsize", "wall-size"},
+    {"bgm", "background"},
+    {"sizefield", "background"},
+    {"grading", "gradation"},
+    {"boundarydecay", "gradation"},
+    {"q", "min-angle"},
+    {"quality", "min-angle"},
+    {"minimumangle", "min-angle"},
+    {"quadlayers", "layer-topology"},
+    {"recombine", "layer-topology"},
+    {"topology", "layer-topology"},
+    {"cores", "threads"},
+    {"j", "threads"},
+    {"jobs", "threads"},
+    {"np", "threads"},
+    {"nproc", "threads"},
+    {"nt", "threads"},
+    {"nthreads", "threads"},
+    {"out", "output"},
+    {"outfile", "output"},
+    {"outputfile", "output"},
+    {"json", "report"},
+    {"log", "report"},
+    {"verbose", "progress"},
+    {"verbosity", "progress"},
+    {"v", "progress"},
+    {"silent", "quiet"},
+    {"config", "", "a case file is an input: lamina mesh case.toml"},
+    {"aoa", "", no_angle_of_attack},
+    {"alfa", "", no_angle_of_attack},
+    {"alpha", "", no_angle_of_attack},
+    {"angleofattack", "", no_angle_of_attack},
+    {"mach", "", solver_sets_it},
+    {"naca", "", "a NACA section is an input: lamina mesh naca:0012"},
+    {"airfoil", "", inputs_have_no_option},
+    {"file", "", inputs_have_no_option},
+    {"geometry", "", inputs_have_no_option},
+    {"i", "", inputs_have_no_option},
+    {"inputfile", "", inputs_have_no_option},
+    {"input", "", inputs_have_no_option},
+    {"2", "", "every mesh is two-dimensional"},
+    {"force", "", "outputs are replaced without asking, and inputs never"},
+    {"overwrite", "", "outputs are replaced without asking, and inputs never"},
+    {"scale", "", "lamina never scales or moves coordinates"},
+    {"rotate", "", "lamina never scales or moves coordinates"},
+};
+
+constexpr OtherWord delaunay_words[] = {
+    {"area", "max-area"},        {"quality", "min-angle"},     {"minimumangle", "min-angle"},
+    {"convexhull", "keep-hull"}, {"nosteiner", "keep-border"}, {"out", "output"},
+    {"json", "report"},          {"silent", "quiet"},
+};
+
+constexpr OtherWord check_words[] = {{"delaunay", "require-delaunay"},
+                                     {"minimumangle", "min-angle"},
+                                     {"output", "json"},
+                                     {"o", "json"},
+                                     {"report", "json"},
+                                     {"farfield", "far"},
+                                     {"format", "input-format"}};
+
+constexpr OtherWord plot_words[] = {{"zoom", "window"},       {"view", "window"},
+                                    {"xlim", "window"},       {"colorby", "color"},
+                                    {"dpi", "width"},         {"resolution", "width"},
+                                    {"size", "width"},        {"out", "output"},
+                                    {"from", "input-format"}, {"inputformat", "input-format"}};
+
+constexpr OtherWord convert_words[] = {{"to", "format"},
+                                       {"outputformat", "format"},
+                                       {"from", "input-format"},
+                                       {"farfield", "far"},
+                                       {"o", "", "the second argument is the output: lamina convert IN OUT"},
+                                       {"output", "", "the second argument is the output: lamina convert IN OUT"}};
+
+constexpr OtherWord command_words[] = {
+    {"create", "mesh"},       {"generate", "mesh"}, {"grid", "mesh"},         {"make", "mesh"},
+    {"run", "mesh"},          {"inspect", "info"},  {"describe", "info"},     {"quality", "check"},
+    {"validate", "check"},    {"verify", "check"},  {"stats", "check"},       {"view", "plot"},
+    {"draw", "plot"},         {"show", "plot"},     {"picture", "plot"},      {"export", "convert"},
+    {"translate", "convert"}, {"cdt", "delaunay"},  {"triangle", "delaunay"}, {"triangulate", "delaunay"},
+    {"refine", "delaunay"},
+};
+
+std::span<const OtherWord> words_of_command(const std::string& command) {
+    if (command == "mesh") return mesh_words;
+    if (command == "delaunay") return delaunay_words;
+    if (command == "check") return check_words;
+    if (command == "plot") return plot_words;
+    if (command == "convert") return convert_words;
+    return {};
+}
+
+/// Returns what the other word means, if the table has it.
+Hint look_up(std::span<const OtherWord> words, const std::string& word) {
+    const std::string letters = plain_word(word);
+    for (const OtherWord& other : words)
+        if (letters == other.word) return {other.ours, other.advice != nullptr ? other.advice : ""};
+    return {};
+}
+
+/// Returns our options for the switches of Triangle, which follow one hyphen without blanks: -pq30a0.1.
+std::string triangle_switches(const std::string& word) {
+    std::vector<std::string> meanings;
+    for (const char c : word.substr(1)) {
+        if (c == 'q') meanings.emplace_back("q is --min-angle DEG");
+        if (c == 'a') meanings.emplace_back("a is --max-area A");
+        if (c == 'Y') meanings.emplace_back("Y is --keep-border");
+        if (c == 'c') meanings.emplace_back("c is --keep-hull");
+        if (c == 'Q') meanings.emplace_back("Q is --quiet");
+        if (c == 'p') meanings.emplace_back("p is not needed for a .poly file");
+    }
+    if (meanings.empty()) return {};
+    return fmt::format("of Triangle's switches, {}", fmt::join(meanings, ", "));
+}
+
+bool is_input(const std::string& word) {
+    std::error_code ignored;
+    return plain_word(word).starts_with("naca") || std::filesystem::exists(word, ignored);
+}
+
+}  // namespace
+
+Hint hint_for_other_word(const std::string& command, const std::string& word) {
+    Hint hint = look_up(words_of_command(command), word);
+    const bool one_hyphen = word.starts_with('-') && !word.starts_with("--");
+    if (hint.empty() && command == "delaunay" && one_hyphen) hint.advice = triangle_switches(word);
+    return hint;
+}
+
+Hint hint_for_option(const std::string& command, const std::string& word, std::span<const std::string> options) {
+    Hint hint = hint_for_other_word(command, word);
+    return hint.empty() ? Hint{closest_word(word, options), ""} : hint;
+}
+
+Hint hint_for_command(const std::string& word, std::span<const std::string> commands) {
+    if (Hint hint = look_up(command_words, word); !hint.empty()) return hint;
+    if (is_input(word)) return {"mesh " + word, ""};
+    return {closest_word(word, commands), ""};
+}
+
+std::string hint_text(const Hint& hint, const std::string& prefix) {
+    if (!hint.advice.empty()) return ": " + hint.advice;
+    return hint.name.empty() ? "" : ": did you mean " + prefix + hint.name + "?";
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,145 @@
+// What the program says to words that it does not know, and how it gives help.
+#include <gtest/gtest.h>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+struct OptionAndHint {
+    const char* option;
+    const char* hint;
+};
+
+TEST(Hints, OptionsOfMeshUnderOtherNames) {
+    const TemporaryFolder folder;
+    const OptionAndHint options[] = {
+        {"--farfield", "did you mean --far-field?"},
+        {"--far-field-distance", "did you mean --far-field?"},
+        {"--first-layer", "did you mean --first-height?"},
+        {"--first-cell", "did you mean --first-height?"},
+        {"--first_heigth", "did you mean --first-height?"},
+        {"--wall-spacing", "did you mean --first-height?"},
+        {"--s0", "did you mean --first-height?"},
+        {"--growth-rate=1.2", "did you mean --growth?"},
+        {"--ratio", "did you mean --growth?"},
+        {"--yplus", "did you mean --y-plus?"},
+        {"--re", "did you mean --reynolds?"},
+        {"--nlayers", "did you mean --layers?"},
+        {"--outptu", "did you mean --output?"},
+        {"--marchDist", "did you mean --thickness?"},
+        {"-format", "did you mean --format?"},
+        {"-nt", "did you mean --threads?"},
+        {"-q", "did you mean --min-angle?"},
+        {"--aoa", "the flow solver sets"},
+        {"--alpha", "the flow solver sets"},
+        {"--naca", "lamina mesh naca:0012"},
+        {"-2", "every mesh is two-dimensional"},
+        {"--json", "did you mean --report?"},
+        {"--require-delaunay", "it belongs to lamina check"},
+    };
+    for (const auto& [option, hint] : options) {
+        expect_refused(folder, {"mesh", "naca:0012", option, "-o", "a.su2"}, usage,
+                       std::string("unknown option ") + option);
+        expect_refused(folder, {"mesh", "naca:0012", option, "-o", "a.su2"}, usage, hint);
+    }
+    // A word that resembles nothing gets no hint.
+    expect_refused(folder, {"mesh", "naca:0012", "--zzzzz"}, usage, "unknown option --zzzzz (see");
+}
+
+TEST(Hints, OptionsOfOtherCommands) {
+    const TemporaryFolder folder;
+    const std::string triangle = "q is --min-angle DEG, a is --max-area A";
+    expect_refused(folder, {"delaunay", "a.poly", "-pq30a0.1"}, usage, triangle);
+    expect_refused(folder, {"delaunay", "a.poly", "-p"}, usage, "not needed");
+    expect_refused(folder, {"delaunay", "a.poly", "--maxarea", "1"}, usage, "--max-area?");
+    expect_refused(folder, {"check", "a.su2", "--minangle", "1"}, usage, "--min-angle?");
+    expect_refused(folder, {"plot", "a.su2", "--zoom", "1"}, usage, "--window?");
+    expect_refused(folder, {"convert", "a.su2", "-o", "a.vtu"}, usage, "the second argument is the output");
+}
+
+TEST(Hints, KeysOfCaseFiles) {
+    const TemporaryFolder folder;
+    folder.write("a.toml", "input = 'naca:0012'\nfarfield = 5\n");
+    expect_refused(folder, {"mesh", "a.toml"}, usage, "a.toml:2: farfield: no such option: did you mean far_field?");
+    folder.write("a.toml", "input = 'naca:0012'\ngrowth_rate = 1.2\n");
+    expect_refused(folder, {"mesh", "a.toml"}, usage, "did you mean growth?");
+    folder.write("a.toml", "input = 'naca:0012'\naoa = 2\n");
+    expect_refused(folder, {"mesh", "a.toml"}, usage, "the flow solver sets");
+}
+
+TEST(Hints, Commands) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"mehs", "naca:0012"}, usage, "did you mean lamina mesh?");
+    expect_refused(folder, {"generate"}, usage, "did you mean lamina mesh?");
+    expect_refused(folder, {"triangulate"}, usage, "did you mean lamina delaunay?");
+    expect_refused(folder, {"naca:0012"}, usage, "did you mean lamina mesh naca:0012?");
+    expect_refused(folder, {"help", "mehs"}, usage, "did you mean lamina mesh?");
+    expect_refused(folder, {"xyzzy"}, usage, "known: mesh, check");
+}
+
+TEST(Hints, ValuesAndFormats) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--far-field-shape", "circel"}, usage, "'circle'?");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--growth-law", "geometrical"}, usage, "'geometric'?");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a", "--format", "gmsh"}, usage, "'msh41'?");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a", "--format", "vtk"}, usage, "'vtu'?");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a", "--format", "msh42"}, usage, "'msh41'?");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a.vtk"}, usage, "'.vtu'?");
+    expect_refused(folder, {"completion", "basch"}, usage, "'bash'?");
+}
+
+TEST(Hints, SectionsWithoutTheirColon) {
+    const TemporaryFolder folder;
+    for (const char* input : {"naca0012", "NACA0012", "NACA 0012", "naca-0012", "0012"})
+        expect_refused(folder, {"mesh", input, "-o", "a.su2"}, io_failed, "did you mean 'naca:0012'?");
+    expect_refused(folder, {"mesh", "naca23012:300", "-o", "a.su2"}, io_failed, "did you mean 'naca:23012:300'?");
+    expect_refused(folder, {"mesh", "NACA", "0012", "-o", "a.su2"}, io_failed, "did you mean 'naca:0012'?");
+    expect_refused(folder, {"info", "2412"}, io_failed, "did you mean 'naca:2412'?");
+    const ProgramRun missing = run_lamina(folder, {"mesh", "wing.dat", "-o", "a.su2"});
+    EXPECT_EQ(missing.err.find("did you mean"), std::string::npos) << missing.err;
+}
+
+TEST(Hints, HelpAndVersionInEveryForm) {
+    const TemporaryFolder folder;
+    const std::string help = run_lamina(folder, {"--help"}).out, mesh_help = run_lamina(folder, {"mesh", "--help"}).out;
+    EXPECT_NE(mesh_help.find("--first-height"), std::string::npos);
+    EXPECT_EQ(run_lamina(folder, {"help"}).out, help);
+    EXPECT_EQ(run_lamina(folder, {"help", "mesh"}).out, mesh_help);
+    EXPECT_EQ(run_lamina(folder, {"-h"}).out, help);
+    const std::string version = run_lamina(folder, {"--version"}).out;
+    EXPECT_TRUE(version.starts_with("lamina ")) << version;
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"-V"}, {"version"}, {"mesh", "--version"}, {"delaunay", "--version"}, {"mesh", "naca:0012", "--version"}})
+        EXPECT_EQ(run_lamina(folder, arguments).out, version) << arguments.front();
+}
+
+// The bodies would fit into the far field: it is the layers that do not.
+TEST(Hints, ALayerBeyondTheFarFieldBlamesTheHeights) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--first-height", "0.1"}, usage,
+                   "option --first-height: a first height of 0.1 and 30 layers make a layer that is 118");
+    expect_refused(folder,
+                   {"mesh", "naca:0012", "-o", "a.su2", "--y-plus", "300", "--reynolds", "1e4", "--far-field", "20"},
+                   usage, "option --y-plus: a first height of");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--far-field", "0.2"}, usage, "option --far-field");
+}
+
+// SU2 files hold no regions. The cells of the layer must not count as isotropic cells that are too narrow.
+TEST(Hints, CheckTellsThinLayerCellsFromOthersWithoutRegions) {
+    const TemporaryFolder folder;
+    const ProgramRun made =
+        run_lamina(folder, {"mesh", "naca:0012", "--layers", "auto", "--far-field", "5", "-o", "a.su2", "-o", "a.vtu"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const ProgramRun run = run_lamina(folder, {"check", "a.su2", "--min-angle", "20.7", "--require-delaunay"});
+    EXPECT_EQ(run.exit_code, 0) << run.err << run.out;
+    EXPECT_NE(run.out.find("thin cells that hang together with a wall"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find(" 0 isotropic cells have an angle below the bound"), std::string::npos) << run.out;
+    EXPECT_EQ(run.out.find("transition"), std::string::npos) << run.out;
+    EXPECT_NE(run_lamina(folder, {"check", "a.su2", "--json"}).out.find("\"regions\": \"estimate\""),
+              std::string::npos);
+    EXPECT_NE(run_lamina(folder, {"check", "a.vtu", "--json"}).out.find("\"regions\": \"file\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lamina::test

@@ -1,0 +1,34 @@
+// Suggestions for misspelt words.
+#include <gtest/gtest.h>
+
+#include <lamina/suggestion.hpp>
+
+namespace lamina::test {
+namespace {
+
+TEST(Suggestion, EditDistanceCountsSwapsOnce) {
+    EXPECT_EQ(edit_distance("", ""), 0u);
+    EXPECT_EQ(edit_distance("abc", ""), 3u);
+    EXPECT_EQ(edit_distance("abc", "abd"), 1u);
+    EXPECT_EQ(edit_distance("abc", "acb"), 1u);
+    EXPECT_EQ(edit_distance("ca", "abc"), 3u);  // the unrestricted distance is 2
+    EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+    EXPECT_EQ(edit_distance("heigth", "height"), 1u);
+}
+
+TEST(Suggestion, TheClosestWordIsTheFirstOfEquals) {
+    const std::vector<std::string> known{"far-field", "far-size", "growth", "growth-law", "y-plus"};
+    EXPECT_EQ(closest_word("--farfield", known), "far-field");
+    EXPECT_EQ(closest_word("FAR_FIELD", known), "far-field");
+    EXPECT_EQ(closest_word("grwoth", known), "growth");
+    EXPECT_EQ(closest_word("yplsu", known), "y-plus");
+    EXPECT_EQ(closest_word("entirely", known), "");
+    EXPECT_EQ(closest_word("", known), "");
+    EXPECT_EQ(closest_word("x", known), "");
+    EXPECT_EQ(closest_word(std::string(100'000, 'g'), known), "");
+    EXPECT_EQ(did_you_mean(""), "");
+    EXPECT_EQ(did_you_mean("growth"), ": did you mean 'growth'?");
+}
+
+}  // namespace
+}  // namespace lamina::test
