@@ -32,10 +32,14 @@ struct WorkCost {
     double seconds_per_triangle;  ///< processor time
 };
 
-/// The costs of generate_mesh(), of a triangulation of points and segments, of its refinement to sizes, and of its
-/// refinement to angles alone.
-inline constexpr WorkCost mesh_cost{20e6, 50, 0.3e-6}, triangulation_cost{15e6, 90, 0.5e-6},
-    refinement_cost{15e6, 70, 0.35e-6}, angle_refinement_cost{15e6, 290, 8e-6};
+/// The cost of generate_mesh().
+inline constexpr WorkCost mesh_cost{20e6, 50, 0.3e-6};
+/// The cost of a triangulation of points and segments.
+inline constexpr WorkCost triangulation_cost{15e6, 90, 0.5e-6};
+/// The cost of refining a triangulation to sizes.
+inline constexpr WorkCost refinement_cost{15e6, 70, 0.35e-6};
+/// The cost of refining a triangulation to an angle bound alone.
+inline constexpr WorkCost angle_refinement_cost{15e6, 290, 8e-6};
 
 /// Returns the estimate for a number of triangles, when the work is divided among so many threads. `more_seconds` are
 /// those of processor time that do not depend on the number of triangles.
