@@ -51,10 +51,12 @@ def arguments():
                         help="table of the refusals that somebody has judged [%(default)s]")
     parser.add_argument("--first-height", type=float, default=1e-5, metavar="H",
                         help="first height in chords [%(default)s]")
-    parser.add_argument("--limit", type=float, default=60, metavar="S",
+    parser.add_argument("--limit", type=float, default=300, metavar="S",
                         help="seconds that a case may take [%(default)s]")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N",
                         help="number of cases at a time [%(default)s]")
+    parser.add_argument("--exact", action="store_true",
+                        help="check each mesh once more with tools/exact_check.py: 15 microseconds a triangle")
     parser.add_argument("--only", default="", metavar="TEXT", help="run only cases with a file whose path holds TEXT")
     words, options = split_at_dashes(sys.argv[1:])
     settings = parser.parse_args(words)

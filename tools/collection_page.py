@@ -132,12 +132,14 @@ def head(left_out, settings):
     version = said([settings.program, "--version"])
     commit = said(["git", "-C", REPOSITORY, "describe", "--always"])
     words = [] if settings.own else [str(settings.folder)] + ["--together"] * settings.together
+    words += ["--exact"] * settings.exact
     words += ["--", *settings.options] if settings.options else []
     others = "these options hold besides" if settings.options else "all other options are the defaults"
+    exact = " `tools/exact_check.py` checked each mesh, too." if settings.exact else ""
     text = (f"`./dev {shlex.join(['collection', *words])}` made this page on {datetime.date.today()} with "
             f"{version or 'lamina'}{', commit ' if commit else ''}{commit}. The first height is "
             f"{settings.first_height:g} chords unless the options say otherwise; {others}. Each case had one thread "
-            f"and {settings.limit:g} seconds.")
+            f"and {settings.limit:g} seconds.{exact}")
     skipped = ", ".join(f"{n} of `{ending}`" for ending, n in sorted(left_out.items()))
     lines = [f"# Every section of the {'collection' if settings.own else 'folder'}, meshed", "", *wrapped(text)]
     if skipped:

@@ -6,8 +6,11 @@ import pathlib
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
+
+EXACT_CHECK = pathlib.Path(__file__).resolve().with_name("exact_check.py")
 
 # Options that say how high the first layer is; with one of them the common first height is not given.
 HEIGHT_OPTIONS = ("--first-height", "--y-plus", "--no-layers")
@@ -110,8 +113,10 @@ def mesh_and_check(case, settings, scratch, result):
     deadline = time.monotonic() + settings.limit
     options = options_of(case, files, settings, deadline)
     mesh, report = f"{scratch}/mesh.vtu", pathlib.Path(scratch) / "report.json"
+    second = f"{scratch}/mesh.su2"
+    outputs = ["-o", mesh, "-o", second] if settings.exact else ["-o", mesh]
     start = time.monotonic()
-    code, _, reason = run([settings.program, "mesh", *files, *options, "--threads", "1", "--quiet", "-o", mesh,
+    code, _, reason = run([settings.program, "mesh", *files, *options, "--threads", "1", "--quiet", *outputs,
                            "--report", str(report)], deadline)
     result.seconds = time.monotonic() - start
     if code == 3:
@@ -123,6 +128,11 @@ def mesh_and_check(case, settings, scratch, result):
         if code != 0:
             result.reason = f"lamina check: {name_of_end(code, reason, settings.limit)}"
             return
+        if settings.exact:
+            code, said, reason = run([sys.executable, str(EXACT_CHECK), second], deadline)
+            if code != 0:
+                result.reason = f"exact_check.py: {said.strip() or name_of_end(code, reason, settings.limit)}"
+                return
         result.figures = figures_of(json.loads(report.read_text(encoding="utf-8")), json.loads(text))
         result.outcome = "valid"
 
