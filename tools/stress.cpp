@@ -262,7 +262,8 @@ Outcome judge(const Configuration& c) {
     } catch (const InputError& e) {
         return {"bodies refused", must_be_refused ? "" : std::string("refused sound bodies: ") + e.what()};
     } catch (const UsageError& e) {
-        return {"options refused", std::strstr(e.what(), "far_field") || std::strstr(e.what(), "resolution") ||
+        return {"options refused", std::strstr(e.what(), "far_field") || std::strstr(e.what(), "far field") ||
+                                           std::strstr(e.what(), "resolution") ||
                                            std::strstr(e.what(), "times the extent")
                                        ? ""
                                        : std::string("refused sound options: ") + e.what()};

@@ -8,10 +8,10 @@
 // status is 1 where anything else happened.
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <map>
 #include <string>
@@ -50,14 +50,14 @@ bool passes(std::uint64_t seed, std::map<std::string, int>& kinds) {
     const test::RandomGraph input = test::random_planar_graph(random.bits());
     ++kinds[input.kind];
     std::string fault;
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     try {
         fault = judge(input.graph, SizeField(h), min_angle_deg);
     } catch (const std::exception& error) {
         fault = error.what();
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (fault.empty() && seconds > 20) fault = fmt::format("took {:.0f} s", seconds);
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    if (fault.empty() && seconds > 20) fault = fmt::format("took {:.0f} s of processor time", seconds);
     if (!fault.empty()) fmt::print("{} ({}, {} degrees, h {:.4g}): {}\n", seed, input.kind, min_angle_deg, h, fault);
     return fault.empty();
 }

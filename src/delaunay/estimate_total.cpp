@@ -19,14 +19,14 @@ using sizing::SizedPoint;
 /// h may differ by this factor in a part.
 constexpr double max_ratio = 1.5;
 /// h in the middle of a part may differ by this factor from the mean at its ends.
-constexpr double max_bend = 1.2;
+constexpr double max_middle_ratio = 1.2;
 constexpr int max_depth = 200;  // only a guard
 
 double inverse_square(double h) { return 1 / (h * h); }
 
 /// Returns whether h is nearly linear and nearly even where it has these values.
 bool is_even(double low, double high, double inside, double mean) {
-    return high < max_ratio * low && inside < max_bend * mean && mean < max_bend * inside;
+    return high < max_ratio * low && inside < max_middle_ratio * mean && mean < max_middle_ratio * inside;
 }
 
 /// Estimates the triangles in one triangle.

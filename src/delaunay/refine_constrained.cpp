@@ -98,7 +98,7 @@ FieldPatches fill_fields(const ConstrainedInput& input, std::span<const LatticeO
 }
 
 /// The domain without its patches.
-struct Seam {
+struct SeamDomain {
     SplittableDomain domain;
     std::vector<Index> shared;  ///< for each vertex behind those of the input the index of its point in the patches
 };
@@ -127,12 +127,12 @@ void triangulate_seam(const SeamEdges& edges, SplittableDomain& domain) {
         if (field != no_index) domain.fields.push_back(field);
 }
 
-Seam make_seam(const ConstrainedInput& input, const FieldPatches& filled) {
+SeamDomain make_seam(const ConstrainedInput& input, const FieldPatches& filled) {
     const std::size_t count = input.points.size();
     const LatticePatches& patches = filled.patches;
     if (patches.empty()) return {{input.points, input.tris, input.fields, count, count}, {}};
 
-    Seam seam{{input.points, {}, {}, count, count}, {}};
+    SeamDomain seam{{input.points, {}, {}, count, count}, {}};
     std::vector<Point>& points = seam.domain.points;
     std::vector<VertexId> seam_id(patches.points.size());
     const auto seam_vertex = [&](VertexId v) {
@@ -164,7 +164,7 @@ Seam make_seam(const ConstrainedInput& input, const FieldPatches& filled) {
 
 /// Returns the numbers that the refiner's vertices have in the result, where those of the input come first, then those
 /// on lines, then the points of the patches, then the rest.
-std::vector<VertexId> number_vertices(std::size_t input_count, std::size_t vertex_count, const Seam& seam,
+std::vector<VertexId> number_vertices(std::size_t input_count, std::size_t vertex_count, const SeamDomain& seam,
                                       const BorderLines& lines, std::size_t patch_points) {
     std::vector<VertexId> ids;
     ids.reserve(vertex_count);
@@ -197,7 +197,7 @@ void append_segments(const ConstrainedTriangulation& triangulation, const Border
 
 /// Joins the patches and the refined seam.
 ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulation& triangulation,
-                           const FieldPatches& filled, const Seam& seam, const BorderLines& lines,
+                           const FieldPatches& filled, const SeamDomain& seam, const BorderLines& lines,
                            const SplittingRefiner& refiner) {
     const LatticePatches& patches = filled.patches;
     const std::size_t input_count = user_points + triangulation.steiner_points.size();
@@ -243,7 +243,7 @@ ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTri
         FieldPatches filled;
         if (options.refine.lattice && attempt < max_lattice_attempts)
             filled = fill_fields(input, obstacles, options.refine.max_points);
-        Seam seam = make_seam(input, filled);
+        SeamDomain seam = make_seam(input, filled);
         BorderLines lines(input.points, triangulation.segments, input.tris);
         SplittingRefiner refiner(std::move(seam.domain), lines, input.sizes, options);
         refiner.refine();

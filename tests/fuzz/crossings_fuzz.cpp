@@ -8,8 +8,7 @@ void lamina::fuzz::fuzz(std::span<const std::uint8_t> input) {
     Numbers numbers(input);
     const Graph graph = read_graph(numbers, 40);
     try {
-        const ConstrainedTriangulation t =
-            triangulate(graph.points, graph.segments, {.crossings = Crossings::insert});
+        const ConstrainedTriangulation t = triangulate(graph.points, graph.segments, {.crossings = Crossings::insert});
         std::vector<Point> points = graph.points;
         points.insert(points.end(), t.steiner_points.begin(), t.steiner_points.end());
         require(check_triangulation(points, t.triangles, t.segments).empty(), "the triangulation is not valid");

@@ -11,7 +11,7 @@ namespace lamina::test {
 
 namespace {
 
-constexpr double side = 10;
+constexpr double square_side = 10;
 
 void add_isolated_vertices(PlanarGraph& graph, core::Random& random) {
     constexpr std::array counts{1, 2, 3, 10, 50, 100};
@@ -103,7 +103,7 @@ bool PlanarGraph::add_segment(Point a, Point b) {
 RandomGraph random_planar_graph(std::uint64_t seed) {
     core::Random random(seed);
     RandomGraph result;
-    result.graph.add_loop({{0, 0}, {side, 0}, {side, side}, {0, side}});
+    result.graph.add_loop({{0, 0}, {square_side, 0}, {square_side, square_side}, {0, square_side}});
     switch (random.below(6)) {
         case 0:
             result.kind = "isolated vertices";
