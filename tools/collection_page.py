@@ -27,9 +27,11 @@ def names_end_with(names, ends):
 
 
 def judgement_of(result, judgements):
-    """Returns the entry that judges a case without a mesh: its files are the same, and so is what lamina says."""
+    """Returns the entry that judges a case without a mesh: its files are the same, and so is what lamina says. An entry
+    of a mended case does not judge it if it is refused again."""
     for entry in judgements:
-        if names_end_with(result.names, entry["files"]) and entry.get("says", "") in result.reason:
+        if entry["judgement"] != "mended" and names_end_with(result.names, entry["files"]) \
+                and entry.get("says", "") in result.reason:
             return entry
     return None
 
@@ -133,6 +135,7 @@ def head(left_out, settings):
     commit = said(["git", "-C", REPOSITORY, "describe", "--always"])
     words = [] if settings.own else [str(settings.folder)] + ["--together"] * settings.together
     words += ["--exact"] * settings.exact
+    words += ["--only", settings.only] if settings.only else []
     words += ["--", *settings.options] if settings.options else []
     others = "these options hold besides" if settings.options else "all other options are the defaults"
     exact = " `tools/exact_check.py` checked each mesh, too." if settings.exact else ""

@@ -99,6 +99,10 @@ class Collection(unittest.TestCase):
         self.assertIn("rightful: It is a bow tie.", self.collect("--judgements", table, *COARSE)[2])
         table.write_text(entry.format("is open"))
         self.assertIn("**not judged**", self.collect("--judgements", table, *COARSE)[2])
+        table.write_text(entry.replace("rightful", "mended").format("crosses itself"))
+        page = self.collect("--judgements", table, *COARSE)[2]
+        self.assertIn("**not judged**", page)
+        self.assertIn("**refused** again", page)
 
     def test_files_that_belong_together(self):
         self.add("two_main.dat", diamond())
