@@ -39,7 +39,7 @@ inline constexpr WorkCost triangulation_cost{15e6, 90, 0.5e-6};
 /// The cost of refining a triangulation to sizes.
 inline constexpr WorkCost refinement_cost{15e6, 70, 0.35e-6};
 /// The cost of refining a triangulation to an angle bound alone.
-inline constexpr WorkCost angle_refinement_cost{15e6, 290, 8e-6};
+inline constexpr WorkCost angle_refinement_cost{15e6, 160, 0.7e-6};
 
 /// Returns the estimate for a number of triangles, when the work is divided among so many threads. `more_seconds` are
 /// those of processor time that do not depend on the number of triangles.

@@ -43,8 +43,17 @@ pid_t start_lamina(const TemporaryFolder& folder, const std::vector<std::string>
         posix_spawn_file_actions_addopen(&actions, 1, (captured / "out").c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, 2, (captured / "err").c_str(), flags, 0600);
     posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
+    // A shell starts its background jobs with SIGINT ignored, and programs inherit that.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    posix_spawnattr_setsigdefault(&attributes, &signals);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
-    const int failed = posix_spawn(&child, LAMINA_PROGRAM, &actions, nullptr, argv.data(), environ);
+    const int failed = posix_spawn(&child, LAMINA_PROGRAM, &actions, &attributes, argv.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (failed != 0) throw std::runtime_error(std::string("cannot start ") + LAMINA_PROGRAM);
     return child;
