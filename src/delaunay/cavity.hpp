@@ -64,6 +64,9 @@ struct Cavity {
     Scratch<Index> triangles;      ///< the triangles whose circles hold p
     Scratch<CavityEdge> boundary;  ///< the edges round them, counter-clockwise
     Scratch<PendingEdge> stack;
+    /// No cavity has more triangles than the triangulation. Where one seems to, the search runs in circles: round an
+    /// island or the ends of a segment, across which the triangles are not Delaunay.
+    std::size_t max_triangles = static_cast<std::size_t>(-1);
 
     Cavity() { grow(); }
     void grow() {
@@ -121,7 +124,8 @@ template <bool Ghosts>
     return core::inline_incircle_perturbed(points[t.v[0]], points[t.v[1]], points[t.v[2]], p) > 0;
 }
 
-/// Finds the cavity of p. With `Ghosts` the triangulation is closed by ghosts, without it by borders.
+/// Finds the cavity of p, which is empty if the search ran in circles (Cavity::max_triangles). With `Ghosts` the
+/// triangulation is closed by ghosts, without it by borders.
 /// Precondition: p lies in the perturbed circle of triangle `start` and is no vertex; `relative` is `start` relative to
 /// p.
 template <bool Ghosts>
@@ -168,6 +172,11 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
                 triangles[triangle_count++] = n;
                 // The boundary and the stack of a cavity of t triangles hold t + 2 edges together.
                 if (triangle_count + 2 == cavity.triangles.capacity()) [[unlikely]] {
+                    if (triangle_count > cavity.max_triangles) {
+                        cavity.triangles.set_size(0);
+                        cavity.boundary.set_size(0);
+                        return;
+                    }
                     cavity.grow();
                     triangles = cavity.triangles.data();
                     boundary = cavity.boundary.data();

@@ -75,6 +75,7 @@ protected:
     /// Keeps a reference to the options. `points` and `tris` are those that are refined.
     Refiner(const RefineOptions& options, std::vector<Point> points, Tris tris)
         : options_(options), input_count_(points.size()), points_(std::move(points)), tris_(std::move(tris)) {
+        cavity_.max_triangles = tris_.size();
         const double bound = core::radians(options.min_angle_deg);
         const double s = core::sin_reproducible(bound);
         squared_sine_ = s * s;
@@ -119,10 +120,11 @@ protected:
 
     bool is_current(QueuedTriangle entry) const { return tris_[entry.triangle].v[0] == entry.newest; }
 
-    /// Returns whether p lies strictly on the inner side of every edge of the cavity's boundary, and is not blocked by
-    /// any that is constrained.
+    /// Returns whether the cavity was found, and p lies strictly on the inner side of every edge of its boundary and is
+    /// not blocked by any that is constrained.
     bool cavity_admits(Point p) const {
         const std::size_t k = cavity_.boundary.size();
+        if (k == 0) return false;
         for (std::size_t i = 0; i < k; ++i) {
             const CavityEdge& a = cavity_.boundary[i];
             const CavityEdge& b = cavity_.boundary[i + 1 < k ? i + 1 : 0];
@@ -143,6 +145,7 @@ protected:
         if (points_.size() - input_count_ >= options_.max_points) fail_too_many_points(options_.max_points);
         points_.push_back(p);
         sizes_.push_back(static_cast<float>(size));
+        cavity_.max_triangles = tris_.size() + 2;
         return static_cast<Index>(points_.size() - 1);
     }
 

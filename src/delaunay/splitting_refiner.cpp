@@ -248,10 +248,11 @@ bool SplittingRefiner::split(Index t, unsigned e) {
     return true;
 }
 
-/// Returns whether the point p that splits the edge a-b lies strictly on the inner side of all other edges of the
+/// Returns whether the cavity was found, and the point p that splits the edge a-b lies strictly on the inner side of all other edges of the
 /// cavity's boundary, and outside the diametral circles of those that are frozen.
 bool SplittingRefiner::cavity_admits_split(Point p, Index a, Index b) const {
     const std::size_t k = cavity_.boundary.size();
+    if (k == 0) return false;
     for (std::size_t i = 0; i < k; ++i) {
         const CavityEdge& from = cavity_.boundary[i];
         const CavityEdge& to = cavity_.boundary[i + 1 < k ? i + 1 : 0];
