@@ -24,7 +24,7 @@ LAMINA_EXPORT std::string read_file(const std::filesystem::path& file);
 LAMINA_EXPORT void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// Throws IoError unless a file can be created in the folder of this file. Throws it, too, where the name is that of a
-/// folder.
+/// folder or of a read-only file, which renaming would replace.
 LAMINA_EXPORT void check_folder_writable(const std::filesystem::path& file);
 
 /// Removes what this process leaves behind if it is ended while it writes these files or folders: temporary files. An

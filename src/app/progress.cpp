@@ -26,7 +26,13 @@ ProgressPrinter::ProgressPrinter(ProgressShown shown, bool quiet)
     : prints_stages_(shown == ProgressShown::always ||
                      (shown == ProgressShown::automatic && !quiet && isatty(STDERR_FILENO) != 0)) {
     if (shown == ProgressShown::always || (shown == ProgressShown::automatic && !quiet))
-        thread_ = std::thread([this] { repeat(); });
+        thread_ = std::thread([this] {
+            try {
+                repeat();
+            } catch (...) {
+                // Without memory for a line there are no more lines. The run itself may still succeed.
+            }
+        });
 }
 
 ProgressPrinter::~ProgressPrinter() {

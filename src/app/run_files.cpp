@@ -111,7 +111,12 @@ SignalGuard::SignalGuard(std::span<const RunFile> outputs) {
     }
     sigaddset(&signals_, SIGRTMIN);  // ends the thread
     pthread_sigmask(SIG_BLOCK, &signals_, &mask_before_);
-    thread_ = std::thread([this] { wait_for_signals(); });
+    try {
+        thread_ = std::thread([this] { wait_for_signals(); });
+    } catch (...) {
+        pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
+        throw;
+    }
 }
 
 SignalGuard::~SignalGuard() {
@@ -127,12 +132,16 @@ void SignalGuard::wait_for_signals() {
         if (sigwait(&signals_, &signal) != 0) return;
         if (ended_) return;
     } while (signal == SIGRTMIN);
-    remove_temporaries(outputs_);
+    // The second pass takes what the run, which goes on meanwhile, has made during the first.
+    for (int pass = 0; pass < 2; ++pass) remove_temporaries(outputs_);
     std::error_code ignored;
     for (const fs::path& folder : missing_folders_) fs::remove(folder, ignored);  // fails unless it is empty
     // The process ends as if the signal had not been caught, so that shells and scripts see it.
     std::signal(signal, SIG_DFL);
-    pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
+    sigset_t this_signal;  // and no other, such as the one that ends the thread
+    sigemptyset(&this_signal);
+    sigaddset(&this_signal, signal);
+    pthread_sigmask(SIG_UNBLOCK, &this_signal, nullptr);
     std::raise(signal);
 }
 

@@ -27,10 +27,24 @@ constexpr const char *new_purpose = "tmp", *replaced_purpose = "old", *room_purp
 /// Returns a hidden name beside the target, which is on the same file system and can hence be renamed to it. The
 /// extension stays last, since some writers choose the format by it.
 fs::path temporary_beside(const fs::path& target, const char* purpose = new_purpose) {
-    fs::path temporary = target;
-    temporary.replace_filename("." + target.stem().string() + "." + purpose + std::to_string(::getpid()) +
-                               target.extension().string());
-    return temporary;
+    // fs::path::replace_filename() of GCC 12's library crashes where it finds no memory.
+    const std::string& path = target.native();
+    return path.substr(0, path.rfind('/') + 1) + "." + target.stem().string() + "." + purpose +
+           std::to_string(::getpid()) + target.extension().string();
+}
+
+/// Removes a file or a folder with all that is in it. It tries again where it finds no memory, since an exception that
+/// is on its way frees more.
+void remove_quietly(const fs::path& path) noexcept {
+    for (int attempt = 0; attempt < 3; ++attempt) {
+        try {
+            std::error_code failed;
+            fs::remove_all(path, failed);
+            if (!failed) return;
+        } catch (...) {
+            // The next attempt may succeed.
+        }
+    }
 }
 
 /// Calls work(). If it fails, calls undo() and throws; failures of the file system become an IoError about `target`.
@@ -103,13 +117,12 @@ void write_folder_atomically(const fs::path& target, const std::function<void(co
     };
     const auto undo = [&] {
         std::error_code ignored;
-        fs::remove_all(temporary, ignored);
+        remove_quietly(temporary);
         if (fs::exists(replaced, ignored)) fs::rename(replaced, target, ignored);
         for (; !created.empty(); created.pop_back()) fs::remove(created.back(), ignored);
     };
     work_or_undo(target, work, undo);
-    std::error_code ignored;
-    fs::remove_all(replaced, ignored);
+    remove_quietly(replaced);
 }
 
 #ifdef __linux__

@@ -50,7 +50,8 @@ void check_folder_writable(const fs::path& file) {
     if (!fs::is_directory(folder, ignored)) throw IoError(file.string(), "cannot write: its folder is a file");
     const bool writable =
         is_device(file) ? ::access(file.c_str(), W_OK) == 0 : ::access(folder.c_str(), W_OK | X_OK) == 0;
-    if (!writable) throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
+    const bool is_read_only = fs::exists(file, ignored) && ::access(file.c_str(), W_OK) != 0;
+    if (!writable || is_read_only) throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
 }
 
 std::string read_file(const fs::path& file) {

@@ -8,8 +8,10 @@
 #include <atomic>
 #include <cassert>
 #include <exception>
+#include <latch>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -95,9 +97,30 @@ unsigned thread_index() {
 
 namespace lamina {
 
+namespace {
+
+/// Returns how many of the wanted threads can run at once, the calling one included. Limits on memory or on the number
+/// of processes may leave fewer. The thread library must not find that out: its threads start one another, and where
+/// one of them fails to, the exception ends the process. The system keeps the stacks of threads that have ended for
+/// those of the thread library.
+unsigned startable_threads(unsigned wanted) {
+    std::vector<std::thread> trials;
+    std::latch all_started(1);
+    try {
+        while (trials.size() + 1 < wanted) trials.emplace_back([&] { all_started.wait(); });
+    } catch (const std::exception&) {
+        // There is no room for more.
+    }
+    all_started.count_down();
+    for (std::thread& trial : trials) trial.join();
+    return static_cast<unsigned>(trials.size()) + 1;
+}
+
+}  // namespace
+
 void with_threads(unsigned threads, const std::function<void()>& f) {
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    if (threads == 0) threads = cores;
+    threads = startable_threads(threads == 0 ? cores : threads);
     // Without this the thread library never starts more threads than there are cores.
     const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, std::max(threads, cores));
     tbb::task_arena arena(static_cast<int>(threads));

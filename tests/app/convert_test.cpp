@@ -1,9 +1,7 @@
 // lamina convert, and the promises of every format on the command line.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,6 +9,7 @@
 #include <lamina/io.hpp>
 
 #include "app/program.hpp"
+#include "support/file_size_limit.hpp"
 #include "support/sample_meshes.hpp"
 
 namespace lamina {
@@ -18,6 +17,7 @@ namespace {
 
 using test::annulus;
 using test::expect_refused;
+using test::FileSizeLimit;
 using test::run_lamina;
 using test::TemporaryFolder;
 
@@ -71,28 +71,6 @@ TEST(Convert, Refuses) {
     expect_refused(folder, {"convert", "none.su2", "m.vtu"}, 5, "none.su2");
     expect_refused(folder, {"convert", "m.su2", "none/m.vtu"}, 5, "none/m.vtu");
 }
-
-/// Limits the size of files, in this program and in those that it starts, while the object lives: a full disk behaves
-/// alike.
-class FileSizeLimit {
-public:
-    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        rlimit limited = before_;
-        limited.rlim_cur = bytes;
-        setrlimit(RLIMIT_FSIZE, &limited);
-    }
-    ~FileSizeLimit() {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    FileSizeLimit(const FileSizeLimit&) = delete;
-    FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
-private:
-    rlimit before_{};
-    void (*handler_)(int);
-};
 
 TEST(Convert, ADiskThatIsFullLeavesNothingBehind) {
     const TemporaryFolder folder;

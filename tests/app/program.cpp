@@ -23,12 +23,10 @@ std::string joined(const std::vector<std::string>& arguments) {
     return line;
 }
 
-/// Starts the program with files of `captured` as its standard input, output and error. Its output is `output` where
-/// that is a descriptor.
-pid_t start_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
-                   const TemporaryFolder& captured, int output = -1) {
-    std::vector<std::string> words{LAMINA_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
+/// Starts a program with files of `captured` as its standard input, output and error. Its output is `output` where that
+/// is a descriptor.
+pid_t start(const TemporaryFolder& folder, std::vector<std::string> words, const TemporaryFolder& captured,
+            int output = -1) {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
@@ -52,11 +50,28 @@ pid_t start_lamina(const TemporaryFolder& folder, const std::vector<std::string>
     posix_spawnattr_setsigdefault(&attributes, &signals);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
     pid_t child = 0;
-    const int failed = posix_spawn(&child, LAMINA_PROGRAM, &actions, &attributes, argv.data(), environ);
+    const int failed = posix_spawn(&child, argv.front(), &actions, &attributes, argv.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) throw std::runtime_error(std::string("cannot start ") + LAMINA_PROGRAM);
+    if (failed != 0) throw std::runtime_error("cannot start " + words.front());
     return child;
+}
+
+pid_t start_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                   const TemporaryFolder& captured, int output = -1) {
+    std::vector<std::string> words{LAMINA_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return start(folder, words, captured, output);
+}
+
+/// Waits for a process to end.
+ProgramRun ended(pid_t child, const TemporaryFolder& captured) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+            .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+            .out = std::filesystem::exists(captured / "out") ? captured.read("out") : "",
+            .err = captured.read("err")};
 }
 
 }  // namespace
@@ -65,10 +80,34 @@ ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::stri
                       const std::string& input) {
     const TemporaryFolder captured;
     if (!input.empty()) captured.write("in", input);
+    return ended(start_lamina(folder, arguments, captured), captured);
+}
+
+ProgramRun run_lamina_in_memory(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                                std::size_t kilobytes) {
+    const TemporaryFolder captured;
+    std::vector<std::string> words{"/bin/sh", "-c", "ulimit -v \"$0\"; exec \"$@\"", std::to_string(kilobytes),
+                                   LAMINA_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return ended(start(folder, words, captured), captured);
+}
+
+ProgramRun run_lamina_and_act(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                              const std::string& said, const std::function<void(int)>& act) {
+    const TemporaryFolder captured;
     const pid_t child = start_lamina(folder, arguments, captured);
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, captured.read("out"), captured.read("err")};
+    const auto has_ended = [&] {
+        siginfo_t info{};
+        return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
+    };
+    while (!has_ended()) {
+        if (std::filesystem::exists(captured / "err") && captured.read("err").find(said) != std::string::npos) {
+            act(child);
+            break;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return ended(child, captured);
 }
 
 ProgramRun run_lamina_unread(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
@@ -78,9 +117,7 @@ ProgramRun run_lamina_unread(const TemporaryFolder& folder, const std::vector<st
     close(ends[0]);
     const pid_t child = start_lamina(folder, arguments, captured, ends[1]);
     close(ends[1]);
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", captured.read("err")};
+    return ended(child, captured);
 }
 
 int interrupt_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,

@@ -14,6 +14,7 @@ inline constexpr int usage = 2, bad_input = 3, io_failed = 5;
 
 struct ProgramRun {
     int exit_code = -1;  ///< -1 where a signal ended it
+    int signal = 0;      ///< the signal that ended it; 0: none
     std::string out;
     std::string err;
 };
@@ -28,6 +29,14 @@ ProgramRun run_lamina_unread(const TemporaryFolder& folder, const std::vector<st
 /// Runs it, too, and sends it a signal as soon as `moment()` holds. Returns the signal that ended it, or 0.
 int interrupt_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,
                      const std::function<bool()>& moment);
+
+/// Runs it, too, and calls act(its process id) once its standard error contains `said`, unless it ends before.
+ProgramRun run_lamina_and_act(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                              const std::string& said, const std::function<void(int)>& act);
+
+/// Runs it, too, with this much address space.
+ProgramRun run_lamina_in_memory(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                                std::size_t kilobytes);
 
 /// Expects the program to refuse the arguments: with this exit code, one line "lamina: error: ..." that contains
 /// `said`, nothing on standard output, and a folder that did not change.
