@@ -205,13 +205,13 @@ struct ConstrainedRefinement {
 
 /// Refines a constrained triangulation of the points, with its inner segments and holes. Segments and the boundary are
 /// split where they are too long for the size field, where a vertex lies in the lens from which they appear at 180
-/// degrees less twice the angle bound, and where they keep a triangle beyond the bounds. Segments that meet at less than
-/// 90 degrees are split on common circles round their vertex, whose radii are powers of two. Triangles in a corner where
-/// segments meet at less than 60 degrees, and those whose shortest edge joins two such segments, are exempt from the
-/// angle bound (stats.exempt). Without rounding, no other angle stays below it: stats.refused counts the triangles that
-/// rounding, or split_segments = false, kept from being mended. Throws as the other refine() does.
-/// Source: J. Ruppert, J. Algorithms 18 (1995), section 3 and "corner lopping"; lenses: J. R. Shewchuk, Comput. Geom. 22
-/// (2002); exempt triangles: G. Miller, S. Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
+/// degrees less twice the angle bound, and where they keep a triangle beyond the bounds. Segments that meet at less
+/// than 90 degrees are split on common circles round their vertex, whose radii are powers of two. Triangles in a corner
+/// where segments meet at less than 60 degrees, and those whose shortest edge joins two such segments, are exempt from
+/// the angle bound (stats.exempt). Without rounding, no other angle stays below it: stats.refused counts the triangles
+/// that rounding, or split_segments = false, kept from being mended. Throws as the other refine() does. Source: J.
+/// Ruppert, J. Algorithms 18 (1995), section 3 and "corner lopping"; lenses: J. R. Shewchuk, Comput. Geom. 22 (2002);
+/// exempt triangles: G. Miller, S. Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
 LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                                            const SizeField& size, const ConstrainedRefineOptions& options = {});
 

@@ -60,8 +60,8 @@ LAMINA_EXPORT Mesh read_mesh(const std::filesystem::path& file, const ReadOption
 LAMINA_EXPORT SizedMesh read_sizes(const std::filesystem::path& file);
 
 /// Throws what write_mesh() would throw for the name of the file and the format, so that a wrong name is found before
-/// minutes of meshing: UsageError for an unknown format and for one that standard output cannot carry, IoError where the
-/// folder does not exist or is not writable.
+/// minutes of meshing: UsageError for an unknown format and for one that standard output cannot carry, IoError where
+/// the folder does not exist or is not writable.
 LAMINA_EXPORT void check_writable(const std::filesystem::path& file, const WriteOptions& options = {});
 
 /// Returns the files that write_mesh() creates or replaces: one, several, or the folder of a format that is a folder.

@@ -18,14 +18,14 @@ struct WorkLimits {
     std::optional<std::size_t> max_memory_bytes{};  ///< largest memory of the process
 };
 
-/// What a run takes, by estimate.
+/// The triangles, memory and time that a run will take, by estimate.
 struct RunEstimate {
     double triangles = 0;     ///< number of triangles; a quadrilateral counts as two
     double memory_bytes = 0;  ///< largest memory of the process
     double seconds = 0;       ///< wall-clock time until the mesh is made and checked, on a machine of 2020 or so
 };
 
-/// What one triangle of a kind of run costs.
+/// The cost of a kind of run, for each triangle.
 struct WorkCost {
     double base_bytes;            ///< memory of the process without any triangle
     double bytes_per_triangle;    ///< memory at the peak
@@ -73,6 +73,14 @@ LAMINA_EXPORT void require_within(const WorkLimits& limits, const RunEstimate& e
 
 /// Returns the number of triangles that the limits allow at this cost; at most max_numbered_triangles.
 LAMINA_EXPORT double allowed_triangles(const WorkLimits& limits, const WorkCost& cost);
+
+/// Returns the number of vertices of that many triangles, but at least 1 and at most `max_points`: the bound that holds
+/// for a run whose estimate was too low.
+LAMINA_EXPORT std::size_t allowed_points(const WorkLimits& limits, const WorkCost& cost, std::size_t max_points);
+
+/// Throws LimitError where a run made more triangles than max_triangles, since the estimate was too low.
+LAMINA_EXPORT void require_made_within(const WorkLimits& limits, double triangles, const WorkCost& cost,
+                                       unsigned threads);
 
 /// The largest number of triangles that may be requested. Vertices have 32-bit numbers, and there are twice as many
 /// triangles as vertices. Half of these leave room for triangles that no estimate foresees.

@@ -123,7 +123,7 @@ struct MeshResult {
     std::vector<Warning> warnings;                ///< what the user should know about the mesh; empty: nothing
 };
 
-/// What a run tells while it goes on.
+/// A message of a run that goes on.
 struct ProgressEvent {
     std::string stage;                      ///< the name of the stage that begins
     std::optional<RunEstimate> estimate{};  ///< given once, when the work that takes the time begins

@@ -36,8 +36,8 @@ LAMINA_EXPORT const OptionTable<PlotOptions>& plot_option_table();
 LAMINA_EXPORT void validate(const PlotOptions& options);
 
 /// Draws the mesh as .png, .svg or .pdf. Walls are red. The file gets a temporary name beside the target and is
-/// renamed; "-" is standard output. Throws IoError, UsageError for other formats and extensions, OptionError for options out of
-/// range.
+/// renamed; "-" is standard output. Throws IoError, UsageError for other formats and extensions, OptionError for
+/// options out of range.
 LAMINA_EXPORT void plot_mesh(const Mesh& mesh, const std::filesystem::path& file, const PlotOptions& options = {});
 
 }  // namespace lamina

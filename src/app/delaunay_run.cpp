@@ -85,34 +85,35 @@ void require_triangulation_within(const TriangleInput& input, const DelaunaySett
     if (progress) progress({"triangulation", result.estimate});
 }
 
-/// Throws LimitError where the refinement would exceed the limits, and records its size.
-void require_refinement_within(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
-                               const DelaunaySettings& settings, const SizeField& size,
-                               const ConstrainedRefineOptions& options, DelaunayResult& result) {
+/// Throws LimitError where the refinement would exceed the limits, and records its size. Returns its cost.
+WorkCost require_refinement_within(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
+                                   const DelaunaySettings& settings, const SizeField& size,
+                                   const ConstrainedRefineOptions& options, DelaunayResult& result) {
     // Beyond this many times the triangles of the triangulation, it is the areas that ask for them.
     constexpr double most_for_angles = 4;
     const double triangles = estimate_triangles(input.points, triangulation, size, options);
     const bool for_angles = triangles < most_for_angles * static_cast<double>(triangulation.triangles.size());
-    result.estimate = estimate_run(triangles, for_angles ? angle_refinement_cost : refinement_cost, thread_count());
+    const WorkCost cost = for_angles ? angle_refinement_cost : refinement_cost;
+    result.estimate = estimate_run(triangles, cost, thread_count());
     const bool by_area = std::isfinite(settings.max_area);
     require_within(settings.limits, result.estimate, by_area ? "option --max-area" : "min_angle",
                    by_area ? fmt::format("{:.6g}", settings.max_area)
                            : fmt::format("{}, with the areas of the regions,", settings.refine.min_angle_deg));
+    return cost;
 }
 
 ConstrainedRefinement refine_input(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
                                    const DelaunaySettings& settings, const Progress& progress, DelaunayResult& result) {
     ConstrainedRefineOptions options;
     options.refine = settings.refine;
-    const auto points = static_cast<std::size_t>(0.5 * allowed_triangles(settings.limits, refinement_cost));
-    options.refine.max_points = std::max<std::size_t>(1, std::min(options.refine.max_points, points));
     options.split_segments = !settings.keep_border;
     for (const TriangleRegion& region : input.regions) {
         const double max_area = region.max_area > 0 ? std::min(region.max_area, settings.max_area) : settings.max_area;
         options.regions.push_back({region.at, size_field_for_area(max_area, input.points)});
     }
     const SizeField size = size_field_for_area(settings.max_area, input.points);
-    require_refinement_within(input, triangulation, settings, size, options, result);
+    const WorkCost cost = require_refinement_within(input, triangulation, settings, size, options, result);
+    options.refine.max_points = allowed_points(settings.limits, cost, options.refine.max_points);
     if (progress) progress({"refinement", result.estimate});
     return refine(input.points, triangulation, size, options);
 }
@@ -165,16 +166,6 @@ TriangleOutput make_output(TriangleInput input, ConstrainedRefinement mesh) {
     output.holes = std::move(input.holes);
     output.regions = std::move(input.regions);
     return output;
-}
-
-/// Throws LimitError where there are more triangles than allowed, since the estimate was too low.
-void require_made_within(const WorkLimits& limits, const TriangleOutput& output) {
-    const std::size_t made = output.triangles.size();
-    if (limits.max_triangles && made > *limits.max_triangles)
-        throw LimitError("max_triangles",
-                         fmt::format("{} triangles are allowed, and {} were made, more than was estimated",
-                                     *limits.max_triangles, made),
-                         estimate_run(static_cast<double>(made), refinement_cost, thread_count()));
 }
 
 /// Returns the middle of the triangle with the largest badness; the first of several.
@@ -243,7 +234,8 @@ DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& setting
     result.refinement_seconds = watch.lap();
     result.refinement = mesh.stats;
     result.output = make_output(std::move(input), std::move(mesh));
-    require_made_within(settings.limits, result.output);
+    require_made_within(settings.limits, static_cast<double>(result.output.triangles.size()), refinement_cost,
+                        thread_count());
     result.warnings = find_warnings(result.output, result.refinement, settings);
     return result;
 }

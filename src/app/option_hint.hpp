@@ -7,7 +7,7 @@
 
 namespace lamina::app {
 
-/// What a user probably meant by a word that is not known.
+/// The name or the advice that a word which lamina does not know probably stands for.
 struct Hint {
     std::string name;    ///< the name of an option or command; empty: none is meant
     std::string advice;  ///< a sentence in place of a name; empty where there is none

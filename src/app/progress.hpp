@@ -1,4 +1,4 @@
-// What a run says on standard error while it goes on, and what it has to warn of.
+// The lines of a run on standard error: progress and warnings.
 #pragma once
 
 #include <condition_variable>

@@ -48,10 +48,12 @@ void check_folder_writable(const fs::path& file) {
     if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot write: is a directory");
     if (!fs::exists(folder, ignored)) throw IoError(file.string(), "cannot write: its folder does not exist");
     if (!fs::is_directory(folder, ignored)) throw IoError(file.string(), "cannot write: its folder is a file");
-    const bool writable =
-        is_device(file) ? ::access(file.c_str(), W_OK) == 0 : ::access(folder.c_str(), W_OK | X_OK) == 0;
-    const bool is_read_only = fs::exists(file, ignored) && ::access(file.c_str(), W_OK) != 0;
-    if (!writable || is_read_only) throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
+    const auto require_access = [&](const fs::path& path, int mode) {
+        if (::access(path.c_str(), mode) != 0)
+            throw IoError(file.string(), std::string("cannot write: ") + std::strerror(errno));
+    };
+    if (!is_device(file)) require_access(folder, W_OK | X_OK);
+    if (fs::exists(file, ignored)) require_access(file, W_OK);
 }
 
 std::string read_file(const fs::path& file) {

@@ -103,6 +103,20 @@ double allowed_triangles(const WorkLimits& limits, const WorkCost& cost) {
     return std::max(allowed, 0.0);
 }
 
+std::size_t allowed_points(const WorkLimits& limits, const WorkCost& cost, std::size_t max_points) {
+    // A triangulation has twice as many triangles as vertices.
+    const auto points = static_cast<std::size_t>(0.5 * allowed_triangles(limits, cost));
+    return std::max<std::size_t>(1, std::min(max_points, points));
+}
+
+void require_made_within(const WorkLimits& limits, double triangles, const WorkCost& cost, unsigned threads) {
+    if (limits.max_triangles && triangles > static_cast<double>(*limits.max_triangles))
+        throw LimitError("max_triangles",
+                         concat(*limits.max_triangles, " triangles are allowed, and ", fixed_text(triangles, 0),
+                                " were made, more than was estimated"),
+                         estimate_run(triangles, cost, threads));
+}
+
 std::size_t parse_memory(const std::string& text) {
     const UsageError error("'" + text + "' is no number of bytes, such as 500M or 2G");
     const std::size_t length = std::min(text.find_first_not_of("0123456789."), text.size());

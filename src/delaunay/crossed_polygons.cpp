@@ -167,10 +167,10 @@ void CrossedPolygons::attach(Index chain_edge, Index triangle, unsigned edge) {
         connect(tris_, triangle, edge, Link(other.triangle(), other.edge(), c.outer.is_constrained()));
 }
 
-/// Fills the polygon between a part of the chain and its base by the constrained triangulation of its vertices, of which
-/// the polygon's is a part. Chain edges were Delaunay edges of more points, or segments: nearly all of them are edges of
-/// the plain triangulation, and inserting the others is a smaller problem of this kind. So no chain costs O(k^2).
-/// Returns the new triangle at the base, and its edge there.
+/// Fills the polygon between a part of the chain and its base by the constrained triangulation of its vertices, of
+/// which the polygon's is a part. Chain edges were Delaunay edges of more points, or segments: nearly all of them are
+/// edges of the plain triangulation, and inserting the others is a smaller problem of this kind. So no chain costs
+/// O(k^2). Returns the new triangle at the base, and its edge there.
 Link CrossedPolygons::fill_long_range(std::size_t low, std::size_t high) {
     const std::span<const Index> vertices = std::span(vertices_).subspan(low, high - low + 1);
     std::vector<Index> global(vertices.begin(), vertices.end());  // local number -> number

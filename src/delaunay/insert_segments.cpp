@@ -155,8 +155,8 @@ private:
     }
 
     /// Walks along a -> b and collects the crossed triangles and the chains on both sides. Stops at the first vertex on
-    /// the segment, at the latest b, and returns it; or at a constrained edge, and returns no_index. Does not change the
-    /// triangulation.
+    /// the segment, at the latest b, and returns it; or at a constrained edge, and returns no_index. Does not change
+    /// the triangulation.
     Index collect_crossed(Link exit, Index a, Index b) {
         const std::span<const Point> points = input_.points;
         polygons_.clear();

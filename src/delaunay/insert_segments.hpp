@@ -26,8 +26,8 @@ struct SegmentPiece {
 
 /// Makes every segment a chain of constrained edges, split where it runs through vertices, and keeps the constrained
 /// Delaunay property by the tie rule. Returns the pieces in the order of the segments, each chain from a to b;
-/// overlapping segments give equal pieces, and segments from a point to itself none. Throws InputError where segments cross; the message names both.
-/// Precondition: `tris` is closed by ghosts.
+/// overlapping segments give equal pieces, and segments from a point to itself none. Throws InputError where segments
+/// cross; the message names both. Precondition: `tris` is closed by ghosts.
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
                                                     Tris& tris);
 

@@ -140,8 +140,8 @@ void fill_grids(std::vector<LatticeGrid>& grids, const std::vector<LatticeBlock>
     std::erase_if(grids, [](const LatticeGrid& grid) { return grid.is_empty(); });
 }
 
-/// Removes the vertices outside the region, near its border, near points and obstacles and near the patches of finer levels, and what is too
-/// narrow for a patch. Returns the vertices of each level's patch.
+/// Removes the vertices outside the region, near its border, near points and obstacles and near the patches of finer
+/// levels, and what is too narrow for a patch. Returns the vertices of each level's patch.
 std::vector<PatchVertices> cut_out_patches(std::vector<LatticeGrid>& grids, std::span<const Point> points,
                                            std::span<const Segment> segments,
                                            std::span<const LatticeObstacle> obstacles) {

@@ -174,6 +174,24 @@ void append_strip(const LatticeGrid& grid, const TriangleBits& bits, Row j, cons
 
 }  // namespace
 
+SharedPatchPoints append_shared_points(const LatticePatches& patches, std::vector<Point>& seam_points) {
+    SharedPatchPoints shared;
+    std::vector<VertexId> seam_id(patches.points.size());
+    const auto seam_vertex = [&](VertexId v) {
+        VertexId& id = seam_id[v.index()];
+        if (!id.valid()) {
+            id = VertexId{seam_points.size()};
+            seam_points.push_back(patches.points[v.index()]);
+            shared.patch_points.push_back(v);
+        }
+        return id;
+    };
+    for (const Segment& s : patches.boundary) shared.boundary.push_back({seam_vertex(s.a), seam_vertex(s.b)});
+    shared.boundary_points = shared.patch_points.size();
+    for (const VertexId v : patches.collar) seam_vertex(v);
+    return shared;
+}
+
 PatchVertices open_patch(LatticeGrid& grid) {
     PatchVertices patch;
     patch.centres = with_neighbours<Combine::all>(grid, with_neighbours<Combine::all>(grid, grid.bits));

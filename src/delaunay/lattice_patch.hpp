@@ -1,6 +1,7 @@
 // Patches of lattice triangles, made from the vertices of one level's lattice.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <lamina/ids.hpp>
@@ -19,6 +20,16 @@ struct LatticePatches {
     std::vector<VertexId> collar;     ///< the points that belong to the seam alone
     bool empty() const { return triangles.empty(); }
 };
+
+/// The points of patches that the seam shares: those on the boundary, then the collar.
+struct SharedPatchPoints {
+    std::vector<Segment> boundary;       ///< LatticePatches::boundary in the numbers of the seam
+    std::vector<VertexId> patch_points;  ///< for each shared point its index in LatticePatches::points
+    std::size_t boundary_points = 0;     ///< how many of them are on the boundary
+};
+
+/// Appends the points that the seam shares with its patches to the points of the seam.
+SharedPatchPoints append_shared_points(const LatticePatches& patches, std::vector<Point>& seam_points);
 
 /// The vertices of a level's patch.
 struct PatchVertices {

@@ -25,18 +25,9 @@ struct Seam {
 
 Seam make_seam(std::span<const Point> points, std::span<const Segment> segments, const LatticePatches& patches) {
     Seam seam{{points.begin(), points.end()}, {segments.begin(), segments.end()}, {}};
-    std::vector<VertexId> seam_id(patches.points.size());
-    const auto seam_vertex = [&](VertexId v) {
-        VertexId& id = seam_id[v.index()];
-        if (!id.valid()) {
-            id = VertexId{seam.points.size()};
-            seam.points.push_back(patches.points[v.index()]);
-            seam.shared.push_back(v);
-        }
-        return id;
-    };
-    for (const Segment& s : patches.boundary) seam.segments.push_back({seam_vertex(s.a), seam_vertex(s.b)});
-    for (VertexId v : patches.collar) seam_vertex(v);
+    SharedPatchPoints shared = append_shared_points(patches, seam.points);
+    seam.segments.insert(seam.segments.end(), shared.boundary.begin(), shared.boundary.end());
+    seam.shared = std::move(shared.patch_points);
     return seam;
 }
 

@@ -100,7 +100,7 @@ FieldPatches fill_fields(const ConstrainedInput& input, std::span<const LatticeO
 /// The domain without its patches.
 struct SeamDomain {
     SplittableDomain domain;
-    std::vector<Index> shared;  ///< for each vertex behind those of the input the index of its point in the patches
+    std::vector<VertexId> shared;  ///< for each vertex behind those of the input the index of its point in the patches
 };
 
 /// The edges that bound the seam, each with the seam on its left, and the field there.
@@ -133,24 +133,10 @@ SeamDomain make_seam(const ConstrainedInput& input, const FieldPatches& filled) 
     if (patches.empty()) return {{input.points, input.tris, input.fields, count, count}, {}};
 
     SeamDomain seam{{input.points, {}, {}, count, count}, {}};
-    std::vector<Point>& points = seam.domain.points;
-    std::vector<VertexId> seam_id(patches.points.size());
-    const auto seam_vertex = [&](VertexId v) {
-        VertexId& id = seam_id[v.index()];
-        if (!id.valid()) {
-            id = VertexId{points.size()};
-            points.push_back(patches.points[v.index()]);
-            seam.shared.push_back(v.value);
-        }
-        return id;
-    };
-    SeamEdges edges;
-    for (std::size_t i = 0; i < patches.boundary.size(); ++i) {
-        edges.edges.push_back({seam_vertex(patches.boundary[i].a), seam_vertex(patches.boundary[i].b)});
-        edges.fields.push_back(filled.boundary_fields[i]);
-    }
-    seam.domain.frozen_end = points.size();
-    for (const VertexId v : patches.collar) seam_vertex(v);
+    SharedPatchPoints shared = append_shared_points(patches, seam.domain.points);
+    seam.domain.frozen_end = count + shared.boundary_points;
+    seam.shared = std::move(shared.patch_points);
+    SeamEdges edges{std::move(shared.boundary), filled.boundary_fields};
     for (std::uint32_t field = 0; field < input.sizes.size(); ++field) {
         for (const Segment& s : edges_round_field(input, field)) {
             edges.edges.push_back(s);
@@ -174,7 +160,7 @@ std::vector<VertexId> number_vertices(std::size_t input_count, std::size_t verte
         if (v < input_count)
             ids.emplace_back(v);
         else if (v - input_count < seam.shared.size())
-            ids.emplace_back(first_of_patch + seam.shared[v - input_count]);
+            ids.emplace_back(first_of_patch + seam.shared[v - input_count].index());
         else
             ids.emplace_back(lines.line_of_vertex(static_cast<Index>(v)) != no_index ? on_line++ : inside++);
     }

@@ -151,7 +151,8 @@ double unit_scale(double extent) {
 }
 
 void fail_too_many_points(std::size_t max_points) {
-    throw MeshError(core::concat("refinement stopped after ", max_points, " points: the size field is too fine"));
+    throw MeshError(core::concat("refinement stopped after ", max_points,
+                                 " points, which are all that are allowed: the sizes or the angle bound ask for more"));
 }
 
 }  // namespace lamina::delaunay

@@ -14,10 +14,10 @@ namespace {
 /// Whether a flood passes through ghost triangles, or leaves them as they are.
 enum class Ghosts { enter, avoid };
 
-/// Sets the flags of all triangles that can be reached from `start` without crossing a constrained edge. The flood does
-/// not enter triangles whose flag has the value already. `front` is scratch space.
-template <Ghosts ghosts>
-void flood(const Tris& tris, Index start, char value, TriangleSelection& selection, std::vector<Index>& front) {
+/// Sets the values of all triangles that can be reached from `start` without crossing a constrained edge. The flood
+/// does not enter triangles that have the value already. `front` is scratch space.
+template <Ghosts ghosts, class Value>
+void flood(const Tris& tris, Index start, Value value, std::vector<Value>& selection, std::vector<Index>& front) {
     const auto reach = [&](Index t) {
         if (selection[t] == value || (ghosts == Ghosts::avoid && tris[t].is_ghost())) return;
         selection[t] = value;
@@ -80,7 +80,7 @@ TriangleSelection select_inside_segments(const Tris& tris) {
         if (!t.is_ghost()) continue;
         for (unsigned e = 0; e < 3; ++e)
             if (t.v[e] == ghost_vertex && !t.n[e].is_constrained())
-                flood<Ghosts::avoid>(tris, t.n[e].triangle(), 0, selection, front);
+                flood<Ghosts::avoid>(tris, t.n[e].triangle(), char{0}, selection, front);
     }
     return selection;
 }
@@ -92,7 +92,7 @@ TriangleSelection select_left_of_segments(std::span<const Segment> segments, con
     std::vector<Index> front;
     for (const Segment& s : segments) {
         const Link left = find_edge(tris, at_vertex, s.a.value, s.b.value);
-        if (!left.is_border()) flood<Ghosts::avoid>(tris, left.triangle(), 1, selection, front);
+        if (!left.is_border()) flood<Ghosts::avoid>(tris, left.triangle(), char{1}, selection, front);
     }
     return selection;
 }
@@ -105,7 +105,7 @@ TriangleSelection select_region(OrderedTriangulation& triangulation, std::span<c
     std::vector<Index> front;
     for (const SegmentPiece& piece : pieces) {
         const Link right = find_edge(tris, at_vertex, piece.segment.b.value, piece.segment.a.value);
-        flood<Ghosts::enter>(tris, right.triangle(), 0, selection, front);
+        flood<Ghosts::enter>(tris, right.triangle(), char{0}, selection, front);
     }
     return selection;
 }
@@ -121,27 +121,16 @@ void deselect_holes(std::span<const Point> points, std::span<const Point> seeds,
         if (tris[found].is_ghost()) continue;
         t = found;
         check_seed(points, tris[t], seeds[i], i);
-        flood<Ghosts::avoid>(tris, t, 0, selection, front);
+        flood<Ghosts::avoid>(tris, t, char{0}, selection, front);
     }
 }
 
 std::vector<std::uint32_t> spread_values(const Tris& tris, std::span<const ValueSeed> seeds) {
     std::vector<std::uint32_t> values(tris.size(), no_index);
     std::vector<Index> front;
-    for (const ValueSeed& seed : seeds) {
-        const auto reach = [&](Index t) {
-            if (values[t] != no_index || tris[t].is_ghost()) return;
-            values[t] = seed.value;
-            front.push_back(t);
-        };
-        reach(seed.triangle);
-        while (!front.empty()) {
-            const Tri& t = tris[front.back()];
-            front.pop_back();
-            for (Link n : t.n)
-                if (!n.is_constrained()) reach(n.triangle());
-        }
-    }
+    // All triangles that a flood reaches have a value, or none has.
+    for (const ValueSeed& seed : seeds)
+        if (values[seed.triangle] == no_index) flood<Ghosts::avoid>(tris, seed.triangle, seed.value, values, front);
     return values;
 }
 

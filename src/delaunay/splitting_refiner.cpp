@@ -248,8 +248,8 @@ bool SplittingRefiner::split(Index t, unsigned e) {
     return true;
 }
 
-/// Returns whether the cavity was found, and the point p that splits the edge a-b lies strictly on the inner side of all other edges of the
-/// cavity's boundary, and outside the diametral circles of those that are frozen.
+/// Returns whether the cavity was found, and the point p that splits the edge a-b lies strictly on the inner side of
+/// all other edges of the cavity's boundary, and outside the diametral circles of those that are frozen.
 bool SplittingRefiner::cavity_admits_split(Point p, Index a, Index b) const {
     const std::size_t k = cavity_.boundary.size();
     if (k == 0) return false;

@@ -52,8 +52,8 @@ std::string describe(const OutlineEdge& edge) {
     return fmt::format("the {} of lines {} and {}", closes ? "closing edge" : "edge", std::min(a, b), std::max(a, b));
 }
 
-/// Returns advice where two elements of different files cover about the same stretch of x, as sections do that are to be
-/// meshed one by one; else nothing.
+/// Returns advice where two elements of different files cover about the same stretch of x, as sections do that are to
+/// be meshed one by one; else nothing.
 std::string advice_on_separate_sections(const Element& e, const Element& f) {
     constexpr double max_offset = 0.1;  // of the shorter section
     const Box a = core::bounding_box(e.points), b = core::bounding_box(f.points);

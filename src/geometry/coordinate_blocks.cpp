@@ -111,8 +111,8 @@ private:
         if (!has_points_) document_.titled = true;
     }
 
-    /// Returns whether the only row of coordinates so far has whole numbers alone, as a title may have, and words and no
-    /// title stand beside it.
+    /// Returns whether the only row of coordinates so far has whole numbers alone, as a title may have, and words and
+    /// no title stand beside it.
     bool first_row_may_be_title(const TextRow& next) const {
         constexpr std::ptrdiff_t min_letters = 3;
         const CoordinateSection& section = document_.sections.back();

@@ -30,8 +30,9 @@ struct FieldList {
 };
 
 /// Splits a line into fields. White space separates fields; so does one comma or semicolon with white space round it.
-/// Two separators in a row enclose an empty field. Quotes round a field, or round the whole line, are removed. Where all fields fit, commas are decimal signs instead. Numbers are
-/// decimal, correctly rounded and independent of the locale; Fortran's D exponents and a leading + are understood.
+/// Two separators in a row enclose an empty field. Quotes round a field, or round the whole line, are removed. Where
+/// all fields fit, commas are decimal signs instead. Numbers are decimal, correctly rounded and independent of the
+/// locale; Fortran's D exponents and a leading + are understood.
 FieldList read_fields(std::string_view line);
 
 }  // namespace lamina::geometry

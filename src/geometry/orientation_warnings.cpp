@@ -37,8 +37,8 @@ bool has_long_rear_edge(const Element& e, const Box& box) {
            max_share * box.width();
 }
 
-/// Returns how much thicker a section is near its rear end than near its front end, at the twentieth part of its length,
-/// if its rear end is round; 0 if it is not, and for sections that are not slender or inclined by much.
+/// Returns how much thicker a section is near its rear end than near its front end, at the twentieth part of its
+/// length, if its rear end is round; 0 if it is not, and for sections that are not slender or inclined by much.
 double rear_to_front(const Element& e, const Box& box) {
     constexpr double share = 0.05, base_share = 0.002, min_roundness = 2, max_height = 0.5;
     if (box.height() > max_height * box.width() || has_long_rear_edge(e, box)) return 0;

@@ -116,8 +116,8 @@ std::optional<TailCut> cut_crossing_tail(std::vector<SourcePoint>& points) {
     for (std::size_t k = crossing->behind + 1; kept.size() + removed <= points.size(); ++k)
         kept.push_back(tail.behind(k));
     TailCut cut{crossing->at, false, tail.length(*crossing) / extent(points), tail.lines(*crossing)};
-    // Where the surfaces meet at a vertex, the crossing is that vertex, which may be the last one cut off or the first one
-    // kept.
+    // Where the surfaces meet at a vertex, the crossing is that vertex, which may be the last one cut off or the first
+    // one kept.
     for (const SourcePoint& vertex : {tail.before(crossing->before), tail.behind(crossing->behind)})
         if (vertex.at == crossing->at) kept[0] = vertex;
     if (kept[1].at == kept[0].at) kept.erase(kept.begin());

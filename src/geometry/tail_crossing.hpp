@@ -9,7 +9,7 @@
 
 namespace lamina::geometry {
 
-/// Where a tail was cut.
+/// The place where a tail was cut.
 struct TailCut {
     Point at;                                ///< the crossing, the new trailing edge
     bool at_vertex = false;                  ///< the surfaces meet at a vertex, instead of crossing between vertices
@@ -25,8 +25,9 @@ struct TailCut {
 ///
 /// A tail is cut only if it holds the rearmost vertex and none of it lies farther from the crossing than 2 % of the
 /// section's extent. Seven sections of the UIUC collection cross in the last 0.1 to 1.7 %; others cross at
-/// the nose or at two thirds of the chord. Where the surfaces cross more than once, the crossing farthest from the tail counts. The outline may be open:
-/// the edge from its last point to its first one counts, too. Returns nothing where no crossing was found.
+/// the nose or at two thirds of the chord. Where the surfaces cross more than once, the crossing farthest from the tail
+/// counts. The outline may be open: the edge from its last point to its first one counts, too. Returns nothing where no
+/// crossing was found.
 std::optional<TailCut> cut_crossing_tail(std::vector<SourcePoint>& points);
 
 }  // namespace lamina::geometry

@@ -27,8 +27,8 @@ public:
     /// Adds the triangles of the best cut, counter-clockwise, from the first side to the last. In the best cut the
     /// largest angle of all triangles is smallest; among cuts with that angle, the sum of 1 / (1 + cos) of the largest
     /// angles is smallest. Angles whose cosines differ by less than 1e-6, which is more than rounding, count as equal.
-    /// Of equal cuts, the one with a large fan from the lower corner of the first side wins if `first_leads` is set, and
-    /// the one with a large fan from the lower corner of the last side if it is not. Returns false, and adds nothing, where every cut has a triangle that is not positive (exact).
+    /// Where cuts are equal, `first_leads` prefers a large fan from the lower corner of the first side, otherwise from
+    /// that of the last. Returns false, and adds nothing, where every cut has a triangle that is not positive (exact).
     /// Precondition: each chain has a corner or more, and both together three or more.
     bool cut(std::span<const VertexId> lower, std::span<const VertexId> upper, bool first_leads,
              std::vector<Triangle>& triangles);

@@ -66,19 +66,12 @@ RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& laye
 
 RefineOptions limited(const CaseOptions& options) {
     RefineOptions refine = options.refine;
-    // A triangulation has twice as many triangles as vertices.
-    const auto points = static_cast<std::size_t>(0.5 * allowed_triangles(options.limits, mesh_cost));
-    refine.max_points = std::max<std::size_t>(1, std::min(refine.max_points, points));
+    refine.max_points = allowed_points(options.limits, mesh_cost, refine.max_points);
     return refine;
 }
 
 void require_made_within(const WorkLimits& limits, const Mesh& mesh) {
-    const double made = triangles_of(mesh);
-    if (limits.max_triangles && made > static_cast<double>(*limits.max_triangles))
-        throw LimitError("max_triangles",
-                         fmt::format("{} triangles are allowed, and the mesh has {}, more than was estimated",
-                                     *limits.max_triangles, made),
-                         estimate_run(made, mesh_cost, thread_count()));
+    lamina::require_made_within(limits, triangles_of(mesh), mesh_cost, thread_count());
 }
 
 }  // namespace lamina::pipeline

@@ -1,4 +1,4 @@
-// What a user should know about a mesh that is valid.
+// Search for properties of a valid mesh that its user probably does not want.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // Lower bounds of the number of triangles that single options request: the integral of 1 / h^2, divided by the area of
-// the equilateral triangle of edge 1. Inside a source of size s the integral is the area divided by s^2. Beside a border of
-// length L, where h = s + g d at the distance d, g being the gradation, the integral up to the distance D is
+// the equilateral triangle of edge 1. Inside a source of size s the integral is the area divided by s^2. Beside a
+// border of length L, where h = s + g d at the distance d, g being the gradation, the integral up to the distance D is
 //
 //     L D / (s (s + g D)).
 #include <lamina/sizing.hpp>

@@ -1,5 +1,5 @@
-// What all fuzz targets share. A target is a source that defines fuzz(). Built with libFuzzer it is fed with inputs that
-// reach new code (./dev fuzz); built as a test it replays the inputs of its folder in corpus/.
+// Tools that all fuzz targets share. A target is a source that defines fuzz(). Built with libFuzzer it is fed with
+// inputs that reach new code (./dev fuzz); built as a test it replays the inputs of its folder in corpus/.
 #pragma once
 
 #include <cstddef>

@@ -82,6 +82,24 @@ void add_star(PlanarGraph& graph, core::Random& random) {
     graph.add_loop(corners);
 }
 
+void add_mixture(PlanarGraph& graph, core::Random& random) {
+    add_dangling_segments(graph, random);
+    add_isolated_vertices(graph, random);
+}
+
+/// A kind of graph: its name, and the function that adds what is in the square.
+struct GraphKind {
+    const char* name;
+    void (*add)(PlanarGraph& graph, core::Random& random);
+};
+
+constexpr std::array kinds{GraphKind{"isolated vertices", add_isolated_vertices},
+                           GraphKind{"dangling segments", add_dangling_segments},
+                           GraphKind{"slits", add_slits},
+                           GraphKind{"fan", add_fan},
+                           GraphKind{"star", add_star},
+                           GraphKind{"mixture", add_mixture}};
+
 }  // namespace
 
 void PlanarGraph::add_loop(const std::vector<Point>& corners) {
@@ -102,34 +120,10 @@ bool PlanarGraph::add_segment(Point a, Point b) {
 
 RandomGraph random_planar_graph(std::uint64_t seed) {
     core::Random random(seed);
-    RandomGraph result;
+    const auto& [kind, add] = kinds[random.below(kinds.size())];
+    RandomGraph result{kind, {}};
     result.graph.add_loop({{0, 0}, {square_side, 0}, {square_side, square_side}, {0, square_side}});
-    switch (random.below(6)) {
-        case 0:
-            result.kind = "isolated vertices";
-            add_isolated_vertices(result.graph, random);
-            break;
-        case 1:
-            result.kind = "dangling segments";
-            add_dangling_segments(result.graph, random);
-            break;
-        case 2:
-            result.kind = "slits";
-            add_slits(result.graph, random);
-            break;
-        case 3:
-            result.kind = "fan";
-            add_fan(result.graph, random);
-            break;
-        case 4:
-            result.kind = "star";
-            add_star(result.graph, random);
-            break;
-        default:
-            result.kind = "mixture";
-            add_dangling_segments(result.graph, random);
-            add_isolated_vertices(result.graph, random);
-    }
+    add(result.graph, random);
     return result;
 }
 

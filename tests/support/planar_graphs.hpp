@@ -27,8 +27,8 @@ struct RandomGraph {
     PlanarGraph graph;
 };
 
-/// Returns a square of ten units with isolated vertices, dangling segments, slits (two segments or a closed loop), a fan
-/// of segments round one point, a hole with sharp corners, or a mixture, by the seed.
+/// Returns a square of ten units with isolated vertices, dangling segments, slits (two segments or a closed loop), a
+/// fan of segments round one point, a hole with sharp corners, or a mixture, by the seed.
 RandomGraph random_planar_graph(std::uint64_t seed);
 
 }  // namespace lamina::test
