@@ -30,6 +30,11 @@ public:
     Index line_of_edge(Index a, Index b) const;
     /// Returns the line that vertex v splits; no_index for vertices that split none.
     Index line_of_vertex(Index v) const { return v < line_of_vertex_.size() ? line_of_vertex_[v] : no_index; }
+    /// Returns whether two lines end at the same vertex, or are the same.
+    bool have_common_end(Index l, Index m) const {
+        const Segment p = lines_[l], q = lines_[m];
+        return p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b;
+    }
     /// Notes that the new vertex v splits a line.
     void add_vertex(Index v, Index line);
     /// Returns the number of vertices that split lines.

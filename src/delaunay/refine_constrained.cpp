@@ -6,10 +6,12 @@
 //                                                           '----------------'
 //                                    once more, with wider room round the places that a lattice kept from being refined
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
 
 #include "delaunay/arguments.hpp"
 #include "delaunay/border_lines.hpp"
@@ -26,6 +28,12 @@ namespace {
 
 /// Attempts with lattices before the domain is refined without.
 constexpr int max_lattice_attempts = 4;
+/// Opposite a vertex, edges of lines are divided into parts of this share of the greatest length that the angle bound
+/// admits. It leaves room for vertices that do not stand opposite the very middle.
+constexpr double part_share = 0.9;
+/// Shares that are tried too where few triangles result, because their number is a matter of chance then.
+constexpr std::array other_part_shares{0.75, 0.97, 0.55, 0.65, 0.83};
+constexpr std::size_t few_triangles = 1000;
 
 /// Returns the vertices so near to others that triangles round them will be smaller than their sizes demand. Lattices
 /// leave room for triangles to grow.
@@ -212,6 +220,57 @@ ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulati
     return r;
 }
 
+/// The task that one call of refine() has.
+struct RefinementTask {
+    const ConstrainedInput& input;
+    const ConstrainedTriangulation& triangulation;
+    const ConstrainedRefineOptions& options;
+    std::size_t user_points;
+};
+
+/// The result of one way to refine.
+struct Outcome {
+    ConstrainedRefinement mesh;  ///< empty if a frozen edge kept a point out
+    std::vector<Point> kept_out;
+    std::size_t inserted = 0;  ///< number of vertices that the refiner inserted
+};
+
+Outcome refine_round(const FieldPatches& filled, const RefinementTask& task, double share) {
+    SeamDomain seam = make_seam(task.input, filled);
+    const std::size_t before = seam.domain.points.size();
+    BorderLines lines(task.input.points, task.triangulation.segments, task.input.tris);
+    SplittingRefiner refiner(std::move(seam.domain), lines, task.input.sizes, task.options, share);
+    refiner.refine();
+    Outcome outcome{{}, refiner.kept_out(), refiner.vertices().size() - before};
+    if (filled.patches.empty() || outcome.kept_out.empty())
+        outcome.mesh = join(task.user_points, task.triangulation, filled, seam, lines, refiner);
+    return outcome;
+}
+
+/// Returns whether a mesh leaves fewer triangles beyond the bounds than another one or, if both leave as many, has
+/// fewer triangles.
+bool is_better(const ConstrainedRefinement& mesh, const ConstrainedRefinement& other) {
+    const auto beyond = [](const RefineStats& s) { return s.below_bound - s.exempt + s.oversized; };
+    return std::pair{beyond(mesh.stats), mesh.triangles.size()} <
+           std::pair{beyond(other.stats), other.triangles.size()};
+}
+
+/// Refines in the other ways that there are, and returns the best mesh.
+ConstrainedRefinement choose_best(Outcome first, const FieldPatches& filled, const RefinementTask& task) {
+    ConstrainedRefineOptions options = task.options;
+    for (const double share : other_part_shares) {
+        options.refine.max_points = first.inserted;
+        try {
+            Outcome other = refine_round(filled, {task.input, task.triangulation, options, task.user_points}, share);
+            if ((filled.patches.empty() || other.kept_out.empty()) && is_better(other.mesh, first.mesh))
+                first = std::move(other);
+        } catch (const MeshError&) {
+            continue;  // This way needs more points, and is therefore no better.
+        }
+    }
+    return std::move(first.mesh);
+}
+
 }  // namespace
 
 }  // namespace lamina::delaunay
@@ -224,19 +283,19 @@ ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTri
                              const SizeField& size, const ConstrainedRefineOptions& options) {
     check_arguments(points, triangulation, options);
     const ConstrainedInput input = make_constrained_input(points, triangulation, size, options.regions);
+    const RefinementTask task{input, triangulation, options, points.size()};
     std::vector<LatticeObstacle> obstacles = crowded_vertices(input);
     for (int attempt = 0;; ++attempt) {
         FieldPatches filled;
         if (options.refine.lattice && attempt < max_lattice_attempts)
             filled = fill_fields(input, obstacles, options.refine.max_points);
-        SeamDomain seam = make_seam(input, filled);
-        BorderLines lines(input.points, triangulation.segments, input.tris);
-        SplittingRefiner refiner(std::move(seam.domain), lines, input.sizes, options);
-        refiner.refine();
-        if (filled.patches.empty() || refiner.kept_out().empty())
-            return join(points.size(), triangulation, filled, seam, lines, refiner);
+        Outcome outcome = refine_round(filled, task, part_share);
+        if (filled.patches.empty() || outcome.kept_out.empty()) {
+            if (outcome.mesh.triangles.size() >= few_triangles) return std::move(outcome.mesh);
+            return choose_best(std::move(outcome), filled, task);
+        }
         const double reach = 2 << attempt;
-        for (const Point p : refiner.kept_out()) obstacles.push_back({p, reach * size(p)});
+        for (const Point p : outcome.kept_out) obstacles.push_back({p, reach * size(p)});
     }
 }
 

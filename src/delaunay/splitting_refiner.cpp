@@ -19,6 +19,10 @@ constexpr double min_length_share = 0x1p-40;
 constexpr double min_extent_share = 0x1p-120;
 /// Lenses have the width that this angle bound asks for, even where the bound is lower.
 constexpr double min_lens_angle_deg = 20;
+/// Vertices nearer to an edge than this share of its length do not say yet where to split it.
+constexpr double min_distance_share = 0x1p-20;
+/// Nor do vertices that stand beyond the ends of an edge by more than this share of its length.
+constexpr double overhang = 0.001;
 /// Counts of triangles beyond the bounds leave this to rounding.
 constexpr double rounding = 1e-9;
 
@@ -32,7 +36,7 @@ unsigned edge_between(const Tri& t, Index a, Index b) {
 }  // namespace
 
 SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
-                                   const ConstrainedRefineOptions& options)
+                                   const ConstrainedRefineOptions& options, double part_share)
     : Refiner(options.refine, std::move(domain.points), std::move(domain.tris)),
       lines_(lines),
       sizes_of_fields_(sizes),
@@ -44,9 +48,10 @@ SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, 
     if (scale_ != 1)
         for (Point& p : points_) p = scale_ * p;
     extent_ = core::bounding_box(points_);
-    const double c =
-        core::cos_reproducible(core::radians(2 * std::max(options.refine.min_angle_deg, min_lens_angle_deg)));
+    const double bound = core::radians(std::max(options.refine.min_angle_deg, min_lens_angle_deg));
+    const double c = core::cos_reproducible(2 * bound);
     squared_lens_ = c * c;
+    part_length_ = part_share * 2 * core::cos_reproducible(bound) / core::sin_reproducible(bound);
     give_sizes();
 }
 
@@ -113,7 +118,43 @@ Point SplittingRefiner::division_point(Index t, Index a, Index b) const {
         const double parts = std::ceil(distance(points_[a], points_[b]) / (border_share * h));
         if (parts < 0x1p20) return points_[a] + (std::floor(0.5 * parts) / parts) * (points_[b] - points_[a]);
     }
+    if (const double share = share_at_split(t, edge_between(tris_[t], a, b)); share > 0)
+        return points_[a] + share * (points_[b] - points_[a]);
     return lines_.division_point(points_, a, b);
+}
+
+/// Returns at which share of edge e of triangle t, which is part of a line, to split it so that its parts become no
+/// shorter than the opposite vertex p demands; 0 if it is to be split in the middle, or on a circle round a corner.
+///
+///       ------o-------p-------o-------     Where the vertices of one line stand opposite the middles of the parts of
+///            / \     / \     / \           another, parts of 2 d cot(bound) meet the bound. Here d is the distance of
+///           /   \   /   \   /   \          the lines, or that of a vertex from a line.
+///       ---o-------o-------o-------o--
+///
+/// The new vertex lies an odd number of half parts from p, as near to the middle of the edge as that admits; or, if p
+/// stands opposite an end, a whole number of parts from either end. Only vertices of the input, and those on lines that
+/// do not meet this one, count as p. Their distances are bounded below by those between features of the input, and both
+/// sides of an edge get at least a sixth of it, so the argument that refinement ends still holds.
+double SplittingRefiner::share_at_split(Index t, unsigned e) const {
+    const Tri& tri = tris_[t];
+    const Index a = tri.v[next(e)], b = tri.v[previous(e)], opposite = tri.v[e];
+    if (lines_.is_acute(a) || lines_.is_acute(b)) return 0;
+    if (const Index line = lines_.line_of_vertex(opposite); line != no_index) {
+        if (lines_.have_common_end(line, lines_.line_of_edge(a, b))) return 0;
+    } else if (opposite >= frozen_begin_) {
+        return 0;
+    }
+    const Point along = points_[b] - points_[a], to_p = points_[opposite] - points_[a];
+    const double length = std::sqrt(squared_length(along));
+    const double d = cross(along, to_p) / length, x = dot(along, to_p) / length;
+    if (!(d > min_distance_share * length) || x < -overhang * length || x > (1 + overhang) * length) return 0;
+    const double longest_part = part_length_ * d;
+    const double half_parts = std::ceil(2 * length / longest_part);
+    const double part = 2 * length / half_parts;
+    if (half_parts > 2 && std::min(x, length - x) > 0.25 * part)
+        return (x + (std::floor((0.5 * length - x) / part) + 0.5) * part) / length;
+    const double parts = std::ceil(length / longest_part);
+    return parts > 2 ? std::floor(0.5 * parts) / parts : 0;
 }
 
 /// Queues the edges of a triangle that its third vertex encroaches upon or that are too long.

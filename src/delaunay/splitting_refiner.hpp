@@ -35,9 +35,10 @@ struct SplittableDomain {
 /// triangular mesh generation, Comput. Geom. 22 (2002), section 3.4.2 on diametral lenses.
 class SplittingRefiner : public Refiner<SplittingRefiner> {
 public:
-    /// Keeps references to the lines, the size fields and the options.
+    /// Keeps references to the lines, the size fields and the options. Opposite a vertex, edges are divided into parts
+    /// of `part_share` of the greatest length that the angle bound admits.
     SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
-                     const ConstrainedRefineOptions& options);
+                     const ConstrainedRefineOptions& options, double part_share);
 
     /// Refines. May be called once only.
     void refine();
@@ -73,6 +74,7 @@ private:
     bool encroaches(Point a, Point b, double aa, double bb) const;
     bool is_too_long(Index t, Index a, Index b) const;
     Point division_point(Index t, Index a, Index b) const;
+    double share_at_split(Index t, unsigned e) const;
     void queue_edges(Index t);
     std::vector<QueuedEdge> find_blocking(Index t, Point p, bool& frozen) const;
     Index inside_triangle(std::size_t i) const;
@@ -89,6 +91,7 @@ private:
     bool may_split_;
     double scale_ = 1;                           ///< the coordinates of the refiner over those of the domain
     Box extent_;                                 ///< the box round all vertices
+    double part_length_;                         ///< the length of parts of an edge over the distance of a vertex
     double squared_lens_;                        ///< squared cosine of the angle at which points on a lens see its edge
     std::deque<QueuedEdge> long_or_encroached_;  ///< a stack
     std::vector<Point> kept_out_;
