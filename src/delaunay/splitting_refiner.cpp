@@ -350,8 +350,7 @@ void SplittingRefiner::fill_and_queue(Index vertex, Index a, Index b, std::uint3
 RefineStats SplittingRefiner::count_leftovers() const {
     RefineStats stats;
     stats.refused = refused_;
-    for (Index t = 0; t < tris_.size(); ++t) {
-        const Tri& tri = tris_[t];
+    for (const Tri& tri : tris_) {
         const TriangleShape s = shape_of(tri);
         const unsigned e = s.shortest();
         stats.oversized += s.area2 > area2_bound(tri) * (1 + 1e-6);
