@@ -215,10 +215,22 @@ struct ConstrainedRefinement {
 LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                                            const SizeField& size, const ConstrainedRefineOptions& options = {});
 
-/// Returns the number of triangles that this refinement will make, by estimate, in less time than it takes to
-/// triangulate. It is good where the sizes decide, and within a factor of a few where the angle bound does.
-LAMINA_EXPORT double estimate_triangles(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                                        const SizeField& size, const ConstrainedRefineOptions& options = {});
+/// The triangles that a refinement of a constrained triangulation will make, by estimate (docs/decisions/0020).
+struct RefinementEstimate {
+    double by_sizes = 0;   ///< as many as there are, or as the sizes ask for: right within a few percent
+    double by_angles = 0;  ///< as many as the angle bound asks for without any sizes: right within a factor of three
+    /// The number below which the angle bound hardly ever lets the refinement stay. A limit may be enforced by it.
+    double least_by_angles = 0;
+
+    /// Returns the likely number.
+    double triangles() const { return by_sizes < by_angles ? by_angles : by_sizes; }
+};
+
+/// Estimates the triangles of this refinement, in less time than it takes to triangulate.
+LAMINA_EXPORT RefinementEstimate estimate_triangles(std::span<const Point> points,
+                                                    const ConstrainedTriangulation& triangulation,
+                                                    const SizeField& size,
+                                                    const ConstrainedRefineOptions& options = {});
 
 // ---- checks ----
 

@@ -89,16 +89,23 @@ void require_triangulation_within(const TriangleInput& input, const DelaunaySett
 WorkCost require_refinement_within(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
                                    const DelaunaySettings& settings, const SizeField& size,
                                    const ConstrainedRefineOptions& options, DelaunayResult& result) {
-    // Beyond this many times the triangles of the triangulation, it is the areas that ask for them.
-    constexpr double most_for_angles = 4;
-    const double triangles = estimate_triangles(input.points, triangulation, size, options);
-    const bool for_angles = triangles < most_for_angles * static_cast<double>(triangulation.triangles.size());
+    // Beyond this many times the triangles of the triangulation, it is the areas that ask for them, or the angles do.
+    constexpr double most_for_both = 4;
+    const RefinementEstimate estimate = estimate_triangles(input.points, triangulation, size, options);
+    const bool for_angles =
+        estimate.by_sizes <
+        std::max(estimate.by_angles, most_for_both * static_cast<double>(triangulation.triangles.size()));
     const WorkCost cost = for_angles ? angle_refinement_cost : refinement_cost;
-    result.estimate = estimate_run(triangles, cost, thread_count());
+    result.estimate = estimate_run(estimate.triangles(), cost, thread_count());
     const bool by_area = std::isfinite(settings.max_area);
-    require_within(settings.limits, result.estimate, by_area ? "option --max-area" : "min_angle",
+    require_within(settings.limits, estimate_run(estimate.by_sizes, refinement_cost, thread_count()),
+                   by_area ? "option --max-area" : "min_angle",
                    by_area ? fmt::format("{:.6g}", settings.max_area)
                            : fmt::format("{}, with the areas of the regions,", settings.refine.min_angle_deg));
+    if (estimate.least_by_angles > allowed_triangles(settings.limits, angle_refinement_cost))
+        throw_limit_error(settings.limits, estimate_run(estimate.by_angles, angle_refinement_cost, thread_count()),
+                          "min_angle",
+                          fmt::format("{}, with segments so close together,", settings.refine.min_angle_deg));
     return cost;
 }
 

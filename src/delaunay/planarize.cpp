@@ -312,8 +312,10 @@ std::vector<Index> Planarizer::chain_of(std::size_t edge, const std::vector<Edge
     while (last != cuts.end() && last->edge == edge) ++last;
     const auto [a, b] = edges_.edges[edge];
     const double length = squared_length(points_[b] - points_[a]);
-    for (auto c = first; c != last && c + 1 != last; ++c)
-        if (!(squared_length(points_[(c + 1)->vertex] - points_[c->vertex]) < length)) last = first + 1;
+    const auto too_long = [&](const EdgeCut& c, const EdgeCut& d) {
+        return !(squared_length(points_[d.vertex] - points_[c.vertex]) < length);
+    };
+    if (std::adjacent_find(first, last, too_long) != last) last = first + 1;
     std::vector<Index> chain{a};
     for (auto c = first; c != last; ++c) chain.push_back(c->vertex);
     chain.push_back(b);

@@ -167,16 +167,10 @@ TEST(Faults, SignalsAtTheEnd) {
         }
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool has_sanitizer = true;
-#else
-constexpr bool has_sanitizer = false;
-#endif
-
 // The libraries alone take most of the address space, and their loader has messages of its own; hence the smallest
 // space in which the program starts is found first.
 TEST(Faults, TooLittleMemory) {
-    if (has_sanitizer) GTEST_SKIP() << "sanitizers take terabytes of address space";
+    if (LAMINA_SANITIZED) GTEST_SKIP() << "sanitizers take terabytes of address space";
     const TemporaryFolder source;
     ASSERT_EQ(run_lamina(source, {"mesh", "naca:0012:80", "--far-field", "4", "-o", "m.vtu"}).exit_code, 0);
     write_square(source);

@@ -29,5 +29,13 @@ bool FailingNew::disarm() {
 }  // namespace lamina::test
 
 void* operator new(std::size_t bytes) { return allocate(bytes); }
+// The library's own would call the operator above; a sanitizer's does not.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+    try {
+        return allocate(bytes);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
