@@ -126,12 +126,23 @@ LAMINA_EXPORT ConstrainedTriangulation triangulate(std::span<const Point> points
 
 // ---- refinement ----
 
+/// The circumcircles of refined triangles are at most as large as that of the equilateral triangle whose edge is this
+/// times the mean of h at the vertices.
+inline constexpr double max_circle_ratio = 1.3;
+
 /// Options of refinement.
 struct RefineOptions {
     /// Smallest angle of a triangle; 0: no bound. Refinement is proved to end up to the default, and has ended in all
     /// trials up to max_min_angle_deg.
     double min_angle_deg = proved_min_angle_deg;
     std::size_t max_points = 200'000'000;  ///< number of Steiner points beyond which refine() throws MeshError
+    /// Largest area of a triangle, over that of the equilateral triangle whose edge is the mean of h at its vertices. The
+    /// default follows from max_circle_ratio. Where a bound of the area matters more than the mean edge, sizes of
+    /// size_for_area() with a ratio nearer to 1 make fewer triangles of a given largest area, which are less regular.
+    double max_area_ratio = max_circle_ratio * max_circle_ratio;
+    /// How much triangles are improved once they are made: 0: not at all; 1: vertices of ill-shaped triangles move;
+    /// n: and all others move up to n - 1 times.
+    unsigned smoothing = 1;
     /// Whether large, evenly sized parts are filled with patches of an equilateral lattice, so that only the seams
     /// between them are refined. The guarantees are the same, refinement is several times faster, and there are fewer
     /// triangles. It changes nothing where it does not pay.
@@ -148,7 +159,9 @@ LAMINA_EXPORT void validate(const RefineOptions& options);
 
 /// The numbers of triangles that could not be refined as requested.
 struct RefineStats {
-    std::size_t refused = 0;  ///< points that were not placed because a border would be too near that cannot be split
+    /// Points that were not placed because a border would be too near that cannot be split; 0 if that left no triangle
+    /// beyond the bounds.
+    std::size_t refused = 0;
     std::size_t below_bound = 0;  ///< triangles that stayed below the angle bound
     std::size_t exempt = 0;       ///< those of them at a corner below 60 degrees between two border edges
     std::size_t oversized = 0;    ///< triangles that stayed above the size bound
@@ -165,11 +178,12 @@ struct Refinement {
 };
 
 /// Refines the region on the left of `segments` to a size field and a minimum angle. The border is frozen: no segment
-/// is split, and a point that would encroach upon one is refused. A triangle is too large where its area exceeds
-/// sqrt(3)/4 h^2, h being the mean of the size field at its vertices. The result depends on the arguments alone. Throws
+/// is split, and a point that would encroach upon one is refused. A triangle is too large where its
+/// circumcircle or its area exceeds the bounds of max_circle_ratio and RefineOptions::max_area_ratio. Edges are h long
+/// on average, within 3 % where h grows by up to 0.1 per unit of distance and border edges are h long. The result depends on the arguments alone. Throws
 /// OptionError for options out of range, InputError as triangulate() does, MeshError where max_points do not suffice.
 /// Source: J. Ruppert, J. Algorithms 18 (1995); J. R. Shewchuk, Comput. Geom. 22 (2002); off-centres: A. Ungor, LATIN
-/// 2004.
+/// 2004; frontal refinement: D. Engwirda, D. Ivers, Computer-Aided Design 72 (2016).
 LAMINA_EXPORT Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
                                 const RefineOptions& options = {});
 

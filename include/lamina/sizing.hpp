@@ -19,16 +19,18 @@ namespace lamina {
 
 struct WorkLimits;  // limits.hpp
 
-/// Frozen edges (separators, outer borders of layers) are at most this share of h long. Refinement makes edges of 0.82
-/// h on average, and none of its vertices encroaches upon a frozen edge of up to 1.24 sqrt(A) = 0.82 h, A being the
-/// area of an equilateral triangle of edge h (docs/decisions/0003).
-inline constexpr double frozen_share = 0.8;
+/// Frozen edges (separators, outer borders of layers) are at most this share of h long. Refinement makes edges of h on
+/// average, and no vertex that it has to place encroaches upon a frozen edge of up to 1.06 h where h is constant
+/// (docs/decisions/0003).
+inline constexpr double frozen_share = 1.0;
 
 /// The area of an equilateral triangle divided by its squared edge: sqrt(3) / 4.
 inline constexpr double equilateral_area = 0.43301270189221932;
 
-/// Returns the edge length of the equilateral triangle of this area: the size that bounds triangles to it.
-inline double size_for_area(double area) { return std::sqrt(area / equilateral_area); }
+/// Returns the size that bounds the areas of triangles to this one, where max_area_ratio (RefineOptions) is as given.
+inline double size_for_area(double area, double max_area_ratio) {
+    return std::sqrt(area / (max_area_ratio * equilateral_area));
+}
 
 /// A shape that requests a target edge length on it and round it: h(p) <= size + gradation x distance(p, shape). A
 /// point inside a box, or within `radius` of the shape, is at distance 0.

@@ -67,13 +67,16 @@ ConstrainedTriangulation triangulate_input(const TriangleInput& input, const Del
     return triangulate(input.points, input.segments, options);
 }
 
+/// Areas are bounded exactly, and the fewest triangles are wanted, so this is nearer to 1 than the default.
+constexpr double max_area_ratio = 1.1;
+
 /// Returns the size field whose triangles have at most this area. Where the area is not bounded, the sizes are larger
 /// than all points together are wide.
 SizeField size_field_for_area(double max_area, const std::vector<Point>& points) {
     Box extent;
     for (Point p : points) extent.include(p);
     const double squared_diagonal = extent.width() * extent.width() + extent.height() * extent.height();
-    return SizeField(size_for_area(std::min(max_area, 16 * squared_diagonal)));
+    return SizeField(size_for_area(std::min(max_area, 16 * squared_diagonal), max_area_ratio));
 }
 
 /// Throws LimitError where the triangulation of the points of the input would exceed the limits, and records its size.
@@ -113,6 +116,7 @@ ConstrainedRefinement refine_input(const TriangleInput& input, const Constrained
                                    const DelaunaySettings& settings, const Progress& progress, DelaunayResult& result) {
     ConstrainedRefineOptions options;
     options.refine = settings.refine;
+    options.refine.max_area_ratio = max_area_ratio;
     options.split_segments = !settings.keep_border;
     for (const TriangleRegion& region : input.regions) {
         const double max_area = region.max_area > 0 ? std::min(region.max_area, settings.max_area) : settings.max_area;

@@ -26,13 +26,13 @@ namespace {
 
 /// Triangles that refinement makes for each of min_triangles where h is constant, and how many more it makes in
 /// proportion to the growth of h.
-constexpr double refined_where_even = 1.435, refined_by_growth = 0.28;
+constexpr double refined_where_even = 1.008, refined_by_growth = 0.2;
 constexpr double refined(double gradient) { return refined_where_even + refined_by_growth * gradient; }
 /// Triangles of the mesh for each triangle of a lattice that covers the region, and how many more for each frozen edge,
 /// in the seam.
 constexpr double latticed = 1.02, latticed_along_border = 0.63;
 /// Mean area of lattice triangles, as a share of the largest allowed, where h passes through the levels.
-constexpr double mean_level_share = 0.812;
+constexpr double mean_level_share = 0.99;
 /// Growth of h beyond which no block keeps to one level.
 constexpr double even_gradient = (level_ratio - 1) / (2 * min_block_edges);
 /// A lattice is made where it has more triangles than this for each frozen edge and for each change of level.
@@ -180,15 +180,15 @@ struct LatticeSums {
 bool is_even(const TrianglePart& part) { return part.gradient < even_gradient; }
 
 /// Returns the number of lattice triangles for each of min_triangles.
-double lattice_triangles(const TrianglePart& part, const std::vector<double>& edges) {
+double lattice_triangles(const TrianglePart& part, const LatticeLevels& levels) {
     if (part.high > level_ratio * part.low) return 1 / mean_level_share;
     constexpr double rounding = 1 + 1e-6;  // the size field holds numbers of single precision
-    const double share = edges[static_cast<std::size_t>(level_of(part.inside * rounding, edges))] / part.inside;
+    const double share = levels.edges[static_cast<std::size_t>(levels.level_of(part.inside * rounding))] / part.inside;
     return 1 / (share * share);
 }
 
-/// Returns the edge lengths of the lattices that the sizes of the parts suit.
-std::vector<double> lattice_edges(const std::vector<TrianglePart>& parts) {
+/// Returns the levels that the sizes of the parts suit.
+LatticeLevels levels_for(const std::vector<TrianglePart>& parts) {
     double low = HUGE_VAL, high = 0;
     std::vector<SizeBin> bins;
     bins.reserve(parts.size());
@@ -197,17 +197,17 @@ std::vector<double> lattice_edges(const std::vector<TrianglePart>& parts) {
         high = std::max(high, part.high);
         bins.push_back({part.low, part.high, part.min_triangles});
     }
-    return level_edges(low, 1.01 * high, std::move(bins));
+    return lattice_levels(low, 1.01 * high, RefineOptions{}.max_area_ratio, std::move(bins));
 }
 
-LatticeSums sum_up(const DividedTriangles& divided, const std::vector<double>& edges) {
+LatticeSums sum_up(const DividedTriangles& divided, const LatticeLevels& levels) {
     LatticeSums sums;
     sums.border_edges = static_cast<double>(divided.border_edges);
     for (const TrianglePart& part : divided.parts) {
         sums.min_triangles += part.min_triangles;
         if (!is_even(part)) continue;
         sums.even += part.min_triangles;
-        sums.lattice += part.min_triangles * lattice_triangles(part, edges);
+        sums.lattice += part.min_triangles * lattice_triangles(part, levels);
         sums.crossings += part.min_triangles * part.gradient;
     }
     return sums;
@@ -227,7 +227,7 @@ double lattice_probability(const LatticeSums& sums) {
 double made_for_each_of_min_triangles(double gradient) {
     // Below this gradient one level serves the whole region, above it all levels do.
     constexpr double max_one_level_gradient = 0.001;
-    if (gradient < max_one_level_gradient) return latticed / (lattice_share * lattice_share);
+    if (gradient < max_one_level_gradient) return latticed / (commonest_lattice_share * commonest_lattice_share);
     return gradient < even_gradient ? latticed / mean_level_share : refined(gradient);
 }
 
@@ -241,8 +241,8 @@ struct UndividedSums {
 
 /// Adds a triangle. h is taken for constant in it: the size at its vertices, which is finest.
 void add_triangle(const ConstrainedInput& input, Index t, UndividedSums& sums) {
-    // Borders are divided into equal parts of at most 0.9 h.
-    constexpr double mean_border_edge = 0.85;
+    // Borders are divided into equal parts of at most h.
+    constexpr double mean_border_edge = 0.95;
     const Tri& tri = input.tris[t];
     const Point a = input.points[tri.v[0]], b = input.points[tri.v[1]], c = input.points[tri.v[2]];
     const SizeField& size = *input.sizes[input.field_of(t)];
@@ -280,8 +280,8 @@ LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, con
     result.begin.insert(result.begin.end(), divided.ends.begin(), divided.ends.end());
     if (divided.parts.empty()) return result;
 
-    const std::vector<double> edges = lattice_edges(divided.parts);
-    const LatticeSums sums = sum_up(divided, edges);
+    const LatticeLevels levels = levels_for(divided.parts);
+    const LatticeSums sums = sum_up(divided, levels);
     const double lattice = lattice_probability(sums);
     result.lattice = lattice > 0;
     double inside = 0;
@@ -289,7 +289,7 @@ LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, con
     for (const TrianglePart& part : divided.parts) {
         const double by_refinement = refined(part.gradient);
         const double by_lattice =
-            lattice > 0 && is_even(part) ? latticed * lattice_triangles(part, edges) : by_refinement;
+            lattice > 0 && is_even(part) ? latticed * lattice_triangles(part, levels) : by_refinement;
         const double triangles = part.min_triangles * (lattice * by_lattice + (1 - lattice) * by_refinement);
         result.loads.push_back({part.at, triangles});
         inside += triangles;

@@ -14,7 +14,7 @@
 namespace lamina::delaunay {
 
 /// Number of triangles that refinement makes for each frozen edge, besides those that fill the region.
-inline constexpr double refined_along_border = 0.184;
+inline constexpr double refined_along_border = 0.15;
 
 /// Returns the estimated number of triangles in a region of this area and this mean of 1 / h^2. The region is far
 /// larger than its triangles, and h grows in it by `gradient` per unit of distance.

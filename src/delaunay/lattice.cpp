@@ -48,14 +48,14 @@ struct SmoothBlocks {
 };
 
 /// Halves the region's box until blocks belong to one level or are too small for a patch.
-SmoothBlocks find_smooth_blocks(const Box& region, const SizeField& size, const std::vector<double>& edges) {
+SmoothBlocks find_smooth_blocks(const Box& region, const SizeField& size, const LatticeLevels& levels) {
     SmoothBlocks found;
     std::vector<Box> pending{region};
     while (!pending.empty()) {
         const Box box = pending.back();
         pending.pop_back();
         const auto [low, high] = size.range(box, level_ratio * level_ratio);
-        const int first_level = level_of(low, edges), last_level = level_of(high, edges);
+        const int first_level = levels.level_of(low), last_level = levels.level_of(high);
         const double extent = core::longer_side(box);
         bool divisible = first_level != last_level && extent > 2 * min_block_edges * low;
         if (!divisible && high > level_ratio * level_ratio * low)
@@ -80,17 +80,17 @@ SmoothBlocks find_smooth_blocks(const Box& region, const SizeField& size, const 
     return found;
 }
 
-/// Returns the edge lengths of levels that suit the sizes of the blocks, and sets the levels of each block.
-std::vector<double> choose_levels(double low, double high, std::vector<LatticeBlock>& blocks) {
+/// Returns levels that suit the sizes of the blocks, and sets the levels of each block.
+LatticeLevels choose_levels(double low, double high, double max_area_ratio, std::vector<LatticeBlock>& blocks) {
     std::vector<SizeBin> bins;
     bins.reserve(blocks.size());
     for (const LatticeBlock& block : blocks) bins.push_back(block.sizes);
-    std::vector<double> edges = level_edges(low, high, std::move(bins));
+    LatticeLevels levels = lattice_levels(low, high, max_area_ratio, std::move(bins));
     for (LatticeBlock& block : blocks) {
-        block.first_level = level_of(block.sizes.low, edges);
-        block.last_level = level_of(block.sizes.high, edges);
+        block.first_level = levels.level_of(block.sizes.low);
+        block.last_level = levels.level_of(block.sizes.high);
     }
-    return edges;
+    return levels;
 }
 
 /// Adds the vertices inside the block whose size is in [low, high), the sizes of the grid's level.
@@ -113,9 +113,9 @@ void set_block(LatticeGrid& grid, const LatticeBlock& block, const SizeField& si
 
 /// Returns one grid for each level, from the finest to the coarsest, whose box holds the blocks of the level. No memory
 /// is allocated for vertices yet.
-std::vector<LatticeGrid> make_grids(const std::vector<LatticeBlock>& blocks, const std::vector<double>& edges) {
-    std::vector<LatticeGrid> grids(edges.size() - 1);
-    for (std::size_t l = 0; l < grids.size(); ++l) grids[l].edge = edges[l];
+std::vector<LatticeGrid> make_grids(const std::vector<LatticeBlock>& blocks, const LatticeLevels& levels) {
+    std::vector<LatticeGrid> grids(levels.edges.size() - 1);
+    for (std::size_t l = 0; l < grids.size(); ++l) grids[l].edge = levels.edges[l];
     for (const LatticeBlock& block : blocks)
         for (int l = block.first_level; l <= block.last_level; ++l) grids[l].include(block.box);
     return grids;
@@ -130,13 +130,13 @@ double grid_capacity(const std::vector<LatticeGrid>& grids) {
 }
 
 /// Allocates the grids, adds the vertices of the blocks to them, and drops the grids of levels without blocks.
-void fill_grids(std::vector<LatticeGrid>& grids, const std::vector<LatticeBlock>& blocks,
-                const std::vector<double>& edges, const SizeField& size) {
+void fill_grids(std::vector<LatticeGrid>& grids, const std::vector<LatticeBlock>& blocks, const LatticeLevels& levels,
+                const SizeField& size) {
     for (LatticeGrid& grid : grids)
         if (!grid.is_empty()) grid.allocate();
     for (const LatticeBlock& block : blocks)
         for (int l = block.first_level; l <= block.last_level; ++l)
-            set_block(grids[l], block, size, edges[l] / lattice_share, edges[l + 1] / lattice_share);
+            set_block(grids[l], block, size, levels.smallest_size(l), levels.smallest_size(l + 1));
     std::erase_if(grids, [](const LatticeGrid& grid) { return grid.is_empty(); });
 }
 
@@ -181,21 +181,21 @@ LatticePatches join_patches(std::vector<LatticeGrid> grids, std::vector<PatchVer
 }  // namespace
 
 LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const Segment> segments,
-                                 const SizeField& size, std::size_t max_points,
+                                 const SizeField& size, const RefineOptions& options,
                                  std::span<const LatticeObstacle> obstacles) {
     Box region;
     for (const Segment& s : segments) region.include(points[s.a.index()]);
     const auto [low, high] = size.range(region);
     if (low < min_lattice_size) return {};
-    SmoothBlocks smooth = find_smooth_blocks(region, size, level_edges(low, high, {}));
+    SmoothBlocks smooth = find_smooth_blocks(region, size, lattice_levels(low, high, options.max_area_ratio, {}));
     if (smooth.triangles_in_blocks < min_smooth_share * smooth.triangles) return {};
 
-    const std::vector<double> edges = choose_levels(low, high, smooth.blocks);
-    std::vector<LatticeGrid> grids = make_grids(smooth.blocks, edges);
+    const LatticeLevels levels = choose_levels(low, high, options.max_area_ratio, smooth.blocks);
+    std::vector<LatticeGrid> grids = make_grids(smooth.blocks, levels);
     // Narrow bands in a wide box waste their bits; so does a region that fills little of its box.
     const double bits = grid_capacity(grids);
-    if (bits > 1e6 + 64 * smooth.triangles_in_blocks || bits > 64 * static_cast<double>(max_points)) return {};
-    fill_grids(grids, smooth.blocks, edges, size);
+    if (bits > 1e6 + 64 * smooth.triangles_in_blocks || bits > 64 * static_cast<double>(options.max_points)) return {};
+    fill_grids(grids, smooth.blocks, levels, size);
     std::vector<PatchVertices> vertices = cut_out_patches(grids, points, segments, obstacles);
     LatticePatches patches = join_patches(std::move(grids), std::move(vertices));
     // A point on the boundary or in the collar costs about as much as two triangles of a patch save.

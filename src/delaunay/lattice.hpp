@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include <lamina/delaunay.hpp>
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
@@ -19,13 +20,12 @@ struct LatticeObstacle {
 };
 
 /// Fills the region on the left of the segments with patches wherever sizes are so even that a patch pays. Returns no
-/// patches where none pays, or where they would go far beyond `max_points`. The triangles obey the size bound of
+/// patches where none pays, or where they would go far beyond `options.max_points`. The triangles obey the size bound of
 /// refine(). Collars keep about the distance of a lattice row from the border, from all points and from each other, and
-/// the radii of the obstacles from these. Boundary edges of patches are longer than frozen edges may be: at 0.93 h
-/// refinement would refuse points beside them (docs/decisions/0002). The collar, one row of points that refinement
+/// the radii of the obstacles from these. Boundary edges of patches are longer than frozen edges may be (docs/decisions/0002). The collar, one row of points that refinement
 /// connects as it likes, keeps new points away from them.
 LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const Segment> segments,
-                                 const SizeField& size, std::size_t max_points,
+                                 const SizeField& size, const RefineOptions& options,
                                  std::span<const LatticeObstacle> obstacles = {});
 
 }  // namespace lamina::delaunay

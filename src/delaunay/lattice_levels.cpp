@@ -2,10 +2,11 @@
 #include "delaunay/lattice_levels.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lamina::delaunay {
 
-std::vector<double> level_edges(double low, double high, std::vector<SizeBin> bins) {
+LatticeLevels lattice_levels(double low, double high, double max_area_ratio, std::vector<SizeBin> bins) {
     constexpr double rounding = 1e-6;  // the size field holds numbers of single precision
     constexpr double alike = 1e-3;     // sizes that differ by less count as one size
     std::erase_if(bins, [](const SizeBin& bin) { return bin.high > (1 + alike) * bin.low; });
@@ -21,15 +22,20 @@ std::vector<double> level_edges(double low, double high, std::vector<SizeBin> bi
         count_of_commonest = triangles;
         commonest = (1 - rounding) * first;
     }
-    double first_size = commonest;
-    while (first_size > low) first_size /= level_ratio;
-    std::vector<double> edges{lattice_share * first_size};
-    while (edges.back() <= lattice_share * high) edges.push_back(edges.back() * level_ratio);
-    return edges;
+    LatticeLevels levels;
+    levels.share = std::min(largest_lattice_share, (1 - rounding) * std::sqrt(max_area_ratio));
+    double first_size = low;
+    if (count_of_commonest > 0) {
+        first_size = commonest * (std::min(commonest_lattice_share, levels.share) / levels.share);
+        while (first_size > low) first_size /= level_ratio;
+    }
+    levels.edges.push_back(levels.share * first_size);
+    while (levels.edges.back() <= levels.share * high) levels.edges.push_back(levels.edges.back() * level_ratio);
+    return levels;
 }
 
-int level_of(double size, const std::vector<double>& edges) {
-    return static_cast<int>(std::upper_bound(edges.begin(), edges.end(), lattice_share * size) - edges.begin()) - 1;
+int LatticeLevels::level_of(double size) const {
+    return static_cast<int>(std::upper_bound(edges.begin(), edges.end(), share * size) - edges.begin()) - 1;
 }
 
 }  // namespace lamina::delaunay

@@ -5,9 +5,10 @@
 
 namespace lamina::delaunay {
 
-/// Lattice edges are at most this share of h. Triangles with edges of 1 h would just obey the size bound wherever they
-/// lie; the remaining 3 % let refinement close the seams beside them (docs/decisions/0002).
-inline constexpr double lattice_share = 0.97;
+/// Lattice edges have at most the first share of h, so that their mean is h where sizes pass through the levels. Those
+/// that serve the commonest size have the second one: a little more than 1, which lets refinement close the seams beside
+/// them without too many short edges (docs/decisions/0002).
+inline constexpr double largest_lattice_share = 1.07, commonest_lattice_share = 1.02;
 /// The ratio of the edge lengths of successive levels: sqrt(4/3), a third in area.
 inline constexpr double level_ratio = 1.1547005383792517;
 /// Blocks of fewer lattice edges across are not worth a patch.
@@ -19,13 +20,20 @@ struct SizeBin {
     double triangles;  ///< the number of triangles of these sizes, about
 };
 
-/// Returns the edge lengths of the levels for sizes from `low` to `high`, ascending. Level l serves the sizes from
-/// edges[l] to edges[l + 1], divided by lattice_share. The lattice of a level fits best at the lower end of its sizes,
-/// so one level begins at the one size that most triangles have, as in a box, in a disc or under a largest size;
-/// without such a size, the first level begins at `low`.
-std::vector<double> level_edges(double low, double high, std::vector<SizeBin> bins);
+/// The edge lengths of lattices, by level.
+struct LatticeLevels {
+    std::vector<double> edges;             ///< ascending by level_ratio
+    double share = largest_lattice_share;  ///< level l serves the sizes from edges[l] to edges[l + 1], divided by this
 
-/// Returns the level that serves a size; -1 for sizes below the first level.
-int level_of(double size, const std::vector<double>& edges);
+    /// Returns the level that serves a size; -1 for sizes below the first level.
+    int level_of(double size) const;
+    /// Returns the smallest size that a level serves.
+    double smallest_size(std::size_t level) const { return edges[level] / share; }
+};
+
+/// Returns the levels for sizes from `low` to `high`. The lattice of a level fits best in the lower part of its sizes,
+/// so one level suits the one size that most triangles have, as in a box, in a disc or under a largest size; without
+/// such a size, the first level begins at `low`. Triangles keep the bound of their area.
+LatticeLevels lattice_levels(double low, double high, double max_area_ratio, std::vector<SizeBin> bins);
 
 }  // namespace lamina::delaunay

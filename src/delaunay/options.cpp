@@ -24,6 +24,14 @@ OptionTable<RefineOptions> make_refine_table() {
         .count("max-points", "N", "points beyond which the refinement of one piece gives up", numbers_from_to(0, 4e9),
                member_at(&RefineOptions::max_points))
         .library_only = true;
+    table
+        .number("max-area-ratio", "R", "largest area of a triangle, over that of the equilateral one with edges of h",
+                numbers_from_to(1.05, max_circle_ratio * max_circle_ratio), member_at(&RefineOptions::max_area_ratio))
+        .library_only = true;
+    table.count("smoothing", "N",
+                "how much isotropic triangles are improved: 0: not at all; 1: vertices of ill-shaped ones move; N: all "
+                "others move up to N - 1 times, too",
+                numbers_from_to(0, 100), member_at(&RefineOptions::smoothing));
     return table.take();
 }
 

@@ -72,7 +72,7 @@ Refinement refine(std::span<const Point> points, std::span<const Segment> segmen
     validate(options);
     check_points_and_segments(points, segments);
     if (options.lattice) {
-        LatticePatches patches = fill_with_lattice(points, segments, size, options.max_points);
+        LatticePatches patches = fill_with_lattice(points, segments, size, options);
         if (!patches.empty()) return refine_with_lattice(points, segments, size, options, std::move(patches));
     }
     return refine_region(points, segments, size, options);

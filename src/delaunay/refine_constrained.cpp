@@ -92,16 +92,15 @@ void append(FieldPatches& all, const LatticePatches& some, std::uint32_t field) 
 }
 
 FieldPatches fill_fields(const ConstrainedInput& input, std::span<const LatticeObstacle> obstacles,
-                         std::size_t max_points) {
+                         const RefineOptions& options) {
     FieldPatches all;
     for (std::uint32_t field = 0; field < input.sizes.size(); ++field) {
         const std::vector<Segment> edges = edges_round_field(input, field);
         if (edges.empty()) continue;
-        const LatticePatches patches =
-            fill_with_lattice(input.points, edges, *input.sizes[field], max_points, obstacles);
+        const LatticePatches patches = fill_with_lattice(input.points, edges, *input.sizes[field], options, obstacles);
         append(all, patches, field);
     }
-    if (all.patches.points.size() > max_points) fail_too_many_points(max_points);
+    if (all.patches.points.size() > options.max_points) fail_too_many_points(options.max_points);
     return all;
 }
 
@@ -288,7 +287,7 @@ ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTri
     for (int attempt = 0;; ++attempt) {
         FieldPatches filled;
         if (options.refine.lattice && attempt < max_lattice_attempts)
-            filled = fill_fields(input, obstacles, options.refine.max_points);
+            filled = fill_fields(input, obstacles, options.refine);
         Outcome outcome = refine_round(filled, task, part_share);
         if (filled.patches.empty() || outcome.kept_out.empty()) {
             if (outcome.mesh.triangles.size() >= few_triangles) return std::move(outcome.mesh);

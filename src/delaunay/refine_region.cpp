@@ -24,11 +24,12 @@ namespace lamina::delaunay {
 
 namespace {
 
-/// Returns the triangles of the region on the left of the segments.
+/// Returns the triangles of the region on the left of the segments, in an order that does not depend on the numbers of
+/// the points, since the result of refinement depends on it.
 Tris triangulate_region(std::span<const Point> border, std::span<const Segment> segments) {
     Tris tris = triangulate_points(border);
     insert_segments(border, segments, tris);
-    return keep_left_of_segments(segments, tris, border.size());
+    return in_order_of_place(border, keep_left_of_segments(segments, tris, border.size()));
 }
 
 /// Refines one region.
@@ -128,8 +129,10 @@ RefineStats FrozenRefiner::count_leftovers() const {
             ++stats.below_bound;
             stats.exempt += std::any_of(t.v, t.v + 3, [&](Index v) { return v < input_count_ && sharp[v]; });
         }
-        stats.oversized += s.area2 > area2_bound(t) * (1 + 1e-9);
+        stats.oversized += is_oversized(t, s);
     }
+    // Smoothing may have mended what a refused point left behind.
+    if (stats.below_bound == 0 && stats.oversized == 0) stats.refused = 0;
     return stats;
 }
 

@@ -1,13 +1,14 @@
-// Delaunay refinement with a size field and a minimum angle: the steps that refinement with frozen borders and
-// refinement with borders that may be split share. Triangles that are too large are mended first, then narrow ones,
-// each by a new vertex. docs/decisions/0002 explains the order of work and gives figures.
+// Frontal Delaunay refinement with a size field and a minimum angle: the steps that refinement with frozen borders and
+// refinement with borders that may be split share. Triangles that are too large are mended first, row by row from the
+// border inwards, then narrow ones, each by a new vertex; at the end vertices move to where triangles are better.
+// docs/decisions/0002 and 0031 explain the order of work and give figures.
 //
 // Refinement ends: a point placed for an angle is farther from every vertex than the shortest edge of the triangle it
 // mends (for bounds up to 30 degrees); and points placed for size keep a distance of a share of h from every vertex.
 //
 // Sources: J. Ruppert, A Delaunay refinement algorithm for quality 2-dimensional mesh generation, J. Algorithms 18
-// (1995); L. P. Chew, SoCG 1993; off-centres: A. Ungor, LATIN 2004; points at a prescribed size on the perpendicular
-// bisector: S. Rebay, J. Comput. Phys. 106 (1993).
+// (1995); L. P. Chew, SoCG 1993; off-centres: A. Ungor, LATIN 2004; frontal refinement: S. Rebay, J. Comput. Phys. 106
+// (1993); D. Engwirda, D. Ivers, Computer-Aided Design 72 (2016).
 #pragma once
 
 #include <algorithm>
@@ -20,8 +21,10 @@
 
 #include "core/predicates.hpp"
 #include "core/reproducible_math.hpp"
+#include "delaunay/advancing_front.hpp"
 #include "delaunay/angle_queue.hpp"
 #include "delaunay/cavity.hpp"
+#include "delaunay/smoothing.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -64,13 +67,16 @@ struct TriangleShape {
 template <class Derived>
 class Refiner {
 protected:
-    /// A point placed for size aims at a triangle with this share of the area bound.
-    static constexpr double target_area_share = 0.9;
-    /// The height of that triangle over its base, in lengths of the base, is at least this. Over a base that is too
-    /// long for it, the point is placed at the circumcentre.
+    /// A new vertex of the front keeps this share of h, or of the new edges where they are shorter, from the vertices
+    /// of other fronts.
+    static constexpr double min_front_distance = 0.98;
+    /// A triangle on the front is at least this high, in lengths of its base.
     static constexpr double min_front_height = 0.3;
-    /// Twice the area bound of a triangle, over the squared sum of h at its vertices.
-    static constexpr double area2_per_squared_sum = 2 * equilateral_area / 9;
+    /// Its apex stands at most this far from the bisector, in lengths of its base.
+    static constexpr double max_front_shift = 0.3;
+    /// Triangles of a smaller mean ratio are smoothed.
+    static constexpr double smoothed_mean_ratio = 0.9;
+    static constexpr unsigned smoothing_rounds = 3;
 
     /// Keeps a reference to the options. `points` and `tris` are those that are refined.
     Refiner(const RefineOptions& options, std::vector<Point> points, Tris tris)
@@ -79,17 +85,21 @@ protected:
         const double bound = core::radians(options.min_angle_deg);
         const double s = core::sin_reproducible(bound);
         squared_sine_ = s * s;
+        area2_per_squared_sum_ = options.max_area_ratio * 2 * equilateral_area / 9;
         // Over the shortest edge the off-centre makes an angle of the bound. It stands 5 % nearer to the edge, so that
         // rounding leaves the angle above the bound.
         off_centre_ = 0.475 * std::sqrt((1 + core::cos_reproducible(bound)) / (1 - core::cos_reproducible(bound)));
     }
 
-    /// Refines until nothing is left to be mended. Triangles that are too large come first, from a stack, so that work
-    /// stays in cache; then narrow ones, the shortest edge first.
+    /// Refines until nothing is left to be mended, then smooths.
     void run() {
+        front_.reset(tris_.size());
         for (Index t = 0; t < tris_.size(); ++t) classify(t);
+        for (Index t = 0; t < tris_.size(); ++t)
+            if (is_on_front(t)) front_.ready.push({t, tris_[t].v[0]});
         while (derived().split_next() || mend_next()) {
         }
+        smooth();
     }
 
     TriangleShape shape_of(const Tri& t) const {
@@ -97,25 +107,52 @@ protected:
         return {{squared_length(c - b), squared_length(a - c), squared_length(b - a)}, cross(b - a, c - a)};
     }
 
-    /// Returns twice the largest area that the sizes at its vertices allow.
-    double area2_bound(const Tri& t) const {
-        const double sum = static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]];
-        return area2_per_squared_sum * (sum * sum);
+    double size_sum(const Tri& t) const {
+        return static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]];
+    }
+
+    /// Returns whether a triangle is too large for the sum of h at its vertices, given the product of its squared edges
+    /// and twice its area: whether its circumcircle is larger than that of an equilateral triangle with edges of
+    /// max_circle_ratio h, h being the mean, or its area is more than max_area_ratio times that of one with edges of h.
+    /// The squared circumradius is product / (2 area2)^2.
+    bool is_large(double product, double area2, double sum) const {
+        const double squared_sum = sum * sum;
+        return product > squared_radius_per_squared_sum * squared_sum * (area2 * area2) ||
+               area2 > area2_per_squared_sum_ * squared_sum;
+    }
+
+    /// Returns whether a triangle is larger than its bounds and rounding allow.
+    bool is_oversized(const Tri& t, const TriangleShape& s) const {
+        constexpr double allowance = 1 + 1e-6;
+        return is_large(s.squared[0] * s.squared[1] * s.squared[2], s.area2, allowance * size_sum(t));
     }
 
     bool is_narrow(double ab, double bc, double ca, double shortest, double area2) const {
         return is_angle_below(squared_sine_, ab, bc, ca, shortest, area2);
     }
 
-    /// Queues the triangle if it is too large or narrow.
+    /// Notes whether the triangle is too large, and queues it if it is narrow.
     void classify(Index t) {
         const TriangleShape s = shape_of(tris_[t]);
-        const double shortest = s.squared[s.shortest()];
-        const QueuedTriangle entry{t, tris_[t].v[0]};
-        if (s.area2 > area2_bound(tris_[t]))
-            oversized_.push_back(entry);
-        else if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2) && derived().must_mend(t))
-            narrow_.push(entry, shortest);
+        const unsigned e = s.shortest();
+        const double product = s.squared[0] * s.squared[1] * s.squared[2];
+        if (is_large(product, s.area2, size_sum(tris_[t])))
+            front_.set_large(t, e);
+        else {
+            front_.set_done(t);
+            if (is_narrow(s.squared[0], s.squared[1], s.squared[2], s.squared[e], s.area2) && derived().must_mend(t))
+                narrow_.push({t, tris_[t].v[0]}, s.squared[e]);
+        }
+    }
+
+    /// Returns whether a triangle is large and its base on the front.
+    bool is_on_front(Index t) const { return front_.is_large(t) && front_.is_done_across(tris_[t].n[front_.base(t)]); }
+
+    /// Queues the triangle if it is large and on the front, and those across its edges that it brings to the front.
+    void queue_front(Index t) {
+        if (is_on_front(t)) front_.ready.push({t, tris_[t].v[0]});
+        if (front_.is_large(t)) return;
+        for (const Link across : tris_[t].n) queue_if_based_on(across);
     }
 
     bool is_current(QueuedTriangle entry) const { return tris_[entry.triangle].v[0] == entry.newest; }
@@ -162,31 +199,144 @@ protected:
     Tris tris_;
     double squared_sine_ = 0;  ///< of the angle bound
     Cavity cavity_;
+    AdvancingFront front_;
     std::size_t refused_ = 0;
 
 private:
     Derived& derived() { return static_cast<Derived&>(*this); }
     const Derived& derived() const { return static_cast<const Derived&>(*this); }
 
+    /// What smoothing has to respect.
+    struct SmoothingRules {
+        Refiner& refiner;
+        double size_at(Point p, Index t) const { return refiner.derived().size_at(p, t); }
+        bool is_allowed(double aa, double bb, double cc, double area2, double size_sum) const {
+            return !refiner.is_large(aa * bb * cc, area2, size_sum) &&
+                   !refiner.is_narrow(aa, bb, cc, std::min({aa, bb, cc}), area2);
+        }
+        bool is_blocked(const CavityEdge& a, const CavityEdge& b) const { return refiner.derived().is_blocked(a, b); }
+    };
+
+    void smooth() {
+        if (options_.smoothing == 0) return;
+        const SmoothedArrays arrays{points_, sizes_, tris_, static_cast<Index>(input_count_)};
+        Smoother<SmoothingRules> smoother(arrays, {*this});
+        smoother.mend_worst(smoothed_mean_ratio, smoothing_rounds);
+        for (unsigned i = 1; i < options_.smoothing && smoother.sweep(smoothed_mean_ratio) > 0; ++i) {
+        }
+    }
+
+    void queue_if_based_on(Link link) {
+        if (link.is_constrained() || !front_.has_base(link.triangle(), link.edge())) return;
+        front_.ready.push({link.triangle(), tris_[link.triangle()].v[0]});
+    }
+
     /// Mends the next triangle. Returns false if there is none.
     bool mend_next() {
         QueuedTriangle entry;
-        if (!oversized_.empty()) {
-            if (oversized_.size() > purge_at_) purge();
-            entry = oversized_.back();
-            oversized_.pop_back();
-            if (is_current(entry)) mend_size(entry.triangle);
-            return true;
+        if (front_.ready.pop(entry)) {
+            if (is_current(entry) && front_.is_large(entry.triangle)) advance(entry);
+        } else if (front_.met.pop(entry)) {
+            if (is_current(entry) && front_.is_large(entry.triangle)) mend_large(entry.triangle);
+        } else if (narrow_.pop(entry)) {
+            if (is_current(entry)) mend_angle(entry.triangle);
+        } else {
+            return queue_enclosed();
         }
-        if (!narrow_.pop(entry)) return false;
-        if (is_current(entry)) mend_angle(entry.triangle);
         return true;
     }
 
-    /// Removes the stale entries of the stack, which would lie there until the end; the others keep their order.
-    void purge() {
-        std::erase_if(oversized_, [&](QueuedTriangle entry) { return !is_current(entry); });
-        purge_at_ = std::max(min_purge_size, 2 * oversized_.size());
+    /// Queues large triangles that no front reaches, since two of them lie on both sides of their base. Returns false
+    /// if there is none.
+    bool queue_enclosed() {
+        for (Index t = 0; t < tris_.size(); ++t)
+            if (front_.is_large(t)) front_.met.push({t, tris_[t].v[0]});
+        return !front_.met.empty();
+    }
+
+    /// A place for a new vertex over the base of a large triangle.
+    struct FrontPoint {
+        Point at;
+        double squared_distance;  ///< that it should keep from the vertices of other fronts, squared
+    };
+
+    /// Returns h near a point p over the base of a triangle. Where there is a triangle behind the base, its sizes are
+    /// continued linearly: p is about the mirror image of its apex. That costs less than the field.
+    double size_beyond_base(Index t, double size_at_ends, Point p) const {
+        constexpr double min_change = 0.7, max_change = 1.4;
+        const Link behind = tris_[t].n[front_.base(t)];
+        if (behind.is_constrained()) return derived().size_at(p, t);
+        const double at_apex = sizes_[tris_[behind.triangle()].v[behind.edge()]];
+        return std::clamp(2 * size_at_ends - at_apex, min_change * size_at_ends, max_change * size_at_ends);
+    }
+
+    /// Returns the point p over the base u-v of a large triangle from which both ends of the base are as far as the mean
+    /// of h at p and there, or the circumcentre, if that is nearer to the base.
+    ///
+    ///               w
+    ///             .'  '.           The point lies beside the bisector if h differs at u and v. The
+    ///           .'  x   '.         circumcentre x lies dot / (2 cross) lengths of the base above its
+    ///         .'    p     '.       middle m; dot and cross are those of w -> u and w -> v.
+    ///        u ----- m ---- v
+    FrontPoint front_point(Index t) const {
+        const Tri& tri = tris_[t];
+        const unsigned e = front_.base(t);
+        const Index u_vertex = tri.v[next(e)], v_vertex = tri.v[previous(e)];
+        const Point u = points_[u_vertex], v = points_[v_vertex], w = points_[tri.v[e]];
+        const Point base = v - u, wu = u - w, wv = v - w, up = perpendicular(base), middle = midpoint(u, v);
+        const double to_centre = 0.5 * dot(wu, wv) / cross(wu, wv);
+        const double squared_base = squared_length(base), inverse = 1 / squared_base;
+        const double hu = sizes_[u_vertex], hv = sizes_[v_vertex], at_ends = 0.5 * (hu + hv);
+        // Returns the height at which edges to both ends have the length l.
+        const auto height_for = [&](double l) {
+            const double squared = l * l * inverse - 0.25;
+            constexpr double least = min_front_height * min_front_height;
+            return std::min(squared > least ? std::sqrt(squared) : min_front_height, off_centre_);
+        };
+        double height = height_for(at_ends), h = at_ends, shift = 0;
+        if (height < to_centre) {
+            h = size_beyond_base(t, at_ends, middle + height * up);
+            const double to_u = 0.5 * (hu + h), to_v = 0.5 * (hv + h);
+            height = height_for(0.5 * (to_u + to_v));
+            shift = std::clamp(0.5 * (to_u * to_u - to_v * to_v) * inverse, -max_front_shift, max_front_shift);
+        }
+        const double edge = std::min(h * h, (0.25 + height * height) * squared_base);
+        const double squared_distance = min_front_distance * min_front_distance * edge;
+        if (height >= to_centre) return {middle + to_centre * up, squared_distance};
+        return {middle + shift * base + height * up, squared_distance};
+    }
+
+    /// Returns whether the apex of the triangle or of a neighbour across another edge than the base is nearer to p than
+    /// this. Other vertices need no look: they stand behind the front, or have not been nearer in any trial.
+    bool is_near_other_front(Index t, const FrontPoint& p) const {
+        const Tri& tri = tris_[t];
+        const unsigned e = front_.base(t);
+        if (squared_length(points_[tri.v[e]] - p.at) < p.squared_distance) return true;
+        for (const Link side : {tri.n[next(e)], tri.n[previous(e)]}) {
+            if (side.is_constrained()) continue;
+            const Index apex = tris_[side.triangle()].v[side.edge()];
+            if (squared_length(points_[apex] - p.at) < p.squared_distance) return true;
+        }
+        return false;
+    }
+
+    /// Places a vertex over the base of a large triangle on the front, unless two fronts meet there.
+    void advance(QueuedTriangle entry) {
+        const Index t = entry.triangle;
+        if (!is_on_front(t)) return;
+        const FrontPoint p = front_point(t);
+        if (is_near_other_front(t, p) || !insert(t, p.at)) front_.met.push(entry);
+    }
+
+    /// Places the circumcentre of a large triangle where fronts meet or, if that is blocked, a point over the base. If
+    /// that is blocked, too, the triangle counts as done.
+    void mend_large(Index t) {
+        const Point centre = on_bisector(tris_[t], front_.base(t), HUGE_VAL);
+        if (insert(t, centre)) return;
+        if (const Point p = front_point(t).at; p != centre && insert(t, p)) return;
+        front_.set_done(t);
+        queue_front(t);
+        derived().give_up(t, centre);
     }
 
     /// Returns the point on the perpendicular bisector of edge e that lies `height` edge lengths above its middle, but
@@ -202,15 +352,6 @@ private:
         const Point edge = v - u, wu = u - w, wv = v - w;
         const double to_centre = 0.5 * dot(wu, wv) / cross(wu, wv);
         return midpoint(u, v) + std::min(height, to_centre) * perpendicular(edge);
-    }
-
-    /// Places a point that makes a triangle of the target area over the shortest edge.
-    void mend_size(Index t) {
-        const Tri& tri = tris_[t];
-        const TriangleShape s = shape_of(tri);
-        const unsigned e = s.shortest();
-        const double height = target_area_share * area2_bound(tri) / s.squared[e];
-        insert_near(t, e, height > min_front_height ? height : HUGE_VAL);
     }
 
     /// Places the off-centre of the shortest edge.
@@ -236,7 +377,7 @@ private:
         const std::size_t old_count = tris_.size();
         fill_cavity(tris_, cavity_, vertex);
         derived().vertex_inserted(t, old_count);
-        classify_fan(vertex, old_count);
+        classify_fan(vertex);
         return true;
     }
 
@@ -253,31 +394,48 @@ private:
                (sum < HUGE_VAL && in_circle_after_filter<false>(points_.data(), t, p));
     }
 
-    /// Does what classify() does for the new triangles round `vertex`, with the lengths that find_cavity() left behind.
-    void classify_fan(Index vertex, std::size_t old_count) {
+    /// Does what classify() and queue_front() do for the new triangles round `vertex`, with the lengths that
+    /// find_cavity() left behind. Edge 0 of triangle i of the fan is edge i of the cavity's boundary, edge 1 leads to
+    /// triangle i + 1, edge 2 to triangle i - 1.
+    void classify_fan(Index vertex) {
         const std::size_t k = cavity_.boundary.size();
+        const CavityEdge* const boundary = cavity_.boundary.data();
+        const Index* const created = cavity_.triangles.data();
         const double h = sizes_[vertex];
+        front_.resize(tris_.size());
         for (std::size_t i = 0; i < k; ++i) {
-            const CavityEdge& a = cavity_.boundary[i];
-            const CavityEdge& b = cavity_.boundary[i + 1 < k ? i + 1 : 0];
+            const CavityEdge& a = boundary[i];
+            const CavityEdge& b = boundary[i + 1 < k ? i + 1 : 0];
             const double sum = h + sizes_[a.a] + sizes_[b.a];
             const double ex = b.ax - a.ax, ey = b.ay - a.ay;
             const double ab = ex * ex + ey * ey;
-            const QueuedTriangle entry{cavity_.created(i, old_count), vertex};
-            if (a.area2 > area2_per_squared_sum * (sum * sum)) {
-                oversized_.push_back(entry);
-            } else {
-                const double shortest = std::min(std::min(a.aa, b.aa), ab);
-                if (is_narrow(a.aa, b.aa, ab, shortest, a.area2) && derived().must_mend(entry.triangle))
-                    narrow_.push(entry, shortest);
+            const unsigned e = a.aa < b.aa ? (a.aa < ab ? 2 : 0) : (b.aa < ab ? 1 : 0);
+            if (is_large(a.aa * b.aa * ab, a.area2, sum)) {
+                front_.set_large(created[i], e);
+                continue;
             }
+            front_.set_done(created[i]);
+            const double shortest = std::min(std::min(a.aa, b.aa), ab);
+            if (is_narrow(a.aa, b.aa, ab, shortest, a.area2) && derived().must_mend(created[i]))
+                narrow_.push({created[i], vertex}, shortest);
+        }
+        for (std::size_t i = 0; i < k; ++i) {
+            const Index t = created[i];
+            if (!front_.is_large(t)) {
+                queue_if_based_on(boundary[i].outer);
+                continue;
+            }
+            const unsigned base = front_.base(t);
+            const bool on_front = base == 0   ? front_.is_done_across(boundary[i].outer)
+                                  : base == 1 ? !front_.is_large(created[i + 1 < k ? i + 1 : 0])
+                                              : !front_.is_large(created[i > 0 ? i - 1 : k - 1]);
+            if (on_front) front_.ready.push({t, vertex});
         }
     }
 
-    double off_centre_ = 0;  ///< height of the off-centre over the shortest edge, in lengths of that edge
-    static constexpr std::size_t min_purge_size = std::size_t{1} << 16;
-    std::vector<QueuedTriangle> oversized_;  ///< a stack
-    std::size_t purge_at_ = min_purge_size;  ///< size of the stack beyond which purge() is called
+    static constexpr double squared_radius_per_squared_sum = 4 * max_circle_ratio * max_circle_ratio / 27;
+    double area2_per_squared_sum_ = 0;  ///< twice the area bound of a triangle, over the squared sum of h
+    double off_centre_ = 0;             ///< height of the off-centre over the shortest edge, in lengths of that edge
     AngleQueue narrow_;
 };
 

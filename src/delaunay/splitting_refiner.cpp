@@ -12,7 +12,7 @@ namespace lamina::delaunay {
 namespace {
 
 /// Edges of lines are at most this share of h, which lets triangles of the right size stand on them.
-constexpr double border_share = 0.9;
+constexpr double border_share = 1;
 /// No edge of a line becomes shorter than this share of its coordinates, so that rounding does not bend lines much.
 constexpr double min_length_share = 0x1p-40;
 /// Nor does it become shorter than this share of the extent, so that sixth powers of lengths do not vanish.
@@ -242,6 +242,7 @@ void SplittingRefiner::give_up(Index t, Point p) {
     find_cavity<false>(points_.data(), tris_.data(), t, relative, p, cavity_);
     bool frozen = false, any = false;
     for (const QueuedEdge& edge : find_blocking(t, p, frozen)) {
+        if (edge.t == no_index) continue;
         const unsigned e = edge_between(tris_[edge.t], edge.a, edge.b);
         if (e < 3) any = split(edge.t, e) || any;
         if (any) break;
@@ -251,6 +252,7 @@ void SplittingRefiner::give_up(Index t, Point p) {
         if (frozen) kept_out_.push_back((1 / scale_) * p);
     } else if (is_current(entry)) {
         classify(t);
+        queue_front(t);
     }
 }
 
@@ -341,8 +343,10 @@ void SplittingRefiner::fill_and_queue(Index vertex, Index a, Index b, std::uint3
             fields_[t] = is_left ? left : right;
         }
     }
+    front_.resize(tris_.size());
+    for (const Index t : created) classify(t);
     for (const Index t : created) {
-        classify(t);
+        queue_front(t);
         queue_edges(t);
     }
 }
@@ -353,7 +357,7 @@ RefineStats SplittingRefiner::count_leftovers() const {
     for (const Tri& tri : tris_) {
         const TriangleShape s = shape_of(tri);
         const unsigned e = s.shortest();
-        stats.oversized += s.area2 > area2_bound(tri) * (1 + 1e-6);
+        stats.oversized += is_oversized(tri, s);
         if (!is_narrow(s.squared[0], s.squared[1], s.squared[2], s.squared[e] * (1 + rounding), s.area2)) continue;
         ++stats.below_bound;
         const Point middle = (1.0 / 3) * (points_[tri.v[0]] + points_[tri.v[1]] + points_[tri.v[2]]);

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <lamina/point.hpp>
@@ -97,6 +98,23 @@ inline void constrain_edge(Tris& tris, Index triangle, unsigned edge) {
 inline void release_edge(Tris& tris, Index triangle, unsigned edge) {
     connect(tris, triangle, edge, tris[triangle].n[edge].unconstrained());
 }
+
+/// Replaces the two triangles at edge e of t by those on the other diagonal of their quadrilateral: triangle t becomes
+/// (c, a, d) and its neighbour n (c, d, b). Flipping edge 1 of t undoes it, but for the order of vertices and for which
+/// of the two is t. Precondition: the edge is not constrained.
+///
+///         c                 c
+///        / \               /|\.
+///       / t \             / | \.
+///      a-----b           a t|n b
+///       \ n /             \ | /
+///        \ /               \|/
+///         d                 d
+void flip_edge(Tris& tris, Index t, unsigned e);
+
+/// Returns the same triangles in an order, and with first vertices, that depend on where the vertices lie and not on
+/// their numbers. Precondition: the vertices are distinct.
+Tris in_order_of_place(std::span<const Point> points, const Tris& tris);
 
 /// Returns one triangle, any one, at each vertex; no_index for vertices without triangles.
 std::vector<Index> triangle_at_vertex(const Tris& tris, std::size_t point_count);

@@ -82,7 +82,8 @@ std::size_t expect_global_delaunay(const Bodies& bodies, const Decoupling& d, do
         EXPECT_EQ(r.stats.oversized, 0u);
         for (const Segment& e : s.segments) {
             const Point a = s.points[e.a.index()], b = s.points[e.b.index()];
-            EXPECT_LT(distance(a, b), 0.85 * s.size(midpoint(a, b))) << "the test's own border is not graded";
+            EXPECT_LT(distance(a, b), 1.06 * frozen_share * s.size(midpoint(a, b)))
+                << "the test's own border is not graded";
         }
         below += r.stats.below_bound - r.stats.exempt;
         const std::size_t first = points.size();
@@ -128,7 +129,7 @@ TEST(Separators, EquidistributedSegmentsFollowTheField) {
     points.push_back(v);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         const double h = size(midpoint(points[i], points[i + 1])), l = distance(points[i], points[i + 1]);
-        EXPECT_LT(l, 0.85 * h);
+        EXPECT_LT(l, 1.06 * frozen_share * h);
         EXPECT_GT(l, 0.6 * h);
         if (i > 0) {
             EXPECT_LT(l / distance(points[i - 1], points[i]), 1.25);

@@ -84,7 +84,7 @@ TEST(RefineConstrained, AreaBoundAndRegions) {
         const bool right = (a.x + b.x + c.x) / 3 > 1;
         EXPECT_EQ(r.refinement.regions[i], right ? 0u : ConstrainedRefinement::no_region);
         const double h = right ? 0.02 : 0.1;
-        EXPECT_LE(0.5 * cross(b - a, c - a), equilateral_area * h * h * (1 + 1e-9));
+        EXPECT_FALSE(is_oversized(a, b, c, h, options.refine.max_area_ratio));
     }
 }
 
@@ -164,7 +164,7 @@ TEST(RefineConstrained, LatticesLeaveRoomForIsolatedVertices) {
         for (const Point p : random_points(count, count)) graph.points.push_back(9.8 * p + Point{0.1, 0.1});
         // Two vertices much nearer to each other than triangles are wide.
         graph.points.push_back(graph.points.back() + Point{1e-4, 0});
-        const SizeField size(size_for_area(0.1));
+        const SizeField size(size_for_area(0.1, RefineOptions{}.max_area_ratio));
         const Refined r = refine_and_check(graph, size, {});
         EXPECT_EQ(count_below(r, 20.7), 0u);
         EXPECT_EQ(r.refinement.stats.oversized, 0u);

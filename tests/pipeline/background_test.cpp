@@ -87,7 +87,7 @@ TEST(Background, AUniformSizeFillsItsAreaAndNoMore) {
     for (const Triangle& t : result.mesh.triangles) {
         const Point p = result.mesh.points[t.v[0].index()];
         if (std::abs(p.x - 2) > 0.45 || std::abs(p.y) > 0.45) continue;
-        EXPECT_LT(mean_edge(result.mesh, t), 1.3 * h);
+        EXPECT_LT(mean_edge(result.mesh, t), max_circle_ratio * (1 + SizeField::relative_error) * h);
         smallest = std::min(smallest, mean_edge(result.mesh, t));
     }
     EXPECT_GT(smallest, 0.3 * h);

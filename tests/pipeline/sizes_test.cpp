@@ -7,6 +7,7 @@
 #include <lamina/error.hpp>
 
 #include "pipeline/cases.hpp"
+#include "support/triangulation_checks.hpp"
 
 namespace lamina::test {
 namespace {
@@ -25,11 +26,10 @@ void expect_sizes(const MeshResult& result, const std::vector<SizeSource>& sourc
         if (result.mesh.region[t] != Region::isotropic) continue;
         const auto& v = result.mesh.triangles[t].v;
         const Point a = points[v[0].index()], b = points[v[1].index()], c = points[v[2].index()];
-        const double area = 0.5 * cross(b - a, c - a);
         double h = 0;
         for (Point p : {a, b, c}) h += requested_size(sources, gradation, p) / 3;
         h *= 1 + SizeField::relative_error;
-        ASSERT_LE(area, equilateral_area * h * h) << a.x << ' ' << a.y;
+        ASSERT_FALSE(is_oversized(a, b, c, h, RefineOptions{}.max_area_ratio)) << a.x << ' ' << a.y;
     }
     for (const Segment& edge : result.mesh.constraints) {
         const Point a = points[edge.a.index()], b = points[edge.b.index()];
@@ -84,8 +84,8 @@ TEST(SizeSources, FillTheirAreaAndNoMore) {
     options.sizing.sources = {box(window.lower, window.upper, h)};
     const MeshResult result = mesh_of({naca("0012")}, options);
     expect_sound(result, options);
-    // A lattice at 0.97 h, and refinement at 0.69 of the largest area along its borders (docs/decisions/0002).
-    const double expected = 1 / (0.89 * 0.433 * h * h);
+    // A lattice with edges of 1.02 h, and edges of h along its borders (docs/decisions/0002).
+    const double expected = 1 / (1.02 * equilateral_area * h * h);
     EXPECT_NEAR(double(isotropic_triangles_in(result.mesh, window)), expected, 0.08 * expected);
 }
 

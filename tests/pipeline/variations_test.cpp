@@ -165,7 +165,7 @@ TEST(Sizes, FarSizeBoundsAllAreas) {
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
-        const double largest = equilateral_area * size * size;
+        const double largest = options.refine.max_area_ratio * equilateral_area * size * size;
         for (const Triangle& t : result.mesh.triangles) {
             const auto& points = result.mesh.points;
             const Point a = points[t.v[0].index()];
