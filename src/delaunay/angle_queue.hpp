@@ -1,6 +1,7 @@
 // The queue of triangles whose angles refinement has to mend.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -25,6 +26,15 @@ public:
         const std::size_t b = bucket(static_cast<float>(squared_shortest));
         buckets_[b].push_back(entry);
         occupied_[b / 64] |= std::uint64_t{1} << (b % 64);
+    }
+
+    bool empty() const {
+        return std::all_of(occupied_.begin(), occupied_.end(), [](std::uint64_t word) { return word == 0; });
+    }
+
+    void clear() {
+        for (auto& bucket : buckets_) bucket.clear();
+        occupied_.fill(0);
     }
 
     /// Takes the most recent entry of the lowest bucket out. Returns false if the queue is empty.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <lamina/delaunay.hpp>
+
 namespace lamina::delaunay {
 
 LatticeLevels lattice_levels(double low, double high, double max_area_ratio, std::vector<SizeBin> bins) {
@@ -23,10 +25,12 @@ LatticeLevels lattice_levels(double low, double high, double max_area_ratio, std
         commonest = (1 - rounding) * first;
     }
     LatticeLevels levels;
-    levels.share = std::min(largest_lattice_share, (1 - rounding) * std::sqrt(max_area_ratio));
+    const bool areas_are_bounded = max_area_ratio < max_circle_ratio * max_circle_ratio;
+    double share_of_commonest = commonest_lattice_share;
+    if (areas_are_bounded) levels.share = share_of_commonest = largest_area_share * std::sqrt(max_area_ratio);
     double first_size = low;
     if (count_of_commonest > 0) {
-        first_size = commonest * (std::min(commonest_lattice_share, levels.share) / levels.share);
+        first_size = commonest * (share_of_commonest / levels.share);
         while (first_size > low) first_size /= level_ratio;
     }
     levels.edges.push_back(levels.share * first_size);

@@ -9,6 +9,9 @@ namespace lamina::delaunay {
 /// that serve the commonest size have the second one: a little more than 1, which lets refinement close the seams beside
 /// them without too many short edges (docs/decisions/0002).
 inline constexpr double largest_lattice_share = 1.07, commonest_lattice_share = 1.02;
+/// Where areas are bounded (RefineOptions::max_area_ratio), lattice edges are this share of the longest that keep the
+/// bound, so that there are few triangles. The rest is room for refinement to close the seams.
+inline constexpr double largest_area_share = 0.97;
 /// The ratio of the edge lengths of successive levels: sqrt(4/3), a third in area.
 inline constexpr double level_ratio = 1.1547005383792517;
 /// Blocks of fewer lattice edges across are not worth a patch.

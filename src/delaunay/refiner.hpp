@@ -91,15 +91,18 @@ protected:
         off_centre_ = 0.475 * std::sqrt((1 + core::cos_reproducible(bound)) / (1 - core::cos_reproducible(bound)));
     }
 
-    /// Refines until nothing is left to be mended, then smooths.
+    /// Refines until nothing is left to be mended: first large triangles, then narrow ones. Smoothing comes in between,
+    /// since it mends most narrow triangles without new vertices, and at the end.
     void run() {
         front_.reset(tris_.size());
         for (Index t = 0; t < tris_.size(); ++t) classify(t);
         for (Index t = 0; t < tris_.size(); ++t)
             if (is_on_front(t)) front_.ready.push({t, tris_[t].v[0]});
-        while (derived().split_next() || mend_next()) {
+        while (derived().split_next() || mend_large_next() || queue_enclosed()) {
         }
-        smooth();
+        mend_narrow();
+        for (unsigned i = 1; i < options_.smoothing && smoother(false).sweep(smoothed_mean_ratio) > 0; ++i) {
+        }
     }
 
     TriangleShape shape_of(const Tri& t) const {
@@ -134,15 +137,18 @@ protected:
     /// Notes whether the triangle is too large, and queues it if it is narrow.
     void classify(Index t) {
         const TriangleShape s = shape_of(tris_[t]);
-        const unsigned e = s.shortest();
-        const double product = s.squared[0] * s.squared[1] * s.squared[2];
-        if (is_large(product, s.area2, size_sum(tris_[t])))
-            front_.set_large(t, e);
-        else {
+        if (is_large(s.squared[0] * s.squared[1] * s.squared[2], s.area2, size_sum(tris_[t]))) {
+            front_.set_large(t, s.shortest());
+        } else {
             front_.set_done(t);
-            if (is_narrow(s.squared[0], s.squared[1], s.squared[2], s.squared[e], s.area2) && derived().must_mend(t))
-                narrow_.push({t, tris_[t].v[0]}, s.squared[e]);
+            queue_if_narrow(t, s);
         }
+    }
+
+    void queue_if_narrow(Index t, const TriangleShape& s) {
+        const double shortest = s.squared[s.shortest()];
+        if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2) && derived().must_mend(t))
+            narrow_.push({t, tris_[t].v[0]}, shortest);
     }
 
     /// Returns whether a triangle is large and its base on the front.
@@ -209,21 +215,32 @@ private:
     /// What smoothing has to respect.
     struct SmoothingRules {
         Refiner& refiner;
+        bool may_be_narrow;  ///< whether narrow triangles will be mended later
         double size_at(Point p, Index t) const { return refiner.derived().size_at(p, t); }
         bool is_allowed(double aa, double bb, double cc, double area2, double size_sum) const {
             return !refiner.is_large(aa * bb * cc, area2, size_sum) &&
-                   !refiner.is_narrow(aa, bb, cc, std::min({aa, bb, cc}), area2);
+                   (may_be_narrow || !refiner.is_narrow(aa, bb, cc, std::min({aa, bb, cc}), area2));
         }
         bool is_blocked(const CavityEdge& a, const CavityEdge& b) const { return refiner.derived().is_blocked(a, b); }
     };
 
-    void smooth() {
-        if (options_.smoothing == 0) return;
-        const SmoothedArrays arrays{points_, sizes_, tris_, static_cast<Index>(input_count_)};
-        Smoother<SmoothingRules> smoother(arrays, {*this});
-        smoother.mend_worst(smoothed_mean_ratio, smoothing_rounds);
-        for (unsigned i = 1; i < options_.smoothing && smoother.sweep(smoothed_mean_ratio) > 0; ++i) {
+    Smoother<SmoothingRules> smoother(bool may_be_narrow) {
+        return {{points_, sizes_, tris_, static_cast<Index>(input_count_)}, {*this, may_be_narrow}};
+    }
+
+    /// Smooths, mends the triangles that are narrow nevertheless, and smooths what that has made.
+    void mend_narrow() {
+        const bool smooths = options_.smoothing > 0, any = !narrow_.empty();
+        if (smooths) smoother(any).mend_worst(smoothed_mean_ratio, smoothing_rounds);
+        if (!any) return;
+        if (smooths) {
+            narrow_.clear();  // flips have changed triangles
+            for (Index t = 0; t < tris_.size(); ++t) queue_if_narrow(t, shape_of(tris_[t]));
         }
+        const std::size_t before = points_.size();
+        while (derived().split_next() || mend_large_next() || mend_narrow_next() || queue_enclosed()) {
+        }
+        if (smooths && points_.size() > before) smoother(false).mend_worst(smoothed_mean_ratio, smoothing_rounds);
     }
 
     void queue_if_based_on(Link link) {
@@ -231,23 +248,29 @@ private:
         front_.ready.push({link.triangle(), tris_[link.triangle()].v[0]});
     }
 
-    /// Mends the next triangle. Returns false if there is none.
-    bool mend_next() {
+    /// Mends the next large triangle. Returns false if none is queued.
+    bool mend_large_next() {
         QueuedTriangle entry;
         if (front_.ready.pop(entry)) {
             if (is_current(entry) && front_.is_large(entry.triangle)) advance(entry);
         } else if (front_.met.pop(entry)) {
             if (is_current(entry) && front_.is_large(entry.triangle)) mend_large(entry.triangle);
-        } else if (narrow_.pop(entry)) {
-            if (is_current(entry)) mend_angle(entry.triangle);
         } else {
-            return queue_enclosed();
+            return false;
         }
         return true;
     }
 
+    /// Mends the next narrow triangle. Returns false if there is none.
+    bool mend_narrow_next() {
+        QueuedTriangle entry;
+        if (!narrow_.pop(entry)) return false;
+        if (is_current(entry)) mend_angle(entry.triangle);
+        return true;
+    }
+
     /// Queues large triangles that no front reaches, since two of them lie on both sides of their base. Returns false
-    /// if there is none.
+    /// if there is none. Looks at all triangles, so it comes last.
     bool queue_enclosed() {
         for (Index t = 0; t < tris_.size(); ++t)
             if (front_.is_large(t)) front_.met.push({t, tris_[t].v[0]});
@@ -398,11 +421,16 @@ private:
     /// find_cavity() left behind. Edge 0 of triangle i of the fan is edge i of the cavity's boundary, edge 1 leads to
     /// triangle i + 1, edge 2 to triangle i - 1.
     void classify_fan(Index vertex) {
+        front_.resize(tris_.size());
+        measure_fan(vertex);
+        queue_fan(vertex);
+    }
+
+    void measure_fan(Index vertex) {
         const std::size_t k = cavity_.boundary.size();
         const CavityEdge* const boundary = cavity_.boundary.data();
         const Index* const created = cavity_.triangles.data();
         const double h = sizes_[vertex];
-        front_.resize(tris_.size());
         for (std::size_t i = 0; i < k; ++i) {
             const CavityEdge& a = boundary[i];
             const CavityEdge& b = boundary[i + 1 < k ? i + 1 : 0];
@@ -419,6 +447,12 @@ private:
             if (is_narrow(a.aa, b.aa, ab, shortest, a.area2) && derived().must_mend(created[i]))
                 narrow_.push({created[i], vertex}, shortest);
         }
+    }
+
+    void queue_fan(Index vertex) {
+        const std::size_t k = cavity_.boundary.size();
+        const CavityEdge* const boundary = cavity_.boundary.data();
+        const Index* const created = cavity_.triangles.data();
         for (std::size_t i = 0; i < k; ++i) {
             const Index t = created[i];
             if (!front_.is_large(t)) {

@@ -36,7 +36,7 @@ unsigned edge_between(const Tri& t, Index a, Index b) {
 }  // namespace
 
 SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
-                                   const ConstrainedRefineOptions& options, double part_share)
+                                   const ConstrainedRefineOptions& options, double share_of_part)
     : Refiner(options.refine, std::move(domain.points), std::move(domain.tris)),
       lines_(lines),
       sizes_of_fields_(sizes),
@@ -51,7 +51,7 @@ SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, 
     const double bound = core::radians(std::max(options.refine.min_angle_deg, min_lens_angle_deg));
     const double c = core::cos_reproducible(2 * bound);
     squared_lens_ = c * c;
-    part_length_ = part_share * 2 * core::cos_reproducible(bound) / core::sin_reproducible(bound);
+    part_length_ = share_of_part * 2 * core::cos_reproducible(bound) / core::sin_reproducible(bound);
     give_sizes();
 }
 

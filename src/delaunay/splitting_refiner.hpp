@@ -36,9 +36,9 @@ struct SplittableDomain {
 class SplittingRefiner : public Refiner<SplittingRefiner> {
 public:
     /// Keeps references to the lines, the size fields and the options. Opposite a vertex, edges are divided into parts
-    /// of `part_share` of the greatest length that the angle bound admits.
+    /// of `share_of_part` of the greatest length that the angle bound admits.
     SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
-                     const ConstrainedRefineOptions& options, double part_share);
+                     const ConstrainedRefineOptions& options, double share_of_part);
 
     /// Refines. May be called once only.
     void refine();
