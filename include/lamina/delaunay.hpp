@@ -144,8 +144,8 @@ struct RefineOptions {
     /// n: and all others move up to n - 1 times.
     unsigned smoothing = 1;
     /// Whether large, evenly sized parts are filled with patches of an equilateral lattice, so that only the seams
-    /// between them are refined. The guarantees are the same, refinement is several times faster, and there are fewer
-    /// triangles. It changes nothing where it does not pay.
+    /// between them are refined. The guarantees are the same, refinement is several times faster, and triangles are
+    /// more regular. It changes nothing where it does not pay.
     bool lattice = true;
     /// Number of triangles that memory is reserved for; 0: an estimate. It never changes the result.
     std::size_t expected_triangles = 0;
@@ -178,10 +178,11 @@ struct Refinement {
 };
 
 /// Refines the region on the left of `segments` to a size field and a minimum angle. The border is frozen: no segment
-/// is split, and a point that would encroach upon one is refused. A triangle is too large where its
-/// circumcircle or its area exceeds the bounds of max_circle_ratio and RefineOptions::max_area_ratio. Edges are h long
-/// on average, within 3 % where h grows by up to 0.1 per unit of distance and border edges are h long. The result depends on the arguments alone. Throws
-/// OptionError for options out of range, InputError as triangulate() does, MeshError where max_points do not suffice.
+/// is split, and a point that would encroach upon one is refused. A triangle is too large where its circumcircle or its
+/// area exceeds the bounds of max_circle_ratio and RefineOptions::max_area_ratio. Edges are h long on average, within
+/// 3 % where h grows by up to 0.1 per unit of distance and border edges are h long. The result depends on the arguments
+/// alone. Throws OptionError for options out of range, InputError as triangulate() does, MeshError where max_points do
+/// not suffice.
 /// Source: J. Ruppert, J. Algorithms 18 (1995); J. R. Shewchuk, Comput. Geom. 22 (2002); off-centres: A. Ungor, LATIN
 /// 2004; frontal refinement: D. Engwirda, D. Ivers, Computer-Aided Design 72 (2016).
 LAMINA_EXPORT Refinement refine(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,

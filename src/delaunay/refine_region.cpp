@@ -120,7 +120,6 @@ RefineStats FrozenRefiner::count_leftovers() const {
     if (refused_ == 0) return {};
     const std::vector<char> sharp = find_sharp_corners();
     RefineStats stats;
-    stats.refused = refused_;
     for (const Tri& t : tris_) {
         const TriangleShape s = shape_of(t);
         const double shortest = s.squared[s.shortest()];
@@ -131,8 +130,7 @@ RefineStats FrozenRefiner::count_leftovers() const {
         }
         stats.oversized += is_oversized(t, s);
     }
-    // Smoothing may have mended what a refused point left behind.
-    if (stats.below_bound == 0 && stats.oversized == 0) stats.refused = 0;
+    count_refused(stats);
     return stats;
 }
 

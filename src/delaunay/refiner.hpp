@@ -130,6 +130,12 @@ protected:
         return is_large(s.squared[0] * s.squared[1] * s.squared[2], s.area2, allowance * size_sum(t));
     }
 
+    /// Sets the number of refused points: those whose refusal left a triangle beyond the bounds. Smoothing may have
+    /// mended what the others left.
+    void count_refused(RefineStats& stats) const {
+        stats.refused = stats.below_bound == 0 && stats.oversized == 0 ? 0 : refused_;
+    }
+
     bool is_narrow(double ab, double bc, double ca, double shortest, double area2) const {
         return is_angle_below(squared_sine_, ab, bc, ca, shortest, area2);
     }
@@ -212,7 +218,7 @@ private:
     Derived& derived() { return static_cast<Derived&>(*this); }
     const Derived& derived() const { return static_cast<const Derived&>(*this); }
 
-    /// What smoothing has to respect.
+    /// The sizes and bounds that smoothing has to respect.
     struct SmoothingRules {
         Refiner& refiner;
         bool may_be_narrow;  ///< whether narrow triangles will be mended later

@@ -139,7 +139,7 @@ private:
         return true;
     }
 
-    /// Where the vertex of the star should go, relative to where it is, and the ratios of its triangles.
+    /// The move that the vertex of the star should make, and the ratios of its triangles before.
     struct Target {
         Point move;
         double worst_ratio, ratio_sum;

@@ -353,7 +353,6 @@ void SplittingRefiner::fill_and_queue(Index vertex, Index a, Index b, std::uint3
 
 RefineStats SplittingRefiner::count_leftovers() const {
     RefineStats stats;
-    stats.refused = refused_;
     for (const Tri& tri : tris_) {
         const TriangleShape s = shape_of(tri);
         const unsigned e = s.shortest();
@@ -365,6 +364,7 @@ RefineStats SplittingRefiner::count_leftovers() const {
             lines_.join_sharp_lines(points_, tri.v[next(e)], tri.v[previous(e)]) ||
             std::any_of(tri.v, tri.v + 3, [&](Index v) { return lines_.in_sharp_corner(points_, v, middle); });
     }
+    count_refused(stats);
     return stats;
 }
 
