@@ -50,16 +50,18 @@ private:
 class AdvancingFront {
 public:
     /// Forgets everything, and makes room for as many triangles, none of them large.
-    void reset(std::size_t triangles) { bases_.assign(triangles, 0); }
+    void reset(std::size_t triangles) { bases_.assign(triangles, Base::none); }
     /// Makes room for more triangles, which are not large.
-    void resize(std::size_t triangles) { bases_.resize(triangles, 0); }
-    void set_large(Index t, unsigned base) { bases_[t] = static_cast<std::uint8_t>(large_bit | base); }
-    void set_done(Index t) { bases_[t] = 0; }
-    bool is_large(Index t) const { return bases_[t] != 0; }
+    void resize(std::size_t triangles) {
+        while (bases_.size() < triangles) bases_.push_back(Base::none);
+    }
+    void set_large(Index t, unsigned base) { bases_[t] = static_cast<Base>(large_bit | base); }
+    void set_done(Index t) { bases_[t] = Base::none; }
+    bool is_large(Index t) const { return bases_[t] != Base::none; }
     /// Returns the base. Precondition: the triangle is large.
-    unsigned base(Index t) const { return bases_[t] & 3u; }
+    unsigned base(Index t) const { return static_cast<unsigned>(bases_[t]) & 3u; }
     /// Returns whether edge e is the base of the triangle, which is large.
-    bool has_base(Index t, unsigned e) const { return bases_[t] == (large_bit | e); }
+    bool has_base(Index t, unsigned e) const { return bases_[t] == static_cast<Base>(large_bit | e); }
     /// Returns whether nothing large lies across this edge of a triangle.
     bool is_done_across(Link link) const { return link.is_constrained() || !is_large(link.triangle()); }
 
@@ -67,8 +69,11 @@ public:
     TriangleFifo met;    ///< those among them whose new vertex would have been too near to another front
 
 private:
-    static constexpr std::uint8_t large_bit = 4;
-    std::vector<std::uint8_t> bases_;  ///< 0 for triangles that are not large
+    /// The base of a triangle and large_bit, or none where it is not large. Unlike a plain byte it aliases nothing else,
+    /// so compilers keep other values in registers.
+    enum class Base : std::uint8_t { none = 0 };
+    static constexpr unsigned large_bit = 4;
+    std::vector<Base> bases_;
 };
 
 }  // namespace lamina::delaunay

@@ -53,16 +53,16 @@ private:
 
 /// A cavity, and scratch space to find it. The same object serves for one point after another.
 struct Cavity {
-    /// An edge a -> b that find_cavity() has yet to look across, with coordinates relative to the new point p.
+    /// An edge a -> b that find_cavity() has yet to look across, with coordinates relative to the new point p. The edge
+    /// that the search looks across before it ends at a.
     struct PendingEdge {
         Link outer;  ///< the triangle to look at
-        Index a;
-        double ax, ay, aa;  ///< a - p and its squared length
+        Index b;
         double bx, by, bb;  ///< b - p and its squared length
         double area2;       ///< (a - p) x (b - p)
     };
     Scratch<Index> triangles;      ///< the triangles whose circles hold p
-    Scratch<CavityEdge> boundary;  ///< the edges round them, counter-clockwise
+    Scratch<CavityEdge> boundary;  ///< the edges round them, counter-clockwise; the first is repeated behind the last
     Scratch<PendingEdge> stack;
     /// No cavity has more triangles than the triangulation. Where one seems to, the search runs in circles: round an
     /// island or the ends of a segment, across which the triangles are not Delaunay.
@@ -141,14 +141,16 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
     double rr[3];
     for (unsigned i = 0; i < 3; ++i) rr[i] = squared_length(relative.r[i]);
     const auto pending = [&](unsigned e) -> Cavity::PendingEdge {
-        const unsigned a = next(e), b = previous(e);
-        const Point ra = relative.r[a], rb = relative.r[b];
-        return {first.n[e], first.v[a], ra.x, ra.y, rr[a], rb.x, rb.y, rr[b], relative.area2[e]};
+        const unsigned b = previous(e);
+        return {first.n[e], first.v[b], relative.r[b].x, relative.r[b].y, rr[b], relative.area2[e]};
     };
     triangles[triangle_count++] = start;
     stack[stacked++] = pending(2);
     stack[stacked++] = pending(1);
-    for (Cavity::PendingEdge edge = pending(0);;) {
+    Cavity::PendingEdge edge = pending(0);
+    Index a = first.v[1];
+    double ax = relative.r[1].x, ay = relative.r[1].y, aa = rr[1];
+    for (;;) {
         if (!edge.outer.is_constrained()) {
             // The neighbour is (b, a, w), entered through its edge k.
             //        a
@@ -163,15 +165,15 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
             const double wx = points[w].x - p.x;
             const double wy = points[w].y - p.y;
             const double ww = wx * wx + wy * wy;
-            const double aw = edge.ax * wy - edge.ay * wx;
+            const double aw = ax * wy - ay * wx;
             const double wb = wx * edge.by - wy * edge.bx;
-            const double det = edge.bb * aw + edge.aa * wb - ww * edge.area2;
-            const double sum = edge.aa + edge.bb + ww;
+            const double det = edge.bb * aw + aa * wb - ww * edge.area2;
+            const double sum = aa + edge.bb + ww;
             const double error = incircle_error * (sum * sum);
             if (det > error || (!(det < -error) && in_circle_after_filter<Ghosts>(points, t, p))) {
                 triangles[triangle_count++] = n;
-                // The boundary and the stack of a cavity of t triangles hold t + 2 edges together.
-                if (triangle_count + 2 == cavity.triangles.capacity()) [[unlikely]] {
+                // The boundary and the stack of a cavity of t triangles hold t + 2 edges together, and one is repeated.
+                if (triangle_count + 3 == cavity.triangles.capacity()) [[unlikely]] {
                     if (triangle_count > cavity.max_triangles) {
                         cavity.triangles.set_size(0);
                         cavity.boundary.set_size(0);
@@ -183,19 +185,20 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
                     stack = cavity.stack.data();
                 }
                 // The search goes on across a -> w at once, across w -> b later.
-                stack[stacked++] = {t.n[previous(k)], w, wx, wy, ww, edge.bx, edge.by, edge.bb, wb};
-                edge.outer = t.n[next(k)];
-                edge.bx = wx;
-                edge.by = wy;
-                edge.bb = ww;
-                edge.area2 = aw;
+                stack[stacked++] = {t.n[previous(k)], edge.b, edge.bx, edge.by, edge.bb, wb};
+                edge = {t.n[next(k)], w, wx, wy, ww, aw};
                 continue;
             }
         }
-        boundary[boundary_count++] = {edge.a, edge.outer, edge.ax, edge.ay, edge.aa, edge.area2};
+        boundary[boundary_count++] = {a, edge.outer, ax, ay, aa, edge.area2};
         if (stacked == 0) break;
+        a = edge.b;
+        ax = edge.bx;
+        ay = edge.by;
+        aa = edge.bb;
         edge = stack[--stacked];
     }
+    boundary[boundary_count] = boundary[0];
     cavity.triangles.set_size(triangle_count);
     cavity.boundary.set_size(boundary_count);
 }
@@ -205,27 +208,28 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
 inline void fill_cavity(Tris& tris, Cavity& cavity, Index p) {
     const std::size_t old_count = tris.size();
     const std::size_t k = cavity.boundary.size();
-    tris.resize(old_count + 2);
+    tris.emplace_back();
+    tris.emplace_back();
     Tri* const triangles = tris.data();
     const CavityEdge* const boundary = cavity.boundary.data();
     Index* const created = cavity.triangles.data();
     created[k - 2] = static_cast<Index>(old_count);
     created[k - 1] = static_cast<Index>(old_count + 1);
+    created[k] = created[0];
     Index last = created[k - 1];
     Index current = created[0];
     for (std::size_t i = 0; i < k; ++i) {
-        const std::size_t after = i + 1 < k ? i + 1 : 0;
         const Link outer = boundary[i].outer;
         Tri& t = triangles[current];
         t.v[0] = p;
         t.v[1] = boundary[i].a;
-        t.v[2] = boundary[after].a;
+        t.v[2] = boundary[i + 1].a;
         t.n[0] = outer;
-        t.n[1] = Link(created[after], 2);
+        t.n[1] = Link(created[i + 1], 2);
         t.n[2] = Link(last, 1);
         if (!outer.is_border()) triangles[outer.triangle()].n[outer.edge()] = Link(current, 0, outer.is_constrained());
         last = current;
-        current = created[after];
+        current = created[i + 1];
     }
 }
 

@@ -176,7 +176,7 @@ protected:
         if (k == 0) return false;
         for (std::size_t i = 0; i < k; ++i) {
             const CavityEdge& a = cavity_.boundary[i];
-            const CavityEdge& b = cavity_.boundary[i + 1 < k ? i + 1 : 0];
+            const CavityEdge& b = cavity_.boundary[i + 1];
             if (a.outer.is_constrained() && derived().is_blocked(a, b)) return false;
             if (!is_inside(a, b, p)) return false;
         }
@@ -437,15 +437,18 @@ private:
         const CavityEdge* const boundary = cavity_.boundary.data();
         const Index* const created = cavity_.triangles.data();
         const double h = sizes_[vertex];
+        double size_a = sizes_[boundary[0].a];
         for (std::size_t i = 0; i < k; ++i) {
             const CavityEdge& a = boundary[i];
-            const CavityEdge& b = boundary[i + 1 < k ? i + 1 : 0];
-            const double sum = h + sizes_[a.a] + sizes_[b.a];
+            const CavityEdge& b = boundary[i + 1];
+            const double size_b = sizes_[b.a], sum = h + size_a + size_b;
+            size_a = size_b;
             const double ex = b.ax - a.ax, ey = b.ay - a.ay;
             const double ab = ex * ex + ey * ey;
-            const unsigned e = a.aa < b.aa ? (a.aa < ab ? 2 : 0) : (b.aa < ab ? 1 : 0);
             if (is_large(a.aa * b.aa * ab, a.area2, sum)) {
-                front_.set_large(created[i], e);
+                // Without branches, since none could be predicted.
+                const unsigned is_a_shorter = a.aa < b.aa, is_ab_longer = std::min(a.aa, b.aa) < ab;
+                front_.set_large(created[i], is_ab_longer * (1 + is_a_shorter));
                 continue;
             }
             front_.set_done(created[i]);
@@ -465,11 +468,7 @@ private:
                 queue_if_based_on(boundary[i].outer);
                 continue;
             }
-            const unsigned base = front_.base(t);
-            const bool on_front = base == 0   ? front_.is_done_across(boundary[i].outer)
-                                  : base == 1 ? !front_.is_large(created[i + 1 < k ? i + 1 : 0])
-                                              : !front_.is_large(created[i > 0 ? i - 1 : k - 1]);
-            if (on_front) front_.ready.push({t, vertex});
+            if (front_.is_done_across(tris_[t].n[front_.base(t)])) front_.ready.push({t, vertex});
         }
     }
 

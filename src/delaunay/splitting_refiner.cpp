@@ -183,7 +183,7 @@ bool SplittingRefiner::split_next() {
 Index SplittingRefiner::inside_triangle(std::size_t i) const {
     const CavityEdge& a = cavity_.boundary[i];
     if (!a.outer.is_border()) return tris_[a.outer.triangle()].n[a.outer.edge()].triangle();
-    const Index b = cavity_.boundary[i + 1 < cavity_.boundary.size() ? i + 1 : 0].a;
+    const Index b = cavity_.boundary[i + 1].a;
     for (std::size_t k = 0; k < cavity_.triangles.size(); ++k)
         if (edge_between(tris_[cavity_.triangles[k]], a.a, b) < 3) return cavity_.triangles[k];
     return no_index;
@@ -199,7 +199,7 @@ std::vector<SplittingRefiner::QueuedEdge> SplittingRefiner::find_blocking(Index 
     double min_share = HUGE_VAL;
     for (std::size_t i = 0; i < cavity_.boundary.size(); ++i) {
         const CavityEdge& a = cavity_.boundary[i];
-        const CavityEdge& b = cavity_.boundary[i + 1 < cavity_.boundary.size() ? i + 1 : 0];
+        const CavityEdge& b = cavity_.boundary[i + 1];
         if (!a.outer.is_constrained()) continue;
         const Point pa = points_[a.a], pb = points_[b.a];
         if (!is_inside(a, b, p)) {
@@ -298,7 +298,7 @@ bool SplittingRefiner::cavity_admits_split(Point p, Index a, Index b) const {
     if (k == 0) return false;
     for (std::size_t i = 0; i < k; ++i) {
         const CavityEdge& from = cavity_.boundary[i];
-        const CavityEdge& to = cavity_.boundary[i + 1 < k ? i + 1 : 0];
+        const CavityEdge& to = cavity_.boundary[i + 1];
         if (from.a == a && to.a == b) continue;
         if (!is_inside(from, to, p)) return false;
         if (from.outer.is_constrained() && is_frozen(from.a, to.a) && from.ax * to.ax + from.ay * to.ay <= 0)
@@ -319,7 +319,7 @@ void SplittingRefiner::fill_and_queue(Index vertex, Index a, Index b, std::uint3
     const std::size_t old_count = tris_.size(), k = cavity_.boundary.size();
     std::size_t on_border = k;  // the place of a -> b in the boundary
     for (std::size_t i = 0; i < k; ++i)
-        if (cavity_.boundary[i].a == a && cavity_.boundary[i + 1 < k ? i + 1 : 0].a == b) on_border = i;
+        if (cavity_.boundary[i].a == a && cavity_.boundary[i + 1].a == b) on_border = i;
     std::vector<Index> created;
     if (on_border < k) {
         created = fill_open_cavity(tris_, cavity_, vertex, on_border);

@@ -32,8 +32,10 @@ inline constexpr Index ghost_vertex = no_index;
 /// The number of triangles that a Link can tell apart.
 inline constexpr Index max_triangles = 1u << 29;
 
-constexpr unsigned next(unsigned e) { return e == 2 ? 0 : e + 1; }
-constexpr unsigned previous(unsigned e) { return e == 0 ? 2 : e - 1; }
+/// Return the edge after edge e = 0, 1, 2 of a triangle, and the one before it: 1, 2, 0 and 2, 0, 1, read from two bits
+/// each. Branches would be predicted wrongly in every third case.
+constexpr unsigned next(unsigned e) { return 0b00'10'01u >> 2 * e & 3u; }
+constexpr unsigned previous(unsigned e) { return 0b01'00'10u >> 2 * e & 3u; }
 
 /// Returns a number that tells pairs of indices apart, whatever their order.
 constexpr std::uint64_t undirected_key(Index a, Index b) {
