@@ -140,9 +140,9 @@ struct RefineOptions {
     /// default follows from max_circle_ratio. Where a bound of the area matters more than the mean edge, sizes of
     /// size_for_area() with a ratio nearer to 1 make fewer triangles of a given largest area, which are less regular.
     double max_area_ratio = max_circle_ratio * max_circle_ratio;
-    /// How much triangles are improved once they are made: 0: not at all; 1: vertices of ill-shaped triangles move;
-    /// n: and all others move up to n - 1 times.
-    unsigned smoothing = 1;
+    /// How often all vertices move to the means of their neighbours once triangles are made. The vertices of ill-shaped
+    /// triangles then move a few times more. 0: none moves.
+    unsigned smoothing = 2;
     /// Whether large, evenly sized parts are filled with patches of an equilateral lattice, so that only the seams
     /// between them are refined. The guarantees are the same, refinement is several times faster, and triangles are
     /// more regular. It changes nothing where it does not pay.

@@ -29,8 +29,8 @@ OptionTable<RefineOptions> make_refine_table() {
                 numbers_from_to(1.05, max_circle_ratio * max_circle_ratio), member_at(&RefineOptions::max_area_ratio))
         .library_only = true;
     table.count("smoothing", "N",
-                "how much isotropic triangles are improved: 0: not at all; 1: vertices of ill-shaped ones move; N: all "
-                "others move up to N - 1 times, too",
+                "how often all vertices of isotropic triangles move to the means of their neighbours; those of ill-shaped "
+                "ones then move a few times more; 0: none moves",
                 numbers_from_to(0, 100), member_at(&RefineOptions::smoothing));
     return table.take();
 }

@@ -69,14 +69,11 @@ class Refiner {
 protected:
     /// A new vertex of the front keeps this share of h, or of the new edges where they are shorter, from the vertices
     /// of other fronts.
-    static constexpr double min_front_distance = 0.98;
+    static constexpr double min_front_distance = 0.999;
     /// A triangle on the front is at least this high, in lengths of its base.
     static constexpr double min_front_height = 0.3;
     /// Its apex stands at most this far from the bisector, in lengths of its base.
     static constexpr double max_front_shift = 0.3;
-    /// Triangles of a smaller mean ratio are smoothed.
-    static constexpr double smoothed_mean_ratio = 0.9;
-    static constexpr unsigned smoothing_rounds = 3;
 
     /// Keeps a reference to the options. `points` and `tris` are those that are refined.
     Refiner(const RefineOptions& options, std::vector<Point> points, Tris tris)
@@ -101,8 +98,6 @@ protected:
         while (derived().split_next() || mend_large_next() || queue_enclosed()) {
         }
         mend_narrow();
-        for (unsigned i = 1; i < options_.smoothing && smoother(false).sweep(smoothed_mean_ratio) > 0; ++i) {
-        }
     }
 
     TriangleShape shape_of(const Tri& t) const {
@@ -237,7 +232,7 @@ private:
     /// Smooths, mends the triangles that are narrow nevertheless, and smooths what that has made.
     void mend_narrow() {
         const bool smooths = options_.smoothing > 0, any = !narrow_.empty();
-        if (smooths) smoother(any).mend_worst(smoothed_mean_ratio, smoothing_rounds);
+        if (smooths) smoother(any).smooth(options_.smoothing);
         if (!any) return;
         if (smooths) {
             narrow_.clear();  // flips have changed triangles
@@ -246,7 +241,7 @@ private:
         const std::size_t before = points_.size();
         while (derived().split_next() || mend_large_next() || mend_narrow_next() || queue_enclosed()) {
         }
-        if (smooths && points_.size() > before) smoother(false).mend_worst(smoothed_mean_ratio, smoothing_rounds);
+        if (smooths && points_.size() > before) smoother(false).mend();
     }
 
     void queue_if_based_on(Link link) {

@@ -2,20 +2,21 @@
 // the triangulation is Delaunay again.
 //
 //        o-------o               o-------o
-//       / \     / \             / \     / \         The vertex v moves towards the mean of the centroids of its
-//      /   \ v /   \           /   \   /   \        triangles, weighted by area / h^2, if that makes them better.
-//     o-----'-------o         o-----v-------o
+//       / \     / \             / \     / \         The vertex v moves to the mean of its neighbours, if the triangles
+//      /   \ v /   \           /   \   /   \        round it keep their bounds. Where sizes change slowly this is what a
+//     o-----'-------o         o-----v-------o       conformal image of a regular lattice would look like.
 //      \   /  \    /           \   / \     /
 //       \ /    \  /             \ /   \   /
 //        o------o                o-----o
 //
-// Source: centroidal patch triangulations: L. Chen, M. Holst, Comput. Methods Appl. Mech. Engrg. 200 (2011); smoothing
-// that never makes the worst triangle worse: L. A. Freitag, C. Ollivier-Gooch, Int. J. Numer. Meth. Engng. 40 (1997);
-// flips: C. L. Lawson, Mathematical Software III (1977).
+// First all vertices move together; then, one by one, those of ill-shaped triangles.
+//
+// Source: means of neighbours: L. R. Herrmann, J. Eng. Mech. Div. ASCE 102 (1976); smoothing that never makes the worst
+// triangle worse: L. A. Freitag, C. Ollivier-Gooch, Int. J. Numer. Meth. Engng. 40 (1997); flips: C. L. Lawson,
+// Mathematical Software III (1977).
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -46,6 +47,9 @@ struct SmoothedArrays {
 template <class Rules>
 class Smoother {
 public:
+    /// Triangles of a smaller mean ratio are ill-shaped.
+    static constexpr double min_mean_ratio = 0.9;
+
     Smoother(const SmoothedArrays& arrays, Rules rules)
         : points_(arrays.points),
           sizes_(arrays.sizes),
@@ -53,41 +57,21 @@ public:
           first_movable_(arrays.first_movable),
           rules_(rules) {}
 
-    /// Moves the vertices of the triangles whose mean ratio is below the bound, up to `rounds` times, where that improves
-    /// the worst of the triangles round them.
-    void mend_worst(double mean_ratio_bound, unsigned rounds) {
-        const double bound = mean_ratio_bound * equilateral_ratio;
-        std::vector<Index> bad, touched;
-        for (Index t = 0; t < tris_.size(); ++t)
-            if (is_below(tris_[t], bound)) bad.push_back(t);
-        for (unsigned round = 0; round < rounds && !bad.empty(); ++round) {
-            touched.clear();
-            for (const Index t : bad) {
-                for (unsigned corner = 0; corner < 3 && is_below(tris_[t], bound); ++corner) {
-                    if (!move(t, corner, HUGE_VAL)) continue;
-                    for (const StarTriangle& s : star_) touched.push_back(s.t);
-                    for (const Flip& flip : flips_) touched.insert(touched.end(), {flip.t, flip.n});
-                }
-            }
-            std::swap(bad, touched);
-        }
+    /// Moves all free vertices at once to the means of their neighbours, `rounds` times, then those of ill-shaped
+    /// triangles.
+    void smooth(unsigned rounds) {
+        for (unsigned left = rounds; left > 0; left -= std::min(left, rounds_at_once))
+            move_together(std::min(left, rounds_at_once));
+        mend_ill_shaped();
     }
 
-    /// Moves every free vertex once, in the order of the triangles, where that improves the sum of the mean ratios and
-    /// makes no triangle worse than the worst one was, or than the bound. Returns the number of vertices that moved.
-    std::size_t sweep(double mean_ratio_bound) {
-        const double bound = mean_ratio_bound * equilateral_ratio;
-        std::vector<char> seen(points_.size(), 0);
-        std::size_t moved = 0;
-        for (Index t = 0; t < tris_.size(); ++t) {
-            for (unsigned corner = 0; corner < 3; ++corner) {
-                char& is_seen = seen[tris_[t].v[corner]];
-                if (is_seen != 0) continue;
-                is_seen = 1;
-                moved += move(t, corner, bound);
-            }
-        }
-        return moved;
+    /// Moves the vertices of ill-shaped triangles one by one, a few times, where this makes the worst triangle round them
+    /// better.
+    void mend() {
+        ill_shaped_.clear();
+        for (Index t = 0; t < tris_.size(); ++t)
+            if (is_ill_shaped(t)) ill_shaped_.push_back(t);
+        mend_ill_shaped();
     }
 
 private:
@@ -108,18 +92,165 @@ private:
         Index t, n;
         Tri old_t, old_n;
     };
+    /// A vertex where all vertices move together.
+    struct Mover {
+        enum class State : unsigned char { fixed, moved, returned };
+        Index t;  ///< one of its triangles
+        unsigned degree = 0;
+        State state = State::moved;
+    };
 
     /// Twice the area of an equilateral triangle over the sum of its squared edges. The mean ratio of a triangle is this
     /// ratio of its own, divided by that of the equilateral one.
     static constexpr double equilateral_ratio = 0.28867513459481287;
-    /// A move has to improve the ratio by this factor, so that rounding moves nothing for ever.
+    static constexpr double min_ratio = min_mean_ratio * equilateral_ratio;
+    /// A move of one vertex has to improve the worst ratio by this factor, so that rounding moves nothing for ever.
     static constexpr double min_gain = 1.0001;
     /// Moved triangles are fatter than this; rounding cannot turn them over.
-    static constexpr double min_ratio = 1e-12;
+    static constexpr double least_ratio = 1e-12;
+    /// So often vertices move together before the connectivity is looked at.
+    static constexpr unsigned rounds_at_once = 5;
+    static constexpr unsigned mending_rounds = 3;
 
-    bool is_below(const Tri& t, double bound) const {
-        const Point a = points_[t.v[0]], b = points_[t.v[1]], c = points_[t.v[2]];
-        return cross(b - a, c - a) < bound * (squared_length(c - b) + squared_length(a - c) + squared_length(b - a));
+    double ratio_of(const Tri& t, const std::vector<Point>& points) const {
+        const Point a = points[t.v[0]], b = points[t.v[1]], c = points[t.v[2]];
+        return cross(b - a, c - a) / (squared_length(c - b) + squared_length(a - c) + squared_length(b - a));
+    }
+    bool is_ill_shaped(Index t) const { return !(ratio_of(tris_[t], points_) >= min_ratio); }
+
+    // ---- all vertices together ----------------------------------------------------------------------------------
+
+    /// Moves all free vertices without a look at their triangles, then sends those back that have spoilt one, and moves
+    /// these one by one.
+    void move_together(unsigned rounds) {
+        find_movers();
+        old_points_ = points_;
+        old_sizes_ = sizes_;
+        for (unsigned round = 0; round < rounds; ++round) move_to_neighbours();
+        for (Index v = first_movable_; v < points_.size(); ++v)
+            if (movers_[v].state == Mover::State::moved)
+                sizes_[v] = static_cast<float>(rules_.size_at(points_[v], movers_[v].t));
+        return_where_worse();
+        for (const Index v : returned_)
+            if (const Tri& t = tris_[movers_[v].t]; t.v[0] == v || t.v[1] == v || t.v[2] == v)
+                move(movers_[v].t, t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2);
+    }
+
+    void find_movers() {
+        movers_.assign(points_.size(), {});
+        for (Index v = 0; v < first_movable_; ++v) movers_[v].state = Mover::State::fixed;
+        for (Index t = 0; t < tris_.size(); ++t) {
+            for (unsigned i = 0; i < 3; ++i) {
+                Mover& mover = movers_[tris_[t].v[i]];
+                mover.t = t;
+                ++mover.degree;
+            }
+            for (unsigned e = 0; e < 3; ++e) {
+                if (!tris_[t].n[e].is_constrained()) continue;
+                movers_[tris_[t].v[next(e)]].state = movers_[tris_[t].v[previous(e)]].state = Mover::State::fixed;
+            }
+        }
+    }
+
+    /// Moves every free vertex to the mean of its neighbours. Each of its triangles contributes one of them.
+    void move_to_neighbours() {
+        sums_.assign(points_.size(), Point{0, 0});
+        Point* const sums = sums_.data();
+        Point* const points = points_.data();
+        for (const Tri& t : tris_)
+            for (unsigned i = 0; i < 3; ++i) sums[t.v[i]] = sums[t.v[i]] + points[t.v[next(i)]];
+        for (Index v = first_movable_; v < points_.size(); ++v)
+            if (movers_[v].state == Mover::State::moved) points[v] = (1.0 / movers_[v].degree) * sums[v];
+    }
+
+    /// Sends vertices back to where they were until all triangles of moved ones are allowed, Delaunay, and not ill-shaped
+    /// or not worse than before. Notes ill-shaped triangles.
+    void return_where_worse() {
+        returned_.clear();
+        ill_shaped_.clear();
+        for (Index t = 0; t < tris_.size(); ++t) check_moved(t);
+        for (std::size_t i = 0; i < returned_.size(); ++i) {
+            const Index v = returned_[i];
+            const Tri& t = tris_[movers_[v].t];
+            find_star(movers_[v].t, t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2);
+            for (const StarTriangle& s : star_) {
+                check_moved(s.t);
+                if (const Link outer = tris_[s.t].n[s.corner]; !outer.is_constrained()) check_moved(outer.triangle());
+            }
+        }
+    }
+
+    /// Sends the vertices of a triangle back if it is not as it should be. An edge between two acute angles is Delaunay,
+    /// so only edges opposite obtuse ones are looked at.
+    void check_moved(Index t) {
+        constexpr double acute = 1 - 1e-9;  // far beyond rounding
+        const Tri& tri = tris_[t];
+        const Point a = points_[tri.v[0]], b = points_[tri.v[1]], c = points_[tri.v[2]];
+        const double aa = squared_length(c - b), bb = squared_length(a - c), cc = squared_length(b - a);
+        const double area2 = cross(b - a, c - a), sum = aa + bb + cc;
+        bool is_good = rules_.is_allowed(aa, bb, cc, area2, size_sum(tri)) && !is_blocked(tri);
+        if (!(area2 >= min_ratio * sum)) {
+            ill_shaped_.push_back(t);
+            is_good = is_good && area2 >= ratio_of(tri, old_points_) * sum;
+        }
+        if (!is_good) send_back(tri);
+        const double longest = std::max({aa, bb, cc});
+        if (2 * longest < acute * sum) return;
+        const unsigned e = longest == aa ? 0 : longest == bb ? 1 : 2;
+        if (is_delaunay(t, e)) return;
+        send_back(tri);
+        send_back(tris_[tri.n[e].triangle()]);
+    }
+
+    void send_back(const Tri& t) {
+        for (const Index v : t.v) {
+            if (movers_[v].state != Mover::State::moved) continue;
+            movers_[v].state = Mover::State::returned;
+            points_[v] = old_points_[v];
+            sizes_[v] = old_sizes_[v];
+            returned_.push_back(v);
+        }
+    }
+
+    // ---- one vertex after another -------------------------------------------------------------------------------
+
+    void mend_ill_shaped() {
+        std::vector<Index> touched;
+        for (unsigned round = 0; round < mending_rounds && !ill_shaped_.empty(); ++round) {
+            touched.clear();
+            for (const Index t : ill_shaped_) {
+                for (unsigned corner = 0; corner < 3 && is_ill_shaped(t); ++corner) {
+                    if (!move(t, corner)) continue;
+                    for (const StarTriangle& s : star_) touched.push_back(s.t);
+                    for (const Flip& flip : flips_) touched.insert(touched.end(), {flip.t, flip.n});
+                }
+            }
+            std::swap(ill_shaped_, touched);
+        }
+    }
+
+    /// Moves one vertex of a triangle to the mean of its neighbours or half the way, if that makes the worst triangle
+    /// round it better. Returns whether the vertex moved.
+    bool move(Index t, unsigned corner) {
+        if (!find_star(t, corner)) return false;
+        const Index v = tris_[t].v[corner];
+        const Point old_place = points_[v];
+        const float old_size = sizes_[v];
+        const double worst = worst_ratio_of_star();
+        Point to_mean{0, 0};
+        for (const StarTriangle& s : star_) to_mean = to_mean + s.a;
+        to_mean = (1.0 / static_cast<double>(star_.size())) * to_mean;
+        for (const double share : {1.0, 0.5}) {
+            const Point place = old_place + share * to_mean;
+            const double size = rules_.size_at(place, t);
+            if (!is_improved_by(place - old_place, size, std::max(min_gain * worst, least_ratio))) continue;
+            points_[v] = place;
+            sizes_[v] = static_cast<float>(size);
+            if (restore_delaunay(worst)) return true;
+            points_[v] = old_place;
+            sizes_[v] = old_size;
+        }
+        return false;
     }
 
     /// Finds the triangles round a vertex, counter-clockwise. Returns false if the vertex may not move.
@@ -139,73 +270,31 @@ private:
         return true;
     }
 
-    /// The move that the vertex of the star should make, and the ratios of its triangles before.
-    struct Target {
-        Point move;
-        double worst_ratio, ratio_sum;
-    };
-
-    Target find_target(double size) const {
-        double weights = 0, worst = 1, ratios = 0;
-        Point sum{0, 0};
+    double worst_ratio_of_star() const {
+        double worst = 1;
         for (std::size_t i = 0; i < star_.size(); ++i) {
-            const StarTriangle& a = star_[i];
-            const StarTriangle& b = star_[i + 1 < star_.size() ? i + 1 : 0];
-            const double area2 = cross(a.a, b.a), size_sum = size + a.a_size + b.a_size;
-            const double weight = area2 / (size_sum * size_sum);
-            weights += weight;
-            sum = sum + weight * (a.a + b.a);
-            const double ratio = area2 / (squared_length(a.a) + squared_length(b.a) + squared_length(b.a - a.a));
-            worst = std::min(worst, ratio);
-            ratios += ratio;
+            const Point a = star_[i].a, b = star_[i + 1 < star_.size() ? i + 1 : 0].a;
+            worst = std::min(worst, cross(a, b) / (squared_length(a) + squared_length(b) + squared_length(b - a)));
         }
-        return {(1 / (3 * weights)) * sum, worst, ratios};
+        return worst;
     }
 
-    /// Returns whether all triangles of the star are allowed after a move, better than the first bound of their ratios,
-    /// and their sum above the second one.
-    bool is_improved_by(Point move, double size, double ratio_bound, double sum_bound) const {
-        double sum = 0;
+    /// Returns whether all triangles of the star are allowed after a move of its vertex, and better than this ratio.
+    bool is_improved_by(Point move, double size, double ratio_bound) const {
         for (std::size_t i = 0; i < star_.size(); ++i) {
             const StarTriangle& from = star_[i];
             const StarTriangle& to = star_[i + 1 < star_.size() ? i + 1 : 0];
             const Point a = from.a - move, b = to.a - move;
             const double aa = squared_length(a), bb = squared_length(b), cc = squared_length(b - a),
                          area2 = cross(a, b);
-            const double ratio = area2 / (aa + bb + cc);
-            if (!(ratio > ratio_bound)) return false;
-            sum += ratio;
+            if (!(area2 > ratio_bound * (aa + bb + cc))) return false;
             if (!rules_.is_allowed(aa, bb, cc, area2, size + from.a_size + to.a_size)) return false;
             const Link outer = tris_[from.t].n[from.corner];
             if (outer.is_constrained() && rules_.is_blocked({from.a_vertex, outer, a.x, a.y, aa, area2},
                                                             {to.a_vertex, outer, b.x, b.y, bb, area2}))
                 return false;
         }
-        return sum > sum_bound;
-    }
-
-    /// Moves one vertex of a triangle towards its target or half the way. If the worst ratio round it is below the
-    /// bound, it has to become better, otherwise the sum of them. Returns whether the vertex moved.
-    bool move(Index t, unsigned corner, double bound) {
-        if (!find_star(t, corner)) return false;
-        const Index v = tris_[t].v[corner];
-        const Point old_place = points_[v];
-        const float old_size = sizes_[v];
-        const Target target = find_target(old_size);
-        const bool mends = target.worst_ratio < bound;
-        const double ratio_bound = std::max(mends ? min_gain * target.worst_ratio : bound, min_ratio);
-        const double sum_bound = mends ? 0 : min_gain * target.ratio_sum;
-        for (const double share : {1.0, 0.5}) {
-            const Point place = old_place + share * target.move;
-            const double size = rules_.size_at(place, t);
-            if (!is_improved_by(place - old_place, size, ratio_bound, sum_bound)) continue;
-            points_[v] = place;
-            sizes_[v] = static_cast<float>(size);
-            if (restore_delaunay(std::min(target.worst_ratio, bound))) return true;
-            points_[v] = old_place;
-            sizes_[v] = old_size;
-        }
-        return false;
+        return true;
     }
 
     /// Flips edges until the triangulation is Delaunay again. If that makes a triangle worse than the worst one was, or
@@ -254,21 +343,30 @@ private:
                0;
     }
 
+    double size_sum(const Tri& t) const {
+        return static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]];
+    }
+
     /// Returns whether a triangle that a flip has made is allowed and not worse than the bound.
-    bool is_good(const Tri& t, double bound) const {
-        double size_sum = 0;
-        for (const Index v : t.v) size_sum += sizes_[v];
+    bool is_good(const Tri& t, double ratio_bound) const {
+        const Point a = points_[t.v[0]], b = points_[t.v[1]], c = points_[t.v[2]];
+        const double aa = squared_length(c - b), bb = squared_length(a - c), cc = squared_length(b - a),
+                     area2 = cross(b - a, c - a);
+        return area2 >= ratio_bound * (aa + bb + cc) && rules_.is_allowed(aa, bb, cc, area2, size_sum(t)) &&
+               !is_blocked(t);
+    }
+
+    /// Returns whether a vertex of the triangle stands too near to a constrained edge of it.
+    bool is_blocked(const Tri& t) const {
         for (unsigned e = 0; e < 3; ++e) {
+            if (!t.n[e].is_constrained()) continue;
             const Point p = points_[t.v[e]], a = points_[t.v[next(e)]] - p, b = points_[t.v[previous(e)]] - p;
-            const double aa = squared_length(a), bb = squared_length(b), cc = squared_length(b - a),
-                         area2 = cross(a, b);
-            if (e == 0 && !(area2 >= bound * (aa + bb + cc) && rules_.is_allowed(aa, bb, cc, area2, size_sum)))
-                return false;
-            if (t.n[e].is_constrained() && rules_.is_blocked({t.v[next(e)], t.n[e], a.x, a.y, aa, area2},
-                                                             {t.v[previous(e)], t.n[e], b.x, b.y, bb, area2}))
-                return false;
+            const double area2 = cross(a, b);
+            if (rules_.is_blocked({t.v[next(e)], t.n[e], a.x, a.y, squared_length(a), area2},
+                                  {t.v[previous(e)], t.n[e], b.x, b.y, squared_length(b), area2}))
+                return true;
         }
-        return true;
+        return false;
     }
 
     std::vector<Point>& points_;
@@ -276,6 +374,11 @@ private:
     Tris& tris_;
     Index first_movable_;
     Rules rules_;
+    std::vector<Mover> movers_;  ///< of each vertex
+    std::vector<Point> sums_, old_points_;
+    std::vector<float> old_sizes_;
+    std::vector<Index> returned_;    ///< vertices
+    std::vector<Index> ill_shaped_;  ///< triangles
     std::vector<StarTriangle> star_;
     std::vector<QueuedEdge> pending_;
     std::vector<Flip> flips_;  ///< since the last vertex moved
