@@ -19,6 +19,8 @@
 // Source: A. Bowyer, The Computer Journal 24 (1981); D. F. Watson, ibid.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -64,6 +66,8 @@ struct Cavity {
     Scratch<Index> triangles;      ///< the triangles whose circles hold p
     Scratch<CavityEdge> boundary;  ///< the edges round them, counter-clockwise; the first is repeated behind the last
     Scratch<PendingEdge> stack;
+    /// Whether no edge of the boundary is constrained, and p lies clearly on the inner side of each.
+    bool is_open_star = false;
     /// No cavity has more triangles than the triangulation. Where one seems to, the search runs in circles: round an
     /// island or the ends of a segment, across which the triangles are not Delaunay.
     std::size_t max_triangles = static_cast<std::size_t>(-1);
@@ -113,6 +117,9 @@ inline bool in_ghost_circle(const Point* points, const Tri& t, unsigned g, Point
 /// most a third of s^2.
 inline constexpr double incircle_error = 4e-16;
 
+/// Twice the rounding error of the cross product of two vectors is at most this times the sum of their squared lengths.
+inline constexpr double side_error = 1e-15;
+
 /// Returns whether p lies in the circle of t, where the filter of find_cavity() could not tell.
 template <bool Ghosts>
 [[gnu::noinline]] bool in_circle_after_filter(const Point* points, const Tri& t, Point p) {
@@ -136,6 +143,8 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
     CavityEdge* boundary = cavity.boundary.data();
     Cavity::PendingEdge* stack = cavity.stack.data();
     std::size_t triangle_count = 0, boundary_count = 0, stacked = 0;
+    bool is_open = true;
+    double least_area2 = HUGE_VAL, greatest_aa = 0;
 
     const Tri& first = tris[start];
     double rr[3];
@@ -189,8 +198,12 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
                 edge = {t.n[next(k)], w, wx, wy, ww, aw};
                 continue;
             }
+        } else {
+            is_open = false;
         }
         boundary[boundary_count++] = {a, edge.outer, ax, ay, aa, edge.area2};
+        least_area2 = std::min(least_area2, edge.area2);
+        greatest_aa = std::max(greatest_aa, aa);
         if (stacked == 0) break;
         a = edge.b;
         ax = edge.bx;
@@ -199,13 +212,15 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
         edge = stack[--stacked];
     }
     boundary[boundary_count] = boundary[0];
+    cavity.is_open_star = is_open && least_area2 > 2 * side_error * greatest_aa;
     cavity.triangles.set_size(triangle_count);
     cavity.boundary.set_size(boundary_count);
 }
 
 /// Replaces the triangles of the cavity by the fan of triangles (p, a, b) over its boundary. Edge 0 of each new
-/// triangle is its edge of the boundary.
-inline void fill_cavity(Tris& tris, Cavity& cavity, Index p) {
+/// triangle is its edge of the boundary. Calls visit(t, a, b) for each new triangle t on the edge from CavityEdge a to b.
+template <class Visit>
+void fill_cavity(Tris& tris, Cavity& cavity, Index p, const Visit& visit) {
     const std::size_t old_count = tris.size();
     const std::size_t k = cavity.boundary.size();
     tris.emplace_back();
@@ -228,9 +243,14 @@ inline void fill_cavity(Tris& tris, Cavity& cavity, Index p) {
         t.n[1] = Link(created[i + 1], 2);
         t.n[2] = Link(last, 1);
         if (!outer.is_border()) triangles[outer.triangle()].n[outer.edge()] = Link(current, 0, outer.is_constrained());
+        visit(current, boundary[i], boundary[i + 1]);
         last = current;
         current = created[i + 1];
     }
+}
+
+inline void fill_cavity(Tris& tris, Cavity& cavity, Index p) {
+    fill_cavity(tris, cavity, p, [](Index, const CavityEdge&, const CavityEdge&) {});
 }
 
 /// Replaces the triangles of the cavity by a fan that is open at edge `gap` of its boundary: a border on which p lies,

@@ -167,6 +167,7 @@ protected:
     /// Returns whether the cavity was found, and p lies strictly on the inner side of every edge of its boundary and is
     /// not blocked by any that is constrained.
     bool cavity_admits(Point p) const {
+        if (cavity_.is_open_star) return true;
         const std::size_t k = cavity_.boundary.size();
         if (k == 0) return false;
         for (std::size_t i = 0; i < k; ++i) {
@@ -178,10 +179,9 @@ protected:
         return true;
     }
 
-    /// Returns whether p lies strictly on the inner side of an edge of the cavity's boundary. The filter is twice the
-    /// rounding error of a cross product of these lengths.
+    /// Returns whether p lies strictly on the inner side of an edge of the cavity's boundary.
     bool is_inside(const CavityEdge& a, const CavityEdge& b, Point p) const {
-        return !(a.area2 <= 1e-15 * (a.aa + b.aa) && core::inline_orient2d(points_[a.a], points_[b.a], p) <= 0);
+        return !(a.area2 <= side_error * (a.aa + b.aa) && core::inline_orient2d(points_[a.a], points_[b.a], p) <= 0);
     }
 
     /// Adds a vertex and its size. Throws MeshError where there are too many.
@@ -397,11 +397,18 @@ private:
         if (!in_circle(tris_[t], relative, p)) return false;
         find_cavity<false>(points_.data(), tris_.data(), t, relative, p, cavity_);
         if (!cavity_admits(p)) return false;
-        const Index vertex = add_vertex(p, derived().size_at(p, t));
+        const double size = static_cast<float>(derived().size_at(p, t));
+        const Index vertex = add_vertex(p, size);
         const std::size_t old_count = tris_.size();
-        fill_cavity(tris_, cavity_, vertex);
+        front_.resize(old_count + 2);
+        double size_a = sizes_[cavity_.boundary[0].a];
+        fill_cavity(tris_, cavity_, vertex, [&](Index created, const CavityEdge& a, const CavityEdge& b) {
+            const double size_b = sizes_[b.a];
+            classify_new(created, a, b, size + size_a + size_b);
+            size_a = size_b;
+        });
         derived().vertex_inserted(t, old_count);
-        classify_fan(vertex);
+        queue_fan(vertex);
         return true;
     }
 
@@ -418,41 +425,24 @@ private:
                (sum < HUGE_VAL && in_circle_after_filter<false>(points_.data(), t, p));
     }
 
-    /// Does what classify() and queue_front() do for the new triangles round `vertex`, with the lengths that
-    /// find_cavity() left behind. Edge 0 of triangle i of the fan is edge i of the cavity's boundary, edge 1 leads to
-    /// triangle i + 1, edge 2 to triangle i - 1.
-    void classify_fan(Index vertex) {
-        front_.resize(tris_.size());
-        measure_fan(vertex);
-        queue_fan(vertex);
-    }
-
-    void measure_fan(Index vertex) {
-        const std::size_t k = cavity_.boundary.size();
-        const CavityEdge* const boundary = cavity_.boundary.data();
-        const Index* const created = cavity_.triangles.data();
-        const double h = sizes_[vertex];
-        double size_a = sizes_[boundary[0].a];
-        for (std::size_t i = 0; i < k; ++i) {
-            const CavityEdge& a = boundary[i];
-            const CavityEdge& b = boundary[i + 1];
-            const double size_b = sizes_[b.a], sum = h + size_a + size_b;
-            size_a = size_b;
-            const double ex = b.ax - a.ax, ey = b.ay - a.ay;
-            const double ab = ex * ex + ey * ey;
-            if (is_large(a.aa * b.aa * ab, a.area2, sum)) {
-                // Without branches, since none could be predicted.
-                const unsigned is_a_shorter = a.aa < b.aa, is_ab_longer = std::min(a.aa, b.aa) < ab;
-                front_.set_large(created[i], is_ab_longer * (1 + is_a_shorter));
-                continue;
-            }
-            front_.set_done(created[i]);
-            const double shortest = std::min(std::min(a.aa, b.aa), ab);
-            if (is_narrow(a.aa, b.aa, ab, shortest, a.area2) && derived().must_mend(created[i]))
-                narrow_.push({created[i], vertex}, shortest);
+    /// Notes whether a new triangle on the edge a-b of the cavity's boundary is large, and which edge is its base, with
+    /// the lengths that find_cavity() left behind. Edge 0 lies on the boundary.
+    void classify_new(Index t, const CavityEdge& a, const CavityEdge& b, double size_sum) {
+        const double ex = b.ax - a.ax, ey = b.ay - a.ay;
+        const double ab = ex * ex + ey * ey;
+        const double shorter = std::min(a.aa, b.aa);
+        if (is_large(a.aa * b.aa * ab, a.area2, size_sum)) {
+            // Without branches, since none could be predicted.
+            const unsigned is_a_shorter = a.aa < b.aa, is_ab_longer = shorter < ab;
+            front_.set_large(t, is_ab_longer * (1 + is_a_shorter));
+            return;
         }
+        front_.set_done(t);
+        if (const double shortest = std::min(shorter, ab); is_narrow(a.aa, b.aa, ab, shortest, a.area2))
+            new_narrow_.push_back({t, shortest});
     }
 
+    /// Queues the new triangles round a vertex, and those that they bring to the front.
     void queue_fan(Index vertex) {
         const std::size_t k = cavity_.boundary.size();
         const CavityEdge* const boundary = cavity_.boundary.data();
@@ -465,12 +455,21 @@ private:
             }
             if (front_.is_done_across(tris_[t].n[front_.base(t)])) front_.ready.push({t, vertex});
         }
+        for (const auto& [t, shortest] : new_narrow_)
+            if (derived().must_mend(t)) narrow_.push({t, vertex}, shortest);
+        new_narrow_.clear();
     }
 
     static constexpr double squared_radius_per_squared_sum = 4 * max_circle_ratio * max_circle_ratio / 27;
     double area2_per_squared_sum_ = 0;  ///< twice the area bound of a triangle, over the squared sum of h
     double off_centre_ = 0;             ///< height of the off-centre over the shortest edge, in lengths of that edge
     AngleQueue narrow_;
+    /// A triangle of the newest vertex that is narrow, and its squared shortest edge.
+    struct NarrowTriangle {
+        Index t;
+        double shortest;
+    };
+    std::vector<NarrowTriangle> new_narrow_;
 };
 
 }  // namespace lamina::delaunay
