@@ -247,6 +247,34 @@ LAMINA_EXPORT RefinementEstimate estimate_triangles(std::span<const Point> point
                                                     const SizeField& size,
                                                     const ConstrainedRefineOptions& options = {});
 
+// ---- smoothing ----
+
+/// Options of optimize().
+struct OptimizeOptions {
+    /// No move makes a triangle with a smaller angle. 0: no bound.
+    double min_angle_deg = 0;
+    /// How often all vertices move. Those of ill-shaped triangles then move a few times more.
+    unsigned rounds = 2;
+    std::size_t fixed_points = 0;  ///< the first so many points stay where they are
+};
+
+/// A triangulation whose vertices have moved.
+struct OptimizedTriangulation {
+    std::vector<Point> points;        ///< as many as there were, in the same order
+    std::vector<Triangle> triangles;  ///< as many as there were, counter-clockwise
+};
+
+/// Moves the vertices of a triangulation to the means of their neighbours, where that does not make the worst triangle
+/// round them worse, and flips edges, so that the triangulation stays constrained Delaunay. Points that are fixed, on
+/// segments or on the boundary do not move. refine() does this by itself (RefineOptions::smoothing); here are triangles
+/// from elsewhere, or for which more time is to be spent. Precondition: check_triangulation() finds no defect. Throws
+/// OptionError for an angle above max_min_angle_deg or below 0, InputError as triangulate() does and for indices out of
+/// range. Source: L. R. Herrmann, J. Eng. Mech. Div. ASCE 102 (1976); L. A. Freitag, C. Ollivier-Gooch, Int. J. Numer.
+/// Meth. Engng. 40 (1997).
+LAMINA_EXPORT OptimizedTriangulation optimize(std::span<const Point> points, std::span<const Triangle> triangles,
+                                              std::span<const Segment> segments = {},
+                                              const OptimizeOptions& options = {});
+
 // ---- checks ----
 
 /// Options of check_triangulation().

@@ -64,6 +64,10 @@ struct QualitySummary {
     double max_angle_deg = 0;       ///< largest angle of all cells
     double mean_min_angle_deg = 0;  ///< mean of the smallest angles of the cells
     double mean_max_angle_deg = 0;  ///< mean of the largest angles of the cells
+    /// Mean of the mean ratios of the cells: 4 sqrt(3) area / (sum of the squared edges) for a triangle, that of the
+    /// worst corner for a quad; 1 for equilateral triangles and squares.
+    double mean_ratio = 0;
+    double share_below_40_deg = 0;  ///< share of the cells whose smallest angle is below 40 degrees
     /// Number of cells whose smallest angle is below MeshCheckOptions::min_angle_deg.
     std::size_t angles_below_bound = 0;
     /// The number of these cells that are exempt: isotropic cells at a corner below 60 degrees between two frozen

@@ -119,6 +119,7 @@ struct MeshResult {
     std::optional<YPlus> y_plus;                ///< the flow that the first height follows from, with its chord
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     RefineStats refinement;                       ///< summed over the subdomains
+    double mean_edge_over_size = 0;               ///< mean isotropic edge over h at its middle, of a sample; 0: no edge
     RunEstimate estimate;                         ///< made before the work
     std::vector<Warning> warnings;                ///< what the user should know about the mesh; empty: nothing
 };

@@ -127,6 +127,8 @@ Json quality_report(const MeshCheck& check) {
               {"min_angle_deg", isotropic.min_angle_deg},
               {"mean_min_angle_deg", isotropic.mean_min_angle_deg},
               {"max_angle_deg", isotropic.max_angle_deg},
+              {"mean_ratio", isotropic.mean_ratio},
+              {"share_below_40_deg", isotropic.share_below_40_deg},
               {"angles_below_bound", isotropic.angles_below_bound},
               {"exempt", isotropic.exempt},
               {"max_neighbour_area_ratio", isotropic.max_neighbour_area_ratio},
@@ -151,6 +153,7 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
     quality["layer"]["incomplete_rays"] = total_coverage(result).all.incomplete_rays;
     quality["isotropic"]["oversized"] = result.refinement.oversized;
     quality["isotropic"]["refused_points"] = result.refinement.refused;
+    quality["isotropic"]["mean_edge_over_size"] = result.mean_edge_over_size;
     return {{"version", LAMINA_VERSION},
             {"threads", result.threads},
             {"input", input_report(result.geometry)},

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include <lamina/point.hpp>
 
@@ -17,10 +18,11 @@ struct CellShape {
     double max_angle_deg = 0;
     double aspect_ratio = 0;  ///< of a triangle: longest edge over the height on it; of a quad: squared longest edge
                               ///< over area
+    double mean_ratio = 0;    ///< 1 for the equilateral triangle and the square, 0 for flat cells
 };
 
 /// The shape of a cell without area.
-inline constexpr CellShape flat_shape{0, 0, 180, std::numeric_limits<double>::infinity()};
+inline constexpr CellShape flat_shape{0, 0, 180, std::numeric_limits<double>::infinity(), 0};
 
 /// Measures a counter-clockwise triangle, angles to 1e-12 degrees. A triangle whose area rounds to 0 or less gets
 /// flat_shape.
@@ -37,7 +39,8 @@ inline CellShape measure_triangle(Point a, Point b, Point c) {
     return {.area = 0.5 * twice_area,
             .min_angle_deg = std::max(0.0, smallest),
             .max_angle_deg = 180 - smallest - medium,
-            .aspect_ratio = longest / twice_area};
+            .aspect_ratio = longest / twice_area,
+            .mean_ratio = 2 * std::numbers::sqrt3 * twice_area / (bc + ca + ab)};
 }
 
 }  // namespace lamina::core

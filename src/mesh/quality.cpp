@@ -38,6 +38,7 @@ CellShape measure_quad(Point a, Point b, Point c, Point d) {
         shape.max_angle_deg = std::max(shape.max_angle_deg, angle);
         shape.aspect_ratio = std::max(shape.aspect_ratio, squared_length(ahead) / shape.area);
     }
+    shape.mean_ratio = shape_of_quad(a, b, c, d);
     return shape;
 }
 
@@ -64,6 +65,7 @@ void QualityCollector::add(const CellShape& shape) {
     max_angle_ = std::max(max_angle_, shape.max_angle_deg);
     min_angle_sum_ += shape.min_angle_deg;
     max_angle_sum_ += shape.max_angle_deg;
+    mean_ratio_sum_ += shape.mean_ratio;
     max_aspect_ = std::max(max_aspect_, shape.aspect_ratio);
     below_bound_ += shape.min_angle_deg < bound_;
     ++angle_histogram_[std::min<std::size_t>(angle_histogram_.size() - 1,
@@ -84,6 +86,7 @@ void QualityCollector::append(const QualityCollector& part) {
     max_angle_ = std::max(max_angle_, part.max_angle_);
     min_angle_sum_ += part.min_angle_sum_;
     max_angle_sum_ += part.max_angle_sum_;
+    mean_ratio_sum_ += part.mean_ratio_sum_;
     max_aspect_ = std::max(max_aspect_, part.max_aspect_);
     for (std::size_t i = 0; i < angle_histogram_.size(); ++i) angle_histogram_[i] += part.angle_histogram_[i];
     max_area_ratio_ = std::max(max_area_ratio_, part.max_area_ratio_);
@@ -108,9 +111,12 @@ QualitySummary QualityCollector::summary() const {
     summary.max_angle_deg = max_angle_;
     summary.mean_min_angle_deg = min_angle_sum_ / static_cast<double>(cells_);
     summary.mean_max_angle_deg = max_angle_sum_ / static_cast<double>(cells_);
+    summary.mean_ratio = mean_ratio_sum_ / static_cast<double>(cells_);
     summary.angles_below_bound = below_bound_;
     summary.max_aspect_ratio = max_aspect_;
     summary.angle_histogram = angle_histogram_;
+    const auto below_40 = std::accumulate(angle_histogram_.begin(), angle_histogram_.begin() + 8, std::size_t{0});
+    summary.share_below_40_deg = static_cast<double>(below_40) / static_cast<double>(cells_);
     summary.max_neighbour_area_ratio = max_area_ratio_;
     summary.p999_neighbour_area_ratio = area_ratio_percentile_999();
     return summary;

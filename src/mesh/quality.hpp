@@ -42,7 +42,8 @@ private:
 
     double bound_;
     std::size_t cells_ = 0, below_bound_ = 0;
-    double min_angle_ = 180, max_angle_ = 0, min_angle_sum_ = 0, max_angle_sum_ = 0, max_aspect_ = 0;
+    double min_angle_ = 180, max_angle_ = 0, min_angle_sum_ = 0, max_angle_sum_ = 0, mean_ratio_sum_ = 0,
+           max_aspect_ = 0;
     std::array<std::size_t, 18> angle_histogram_{};  ///< smallest angles in bins of 5 degrees
     /// Histogram of the ratios of neighbouring areas, from 1 on, in bins 0.2 % wide, the last of which has no upper
     /// end. A percentile taken from it needs no sorting and no memory in proportion to the mesh. Empty until the first

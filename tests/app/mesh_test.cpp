@@ -102,6 +102,9 @@ TEST_F(MeshCommand, IsotropicTrianglesKeepTheAngleBound) {
     EXPECT_LE(isotropic["angles_below_bound"].get<std::size_t>(), exempt);
     EXPECT_LT(static_cast<double>(exempt), 0.001 * r["isotropic_triangles"].get<double>());
     EXPECT_TRUE(exempt > 0 || isotropic["min_angle_deg"].get<double>() >= 20.7) << isotropic["min_angle_deg"];
+    EXPECT_GT(isotropic["mean_ratio"].get<double>(), 0.98);
+    EXPECT_LT(isotropic["share_below_40_deg"].get<double>(), 0.005);
+    EXPECT_NEAR(isotropic["mean_edge_over_size"].get<double>(), 1, 0.03);
     EXPECT_EQ(r["quality"]["delaunay"]["violations"], 0);
     EXPECT_GT(r["quality"]["delaunay"]["interior_edges"].get<std::size_t>(), 1000u);
 }

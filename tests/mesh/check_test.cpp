@@ -51,6 +51,8 @@ TEST(CheckMesh, MeasuresTheBox) {
     EXPECT_EQ(check.layer.cells, 0u);
     EXPECT_NEAR(check.isotropic.min_angle_deg, 45, 1e-12);
     EXPECT_NEAR(check.isotropic.mean_min_angle_deg, 45, 1e-12);
+    EXPECT_NEAR(check.isotropic.mean_ratio, std::sqrt(3.0) / 2, 1e-12);
+    EXPECT_EQ(check.isotropic.share_below_40_deg, 0);
     EXPECT_NEAR(check.isotropic.max_angle_deg, 90, 1e-12);
     EXPECT_NEAR(check.isotropic.max_aspect_ratio, 2, 1e-12);
     EXPECT_EQ(check.isotropic.max_neighbour_area_ratio, 1);
@@ -136,6 +138,7 @@ TEST(CheckMesh, DoesNotDependOnThreads) {
     EXPECT_TRUE(one.valid()) << all_defects(one);
     EXPECT_EQ(one.area, four.area);
     EXPECT_EQ(one.isotropic.mean_min_angle_deg, four.isotropic.mean_min_angle_deg);
+    EXPECT_EQ(one.isotropic.mean_ratio, four.isotropic.mean_ratio);
     EXPECT_EQ(one.isotropic.p999_neighbour_area_ratio, four.isotropic.p999_neighbour_area_ratio);
     EXPECT_EQ(one.delaunay_violations, four.delaunay_violations);
     EXPECT_EQ(one.interior_edges, four.interior_edges);
