@@ -48,7 +48,9 @@ struct Element {
     std::vector<std::string> repairs;  ///< repairs by the reader: "line 12: duplicate of line 11 removed (0.5, 0.1)"
     std::vector<Warning> warnings;     ///< by the reader; their messages do not name the element
     std::vector<std::string> surface_notes;  ///< changes that prepare_surfaces() made to the points, and why
-    bool resampled = false;                  ///< whether prepare_surfaces() chose the spacing of the points
+    /// Whether the points are many exact samples of a curve, of which prepare_surfaces() takes as many as a wall needs.
+    bool samples_of_curve = false;
+    bool resampled = false;  ///< whether prepare_surfaces() chose the spacing of the points
     /// Whether prepare_surfaces() kept the points although the options ask for others, which would have crossed.
     bool surface_restored = false;
     OutlineFeatures features;  ///< set by prepare_surfaces()
@@ -65,8 +67,10 @@ LAMINA_EXPORT Box bounding_box(const Geometry& geometry);
 /// Options of read_geometry().
 struct GeometryOptions {
     std::vector<std::string>
-        names{};                    ///< marker names, one per element; empty: file stems, or "airfoil" for one element
-    std::size_t naca_points = 200;  ///< surface points of `naca:` inputs that do not give their number
+        names{};  ///< marker names, one per element; empty: file stems, or "airfoil" for one element
+    /// Surface points of `naca:` inputs that do not give their number; 0: many samples of the formula, of which
+    /// prepare_surfaces() takes as many as a wall needs (Element::samples_of_curve).
+    std::size_t naca_points = 0;
 };
 
 /// Returns the table of these options, with names, ranges and help.
@@ -75,7 +79,7 @@ LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const GeometryOptions& options);
 
-/// Reads every input, which is a path, "-" for standard input, or `naca:DIGITS[:POINTS][:blunt|:sharp]`, and repairs,
+/// Reads every input, which is a path, "-" for standard input, or `naca:DIGITS[:POINTS][:blunt|:extended]`, and repairs,
 /// orients, names and checks its elements. Coordinates are neither scaled nor moved. Throws InputError for input that
 /// cannot be repaired (no or too few points, NaN, an outline that crosses itself, elements that cross or contain each
 /// other, coordinates outside the exact range of predicates.hpp), IoError for files that cannot be read, UsageError for
@@ -87,16 +91,18 @@ LAMINA_EXPORT std::vector<Element> read_airfoil(const std::filesystem::path& fil
 
 /// The trailing edges of NACA sections.
 enum class TrailingEdge {
-    sharp,  ///< the last thickness coefficient is -0.1036, which closes the trailing edge
-    blunt,  ///< the last thickness coefficient is the published one, -0.1015, which leaves a base
+    sharp,     ///< the last thickness coefficient is -0.1036, which closes the trailing edge
+    blunt,     ///< the last thickness coefficient is the published one, -0.1015, which leaves a base
+    extended,  ///< the published thickness is continued to where it vanishes, at x = 1.0089, and scaled back to x = 1
 };
 
 /// Returns the NACA 4-digit ("0012") or 5-digit ("23012", reflexed "23112") section of unit chord with cosine spacing.
 /// The points start at the trailing edge and run over the upper surface first. Both surfaces get the same number, so
 /// `points` (surface points without the repeated trailing edge and without those inside a base) is rounded up to an
-/// even number for `sharp` and to an odd one for `blunt`. The surfaces of symmetric sections are mirror images exactly.
+/// even number for `sharp` and `extended`, and to an odd one for `blunt`. The surfaces of symmetric sections are mirror images exactly.
 /// Throws UsageError for digits that name no section and for fewer than 6 or more than 10 million points.
-/// Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935).
+/// Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935); `extended`: the
+/// NACA 0012 of the NASA Turbulence Modeling Resource, 11.894 % thick.
 LAMINA_EXPORT Element naca_airfoil(const std::string& digits, std::size_t points,
                                    TrailingEdge trailing_edge = TrailingEdge::sharp);
 

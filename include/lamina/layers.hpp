@@ -66,8 +66,8 @@ struct LayerOptions {
     std::optional<std::uint32_t> layers = 30;
     std::optional<double> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
     double max_ray_angle_deg = 5;       ///< largest angle between neighbouring rays
-    CornerRays corners = CornerRays::fan;              ///< the rays at sharp convex corners
-    LayerTopology topology = LayerTopology::delaunay;  ///< how points are joined to cells
+    CornerRays corners = CornerRays::fan;             ///< the rays at sharp convex corners
+    LayerTopology topology = LayerTopology::layered;  ///< how points are joined to cells
 };
 
 /// Returns the table of these options, with names, ranges and help.

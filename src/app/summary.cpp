@@ -11,11 +11,12 @@ namespace {
 std::string isotropic_lines(const QualitySummary& isotropic, bool has_layer) {
     std::string text = summary_line(
         "isotropic",
-        fmt::format("{} cells{}: angles from {:.2f} to {:.2f} deg, mean smallest angle {:.2f} deg, {:.2f} % below 40 deg, "
-                    "mean ratio {:.3f}, areas of neighbours differ by a factor of at most {:.2f}",
-                    isotropic.cells, has_layer ? " outside the boundary layer" : "", isotropic.min_angle_deg,
-                    isotropic.max_angle_deg, isotropic.mean_min_angle_deg, 100 * isotropic.share_below_40_deg,
-                    isotropic.mean_ratio, isotropic.max_neighbour_area_ratio));
+        fmt::format(
+            "{} cells{}: angles from {:.2f} to {:.2f} deg, mean smallest angle {:.2f} deg, {:.2f} % below 40 deg, "
+            "mean ratio {:.3f}, areas of neighbours differ by a factor of at most {:.2f}",
+            isotropic.cells, has_layer ? " outside the boundary layer" : "", isotropic.min_angle_deg,
+            isotropic.max_angle_deg, isotropic.mean_min_angle_deg, 100 * isotropic.share_below_40_deg,
+            isotropic.mean_ratio, isotropic.max_neighbour_area_ratio));
     std::string below_bound =
         fmt::format("{} isotropic cells have an angle below the bound (--min-angle)", isotropic.angles_below_bound);
     if (isotropic.exempt > 0)

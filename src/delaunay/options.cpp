@@ -28,10 +28,11 @@ OptionTable<RefineOptions> make_refine_table() {
         .number("max-area-ratio", "R", "largest area of a triangle, over that of the equilateral one with edges of h",
                 numbers_from_to(1.05, max_circle_ratio * max_circle_ratio), member_at(&RefineOptions::max_area_ratio))
         .library_only = true;
-    table.count("smoothing", "N",
-                "how often all vertices of isotropic triangles move to the means of their neighbours; those of ill-shaped "
-                "ones then move a few times more; 0: none moves",
-                numbers_from_to(0, 100), member_at(&RefineOptions::smoothing));
+    table.count(
+        "smoothing", "N",
+        "how often all vertices of isotropic triangles move to the means of their neighbours; those of ill-shaped "
+        "ones then move a few times more; 0: none moves",
+        numbers_from_to(0, 100), member_at(&RefineOptions::smoothing));
     return table.take();
 }
 

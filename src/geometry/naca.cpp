@@ -116,19 +116,25 @@ struct NacaSurfaces {
     std::vector<Point> upper, lower;
 };
 
+/// Where the published thickness vanishes behind the trailing edge, in chords.
+constexpr double end_of_thickness = 1.0089304115;
+
 /// Returns n + 1 points of each surface by cosine spacing.
-NacaSurfaces make_surfaces(const NacaSection& section, std::size_t n, bool sharp) {
-    const double last_coefficient = sharp ? -0.1036 : -0.1015;
+NacaSurfaces make_surfaces(const NacaSection& section, std::size_t n, TrailingEdge trailing_edge) {
+    const double last_coefficient = trailing_edge == TrailingEdge::sharp ? -0.1036 : -0.1015;
+    const double length = trailing_edge == TrailingEdge::extended ? end_of_thickness : 1;
     NacaSurfaces surfaces{std::vector<Point>(n + 1), std::vector<Point>(n + 1)};
     for (std::size_t k = 1; k <= n; ++k) {
         // (1 - cos 2a) / 2 = sin^2 a has no cancellation at the leading edge.
         const double s = core::sin_reproducible(core::pi * static_cast<double>(k) / static_cast<double>(2 * n));
         const double x = k == n ? 1.0 : s * s;
+        const double s_x = length * x;
         const double half_thickness =
             5 * section.thickness *
-            (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * last_coefficient))));
+            (0.2969 * std::sqrt(s_x) + s_x * (-0.1260 + s_x * (-0.3516 + s_x * (0.2843 + s_x * last_coefficient)))) /
+            length;
         // Rounding must open no gap at x = 1.
-        const double t = k == n && sharp ? 0.0 : half_thickness;
+        const double t = k == n && trailing_edge != TrailingEdge::blunt ? 0.0 : half_thickness;
         Camber camber = section.camber(x);
         if (k == n) camber.y = 0;
         const double cosine = 1 / std::sqrt(1 + camber.slope * camber.slope);
@@ -152,9 +158,9 @@ Element naca_airfoil(const std::string& digits, std::size_t points, TrailingEdge
     if (points < min_points || points > max_points)
         throw UsageError(
             fmt::format("naca:{}: {} points; {} to {} can be made", digits, points, min_points, max_points));
-    const bool sharp = trailing_edge == TrailingEdge::sharp;
-    const std::size_t n = sharp ? (points + 1) / 2 : points / 2;  // edges of each surface
-    const NacaSurfaces surfaces = make_surfaces(section, n, sharp);
+    const std::size_t n =
+        trailing_edge != TrailingEdge::blunt ? (points + 1) / 2 : points / 2;  // edges of each surface
+    const NacaSurfaces surfaces = make_surfaces(section, n, trailing_edge);
 
     RawOutline outline;
     outline.title = fmt::format("NACA {}", digits);

@@ -13,8 +13,9 @@ OptionTable<GeometryOptions> make_table() {
                "marker names, one per element; else the stems of the files, or 'airfoil' for a single element",
                member_at(&GeometryOptions::names));
     table
-        .count("naca-points", "N", "surface points of naca: inputs that do not give their number",
-               numbers_from_to(6, 1e7), member_at(&GeometryOptions::naca_points))
+        .count("naca-points", "N",
+               "surface points of naca: inputs that do not give their number; 0: as many as a wall needs",
+               numbers_from_to(0, 1e7), member_at(&GeometryOptions::naca_points))
         .library_only = true;
     return table.take();
 }

@@ -1,6 +1,7 @@
 // The stage "read" as a whole: inputs -> named and checked elements.
 #include <algorithm>
 #include <charconv>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,7 +18,19 @@ namespace lamina::geometry {
 
 namespace {
 
-/// Returns the section of an input naca:DIGITS[:POINTS][:blunt|:sharp].
+/// Samples of a section that does not give its number of points: a spline through them stays within 1e-11 chords of the
+/// formula.
+constexpr std::size_t many_samples = 2000;
+
+/// Returns the trailing edge that a word of an input names.
+std::optional<TrailingEdge> trailing_edge_named(const std::string& word) {
+    if (word == "sharp") return TrailingEdge::sharp;
+    if (word == "blunt") return TrailingEdge::blunt;
+    if (word == "extended") return TrailingEdge::extended;
+    return {};
+}
+
+/// Returns the section of an input naca:DIGITS[:POINTS][:blunt|:extended|:sharp].
 Element read_naca(const std::string& input, std::size_t default_points) {
     std::vector<std::string> parts;
     for (std::size_t start = naca_prefix.size(); start <= input.size();) {
@@ -26,20 +39,19 @@ Element read_naca(const std::string& input, std::size_t default_points) {
         start = end + 1;
     }
     std::size_t points = default_points;
-    TrailingEdge trailing_edge = TrailingEdge::sharp;
-    if (parts.size() > 1 && (parts.back() == "blunt" || parts.back() == "sharp")) {
-        if (parts.back() == "blunt") trailing_edge = TrailingEdge::blunt;
-        parts.pop_back();
-    }
+    const std::optional<TrailingEdge> named = parts.size() > 1 ? trailing_edge_named(parts.back()) : std::nullopt;
+    if (named) parts.pop_back();
     if (parts.size() == 2) {
         const std::string& s = parts[1];
         const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), points);
         if (error != std::errc() || end != s.data() + s.size())
             throw UsageError(fmt::format("{}: '{}' is not a number of points", input, s));
     } else if (parts.size() != 1) {
-        throw UsageError(fmt::format("{}: expected naca:DIGITS[:POINTS][:blunt|:sharp]", input));
+        throw UsageError(fmt::format("{}: expected naca:DIGITS[:POINTS][:blunt|:extended|:sharp]", input));
     }
-    Element element = naca_airfoil(parts[0], points, trailing_edge);
+    const bool is_free = parts.size() == 1 && default_points == 0;
+    Element element = naca_airfoil(parts[0], is_free ? many_samples : points, named.value_or(TrailingEdge::sharp));
+    element.samples_of_curve = is_free;
     element.file = input;
     return element;
 }

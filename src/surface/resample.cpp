@@ -148,7 +148,7 @@ Element resample(const Element& given, std::size_t index, const ResamplingReques
     DividedCurves divided = options.points ? divide_curves_into(curves, corner_spacing_bounds, rule, *options.points)
                                            : divide_curves(curves, corner_spacing_bounds, rule);
     // Where lamina decides by itself, it never takes points away from a fine outline.
-    if (!options.points && options.treatment == SurfaceTreatment::automatic &&
+    if (!options.points && options.treatment == SurfaceTreatment::automatic && !given.samples_of_curve &&
         divided.points.size() < given.points.size())
         divided = divide_curves_into(curves, corner_spacing_bounds, rule, given.points.size());
 

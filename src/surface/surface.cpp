@@ -83,6 +83,7 @@ Decision decide(const Element& e, const ResamplingRequest& request) {
     if (options.treatment == SurfaceTreatment::keep) return {false, "as requested"};
     if (options.points) return {true, fmt::format("about {} points are requested", *options.points)};
     if (options.treatment == SurfaceTreatment::resample) return {true, "as requested"};
+    if (e.samples_of_curve) return {true, "its formula is known"};
     if (e.format == "naca") return {false, "generated points are exact"};
     if (e.points.size() >= min_dense_points) return {false, "they are dense"};
     const std::vector<std::size_t>& corners = e.features.corners;

@@ -24,8 +24,18 @@ namespace {
 using Json = nlohmann::json;
 
 std::vector<std::string> thesis_case(const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"mesh",     "naca:0012", "--first-height",  "2.5e-5", "--growth",    "1.15",
-                                       "--layers", "30",        "--max-ray-angle", "4",      "--far-field", "50"};
+    std::vector<std::string> arguments{"mesh",
+                                       "naca:0012:200",
+                                       "--first-height",
+                                       "2.5e-5",
+                                       "--growth",
+                                       "1.15",
+                                       "--layers",
+                                       "30",
+                                       "--max-ray-angle",
+                                       "4",
+                                       "--far-field",
+                                       "50"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -64,7 +74,7 @@ TEST_F(MeshCommand, TheReportHoldsWhatTheGuidePromises) {
     EXPECT_GE(r["threads"].get<int>(), 1);
     ASSERT_EQ(r["input"].size(), 1u);
     EXPECT_EQ(r["input"][0]["name"], "airfoil");
-    EXPECT_EQ(r["input"][0]["file"], "naca:0012");
+    EXPECT_EQ(r["input"][0]["file"], "naca:0012:200");
     EXPECT_EQ(r["input"][0]["points"], 200);
     EXPECT_TRUE(r["input"][0]["repairs"].is_array());
     for (const char* count : {"vertices", "triangles", "layer_triangles", "isotropic_triangles", "surface_vertices"}) {

@@ -32,8 +32,8 @@ struct Unsmoothed {
 };
 
 Unsmoothed unsmoothed(double scale = 1) {
-    std::vector<Point> points{{0, 0},     {1, 0},     {1, 1},      {0, 1},      {0.2, 0.5}, {0.6, 0.52},
-                              {0.3, 0.2}, {0.5, 0.3}, {0.8, 0.75}, {0.82, 0.76}};
+    std::vector<Point> points{{0, 0},      {1, 0},     {1, 1},     {0, 1},      {0.2, 0.5},
+                              {0.6, 0.52}, {0.3, 0.2}, {0.5, 0.3}, {0.8, 0.75}, {0.82, 0.76}};
     for (Point& p : points) p = scale * p;
     std::vector<Segment> segments;
     for (const auto& [a, b] : {std::pair{0u, 1u}, {1u, 2u}, {2u, 3u}, {3u, 0u}, {4u, 5u}, {6u, 7u}})

@@ -120,6 +120,23 @@ TEST(Naca, BluntSectionsHaveThePublishedBase) {
     EXPECT_FALSE(summarize(naca("naca:0012:400")).blunt_trailing_edge);
 }
 
+TEST(Naca, ExtendedSectionsAreThoseOfTheTurbulenceModelingResource) {
+    const Element e = naca("naca:0012:400:extended");
+    EXPECT_EQ(e.points.size(), 400u);
+    EXPECT_EQ(e.points[0], (Point{1, 0}));
+    EXPECT_FALSE(summarize(e).blunt_trailing_edge);
+    double thickest = 0;
+    for (const Point p : e.points) thickest = std::max(thickest, 2 * p.y);
+    EXPECT_NEAR(thickest, 0.12 / 1.00893, 5e-5);
+    // The ordinates that the resource gives: 0.594689181 (0.298222773 sqrt(x) - 0.127125232 x - ...).
+    for (const Point p : e.points) {
+        const double x = p.x;
+        const double y = 0.594689181 * (0.298222773 * std::sqrt(x) - 0.127125232 * x - 0.357907906 * x * x +
+                                        0.291984971 * x * x * x - 0.105174606 * x * x * x * x);
+        EXPECT_NEAR(std::abs(p.y), std::max(0.0, y), 1e-9);
+    }
+}
+
 TEST(Naca, CosineSpacing) {
     const Element e = naca_airfoil("0012", 64);
     const double full_turn = 6.283185307179586;
@@ -129,6 +146,9 @@ TEST(Naca, CosineSpacing) {
 
 TEST(Naca, InputsMayGiveTheNumberOfPoints) {
     EXPECT_EQ(naca("naca:0012").points.size(), 200u);
+    EXPECT_FALSE(naca("naca:0012").samples_of_curve);
+    EXPECT_TRUE(naca("naca:0012", 0).samples_of_curve);
+    EXPECT_FALSE(naca("naca:0012:400", 0).samples_of_curve);
     EXPECT_EQ(naca("naca:0012", 90).points.size(), 90u);
     EXPECT_EQ(naca("naca:0012:400").points.size(), 400u);
     EXPECT_EQ(naca("naca:0012:401").points.size(), 402u);

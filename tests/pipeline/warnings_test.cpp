@@ -54,6 +54,7 @@ TEST(Warnings, GoodMeshesHaveNone) {
 TEST(Warnings, LostFirstLayer) {
     CaseOptions options = quick_options();
     options.layer = {};
+    options.layer.topology = LayerTopology::delaunay;
     const MeshResult result = mesh_of({naca("4412", 40)}, options);
     const Warning warning = expect_warning(result, WarningCode::first_layer_lost);
     EXPECT_EQ(warning.number, static_cast<double>(result.check.edges_without_first_layer));
@@ -67,6 +68,7 @@ TEST(Warnings, LostFirstLayer) {
 
 TEST(Warnings, LayersThickerThanTheRoomRoundTheWall) {
     CaseOptions options = quick_options(20);
+    options.layer.topology = LayerTopology::delaunay;
     options.layer.first_height = 1e-2;
     options.layer.growth = 1.2;
     const MeshResult result = mesh_of({naca("4412")}, options);

@@ -72,7 +72,7 @@ TEST(Describe, TellsMeasuresAndRepairs) {
     for (const char* part : {"airfoil", "sample.dat (selig)", "SAMPLE", "9 read, 8 in the outline", "chord",
                              "x 0 to 1, y -0.05 to 0.07", "clockwise order reversed", "closing point merged"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-    const std::vector<std::string> naca{"naca:0012"};
+    const std::vector<std::string> naca{"naca:0012:200"};
     EXPECT_NE(describe(read_geometry(naca)).find("200 generated"), std::string::npos);
 }
 

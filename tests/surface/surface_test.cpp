@@ -178,6 +178,37 @@ void expect_equal_loops(const Outline& a, const Outline& b) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_LT(distance(a[i], b[(i + shift) % b.size()]), 1e-11) << i;
 }
 
+TEST(Resampling, SectionsWithAFormulaGetTheWallTheyNeed) {
+    const SurfaceOptions options;
+    for (const char* input : {"naca:0012", "naca:0006", "naca:0024", "naca:0012:extended"}) {
+        SCOPED_TRACE(input);
+        const std::vector<std::string> inputs{input};
+        const Geometry g = prepare_surfaces(read_geometry(inputs), options);
+        const Element& e = g.elements[0];
+        EXPECT_TRUE(e.resampled);
+        EXPECT_LT(e.points.size(), 500u);
+        EXPECT_LE(max_turning_deg(e.points), options.max_turning_deg);
+        EXPECT_LE(max_spacing_ratio(e.points), options.max_ratio);
+        const double thickness = std::stod(std::string(input).substr(7, 2)) / 100;
+        const bool extended = std::string(input).ends_with("extended");
+        const double length = extended ? 1.0089304115 : 1, last = extended ? -0.1015 : -0.1036;
+        for (const Point p : e.points) {
+            const double x = length * p.x;
+            const double y = 5 * thickness / length *
+                             (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * last))));
+            // The formula is steep at the nose, so that the distance from the curve is less than the difference in y.
+            const double slope = 5 * thickness * 0.5 * 0.2969 / std::sqrt(std::max(x, 1e-12));
+            EXPECT_NEAR(std::abs(p.y), y, 1e-10 * (1 + slope)) << p.x;
+        }
+    }
+    const std::vector<std::string> given{"naca:0012:300"};
+    EXPECT_EQ(prepare_surfaces(read_geometry(given), options).elements[0].points.size(), 300u);
+    SurfaceOptions keep;
+    keep.treatment = SurfaceTreatment::keep;
+    const std::vector<std::string> free{"naca:0012"};
+    EXPECT_EQ(prepare_surfaces(read_geometry(free), keep).elements[0].points.size(), 2000u);
+}
+
 TEST(Resampling, MirroredInputGivesMirroredPoints) {
     for (const Outline& outline : coarse_sections()) {
         SCOPED_TRACE(outline.size());
