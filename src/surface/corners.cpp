@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "core/bounding_box.hpp"
 
 namespace lamina::surface {
 
@@ -22,6 +23,11 @@ constexpr double max_straight_share = 0.2;
 constexpr double min_polygon_turning = core::radians(40);
 /// ... and all together turn by more than any nose does.
 constexpr double max_nose_turning = core::radians(240);
+
+/// A vertex between two sides longer than this share of the outline is a corner where it turns by more than the angle:
+/// samples of a smooth curve do not stand so far apart.
+constexpr double long_side_share = 0.35;
+constexpr double min_turning_of_long_sides = core::radians(1);
 
 /// Returns, for each vertex, whether it is a corner of a polygon.
 std::vector<bool> find_polygon_corners(std::span<const double> turning) {
@@ -61,11 +67,18 @@ std::vector<std::size_t> find_corners(std::span<const Point> outline) {
         const double angle = std::abs(turning[i]), same_side = turning[i] > 0 ? turning[j] : -turning[j];
         return same_side > min_certain_turning || same_side < max_straight_share * std::min(angle, core::pi - angle);
     };
+    const double long_side = long_side_share * core::longer_side(core::bounding_box(outline));
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < n; ++i) {
         const double angle = std::abs(turning[i]);
-        if (angle < min_corner_turning) continue;
         const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+        const bool between_long_sides =
+            distance(outline[before], outline[i]) > long_side && distance(outline[i], outline[after]) > long_side;
+        if (between_long_sides && angle > min_turning_of_long_sides) {
+            corners.push_back(i);
+            continue;
+        }
+        if (angle < min_corner_turning) continue;
         const bool straight_before = is_straight(i, before), straight_after = is_straight(i, after);
         // Two neighbouring vertices may share a nose. The outline is then round beyond the other vertex, which it is
         // not at a base.

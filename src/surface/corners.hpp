@@ -23,7 +23,8 @@ std::vector<double> turning_angles(std::span<const Point> outline);
 /// parabola by 0.3 times the vertex's angle to 180 degrees. A neighbour therefore counts as straight where it turns by
 /// less than 0.2 times the vertex's angle, or by less than 0.2 times the rest to 180 degrees if that is less. Beyond
 /// 125 degrees nothing tells how round the body is between the samples, and the vertex is a corner. So are all vertices
-/// of a coarse polygon, such as a box or a hexagon (docs/decisions/0009).
+/// of a coarse polygon, such as a box or a hexagon, and those between two sides that are longer than 0.35 of the outline,
+/// where it turns by more than one degree (docs/decisions/0009).
 std::vector<std::size_t> find_corners(std::span<const Point> outline);
 
 }  // namespace lamina::surface

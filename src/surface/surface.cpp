@@ -87,7 +87,8 @@ Decision decide(const Element& e, const ResamplingRequest& request) {
     if (e.format == "naca") return {false, "generated points are exact"};
     if (e.points.size() >= min_dense_points) return {false, "they are dense"};
     const std::vector<std::size_t>& corners = e.features.corners;
-    if (is_jagged(e) || corners.size() + 1 >= e.points.size())
+    if (corners.size() == e.points.size()) return {true, "they are the corners of a polygon"};
+    if (is_jagged(e) || corners.size() + 1 == e.points.size())
         return {false, fmt::format("{} of them are corners", corners.size())};
     const Sampling s = measure_sampling(e);
     if (s.max_turning_deg > request.max_turning_deg())

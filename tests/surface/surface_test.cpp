@@ -253,15 +253,18 @@ TEST(Resampling, MakesAboutTheRequestedNumberOfPoints) {
 TEST(Resampling, PolygonsKeepTheirSides) {
     Outline hexagon;
     for (int k = 0; k < 6; ++k) hexagon.push_back(shapes::circle(1, 6)[static_cast<std::size_t>(k)]);
+    const Outline thin_diamond{{1, 0}, {0.5, 0.03}, {0, 0}, {0.5, -0.03}},
+        plate{{1, 0.005}, {0, 0.005}, {0, -0.005}, {1, -0.005}};
     for (const Outline& polygon : {shapes::wedge(), shapes::diamond(), shapes::box(), shapes::l_shape(),
-                                   shapes::c_shape(0.3), shapes::comb(3, 0.2), hexagon}) {
+                                   shapes::c_shape(0.3), shapes::comb(3, 0.2), hexagon, thin_diamond, plate}) {
         SCOPED_TRACE(polygon.size());
-        const Element e = prepared(polygon, resampling());
-        EXPECT_GT(e.points.size(), polygon.size());
-        for (Point p : polygon) EXPECT_TRUE(contains(e.points, p));
-        for (Point p : e.points) EXPECT_LT(distance_to(polygon, p), 1e-12);
-        SurfaceOptions automatic;
-        EXPECT_EQ(prepared(polygon, automatic).points, polygon) << "left alone unless asked for";
+        for (const SurfaceOptions& options : {resampling(), SurfaceOptions{}}) {
+            const Element e = prepared(polygon, options);
+            EXPECT_GT(e.points.size(), polygon.size());
+            for (Point p : polygon) EXPECT_TRUE(contains(e.points, p));
+            for (Point p : e.points) EXPECT_LT(distance_to(polygon, p), 1e-12);
+            EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+        }
     }
 }
 
