@@ -22,9 +22,12 @@ std::vector<double> turning_angles(std::span<const Point> outline);
 /// A round nose that is sampled coarsely turns by as much at one vertex, but then its neighbours turn, too: on a
 /// parabola by 0.3 times the vertex's angle to 180 degrees. A neighbour therefore counts as straight where it turns by
 /// less than 0.2 times the vertex's angle, or by less than 0.2 times the rest to 180 degrees if that is less. Beyond
-/// 125 degrees nothing tells how round the body is between the samples, and the vertex is a corner. So are all vertices
-/// of a coarse polygon, such as a box or a hexagon, and those between two sides that are longer than 0.35 of the outline,
-/// where it turns by more than one degree (docs/decisions/0009).
+/// 125 degrees a vertex is a corner, unless its neighbours turn on by 5 to 60 degrees and the thickness grows like that
+/// of a parabola: as the distance to a power of 0.35 to 0.7.
+///
+/// Corners are also all vertices of a coarse polygon, such as a box or a hexagon; those between two sides that are
+/// longer than 0.35 of the outline, where it turns by more than one degree; and the first and the last vertex, if they
+/// end the chord, turn by more than 60 degrees and are no such nose (docs/decisions/0009).
 std::vector<std::size_t> find_corners(std::span<const Point> outline);
 
 }  // namespace lamina::surface

@@ -88,8 +88,7 @@ Decision decide(const Element& e, const ResamplingRequest& request) {
     if (e.points.size() >= min_dense_points) return {false, "they are dense"};
     const std::vector<std::size_t>& corners = e.features.corners;
     if (corners.size() == e.points.size()) return {true, "they are the corners of a polygon"};
-    if (is_jagged(e) || corners.size() + 1 == e.points.size())
-        return {false, fmt::format("{} of them are corners", corners.size())};
+    if (is_jagged(e)) return {false, fmt::format("{} of them are corners", corners.size())};
     const Sampling s = measure_sampling(e);
     if (s.max_turning_deg > request.max_turning_deg())
         return {true, fmt::format("they turn by up to {:.1f} degrees", s.max_turning_deg)};

@@ -138,6 +138,66 @@ TEST(Resampling, KeepsCorners) {
     EXPECT_TRUE(contains(prepared(kinked, resampling()).points, {0.7, 0}));
 }
 
+/// Returns a section at the stations of old tables, with a camber of this share.
+Outline at_old_stations(double thickness, double camber) {
+    const std::vector<double> stations{1,    0.95, 0.9,  0.8, 0.7,   0.6,  0.5,   0.4,    0.3,
+                                       0.25, 0.2,  0.15, 0.1, 0.075, 0.05, 0.025, 0.0125, 0};
+    const auto ordinate = [&](double x, int side) {
+        const double half =
+            5 * thickness * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x))));
+        return side * std::max(0.0, half) + 4 * camber * x * (1 - x);
+    };
+    Outline outline;
+    for (const double x : stations) outline.push_back({x, ordinate(x, 1)});
+    for (std::size_t k = stations.size() - 1; k-- > 1;) outline.push_back({stations[k], ordinate(stations[k], -1)});
+    return outline;
+}
+
+TEST(Corners, NosesAtTheStationsOfOldTablesAreRound) {
+    for (const double thickness : {0.06, 0.09, 0.12, 0.18})
+        for (const double camber : {0.0, 0.02, 0.05}) {
+            SCOPED_TRACE(std::to_string(thickness) + " " + std::to_string(camber));
+            const Outline outline = at_old_stations(thickness, camber);
+            EXPECT_EQ(surface::find_corners(outline), std::vector<std::size_t>{0});
+            Outline mirrored = outline;
+            for (Point& p : mirrored) p.x = -p.x;
+            std::reverse(mirrored.begin() + 1, mirrored.end());
+            EXPECT_EQ(surface::find_corners(mirrored), std::vector<std::size_t>{0});
+        }
+}
+
+TEST(Corners, WedgesAndLensesAreSharpAtBothEnds) {
+    Outline wedge, lens;
+    const std::size_t n = 20;
+    for (std::size_t k = 0; k <= 2 * n - 1; ++k) {
+        const double s = k <= n ? 1 - static_cast<double>(k) / n : static_cast<double>(k) / n - 1;
+        const double side = k <= n ? 1 : -1;
+        wedge.push_back({s, side * 0.2 * std::min(s, 1 - s)});
+        lens.push_back({s, side * 0.4 * s * (1 - s)});
+    }
+    for (const Outline& outline : {wedge, lens}) {
+        const auto corners = surface::find_corners(outline);
+        EXPECT_EQ(corners.front(), 0u);
+        EXPECT_TRUE(std::find(corners.begin(), corners.end(), n) != corners.end());
+    }
+}
+
+// Sections of the FX, AH and LWK families close over their last two samples, as bluntly as a nose.
+TEST(Corners, TheEndsOfAFileAreATrailingEdge) {
+    Outline outline;
+    for (std::size_t k = 0; k < 80; ++k) {
+        const double a = 6.283185307179586 * static_cast<double>(k) / 80, x = 0.5 * (1 + std::cos(a));
+        const double half = 0.1 * std::sqrt(x) * (1 - x) + 0.002 * std::sqrt(x) * std::pow(1 - x, 0.1);
+        outline.push_back({x, k <= 40 ? half : -half});
+    }
+    outline[0].y = outline[40].y = 0;
+    EXPECT_EQ(surface::find_corners(outline), std::vector<std::size_t>{0});
+    EXPECT_LT(surface::turning_angles(outline)[0], 2.1) << "so that the angle alone does not make it a corner";
+    std::rotate(outline.begin(), outline.begin() + 20, outline.end());
+    EXPECT_TRUE(surface::find_corners(outline).empty())
+        << "where the file begins elsewhere nothing tells it from a nose";
+}
+
 TEST(Resampling, ClustersAtTheTrailingEdge) {
     const Element sharp = prepared(shapes::section(0.12, 0, 15), resampling());
     const Outline& p = sharp.points;
@@ -266,6 +326,10 @@ TEST(Resampling, PolygonsKeepTheirSides) {
             EXPECT_LE(max_spacing_ratio(e.points), 1.25);
         }
     }
+    const Outline side_in_two_parts{{0, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {0, 0.5}};
+    const Element e = prepared(side_in_two_parts, SurfaceOptions{});
+    EXPECT_GT(e.points.size(), 50u);
+    for (Point p : e.points) EXPECT_LT(distance_to(side_in_two_parts, p), 1e-12);
 }
 
 TEST(Resampling, SurvivesNearDuplicates) {
