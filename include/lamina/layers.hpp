@@ -306,12 +306,15 @@ struct LayerCells {
     std::vector<std::uint16_t> quad_layer;    ///< one per quad: its layer from the wall, from 1 on
     std::vector<std::size_t> first_triangle;  ///< of each piece, then the end; empty where there is no layer
     DecompositionStats decomposition;         ///< for LayerTopology::delaunay
+    /// Whether cells of a grid would have crossed each other, so that all cells are those of LayerTopology::delaunay.
+    bool grid_refused = false;
 
     /// Returns the number of pieces.
     std::size_t pieces() const { return first_triangle.empty() ? 0 : first_triangle.size() - 1; }
 };
 
-/// Joins the points of the layer in this topology. Only the Delaunay triangulation is made in several pieces.
+/// Joins the points of the layer in this topology. Only the Delaunay triangulation is made in several pieces. Where layers
+/// are so thick that cells of the grid cross each other, all are those of LayerTopology::delaunay.
 LAMINA_EXPORT LayerCells fill_layer(const Layer& layer, LayerTopology topology,
                                     const DecompositionOptions& options = {});
 

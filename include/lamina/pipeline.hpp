@@ -112,6 +112,7 @@ struct MeshResult {
     std::size_t layer_pieces = 0;               ///< pieces that the layer was triangulated in
     std::size_t inviscid_pieces = 0;            ///< subdomains outside the layer
     DecompositionStats decomposition;           ///< of the layer
+    bool layer_grid_refused = false;            ///< as in LayerCells
     std::size_t largest_inviscid_piece = 0;     ///< triangles of the largest subdomain
     double estimates_within_15_percent = 1;     ///< share of the subdomains whose estimate was within 15 % of the truth
     std::size_t surface_vertices = 0;           ///< vertices of the walls

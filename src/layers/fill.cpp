@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <lamina/error.hpp>
+
 #include "layers/connect.hpp"
 
 namespace lamina::layers {
@@ -60,16 +62,23 @@ delaunay::pieces::PiecewiseTriangulation triangulate_layer(const Layer& layer, c
 LayerCells fill(const Layer& layer, LayerTopology topology, const DecompositionOptions& options,
                 core::BusyTimes* times) {
     if (layer.edges.region.empty()) return {};
+    bool grid_refused = false;
     if (topology != LayerTopology::delaunay) {
         const core::BusyTimes::Scope busy(times, delaunay::pieces::triangulating);
-        LayerCells cells = connect_layer(layer, topology == LayerTopology::quads ? GridCells::whole : GridCells::split);
-        cells.first_triangle = {0, cells.triangles.size()};
-        return cells;
+        try {
+            LayerCells cells =
+                connect_layer(layer, topology == LayerTopology::quads ? GridCells::whole : GridCells::split);
+            cells.first_triangle = {0, cells.triangles.size()};
+            return cells;
+        } catch (const InputError&) {
+            grid_refused = true;  // the corners of a cell are no polygon
+        }
     }
     auto triangulation = triangulate_layer(layer, options, times);
     LayerCells cells = cells_of(layer, std::move(triangulation.triangles));
     cells.first_triangle = std::move(triangulation.first);
     cells.decomposition = triangulation.stats;
+    cells.grid_refused = grid_refused;
     return cells;
 }
 

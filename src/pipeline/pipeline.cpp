@@ -92,6 +92,7 @@ void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOpt
                      MeshResult& result) {
     result.layer_pieces = cells.pieces();
     result.decomposition = cells.decomposition;
+    result.layer_grid_refused = cells.grid_refused;
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
     result.layer_coverage = layer.coverage;
     if (!options.enabled) return;

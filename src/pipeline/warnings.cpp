@@ -162,6 +162,15 @@ void warn_of_large_angles(const MeshResult& result, std::vector<Warning>& warnin
     warn(result.check.layer, Region::layer, max_layer, "of the layer");
 }
 
+void warn_of_topology(const MeshResult& result, std::vector<Warning>& warnings) {
+    if (!result.layer_grid_refused) return;
+    warnings.push_back({.code = WarningCode::topology_not_as_asked,
+                        .number = static_cast<double>(result.check.layer.cells),
+                        .unit = "cells",
+                        .message = "the layer has Delaunay triangles instead of rows, since its cells would cross each "
+                                   "other (--layer-topology): thinner or fewer layers would fit"});
+}
+
 // ---- the isotropic region ----
 
 void warn_of_refinement(const MeshResult& result, const CaseOptions& options, const SizeField& size,
@@ -244,6 +253,7 @@ std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& 
     add_reader_warnings(result.geometry, warnings);
     warn_of_surfaces(result.geometry, options.surface, warnings);
     warn_of_first_height(result, options.layer, chord, warnings);
+    warn_of_topology(result, warnings);
     warn_of_first_layer(result, warnings);
     warn_of_cut_rays(result, warnings);
     warn_of_transition(result, warnings);

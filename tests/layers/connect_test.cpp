@@ -131,6 +131,25 @@ void expect_connected(const Outline& outline, const LayerOptions& options) {
     expect_connected(shapes::geometry({outline}), options);
 }
 
+// A point far beyond the neighbouring rays, as layers much thicker than the body once made them.
+TEST(Connect, ALayerWhoseCellsWouldCrossIsTriangulated) {
+    LayerOptions options;
+    options.layers = 6;
+    options.first_height = 1e-3;
+    Layer layer = test::make_layer(shapes::geometry({shapes::section(0.12, 0, 60)}), options);
+    const std::size_t i = layer.rays[0].size() / 4;
+    const Ray &ray = layer.rays[0][i], &other = layer.rays[0][i + 3];
+    ASSERT_GE(std::min(ray.layers, other.layers), 4u);
+    Point& moved = layer.points[ray.vertex(2).index()];
+    moved = midpoint(layer.points[other.vertex(2).index()], layer.points[other.vertex(3).index()]);
+    for (LayerTopology topology : topologies) {
+        const LayerCells cells = fill_layer(layer, topology);
+        EXPECT_EQ(cells.grid_refused, topology != LayerTopology::delaunay);
+        EXPECT_TRUE(cells.quads.empty());
+        expect_cover(layer, layer.edges, cells);
+    }
+}
+
 TEST(Connect, CoversTheLayerOfAnySection) {
     for (const Outline& outline :
          {shapes::section(0.12, 0, 60), shapes::section(0.12, 0.01, 60), shapes::joukowski(0.08, 0.15, 120),
