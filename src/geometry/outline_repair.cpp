@@ -134,6 +134,20 @@ void check_closed_once(const SourcePoints& points, const std::string& file) {
                     coordinates(first.at), again->line, last.line));
 }
 
+/// Returns whether one edge runs along the whole closing edge from the last point back to the first, the other way: the
+/// other long side of a plate, whose file begins and ends at two of its corners.
+bool is_side_of_plate(const SourcePoints& points) {
+    constexpr double min_share = 0.9, max_slope = 0.05;
+    const Point closing = points.front().at - points.back().at;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Point edge = points[i].at - points[i - 1].at;
+        const double along = -dot(edge, closing);
+        if (along > min_share * squared_length(closing) && std::abs(cross(edge, closing)) < max_slope * along)
+            return true;
+    }
+    return false;
+}
+
 /// Divides the edge from the last point back to the first into edges about as long as the shorter of its neighbours.
 /// Throws InputError where that edge is too long to be a base.
 void close_outline(SourcePoints& points, const std::string& file, std::vector<std::string>& repairs) {
@@ -143,7 +157,7 @@ void close_outline(SourcePoints& points, const std::string& file, std::vector<st
     const double base = distance(last.at, first.at);
     double perimeter = 0;
     for (std::size_t i = 1; i < points.size(); ++i) perimeter += distance(points[i - 1].at, points[i].at);
-    if (base > 0.5 * perimeter)
+    if (base > 0.5 * perimeter && !is_side_of_plate(points))
         throw InputError(
             {file, last.line, last.at},
             fmt::format("the outline is open: its end is {:.3g} away from its start {} on line {}, too far "

@@ -1,5 +1,6 @@
 // The reader understands the formats and quirks of files, and repairs them.
 #include <algorithm>
+#include <cmath>
 #include <clocale>
 #include <random>
 #include <string>
@@ -210,6 +211,13 @@ TEST(Reader, ClosesAnOpenTrailingEdgeByABase) {
     EXPECT_EQ(e.lines.front(), 2u);
     EXPECT_TRUE(has_repair(e, "lines 12 and 2: open end closed from (1, -0.01) to (1, 0.01) by 2 edges, 0.02 long"));
     EXPECT_TRUE(summarize(e).blunt_trailing_edge);
+}
+
+TEST(Reader, ClosesAPlateAlongItsLongSide) {
+    const Element e = read("plate\n1 0.001\n1 -0.001\n0 -0.001\n-0.001 0\n0 0.001\n").elements[0];
+    EXPECT_GT(e.points.size(), 5u);
+    const auto above = [](Point p) { return std::abs(p.y - 0.001) < 1e-15; };
+    EXPECT_EQ(std::count_if(e.points.begin(), e.points.end(), above), static_cast<long>(e.points.size()) - 3);
 }
 
 TEST(Reader, NeverScalesOrMoves) {
