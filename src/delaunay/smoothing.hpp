@@ -131,9 +131,9 @@ private:
             if (movers_[v].state == Mover::State::moved)
                 sizes_[v] = static_cast<float>(rules_.size_at(points_[v], movers_[v].t));
         return_where_worse();
+        // Flips may have taken a vertex out of the triangle that is known of it; it stays where it is then.
         for (const Index v : returned_)
-            if (const Tri& t = tris_[movers_[v].t]; t.v[0] == v || t.v[1] == v || t.v[2] == v)
-                move(movers_[v].t, t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2);
+            if (const unsigned corner = corner_of(v); corner < 3) move(movers_[v].t, corner);
     }
 
     void find_movers() {
@@ -150,6 +150,12 @@ private:
                 movers_[tris_[t].v[next(e)]].state = movers_[tris_[t].v[previous(e)]].state = Mover::State::fixed;
             }
         }
+    }
+
+    /// Returns the place of a vertex in the triangle that is known of it, or 3.
+    unsigned corner_of(Index v) const {
+        const Tri& t = tris_[movers_[v].t];
+        return static_cast<unsigned>(std::find(t.v, t.v + 3, v) - t.v);
     }
 
     /// Moves every free vertex to the mean of its neighbours. Each of its triangles contributes one of them.
@@ -171,8 +177,7 @@ private:
         for (Index t = 0; t < tris_.size(); ++t) check_moved(t);
         for (std::size_t i = 0; i < returned_.size(); ++i) {
             const Index v = returned_[i];
-            const Tri& t = tris_[movers_[v].t];
-            find_star(movers_[v].t, t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2);
+            find_star(movers_[v].t, corner_of(v));
             for (const StarTriangle& s : star_) {
                 check_moved(s.t);
                 if (const Link outer = tris_[s.t].n[s.corner]; !outer.is_constrained()) check_moved(outer.triangle());
