@@ -140,10 +140,9 @@ private:
         movers_.assign(points_.size(), {});
         for (Index v = 0; v < first_movable_; ++v) movers_[v].state = Mover::State::fixed;
         for (Index t = 0; t < tris_.size(); ++t) {
-            for (unsigned i = 0; i < 3; ++i) {
-                Mover& mover = movers_[tris_[t].v[i]];
-                mover.t = t;
-                ++mover.degree;
+            for (const Index v : tris_[t].v) {
+                movers_[v].t = t;
+                ++movers_[v].degree;
             }
             for (unsigned e = 0; e < 3; ++e) {
                 if (!tris_[t].n[e].is_constrained()) continue;
@@ -175,8 +174,9 @@ private:
         returned_.clear();
         ill_shaped_.clear();
         for (Index t = 0; t < tris_.size(); ++t) check_moved(t);
-        for (std::size_t i = 0; i < returned_.size(); ++i) {
-            const Index v = returned_[i];
+        std::size_t looked_at = 0;
+        while (looked_at < returned_.size()) {  // more may return meanwhile
+            const Index v = returned_[looked_at++];
             find_star(movers_[v].t, corner_of(v));
             for (const StarTriangle& s : star_) {
                 check_moved(s.t);
