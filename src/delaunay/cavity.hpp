@@ -186,6 +186,7 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
                     if (triangle_count > cavity.max_triangles) {
                         cavity.triangles.set_size(0);
                         cavity.boundary.set_size(0);
+                        cavity.is_open_star = false;
                         return;
                     }
                     cavity.grow();

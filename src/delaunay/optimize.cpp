@@ -1,7 +1,9 @@
 // Smoothing of a triangulation that knows no sizes.
+#include <algorithm>
 #include <vector>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
 
 #include "core/arguments.hpp"
 #include "core/bounding_box.hpp"

@@ -1,7 +1,7 @@
 // The reader understands the formats and quirks of files, and repairs them.
 #include <algorithm>
-#include <cmath>
 #include <clocale>
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
