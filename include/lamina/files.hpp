@@ -28,7 +28,7 @@ LAMINA_EXPORT void write_file(const std::filesystem::path& file, const std::stri
 LAMINA_EXPORT void check_folder_writable(const std::filesystem::path& file);
 
 /// Removes what this process leaves behind if it is ended while it writes these files or folders: temporary files. An
-/// old folder that was to be replaced gets its name back. Never throws.
-LAMINA_EXPORT void remove_temporaries(std::span<const std::filesystem::path> targets) noexcept;
+/// old folder that was to be replaced gets its name back. Returns whether there was anything to remove. Never throws.
+LAMINA_EXPORT bool remove_temporaries(std::span<const std::filesystem::path> targets) noexcept;
 
 }  // namespace lamina

@@ -174,29 +174,36 @@ using namespace core;
 
 namespace {
 
-void remove_temporaries_of(const fs::path& target) {
+/// Returns whether there were any.
+bool remove_temporaries_of(const fs::path& target) {
     std::error_code ignored;
+    bool found = false;
     for (const fs::path& temporary :
-         {temporary_beside(behind_links(target)), temporary_beside(target), temporary_beside(target, room_purpose)})
+         {temporary_beside(behind_links(target)), temporary_beside(target), temporary_beside(target, room_purpose)}) {
+        found = fs::exists(fs::symlink_status(temporary, ignored)) || found;
         fs::remove_all(temporary, ignored);
+    }
     const fs::path replaced = temporary_beside(target, replaced_purpose);
-    if (!fs::exists(replaced, ignored)) return;
+    if (!fs::exists(replaced, ignored)) return found;
     if (fs::exists(target, ignored))
         fs::remove_all(replaced, ignored);
     else
         fs::rename(replaced, target, ignored);
+    return true;
 }
 
 }  // namespace
 
-void remove_temporaries(std::span<const fs::path> targets) noexcept {
+bool remove_temporaries(std::span<const fs::path> targets) noexcept {
+    bool found = false;
     for (const fs::path& target : targets) {
         try {
-            remove_temporaries_of(target);
+            found = remove_temporaries_of(target) || found;
         } catch (...) {
             // Only a lack of memory throws here. The other targets may still be cleaned.
         }
     }
+    return found;
 }
 
 }  // namespace lamina
