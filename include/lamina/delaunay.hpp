@@ -136,8 +136,8 @@ struct RefineOptions {
     /// trials up to max_min_angle_deg.
     double min_angle_deg = proved_min_angle_deg;
     std::size_t max_points = 200'000'000;  ///< number of Steiner points beyond which refine() throws MeshError
-    /// Largest area of a triangle, over that of the equilateral triangle whose edge is the mean of h at its vertices. The
-    /// default follows from max_circle_ratio. Where a bound of the area matters more than the mean edge, sizes of
+    /// Largest area of a triangle, over that of the equilateral triangle whose edge is the mean of h at its vertices.
+    /// The default follows from max_circle_ratio. Where a bound of the area matters more than the mean edge, sizes of
     /// size_for_area() with a ratio nearer to 1 make fewer triangles of a given largest area, which are less regular.
     double max_area_ratio = max_circle_ratio * max_circle_ratio;
     /// How often all vertices move to the means of their neighbours once triangles are made. The vertices of ill-shaped

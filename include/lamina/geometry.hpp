@@ -79,8 +79,8 @@ LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const GeometryOptions& options);
 
-/// Reads every input, which is a path, "-" for standard input, or `naca:DIGITS[:POINTS][:blunt|:extended]`, and repairs,
-/// orients, names and checks its elements. Coordinates are neither scaled nor moved. Throws InputError for input that
+/// Reads every input, which is a path, "-" for standard input, or `naca:DIGITS[:POINTS][:blunt|:extended]`, and
+/// repairs, orients, names and checks its elements. Coordinates are neither scaled nor moved. Throws InputError for input that
 /// cannot be repaired (no or too few points, NaN, an outline that crosses itself, elements that cross or contain each
 /// other, coordinates outside the exact range of predicates.hpp), IoError for files that cannot be read, UsageError for
 /// names that are no markers.
@@ -99,8 +99,8 @@ enum class TrailingEdge {
 /// Returns the NACA 4-digit ("0012") or 5-digit ("23012", reflexed "23112") section of unit chord with cosine spacing.
 /// The points start at the trailing edge and run over the upper surface first. Both surfaces get the same number, so
 /// `points` (surface points without the repeated trailing edge and without those inside a base) is rounded up to an
-/// even number for `sharp` and `extended`, and to an odd one for `blunt`. The surfaces of symmetric sections are mirror images exactly.
-/// Throws UsageError for digits that name no section and for fewer than 6 or more than 10 million points.
+/// even number for `sharp` and `extended`, and to an odd one for `blunt`. The surfaces of symmetric sections are mirror
+/// images exactly. Throws UsageError for digits that name no section and for fewer than 6 or more than 10 million points.
 /// Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935); `extended`: the
 /// NACA 0012 of the NASA Turbulence Modeling Resource, 11.894 % thick.
 LAMINA_EXPORT Element naca_airfoil(const std::string& digits, std::size_t points,

@@ -313,8 +313,8 @@ struct LayerCells {
     std::size_t pieces() const { return first_triangle.empty() ? 0 : first_triangle.size() - 1; }
 };
 
-/// Joins the points of the layer in this topology. Only the Delaunay triangulation is made in several pieces. Where layers
-/// are so thick that cells of the grid cross each other, all are those of LayerTopology::delaunay.
+/// Joins the points of the layer in this topology. Only the Delaunay triangulation is made in several pieces. Where
+/// layers are so thick that cells of the grid cross each other, all are those of LayerTopology::delaunay.
 LAMINA_EXPORT LayerCells fill_layer(const Layer& layer, LayerTopology topology,
                                     const DecompositionOptions& options = {});
 

@@ -127,15 +127,15 @@ SignalGuard::~SignalGuard() {
 }
 
 void SignalGuard::wait_for_signals() {
+    constexpr int max_passes = 1000;
     int signal = 0;
     do {
         if (sigwait(&signals_, &signal) != 0) return;
         if (ended_) return;
     } while (signal == SIGRTMIN);
     // The run goes on meanwhile, and may make one file after another; so the last pass finds nothing.
-    constexpr int max_passes = 1000;
-    for (int pass = 0; (remove_temporaries(outputs_) || pass == 0) && pass < max_passes; ++pass) {
-    }
+    remove_temporaries(outputs_);
+    for (int more = max_passes; more > 0 && remove_temporaries(outputs_); --more) continue;
     std::error_code ignored;
     for (const fs::path& folder : missing_folders_) fs::remove(folder, ignored);  // fails unless it is empty
     // The process ends as if the signal had not been caught, so that shells and scripts see it.

@@ -180,8 +180,8 @@ bool remove_temporaries_of(const fs::path& target) {
     bool found = false;
     for (const fs::path& temporary :
          {temporary_beside(behind_links(target)), temporary_beside(target), temporary_beside(target, room_purpose)}) {
-        found = fs::exists(fs::symlink_status(temporary, ignored)) || found;
-        fs::remove_all(temporary, ignored);
+        const auto removed = fs::remove_all(temporary, ignored);
+        found = found || (!ignored && removed > 0);
     }
     const fs::path replaced = temporary_beside(target, replaced_purpose);
     if (!fs::exists(replaced, ignored)) return found;

@@ -24,6 +24,11 @@ struct CellShape {
 /// The shape of a cell without area.
 inline constexpr CellShape flat_shape{0, 0, 180, std::numeric_limits<double>::infinity(), 0};
 
+/// Returns the mean ratio of a triangle from twice its area and the sum of its squared edges.
+constexpr double mean_ratio(double twice_area, double squared_edges) {
+    return 2 * std::numbers::sqrt3 * twice_area / squared_edges;
+}
+
 /// Measures a counter-clockwise triangle, angles to 1e-12 degrees. A triangle whose area rounds to 0 or less gets
 /// flat_shape.
 inline CellShape measure_triangle(Point a, Point b, Point c) {
@@ -40,7 +45,7 @@ inline CellShape measure_triangle(Point a, Point b, Point c) {
             .min_angle_deg = std::max(0.0, smallest),
             .max_angle_deg = 180 - smallest - medium,
             .aspect_ratio = longest / twice_area,
-            .mean_ratio = 2 * std::numbers::sqrt3 * twice_area / (bc + ca + ab)};
+            .mean_ratio = mean_ratio(twice_area, bc + ca + ab)};
 }
 
 }  // namespace lamina::core

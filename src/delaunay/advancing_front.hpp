@@ -69,8 +69,8 @@ public:
     TriangleFifo met;    ///< those among them whose new vertex would have been too near to another front
 
 private:
-    /// The base of a triangle and large_bit, or none where it is not large. Unlike a plain byte it aliases nothing else,
-    /// so compilers keep other values in registers.
+    /// The base of a triangle and large_bit, or none where it is not large. Unlike a plain byte it aliases nothing
+    /// else, so compilers keep other values in registers.
     enum class Base : std::uint8_t { none = 0 };
     static constexpr unsigned large_bit = 4;
     std::vector<Base> bases_;

@@ -219,7 +219,8 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
 }
 
 /// Replaces the triangles of the cavity by the fan of triangles (p, a, b) over its boundary. Edge 0 of each new
-/// triangle is its edge of the boundary. Calls visit(t, a, b) for each new triangle t on the edge from CavityEdge a to b.
+/// triangle is its edge of the boundary. Calls visit(t, a, b) for each new triangle t on the edge from CavityEdge a to
+/// CavityEdge b.
 template <class Visit>
 void fill_cavity(Tris& tris, Cavity& cavity, Index p, const Visit& visit) {
     const std::size_t old_count = tris.size();

@@ -6,11 +6,11 @@
 namespace lamina::delaunay {
 
 /// Lattice edges have at most the first share of h, so that their mean is h where sizes pass through the levels. Those
-/// that serve the commonest size have the second one: a little more than 1, which lets refinement close the seams beside
-/// them without too many short edges (docs/decisions/0002).
+/// that serve the commonest size have the second one: a little more than 1, which lets refinement close the seams
+/// beside them without too many short edges (docs/decisions/0002).
 inline constexpr double largest_lattice_share = 1.07, commonest_lattice_share = 1.02;
-/// Where areas are bounded (RefineOptions::max_area_ratio), lattice edges are this share of the longest that keep the
-/// bound, so that there are few triangles. The rest is room for refinement to close the seams.
+/// The edges of lattices have this share of the longest edge that a bound of the area admits, where the user gives one
+/// (RefineOptions::max_area_ratio). A share near 1 makes few triangles; the rest lets refinement close the seams.
 inline constexpr double largest_area_share = 0.97;
 /// The ratio of the edge lengths of successive levels: sqrt(4/3), a third in area.
 inline constexpr double level_ratio = 1.1547005383792517;

@@ -12,6 +12,7 @@
 #include "delaunay/link_triangles.hpp"
 #include "delaunay/refiner.hpp"
 #include "delaunay/smoothing.hpp"
+#include "delaunay/triangle_shape.hpp"
 
 namespace lamina {
 

@@ -12,7 +12,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -25,6 +24,7 @@
 #include "delaunay/angle_queue.hpp"
 #include "delaunay/cavity.hpp"
 #include "delaunay/smoothing.hpp"
+#include "delaunay/triangle_shape.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -36,23 +36,6 @@ namespace lamina::delaunay {
 /// refiner multiplies coordinates by it, which is exact, so that squares and cubes of areas neither overflow nor vanish
 /// wherever the coordinates lie in their range (docs/decisions/0005).
 double unit_scale(double extent);
-
-/// Returns whether a triangle's smallest angle is below a bound, given the squared sine of the bound, the squared edges
-/// and twice the area: sin^2 of the smallest angle is (2 area)^2 / (product of the two longer squared edges).
-inline bool is_angle_below(double squared_sine, double ab, double bc, double ca, double shortest, double area2) {
-    return area2 * area2 * shortest < squared_sine * (ab * bc * ca);
-}
-
-/// The measures of a triangle that the decisions hang on.
-struct TriangleShape {
-    std::array<double, 3> squared;  ///< squared length of edge e
-    double area2;                   ///< twice the area
-    /// Returns the shortest edge.
-    unsigned shortest() const {
-        const unsigned m = squared[1] < squared[0] ? 1 : 0;
-        return squared[2] < squared[m] ? 2 : m;
-    }
-};
 
 /// Refines a triangulation whose borders are constrained edges or edges without a neighbour. The derived class knows
 /// the borders and the sizes; its members, all found at compile time, are
@@ -100,10 +83,7 @@ protected:
         mend_narrow();
     }
 
-    TriangleShape shape_of(const Tri& t) const {
-        const Point a = points_[t.v[0]], b = points_[t.v[1]], c = points_[t.v[2]];
-        return {{squared_length(c - b), squared_length(a - c), squared_length(b - a)}, cross(b - a, c - a)};
-    }
+    TriangleShape shape_of(const Tri& t) const { return delaunay::shape_of(points_, t); }
 
     double size_sum(const Tri& t) const {
         return static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]];
@@ -294,8 +274,8 @@ private:
         return std::clamp(2 * size_at_ends - at_apex, min_change * size_at_ends, max_change * size_at_ends);
     }
 
-    /// Returns the point p over the base u-v of a large triangle from which both ends of the base are as far as the mean
-    /// of h at p and there, or the circumcentre, if that is nearer to the base.
+    /// Returns the point p over the base u-v of a large triangle from which both ends of the base are as far as the
+    /// mean of h at p and there, or the circumcentre, if that is nearer to the base.
     ///
     ///               w
     ///             .'  '.           The point lies beside the bisector if h differs at u and v. The

@@ -1,5 +1,5 @@
-// Smoothing: vertices of a refined triangulation move to where the triangles round them are better, and edges flip until
-// the triangulation is Delaunay again.
+// Smoothing: vertices of a refined triangulation move to where the triangles round them are better, and edges flip
+// until the triangulation is Delaunay again.
 //
 //        o-------o               o-------o
 //       / \     / \             / \     / \         The vertex v moves to the mean of its neighbours, if the triangles
@@ -24,12 +24,13 @@
 
 #include "core/predicates.hpp"
 #include "delaunay/cavity.hpp"
+#include "delaunay/triangle_shape.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
 
-/// The arrays of a triangulation that smoothing changes. Vertices before `first_movable`, and those on constrained edges
-/// and borders, stay where they are.
+/// The arrays of a triangulation that smoothing changes. Vertices before `first_movable`, and those on constrained
+/// edges and borders, stay where they are.
 struct SmoothedArrays {
     std::vector<Point>& points;
     std::vector<float>& sizes;  ///< h at each point
@@ -65,8 +66,8 @@ public:
         mend_ill_shaped();
     }
 
-    /// Moves the vertices of ill-shaped triangles one by one, a few times, where this makes the worst triangle round them
-    /// better.
+    /// Moves the vertices of ill-shaped triangles one by one, a few times, where this makes the worst triangle round
+    /// them better.
     void mend() {
         ill_shaped_.clear();
         for (Index t = 0; t < tris_.size(); ++t)
@@ -100,8 +101,8 @@ private:
         State state = State::moved;
     };
 
-    /// Twice the area of an equilateral triangle over the sum of its squared edges. The mean ratio of a triangle is this
-    /// ratio of its own, divided by that of the equilateral one.
+    /// Twice the area of an equilateral triangle over the sum of its squared edges. The mean ratio of a triangle is its
+    /// own ratio of this kind, divided by that of the equilateral one.
     static constexpr double equilateral_ratio = 0.28867513459481287;
     static constexpr double min_ratio = min_mean_ratio * equilateral_ratio;
     /// A move of one vertex has to improve the worst ratio by this factor, so that rounding moves nothing for ever.
@@ -112,11 +113,8 @@ private:
     static constexpr unsigned rounds_at_once = 5;
     static constexpr unsigned mending_rounds = 3;
 
-    double ratio_of(const Tri& t, const std::vector<Point>& points) const {
-        const Point a = points[t.v[0]], b = points[t.v[1]], c = points[t.v[2]];
-        return cross(b - a, c - a) / (squared_length(c - b) + squared_length(a - c) + squared_length(b - a));
-    }
-    bool is_ill_shaped(Index t) const { return !(ratio_of(tris_[t], points_) >= min_ratio); }
+    static double ratio_of(const TriangleShape& s) { return s.area2 / s.squared_sum(); }
+    bool is_ill_shaped(Index t) const { return !(ratio_of(shape_of(points_, tris_[t])) >= min_ratio); }
 
     // ---- all vertices together ----------------------------------------------------------------------------------
 
@@ -168,8 +166,8 @@ private:
             if (movers_[v].state == Mover::State::moved) points[v] = (1.0 / movers_[v].degree) * sums[v];
     }
 
-    /// Sends vertices back to where they were until all triangles of moved ones are allowed, Delaunay, and not ill-shaped
-    /// or not worse than before. Notes ill-shaped triangles.
+    /// Sends vertices back to where they were until all triangles of moved ones are allowed, Delaunay, and not
+    /// ill-shaped or not worse than before. Notes ill-shaped triangles.
     void return_where_worse() {
         returned_.clear();
         ill_shaped_.clear();
@@ -185,23 +183,21 @@ private:
         }
     }
 
-    /// Sends the vertices of a triangle back if it is not as it should be. An edge between two acute angles is Delaunay,
-    /// so only edges opposite obtuse ones are looked at.
+    /// Sends the vertices of a triangle back if it is not as it should be. An edge between two acute angles is
+    /// Delaunay, so only edges opposite obtuse ones are looked at.
     void check_moved(Index t) {
         constexpr double acute = 1 - 1e-9;  // far beyond rounding
         const Tri& tri = tris_[t];
-        const Point a = points_[tri.v[0]], b = points_[tri.v[1]], c = points_[tri.v[2]];
-        const double aa = squared_length(c - b), bb = squared_length(a - c), cc = squared_length(b - a);
-        const double area2 = cross(b - a, c - a), sum = aa + bb + cc;
-        bool is_good = rules_.is_allowed(aa, bb, cc, area2, size_sum(tri)) && !is_blocked(tri);
-        if (!(area2 >= min_ratio * sum)) {
+        const TriangleShape shape = shape_of(points_, tri);
+        const double sum = shape.squared_sum();
+        bool is_good = is_allowed(tri, shape);
+        if (!(shape.area2 >= min_ratio * sum)) {
             ill_shaped_.push_back(t);
-            is_good = is_good && area2 >= ratio_of(tri, old_points_) * sum;
+            is_good = is_good && shape.area2 >= ratio_of(shape_of(old_points_, tri)) * sum;
         }
         if (!is_good) send_back(tri);
-        const double longest = std::max({aa, bb, cc});
-        if (2 * longest < acute * sum) return;
-        const unsigned e = longest == aa ? 0 : longest == bb ? 1 : 2;
+        const unsigned e = shape.longest();
+        if (2 * shape.squared[e] < acute * sum) return;
         if (is_delaunay(t, e)) return;
         send_back(tri);
         send_back(tris_[tri.n[e].triangle()]);
@@ -354,10 +350,13 @@ private:
 
     /// Returns whether a triangle that a flip has made is allowed and not worse than the bound.
     bool is_good(const Tri& t, double ratio_bound) const {
-        const Point a = points_[t.v[0]], b = points_[t.v[1]], c = points_[t.v[2]];
-        const double aa = squared_length(c - b), bb = squared_length(a - c), cc = squared_length(b - a),
-                     area2 = cross(b - a, c - a);
-        return area2 >= ratio_bound * (aa + bb + cc) && rules_.is_allowed(aa, bb, cc, area2, size_sum(t)) &&
+        const TriangleShape shape = shape_of(points_, t);
+        return shape.area2 >= ratio_bound * shape.squared_sum() && is_allowed(t, shape);
+    }
+
+    /// Returns whether a triangle keeps its bounds, and none of its vertices is too near to a constrained edge.
+    bool is_allowed(const Tri& t, const TriangleShape& shape) const {
+        return rules_.is_allowed(shape.squared[0], shape.squared[1], shape.squared[2], shape.area2, size_sum(t)) &&
                !is_blocked(t);
     }
 

@@ -128,10 +128,11 @@ NacaSurfaces make_surfaces(const NacaSection& section, std::size_t n, TrailingEd
         // (1 - cos 2a) / 2 = sin^2 a has no cancellation at the leading edge.
         const double s = core::sin_reproducible(core::pi * static_cast<double>(k) / static_cast<double>(2 * n));
         const double x = k == n ? 1.0 : s * s;
-        const double s_x = length * x;
+        const double stretched = length * x;
         const double half_thickness =
             5 * section.thickness *
-            (0.2969 * std::sqrt(s_x) + s_x * (-0.1260 + s_x * (-0.3516 + s_x * (0.2843 + s_x * last_coefficient)))) /
+            (0.2969 * std::sqrt(stretched) +
+             stretched * (-0.1260 + stretched * (-0.3516 + stretched * (0.2843 + stretched * last_coefficient)))) /
             length;
         // Rounding must open no gap at x = 1.
         const double t = k == n && trailing_edge != TrailingEdge::blunt ? 0.0 : half_thickness;

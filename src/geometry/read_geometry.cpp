@@ -18,7 +18,7 @@ namespace lamina::geometry {
 
 namespace {
 
-/// Samples of a section that does not give its number of points: a spline through them stays within 1e-11 chords of the
+/// Samples of a section that does not give its number of points: a spline through them stays within 1e-10 chords of the
 /// formula.
 constexpr std::size_t many_samples = 2000;
 

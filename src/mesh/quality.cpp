@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace lamina::mesh {
@@ -43,9 +42,8 @@ CellShape measure_quad(Point a, Point b, Point c, Point d) {
 }
 
 double shape_of_triangle(Point a, Point b, Point c) {
-    constexpr double two_sqrt_3 = 2 * std::numbers::sqrt3;
     const double squares = squared_length(b - a) + squared_length(c - b) + squared_length(a - c);
-    return squares > 0 ? std::max(0.0, two_sqrt_3 * cross(b - a, c - a) / squares) : 0.0;
+    return squares > 0 ? std::max(0.0, core::mean_ratio(cross(b - a, c - a), squares)) : 0.0;
 }
 
 double shape_of_quad(Point a, Point b, Point c, Point d) {

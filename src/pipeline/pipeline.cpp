@@ -135,8 +135,8 @@ void require_valid(const MeshCheck& check) {
         first.at);
 }
 
-/// Returns the mean length of isotropic edges over h at their middles, of evenly chosen triangles: so many that the mean
-/// is known within 0.5 %. Returns 0 where there are none.
+/// Returns the mean length of isotropic edges over h at their middles, of evenly chosen triangles: so many that the
+/// mean is known within 0.5 %. Returns 0 where there are none.
 double mean_edge_over_size(const Mesh& mesh, const SizeField& size) {
     constexpr std::size_t sampled_triangles = 4096;
     const std::size_t stride = 1 + mesh.triangles.size() / sampled_triangles;

@@ -34,8 +34,8 @@ constexpr double min_turning_of_long_sides = core::radians(1);
 constexpr double min_nose_power = 0.35, max_nose_power = 0.7;
 /// Beside the foremost sample of a nose the outline turns on, by an angle between these.
 constexpr double min_turning_beside_nose = core::radians(5), max_turning_beside_nose = core::radians(60);
-/// The first and the last vertex of a file are a trailing edge if they end the chord, but for this share of it, and turn
-/// by more than the angle.
+/// The first and the last vertex of a file are a trailing edge if they end the chord, but for this share of it, and
+/// turn by more than the angle.
 constexpr double end_share = 1e-3;
 constexpr double min_turning_of_ends = core::radians(60);
 
@@ -114,8 +114,8 @@ private:
     double turning_as(std::size_t i, std::size_t j) const { return turning_[i] > 0 ? turning_[j] : -turning_[j]; }
     bool is_certain(std::size_t i) const { return std::abs(turning_[i]) > min_certain_turning; }
 
-    /// Returns whether the neighbour j of i hardly turns to the same side. A neighbour that is a certain corner counts as
-    /// straight, since it bends no curve.
+    /// Returns whether the neighbour j of i hardly turns to the same side. A neighbour that is a certain corner counts
+    /// as straight, since it bends no curve.
     bool is_straight(std::size_t i, std::size_t j) const {
         const double angle = std::abs(turning_[i]), same_side = turning_as(i, j);
         return same_side > min_certain_turning || same_side < max_straight_share * std::min(angle, core::pi - angle);

@@ -7,6 +7,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
+#include "core/cell_shape.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulation_checks.hpp"
 
@@ -15,11 +16,9 @@ namespace {
 
 double mean_ratio(std::span<const Point> points, std::span<const Triangle> triangles) {
     double sum = 0;
-    for (const Triangle& t : triangles) {
-        const Point a = points[t.v[0].index()], b = points[t.v[1].index()], c = points[t.v[2].index()];
-        sum += 2 * std::sqrt(3.0) * cross(b - a, c - a) /
-               (squared_length(b - a) + squared_length(c - b) + squared_length(a - c));
-    }
+    for (const Triangle& t : triangles)
+        sum +=
+            core::measure_triangle(points[t.v[0].index()], points[t.v[1].index()], points[t.v[2].index()]).mean_ratio;
     return sum / static_cast<double>(triangles.size());
 }
 

@@ -138,14 +138,17 @@ TEST(Resampling, KeepsCorners) {
     EXPECT_TRUE(contains(prepared(kinked, resampling()).points, {0.7, 0}));
 }
 
+/// Returns half the thickness of a NACA section at x, with this last coefficient.
+double naca_half_thickness(double thickness, double x, double last = -0.1036) {
+    return 5 * thickness * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * last))));
+}
+
 /// Returns a section at the stations of old tables, with a camber of this share.
 Outline at_old_stations(double thickness, double camber) {
     const std::vector<double> stations{1,    0.95, 0.9,  0.8, 0.7,   0.6,  0.5,   0.4,    0.3,
                                        0.25, 0.2,  0.15, 0.1, 0.075, 0.05, 0.025, 0.0125, 0};
     const auto ordinate = [&](double x, int side) {
-        const double half =
-            5 * thickness * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x))));
-        return side * std::max(0.0, half) + 4 * camber * x * (1 - x);
+        return side * std::max(0.0, naca_half_thickness(thickness, x)) + 4 * camber * x * (1 - x);
     };
     Outline outline;
     for (const double x : stations) outline.push_back({x, ordinate(x, 1)});
@@ -249,13 +252,13 @@ TEST(Resampling, SectionsWithAFormulaGetTheWallTheyNeed) {
         EXPECT_LT(e.points.size(), 500u);
         EXPECT_LE(max_turning_deg(e.points), options.max_turning_deg);
         EXPECT_LE(max_spacing_ratio(e.points), options.max_ratio);
+        EXPECT_TRUE(contains(e.points, {0, 0})) << "the nose";
         const double thickness = std::stod(std::string(input).substr(7, 2)) / 100;
         const bool extended = std::string(input).ends_with("extended");
         const double length = extended ? 1.0089304115 : 1, last = extended ? -0.1015 : -0.1036;
         for (const Point p : e.points) {
             const double x = length * p.x;
-            const double y = 5 * thickness / length *
-                             (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 + x * last))));
+            const double y = naca_half_thickness(thickness, x, last) / length;
             // The formula is steep at the nose, so that the distance from the curve is less than the difference in y.
             const double slope = 5 * thickness * 0.5 * 0.2969 / std::sqrt(std::max(x, 1e-12));
             EXPECT_NEAR(std::abs(p.y), y, 1e-10 * (1 + slope)) << p.x;
