@@ -80,10 +80,10 @@ LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 LAMINA_EXPORT void validate(const GeometryOptions& options);
 
 /// Reads every input, which is a path, "-" for standard input, or `naca:DIGITS[:POINTS][:blunt|:extended]`, and
-/// repairs, orients, names and checks its elements. Coordinates are neither scaled nor moved. Throws InputError for input that
-/// cannot be repaired (no or too few points, NaN, an outline that crosses itself, elements that cross or contain each
-/// other, coordinates outside the exact range of predicates.hpp), IoError for files that cannot be read, UsageError for
-/// names that are no markers.
+/// repairs, orients, names and checks its elements. Coordinates are neither scaled nor moved. Throws InputError for
+/// input that cannot be repaired (no or too few points, NaN, an outline that crosses itself, elements that cross or
+/// contain each other, coordinates outside the exact range of predicates.hpp), IoError for files that cannot be read,
+/// UsageError for names that are no markers.
 LAMINA_EXPORT Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
 
 /// Reads one file, which may hold several elements. Takes the same steps and throws the same errors as read_geometry().
@@ -96,13 +96,20 @@ enum class TrailingEdge {
     extended,  ///< the published thickness is continued to where it vanishes, at x = 1.0089, and scaled back to x = 1
 };
 
+/// A stretch of the wall of an element, with the largest spacing of its vertices there.
+struct WallSpacing {
+    std::size_t element;  ///< index in Geometry::elements
+    Point a, b;           ///< the ends of the stretch, on the wall or near to it
+    double spacing;       ///< in units of the input
+};
+
 /// Returns the NACA 4-digit ("0012") or 5-digit ("23012", reflexed "23112") section of unit chord with cosine spacing.
 /// The points start at the trailing edge and run over the upper surface first. Both surfaces get the same number, so
 /// `points` (surface points without the repeated trailing edge and without those inside a base) is rounded up to an
 /// even number for `sharp` and `extended`, and to an odd one for `blunt`. The surfaces of symmetric sections are mirror
-/// images exactly. Throws UsageError for digits that name no section and for fewer than 6 or more than 10 million points.
-/// Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935); `extended`: the
-/// NACA 0012 of the NASA Turbulence Modeling Resource, 11.894 % thick.
+/// images exactly. Throws UsageError for digits that name no section and for fewer than 6 or more than 10 million
+/// points. Source: Jacobs, Ward, Pinkerton, NACA Report 460 (1933); Jacobs, Pinkerton, NACA Report 537 (1935);
+/// `extended`: the NACA 0012 of the NASA Turbulence Modeling Resource, 11.894 % thick.
 LAMINA_EXPORT Element naca_airfoil(const std::string& digits, std::size_t points,
                                    TrailingEdge trailing_edge = TrailingEdge::sharp);
 

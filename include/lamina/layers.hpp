@@ -116,6 +116,7 @@ struct HeightColumn {
     std::uint32_t layers = 0;  ///< number of layers requested
     double growth = 0;         ///< as Ray::growth
     double stretch = 1;        ///< as Ray::stretch
+    double slant = 1;          ///< as Ray::slant
 };
 
 /// The heights of the requested layers, ray by ray. Rays with the same heights share a part of the table.
@@ -181,6 +182,16 @@ LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& optio
 /// Grows rays with the growth that the options request round this geometry.
 LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& options = {});
 
+/// A circle.
+struct Circle {
+    Point middle;
+    double radius = 0;
+};
+
+/// Lowers the limits of the rays that end in one of these circles to a part of their heights, leads the limits over to
+/// those beside, and finds the numbers of layers anew. Returns how many rays it lowered.
+LAMINA_EXPORT std::size_t shorten_rays(std::span<const Circle> places, Rays& rays);
+
 /// Returns, for each element, its front: the closed polygon through the tips of its rays, counter-clockwise.
 LAMINA_EXPORT std::vector<std::vector<Point>> fronts(const Rays& rays);
 
@@ -194,10 +205,6 @@ struct BorderOptions {
     /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance.
     double gradation = 0.1;
     double max_edge = HUGE_VAL;  ///< largest length of an edge, in units of the input
-    /// On resampled elements, a further ray stands on the wall below each point where this `gradation` would divide an
-    /// edge. Rows of cells then run on to the wall instead of fanning out below division points (docs/decisions/0017).
-    /// Empty: no further rays.
-    std::optional<double> ray_gradation{};
     /// No edge is longer than size + gradation x distance of any of these sources. An edge may exceed that by up to a
     /// tenth, since division points shift towards the lengths beside them.
     std::vector<SizeSource> sources{};
@@ -205,6 +212,10 @@ struct BorderOptions {
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const BorderOptions& options);
+
+/// Layers on a ray that leaves the wall's edges at an angle are at most this many times as high along the ray as above
+/// the edges.
+inline constexpr double max_slant = 2;
 
 /// On a ray that is cut short, the growth differs from the requested growth by at most this factor.
 inline constexpr double max_stretch = 1.019;
@@ -219,9 +230,12 @@ struct Ray {
     std::size_t first_point;  ///< Layer::points[first_point + n] lies at the top of layer n + 1
     double height_limit;      ///< no point lies beyond this height; infinite where nothing is in the way
     /// The growth law gives the ratio of each spacing to the one below; the ray's own ratio is `stretch` times that.
-    /// `stretch` is 1 on rays with all their layers. On the others it is within max_stretch of 1, and lets the layers
-    /// end at the limit.
+    /// `stretch` is 1 on rays with all the layers of a requested number. On the others it is within max_stretch of 1,
+    /// and lets the layers end at the limit or, where no number is requested, at the height of isotropy.
     double stretch = 1;
+    /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
+    /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
+    double slant = 1;
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
     VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }
@@ -289,9 +303,28 @@ struct Layer {
 /// Returns the edges of the walls and borders of a layer: Layer::edges.
 LAMINA_EXPORT LayerEdges layer_edges(const Layer& layer);
 
-/// Places the points on the rays and divides the fronts, which become outer borders that can be frozen. Adds rays where
-/// options.ray_gradation requests them. Throws OptionError for options out of range.
+/// Returns the spacings of resampled walls with which their fronts would need no division by these options, wherever
+/// they need one: limits for the stage "prepare" (docs/decisions/0017). Throws OptionError for options out of range.
+LAMINA_EXPORT std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options);
+
+/// Places the points on the rays and divides the fronts, which become outer borders that can be frozen. Throws
+/// OptionError for options out of range.
 LAMINA_EXPORT Layer close_border(Rays rays, const BorderOptions& options = {});
+
+/// Neighbouring columns end evenly where their ends differ in height by at most this share of a last cell.
+inline constexpr double even_border_step = 1.0 / 3;
+
+/// How evenly the layer ends. A column lies between two neighbouring rays.
+struct BorderSteps {
+    std::size_t columns = 0;         ///< number of columns in which layers were requested
+    std::size_t full_columns = 0;    ///< number of those with all their layers on both rays
+    std::size_t uneven_columns = 0;  ///< number of columns whose two ends differ by more than even_border_step
+    double max_step = 0;             ///< largest difference, over the higher last spacing of the two rays
+    Point max_step_at{};             ///< end of the first of these rays
+};
+
+/// Measures how evenly a layer ends.
+LAMINA_EXPORT BorderSteps border_steps(const Layer& layer);
 
 /// Returns, for each element, the points of its closed outer border.
 LAMINA_EXPORT std::vector<std::vector<Point>> border_loops(const Layer& layer);

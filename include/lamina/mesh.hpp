@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ enum class MarkerKind : std::uint8_t {
     symmetry,   ///< a line of symmetry
     other       ///< unknown
 };
+
+/// Returns whether a marker of this kind counts as a wall: unless it is a far field or a symmetry.
+constexpr bool may_be_wall(MarkerKind kind) { return kind == MarkerKind::wall || kind == MarkerKind::other; }
 
 /// A named part of the boundary.
 struct Marker {
@@ -90,6 +94,26 @@ struct TransitionSummary {
     double p99_area_ratio = 0;     ///< 99th percentile
 };
 
+/// Neighbouring wall edges are even where the ratio of their lengths is at most this.
+inline constexpr double even_wall_ratio = 1.25;
+/// The height of a first cell is kept where it differs from the one wanted by at most this share.
+inline constexpr double first_height_tolerance = 0.01;
+
+/// How evenly the walls are divided, and how high the cells on them are. A marker counts as a wall unless it is a far
+/// field or a symmetry.
+struct WallSummary {
+    std::size_t edges = 0;  ///< number of edges on walls
+    double max_ratio = 1;   ///< largest ratio of the lengths of neighbouring edges, but across the corners of bases
+    Point max_ratio_at{};   ///< the vertex between the two
+    std::size_t uneven_vertices = 0;  ///< number of vertices where this ratio exceeds even_wall_ratio
+    std::size_t first_cells = 0;      ///< number of edges with a cell of the first layer; the rest is about these
+    double median_first_height = 0;   ///< height over the wall's edge, in units of the input
+    /// Share of the heights within first_height_tolerance of MeshCheckOptions::first_height, or of the median.
+    double share_of_kept_heights = 1;
+    double worst_first_height = 1;  ///< the height that differs most, over the height wanted
+    Point worst_first_height_at{};  ///< the wall vertex at its edge's start
+};
+
 /// The result of check_mesh().
 struct MeshCheck {
     std::vector<MeshDefect> defects;      ///< the first 20; empty: the mesh is valid
@@ -104,6 +128,7 @@ struct MeshCheck {
     std::size_t delaunay_violations = 0;  ///< number of those with a vertex strictly inside the opposite circle (exact)
     /// Number of boundary edges of layer cells that reach beyond layer 1, where the first height is not kept.
     std::size_t edges_without_first_layer = 0;
+    WallSummary walls;  ///< of all edges of walls
 
     /// Returns whether the mesh has no defects.
     bool valid() const { return defect_count == 0; }
@@ -112,6 +137,8 @@ struct MeshCheck {
 /// Options of check_mesh().
 struct MeshCheckOptions {
     double min_angle_deg = proved_min_angle_deg;  ///< bound of QualitySummary::angles_below_bound
+    /// The height that first cells should have, in units of the input; empty: their median.
+    std::optional<double> first_height{};
 };
 
 /// Returns the table of these options, with names, ranges and help.

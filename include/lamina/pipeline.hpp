@@ -68,6 +68,10 @@ LAMINA_EXPORT SpacingLimits spacing_limits(const CaseOptions& options, const Lay
 /// close_border().
 LAMINA_EXPORT BorderOptions border_options(const CaseOptions& options, std::span<const SizeSource> sources);
 
+/// Returns the same for spacings of the walls below that border, which grow no more slowly than sizes near bodies
+/// should: an argument of wall_spacings().
+LAMINA_EXPORT BorderOptions wall_border_options(const CaseOptions& options, std::span<const SizeSource> sources);
+
 /// Returns the bodies in the form that the sizing stage takes.
 LAMINA_EXPORT SizedBodies sized_bodies(const Geometry& geometry);
 
@@ -119,6 +123,8 @@ struct MeshResult {
     double first_height = 0;                    ///< of the layers; 0 without layers
     std::optional<YPlus> y_plus;                ///< the flow that the first height follows from, with its chord
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
+    BorderSteps border_steps;                     ///< of the layer's outer border
+    std::size_t thinned_rays = 0;                 ///< rays shortened so that triangles beyond keep the bound on angles
     RefineStats refinement;                       ///< summed over the subdomains
     double mean_edge_over_size = 0;               ///< mean isotropic edge over h at its middle, of a sample; 0: no edge
     RunEstimate estimate;                         ///< made before the work

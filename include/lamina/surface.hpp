@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <lamina/geometry.hpp>
 
@@ -50,6 +51,7 @@ struct SpacingLimits {
     /// Length, in units of the input, of the layer's border edges over the fan of rays at sharp corners. The spacing at
     /// sharp corners equals it, between a quarter of sharp_corner_spacing and corner_spacing.
     std::optional<double> fan_spacing{};
+    std::vector<WallSpacing> walls{};  ///< spacings of stretches of resampled walls; they grow by the gradation beside
 };
 
 /// Keeps or resamples each element, as the options say, and finds its features. Element::surface_notes tells which of

@@ -24,6 +24,7 @@ struct MeshCase {
     ProgressShown progress = ProgressShown::automatic;
     bool quiet = false;              ///< whether the summary is left out
     bool strict = false;             ///< whether warnings make the run fail
+    bool allow_defects = false;      ///< whether a mesh with angles below the bound is written
     std::vector<std::string> given;  ///< names of the options that a case file or the command line gave
 };
 

@@ -30,7 +30,7 @@ struct CheckArguments {
     std::vector<std::string> walls;
     std::string far_field;
     bool require_delaunay = false;
-    std::string min_angle;
+    std::string min_angle, first_height;
 };
 
 /// The requirements of the user, beyond validity, that the mesh does not meet.
@@ -138,6 +138,7 @@ void require_angles(const QualitySummary& isotropic, double min_angle_deg, Short
 void check(const CheckArguments& arguments) {
     MeshCheckOptions options;
     set_by_name(mesh_check_option_table(), "min-angle", arguments.min_angle, options);
+    set_by_name(mesh_check_option_table(), "first-height", arguments.first_height, options);
 
     require_format(arguments.mesh, arguments.format, "--input-format");
     const std::string name = input_name(arguments.mesh);
@@ -185,6 +186,7 @@ void add_check_command(CLI::App& app) {
     command->add_flag("--require-delaunay", arguments->require_delaunay,
                       "require the Delaunay property of all edges between isotropic triangles (exact test)");
     add_table_option(*command, mesh_check_option_table(), "min-angle", arguments->min_angle);
+    add_table_option(*command, mesh_check_option_table(), "first-height", arguments->first_height);
     command->callback([arguments] { check(*arguments); });
 }
 

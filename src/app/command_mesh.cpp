@@ -120,6 +120,7 @@ void mesh(const MeshCase& mesh_case) {
     const MeshResult result =
         generate_mesh(mesh_case.inputs, options, [&](const auto& event) { progress.begin(event); });
     print_warnings(result.warnings);
+    require_promised_angles(result.check, mesh_case.allow_defects);
 
     progress.begin({"writing"});
     Stopwatch watch;

@@ -58,6 +58,10 @@ OptionTable<MeshCase> other_options() {
         member_at(&MeshCase::progress));
     run.flag("quiet", "print no summary and no progress; warnings and errors are printed", true,
              member_at(&MeshCase::quiet));
+    run.flag("allow-defects",
+             "write the mesh even where isotropic triangles have an angle below the bound (--min-angle) that no sharp "
+             "corner excuses; otherwise such a run ends with exit code 4 and writes nothing",
+             true, member_at(&MeshCase::allow_defects));
     run.flag("strict", "end with exit code 4 where there is any warning; the outputs are written", true,
              member_at(&MeshCase::strict));
     OptionTable<MeshCase> rows = run.take();

@@ -47,6 +47,10 @@ private:
 /// Prints each warning as one line on standard error.
 void print_warnings(std::span<const Warning> warnings);
 
+/// Throws MeshError where isotropic triangles have an angle below the bound that no sharp corner excuses, unless
+/// defects are allowed.
+void require_promised_angles(const MeshCheck& check, bool allow_defects);
+
 /// Throws MeshError where there are warnings and `strict` asks for none.
 void require_no_warnings(std::span<const Warning> warnings, bool strict);
 

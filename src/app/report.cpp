@@ -79,6 +79,26 @@ Json threads_report(const std::vector<ThreadSeconds>& threads) {
     return report;
 }
 
+Json walls_report(const WallSummary& walls) {
+    return {{"edges", walls.edges},
+            {"max_ratio", walls.max_ratio},
+            {"max_ratio_at", {walls.max_ratio_at.x, walls.max_ratio_at.y}},
+            {"uneven_vertices", walls.uneven_vertices},
+            {"first_cells", walls.first_cells},
+            {"median_first_height", walls.median_first_height},
+            {"share_of_kept_heights", walls.share_of_kept_heights},
+            {"worst_first_height", walls.worst_first_height},
+            {"worst_first_height_at", {walls.worst_first_height_at.x, walls.worst_first_height_at.y}}};
+}
+
+Json border_report(const BorderSteps& steps) {
+    return {{"columns", steps.columns},
+            {"full_columns", steps.full_columns},
+            {"uneven_columns", steps.uneven_columns},
+            {"max_step", steps.max_step},
+            {"max_step_at", {steps.max_step_at.x, steps.max_step_at.y}}};
+}
+
 /// Returns the first height and, where it follows from a y+, the flow that it was computed for.
 Json first_height_report(const MeshResult& result) {
     Json report = {{"height", result.first_height}};
@@ -140,6 +160,7 @@ Json quality_report(const MeshCheck& check) {
               {"max_angle_deg", layer.max_angle_deg},
               {"mean_max_angle_deg", layer.mean_max_angle_deg},
               {"edges_without_first_layer", check.edges_without_first_layer}}},
+            {"walls", walls_report(check.walls)},
             {"transition",
              {{"edges", check.transition.edges},
               {"p01_area_ratio", check.transition.p01_area_ratio},
@@ -150,6 +171,7 @@ Json quality_report(const MeshCheck& check) {
 
 Json mesh_report(const MeshResult& result, double write_seconds) {
     Json quality = quality_report(result.check);
+    quality["layer"]["border"] = border_report(result.border_steps);
     quality["layer"]["incomplete_rays"] = total_coverage(result).all.incomplete_rays;
     quality["isotropic"]["oversized"] = result.refinement.oversized;
     quality["isotropic"]["refused_points"] = result.refinement.refused;

@@ -1,5 +1,7 @@
 #include "app/summary.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/coverage_share.hpp"
@@ -38,6 +40,18 @@ std::string layer_lines(const MeshCheck& check) {
     return text;
 }
 
+std::string wall_lines(const WallSummary& walls) {
+    std::string text = summary_line(
+        "walls", fmt::format("{} edges: neighbours differ in length by a factor of at most {:.2f}, at ({:.6g}, {:.6g})",
+                             walls.edges, walls.max_ratio, walls.max_ratio_at.x, walls.max_ratio_at.y));
+    if (walls.first_cells == 0) return text;
+    return text +
+           summary_line("walls", fmt::format("first cells are {:.4g} high (median), {:.2f} % of them within {} % "
+                                             "of the height wanted; the worst has {:.3f} of it",
+                                             walls.median_first_height, 100 * walls.share_of_kept_heights,
+                                             100 * first_height_tolerance, walls.worst_first_height));
+}
+
 std::string element_lines(const Element& element) {
     std::string text = fmt::format("{}: {} points on the wall, from {} (format {})\n", element.name,
                                    element.points.size(), element.file, element.format);
@@ -55,6 +69,14 @@ std::string coverage_line(const ElementCoverage& coverage) {
                     100 * made_share(all), 100 * made_share(coverage.open), all.incomplete_rays, all.rays));
 }
 
+std::string border_line(const BorderSteps& steps) {
+    return summary_line("border", fmt::format("{:.2f} % of the columns of the layer differ at their ends by "
+                                              "more than a third of a cell, the worst by {:.2f}",
+                                              100 * static_cast<double>(steps.uneven_columns) /
+                                                  static_cast<double>(std::max<std::size_t>(1, steps.columns)),
+                                              steps.max_step));
+}
+
 }  // namespace
 
 std::string summary_line(const std::string& label, const std::string& text) {
@@ -66,6 +88,7 @@ std::string quality_summary(const MeshCheck& check) {
     const bool has_layer = check.layer.cells > 0;
     if (check.isotropic.cells > 0) text += isotropic_lines(check.isotropic, has_layer);
     if (has_layer) text += layer_lines(check);
+    if (check.walls.edges > 0) text += wall_lines(check.walls);
     if (const TransitionSummary& transition = check.transition; transition.edges > 0)
         text += summary_line(
             "transition",
@@ -89,7 +112,7 @@ std::string mesh_summary(const MeshResult& result, const std::vector<std::string
         text += summary_line("y+", fmt::format("{} at Reynolds number {} based on the chord {}: first height {:.4g}",
                                                flow->y_plus, flow->reynolds, *flow->chord, result.first_height));
     if (const ElementCoverage coverage = total_coverage(result); coverage.all.requested_cells > 0)
-        text += coverage_line(coverage);
+        text += coverage_line(coverage) + border_line(result.border_steps);
     text += summary_line(
         "time", fmt::format("{:.3f} s to make and check the mesh, {:.3f} s to write it, on {} thread{}",
                             result.seconds.total, write_seconds, result.threads, result.threads == 1 ? "" : "s"));

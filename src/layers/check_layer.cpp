@@ -182,7 +182,11 @@ private:
             report("ray has not the growth of its law", origin);
         std::vector<double> heights = law.heights(layer_.growth.first_height, ray.growth, ray.layers);
         stretch_heights(ray.stretch, heights);
-        if (ray.stretch != 1 && std::isinf(ray.height_limit)) report("ray is stretched without a limit", origin);
+        for (double& height : heights) height *= ray.slant;
+        if (!(ray.slant >= 1 && ray.slant <= max_slant))
+            report(fmt::format("ray has a slant of {}", ray.slant), origin);
+        if (ray.stretch != 1 && std::isinf(ray.height_limit) && layer_.growth.layers)
+            report("ray is stretched without a limit", origin);
         if (!(ray.stretch <= max_stretch && ray.stretch * max_stretch >= 1 - 1e-12))
             report(fmt::format("ray is stretched by {}", ray.stretch), origin);
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {

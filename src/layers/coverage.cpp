@@ -27,7 +27,8 @@ std::vector<char> open_rays(const RaySet& set, const LayerHeights& heights, std:
     std::vector<char> open(set.lines.size());
     core::parallel_for(set.lines.size(), 512, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double radius = 0.5 * open_space * heights.full_height(i), inner = inner_share * radius;
+            const double height = heights.full_height(i) / heights.column(i).slant;
+            const double radius = 0.5 * open_space * height, inner = inner_share * radius;
             const Point middle = set.lines[i].origin + radius * set.lines[i].direction;
             const double nearest = walls.min_distance(middle, inner, [&](std::size_t j) {
                 return core::distance_to_segment(middle, set.lines[j].origin, set.lines[next[j]].origin);

@@ -15,17 +15,11 @@ namespace lamina::layers {
 
 namespace {
 
-/// Stands for target_slack on edges that come of a division. It is larger because division points shift, and because
-/// the target is not quite that of the division any more.
-constexpr double divided_slack = 1.3;
-
 std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges, const BorderOptions& options) {
     const TargetLength target(edges, options);
     std::vector<EdgeDivision> divisions;
     divisions.reserve(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i)
-        divisions.emplace_back(edges[i].length, target.along(i),
-                               edges[i].target_factor > 0 ? divided_slack : target_slack);
+    for (std::size_t i = 0; i < edges.size(); ++i) divisions.emplace_back(edges[i].length, target.along(i));
     balance_divisions(edges, options.max_ratio, divisions);
     return divisions;
 }
@@ -46,8 +40,8 @@ std::vector<Point> division_points(const PolygonEdge& edge, const EdgeDivision& 
 }  // namespace
 
 BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::span<const std::vector<Point>> walls,
-                              const BorderOptions& options, std::span<const std::vector<double>> target_factors) {
-    const std::vector<PolygonEdge> edges = polygon_edges(fronts, target_factors);
+                              const BorderOptions& options, std::span<const std::vector<double>> least_requests) {
+    const std::vector<PolygonEdge> edges = polygon_edges(fronts, least_requests);
     const std::vector<EdgeDivision> divisions = balanced_divisions(edges, options);
     std::vector<std::vector<Point>> points(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) points[i] = division_points(edges[i], divisions[i]);
@@ -57,9 +51,9 @@ BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::s
     std::size_t i = 0;
     for (const std::vector<Point>& front : fronts) {
         auto& points_of_front = result.points.emplace_back();
-        auto& factors_of_front = result.target_factors.emplace_back();
+        auto& excess_of_front = result.excess.emplace_back();
         for (std::size_t k = 0; k < front.size(); ++k, ++i) {
-            factors_of_front.push_back(divisions[i].target_factors(edges[i].a, points[i]));
+            excess_of_front.push_back(divisions[i].excess());
             points_of_front.push_back(std::move(points[i]));
         }
     }

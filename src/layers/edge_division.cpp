@@ -13,10 +13,11 @@ constexpr std::size_t max_refinement = 6;
 
 }  // namespace
 
-EdgeDivision::EdgeDivision(double length, std::vector<TargetInterval> target, double slack)
+EdgeDivision::EdgeDivision(double length, std::vector<TargetInterval> target)
     : length_(length), target_(std::move(target)) {
     scale_targets(1, 1);
-    min_parts_ = static_cast<std::size_t>(std::max(1.0, std::ceil(total_ / slack)));
+    excess_ = total_;
+    min_parts_ = static_cast<std::size_t>(std::max(1.0, std::ceil(total_ / target_slack)));
     parts_ = min_parts_;
 }
 
@@ -79,28 +80,6 @@ double EdgeDivision::max_ratio() const {
         from = to;
     }
     return ratio;
-}
-
-std::vector<double> EdgeDivision::target_factors(Point start, std::span<const Point> points) const {
-    std::vector<double> ends;
-    ends.reserve(points.size());
-    for (Point p : points) ends.push_back(distance(start, p));
-    std::vector<double> factors;
-    double from = 0, to = 0, max_target = 0;
-    const auto end_part = [&](double end) {
-        factors.push_back(end > from ? std::max(1.0, max_target / (end - from)) : 1);
-        from = end;
-    };
-    for (const TargetInterval& i : target_) {
-        to += i.length;
-        max_target = std::max(max_target, i.target);
-        while (factors.size() < ends.size() && ends[factors.size()] <= to) {
-            end_part(ends[factors.size()]);
-            max_target = i.target;
-        }
-    }
-    end_part(to);
-    return factors;
 }
 
 }  // namespace lamina::layers

@@ -16,8 +16,11 @@ namespace lamina::layers {
 class EdgeDivision {
 public:
     EdgeDivision() = default;
-    /// target: TargetLength::along() of the edge. slack: how many times as long as the target parts may be.
-    EdgeDivision(double length, std::vector<TargetInterval> target, double slack);
+    /// target: TargetLength::along() of the edge.
+    EdgeDivision(double length, std::vector<TargetInterval> target);
+
+    /// Returns the length of the edge over the target length along it.
+    double excess() const { return excess_; }
 
     bool divided() const { return parts_ > 1; }
     /// Returns whether there may be another part: up to six times as many parts as the target needs.
@@ -40,12 +43,8 @@ public:
     /// Returns the largest ratio of the lengths of two neighbouring parts; 1 for an edge that is not divided.
     double max_ratio() const;
 
-    /// Returns, for each part between these points on the edge from `start`, the largest unscaled target on the part
-    /// over the length of the part, but at least 1.
-    std::vector<double> target_factors(Point start, std::span<const Point> points) const;
-
 private:
-    double length_ = 0;
+    double length_ = 0, excess_ = 0;
     std::vector<TargetInterval> target_;  ///< unscaled
     std::vector<TargetInterval> scaled_;
     double total_ = 0;  ///< sum of length / target over the scaled intervals

@@ -29,29 +29,35 @@ double stretched_height(std::span<const double> heights, std::uint32_t n, double
     return height;
 }
 
-/// Returns the largest stretch from 1 / max_stretch to max_stretch with which layer n ends at or below the limit;
-/// 1 / max_stretch if there is none.
-double max_stretch_below(double limit, std::span<const double> heights, std::uint32_t n) {
+/// Bounds of a stretch.
+struct StretchBounds {
     double low = 1 / max_stretch, high = max_stretch;
-    if (stretched_height(heights, n, high) <= limit) return high;
+};
+
+/// Returns the largest stretch within the bounds with which layer n ends at or below the height; the lower bound if
+/// there is none.
+double max_stretch_below(double height, std::span<const double> heights, std::uint32_t n, const StretchBounds& bounds) {
+    double low = bounds.low, high = bounds.high;
+    if (stretched_height(heights, n, high) <= height) return high;
     for (int halving = 0; halving < 48; ++halving) {
         const double middle = 0.5 * (low + high);
-        (stretched_height(heights, n, middle) <= limit ? low : high) = middle;
+        (stretched_height(heights, n, middle) <= height ? low : high) = middle;
     }
     return low;
 }
 
-/// Returns the stretch nearer to 1 of two: either the layers that fit as they are grow towards the limit, or they
-/// shrink until one more fits.
-double stretch_to(double limit, std::span<const double> heights) {
-    const auto first_above = std::upper_bound(heights.begin(), heights.end(), limit);
+/// Returns the better of two: either the layers that fit as they are grow towards the height, or they shrink until one
+/// more fits.
+StretchedLayers layers_within(double height, std::span<const double> heights, const StretchBounds& bounds) {
+    const auto first_above = std::upper_bound(heights.begin(), heights.end(), height);
     const auto fitting = static_cast<std::uint32_t>(first_above - heights.begin()) - 1;
-    if (fitting == 0) return 1;
-    const double grown = max_stretch_below(limit, heights, fitting),
-                 shrunk = max_stretch_below(limit, heights, fitting + 1);
-    const bool one_more = stretched_height(heights, fitting + 1, shrunk) <= limit;
-    const bool shrunk_less = grown == max_stretch || grown * shrunk > 1;
-    return one_more && shrunk_less ? shrunk : grown;
+    if (fitting == 0 || heights[fitting] == height) return {fitting, 1};
+    const double grown = max_stretch_below(height, heights, fitting, bounds);
+    if (fitting + std::size_t{1} == heights.size()) return {fitting, grown};
+    const double shrunk = max_stretch_below(height, heights, fitting + 1, bounds);
+    const bool one_more = stretched_height(heights, fitting + 1, shrunk) <= height;
+    const bool shrunk_less = grown == bounds.high || grown * shrunk > 1;
+    return one_more && shrunk_less ? StretchedLayers{fitting + 1, shrunk} : StretchedLayers{fitting, grown};
 }
 
 }  // namespace
@@ -66,21 +72,33 @@ void stretch_heights(double stretch, std::span<double> heights) {
     }
 }
 
+StretchedLayers layers_up_to(double height, std::span<const double> heights) {
+    return layers_within(height, heights, {});
+}
+
+double stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n) {
+    return max_stretch_below(height, heights, n, {});
+}
+
 LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> limits) {
     std::vector<HeightColumn> columns(limits.size());
+    std::vector<double> extra(limits.size(), 1.0);  // stretch beside the one that a column has already
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             columns[i] = heights.column(i);
-            if (limits[i] < heights.full_height(i)) columns[i].stretch = stretch_to(limits[i], heights.of(i));
+            if (limits[i] >= heights.full_height(i)) continue;
+            const double own = columns[i].stretch;
+            extra[i] = layers_within(limits[i], heights.of(i), {1 / (max_stretch * own), max_stretch / own}).stretch;
+            columns[i].stretch = own * extra[i];
         }
     });
     std::vector<double> table = heights.table();
     for (std::size_t i = 0; i < limits.size(); ++i) {
-        if (columns[i].stretch == 1) continue;
+        if (extra[i] == 1) continue;
         columns[i].first = table.size();
         const std::span<const double> fixed = heights.of(i);
         table.insert(table.end(), fixed.begin(), fixed.end());
-        stretch_heights(columns[i].stretch, std::span(table).subspan(columns[i].first));
+        stretch_heights(extra[i], std::span(table).subspan(columns[i].first));
     }
     return LayerHeights(std::move(table), std::move(columns));
 }

@@ -8,8 +8,10 @@
 
 #include <lamina/error.hpp>
 
+#include "layers/fit_heights.hpp"
 #include "layers/growth_laws.hpp"
 #include "layers/isotropy.hpp"
+#include "layers/neighbours.hpp"
 
 namespace lamina::layers {
 
@@ -26,16 +28,27 @@ void cut_at_thickness(double thickness, std::vector<double>& heights) {
 
 std::uint32_t layer_count(const std::vector<double>& heights) { return static_cast<std::uint32_t>(heights.size() - 1); }
 
-/// Returns columns that all lie in one table and end where their ray reaches isotropy.
-LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, std::vector<double> table) {
-    const std::vector<std::uint32_t> layers = layers_up_to_isotropy(set, table);
+/// Returns columns that end where their ray reaches isotropy. Whole layers would make the front a staircase, so columns
+/// are stretched to end at its height.
+LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const std::vector<double>& unstretched) {
+    const std::vector<double> front = heights_of_isotropy(set, unstretched);
+    std::vector<std::uint32_t> layers;
+    layers.reserve(front.size());
+    for (const double height : front) layers.push_back(layers_up_to(height, unstretched).layers);
     if (std::any_of(layers.begin(), layers.end(), [](auto n) { return n >= max_automatic_layers; }))
         throw OptionError("layers", fmt::format("more than {} layers up to isotropy: give a larger growth, a thickness "
                                                 "or their number",
                                                 max_automatic_layers));
+    limit_count_differences(set, layers);
+    std::vector<double> table;
     std::vector<HeightColumn> columns;
     columns.reserve(layers.size());
-    for (std::uint32_t n : layers) columns.push_back({0, n, ray_growth});
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const double stretch = stretch_of_layers(front[i], unstretched, layers[i]);
+        columns.push_back({table.size(), layers[i], ray_growth, stretch});
+        table.insert(table.end(), unstretched.begin(), unstretched.begin() + layers[i] + 1);
+        stretch_heights(stretch, std::span(table).subspan(columns.back().first));
+    }
     return LayerHeights(std::move(table), std::move(columns));
 }
 
@@ -54,6 +67,63 @@ LayerHeights heights_by_spacing(const RaySet& set, const LayerGrowth& growth, co
     return LayerHeights(std::move(table), std::move(columns));
 }
 
+/// Returns, for each ray, the factor from heights above the wall's edges beside it to heights along it. Rays out of a
+/// corner would otherwise make the cells beside it too low:
+///
+///       |   /           h / cos(45) along the ray is h above both walls
+///     h |..o
+///       | /:
+///       |/_:____
+std::vector<double> slants(const RaySet& set) {
+    constexpr double negligible = 1e-3;  // rays share their heights where it makes no difference
+    const RayNeighbours neighbours(set);
+    std::vector<double> result(set.lines.size(), 1.0);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const RayLine& ray = set.lines[i];
+        const Point before = set.lines[neighbours.previous[i]].origin, after = set.lines[neighbours.next[i]].origin;
+        double sum = 0, edges = 0;
+        const auto add_edge = [&](Point a, Point b) {
+            if (a == b) return;
+            sum += dot(ray.direction, -perpendicular(unit(b - a)));
+            ++edges;
+        };
+        add_edge(before, ray.origin);
+        add_edge(ray.origin, after);
+        if (edges * (1 - negligible) > sum) result[i] = std::min(max_slant, edges / std::max(sum, edges / max_slant));
+    }
+    fill_fans(set, result);
+    return result;
+}
+
+/// Makes heights above the wall's edges heights along the rays.
+LayerHeights slanted(const RaySet& set, const LayerHeights& heights) {
+    const std::vector<double> factors = slants(set);
+    std::vector<double> table = heights.table();
+    std::vector<HeightColumn> columns;
+    columns.reserve(factors.size());
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        columns.push_back(heights.column(i));
+        if (factors[i] == 1) continue;
+        columns[i].slant = factors[i];
+        columns[i].first = table.size();
+        for (const double height : heights.of(i)) table.push_back(factors[i] * height);
+    }
+    return LayerHeights(std::move(table), std::move(columns));
+}
+
+/// Returns the heights above the wall.
+LayerHeights upright_heights(const RaySet& set, const LayerGrowth& growth) {
+    const GrowthLawEntry& law = growth_law_entry(growth.law);
+    if (law.by_spacing) return heights_by_spacing(set, growth, law);
+    const double ray_growth = law.ray_growth(growth);
+    std::vector<double> table =
+        law.heights(growth.first_height, ray_growth, growth.layers.value_or(max_automatic_layers));
+    if (growth.thickness && !law.fills_thickness) cut_at_thickness(*growth.thickness, table);
+    if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, table);
+    const HeightColumn all{0, layer_count(table), ray_growth};
+    return LayerHeights(std::move(table), std::vector<HeightColumn>(set.lines.size(), all));
+}
+
 }  // namespace
 
 double expected_height(const LayerGrowth& growth, double spacing) {
@@ -68,15 +138,7 @@ double expected_height(const LayerGrowth& growth, double spacing) {
 }
 
 LayerHeights make_heights(const RaySet& set, const LayerGrowth& growth) {
-    const GrowthLawEntry& law = growth_law_entry(growth.law);
-    if (law.by_spacing) return heights_by_spacing(set, growth, law);
-    const double ray_growth = law.ray_growth(growth);
-    std::vector<double> table =
-        law.heights(growth.first_height, ray_growth, growth.layers.value_or(max_automatic_layers));
-    if (growth.thickness && !law.fills_thickness) cut_at_thickness(*growth.thickness, table);
-    if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, std::move(table));
-    const HeightColumn all{0, layer_count(table), ray_growth};
-    return LayerHeights(std::move(table), std::vector<HeightColumn>(set.lines.size(), all));
+    return slanted(set, upright_heights(set, growth));
 }
 
 }  // namespace lamina::layers

@@ -1,4 +1,3 @@
-// Rays inserted at given places, and the places where numbers of layers change.
 #include "layers/insert_rays.hpp"
 
 #include <algorithm>
@@ -30,35 +29,26 @@ std::vector<double> shares_between(const RayEnd& low, const RayEnd& high, std::s
     return shares;
 }
 
-}  // namespace
-
-DividedRays insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares,
-                        const std::vector<std::vector<double>>& target_factors) {
+/// Inserts rays on the edges between the origins of neighbouring rays; directions turn evenly. shares: for each ray,
+/// how far along the edge to the origin of the following ray the new ones start, ascending, in (0, 1). No rays are
+/// inserted where both rays have one origin, nor where an edge is too short to be divided.
+RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares) {
     const std::vector<std::size_t> next = set.following();
-    DividedRays result;
-    std::vector<RayLine>& lines = result.set.lines;
+    RaySet result;
     for (std::size_t e = 0; e < set.elements(); ++e) {
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
             const RayLine &ray = set.lines[i], &after = set.lines[next[i]];
-            const bool divided = !shares[i].empty() && ray.origin != after.origin;
-            const auto take_factor = [&](std::size_t k) {
-                // A ray that was not added, for want of space, takes no factor.
-                if (!target_factors.empty())
-                    result.target_factors.resize(lines.size(), divided ? target_factors[i][k] : 0);
-            };
-            lines.push_back(ray);
-            take_factor(0);
-            if (!divided) continue;
+            result.lines.push_back(ray);
+            if (shares[i].empty() || ray.origin == after.origin) continue;
             const IntermediateRays between(ray, after);
-            for (std::size_t k = 0; k < shares[i].size(); ++k) {
-                between.add(shares[i][k], 1, lines);
-                take_factor(k + 1);
-            }
+            for (const double share : shares[i]) between.add(share, 1, result.lines);
         }
-        result.set.begin.push_back(lines.size());
+        result.begin.push_back(result.lines.size());
     }
     return result;
 }
+
+}  // namespace
 
 RaySet insert_rays_where_counts_change(const RaySet& set, const LayerHeights& heights, std::span<const double> limits) {
     const std::vector<std::size_t> next = set.following();
@@ -78,7 +68,7 @@ RaySet insert_rays_where_counts_change(const RaySet& set, const LayerHeights& he
             for (double& share : shares[i]) share = 1 - share;
         }
     }
-    return insert_rays(set, shares).set;
+    return insert_rays(set, shares);
 }
 
 }  // namespace lamina::layers

@@ -27,7 +27,9 @@ constexpr double transition_aspect = 1;
 /// spreading rays never become as high as wide.
 constexpr double max_spread = 2;
 /// Largest rise of the front per unit of distance along it.
-constexpr double max_front_slope = 0.3;
+constexpr double max_front_slope = 0.25;
+/// Slope with which the front falls from a fan on both sides.
+constexpr double slope_beside_fans = 0.1;
 /// Largest ratio of the last spacings of neighbouring rays. The ratio of their heights is smaller still.
 constexpr double max_neighbour_ratio = 1.25;
 
@@ -72,21 +74,25 @@ private:
     }
 };
 
-/// Gives the rays inside each fan values between those of its first and last ray.
-void fill_fans(const RayDistances& rays, std::vector<double>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (rays.same_origin(rays.previous(i), i) || !rays.same_origin(i, rays.next(i))) continue;
-        std::vector<std::size_t> fan{i};
-        while (rays.same_origin(i, rays.next(fan.back()))) fan.push_back(rays.next(fan.back()));
-        const std::size_t last_index = fan.size() - 1;
-        const double first = values[fan.front()], last = values[fan.back()];
-        const auto [min, max] = std::minmax(first, last);
-        for (std::size_t k = 1; k < last_index; ++k) {
-            const double share = static_cast<double>(k), rest = static_cast<double>(last_index - k);
-            // Rounding must not lead out of the range that values may lie in.
-            values[fan[k]] = std::clamp((first * rest + last * share) / static_cast<double>(last_index), min, max);
-        }
+/// Raises the front over fans until its edges there are nearly as long as those beside, and leads it down on both
+/// sides. A front whose edges were shorter over the fan would ask for a finer wall there, which would lower it further.
+void raise_over_fans(const RaySet& set, const RayDistances& rays, std::vector<double>& front) {
+    constexpr double edge_share = 0.9;             // of the distance to the neighbour beside the fan
+    std::vector<double> least(front.size(), 0.0);  // negative heights, so that lowering them raises the front
+    const auto raise = [&](std::size_t outside, std::size_t end, std::size_t inside) {
+        least[end] = -edge_share * rays.between(outside, end, 0) / rays.between(end, inside, 1);
+    };
+    for (std::size_t i = 0; i < front.size(); ++i) {
+        const std::size_t before = rays.previous(i), after = rays.next(i);
+        const bool fan_before = rays.same_origin(before, i), fan_after = rays.same_origin(i, after);
+        if (fan_after && !fan_before) raise(before, i, after);
+        if (fan_before && !fan_after) raise(after, i, before);
     }
+    fill_fans(set, least);
+    lower_to_neighbours(set, least, [&](std::size_t from, std::size_t to) {
+        return least[from] + slope_beside_fans * rays.between(from, to, front[from]);
+    });
+    for (std::size_t i = 0; i < front.size(); ++i) front[i] = std::max(front[i], -least[i]);
 }
 
 /// Replaces each value by the median of those of the five rays round it.
@@ -135,23 +141,19 @@ double bisect(double low, double high, Below below) {
 
 }  // namespace
 
-std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<const double> heights) {
+std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights) {
     const RayDistances rays(set);
     std::vector<double> front(set.lines.size());  // height of the front on each ray
     for (std::size_t i = 0; i < front.size(); ++i)
         if (!rays.inside_fan(i)) front[i] = isotropic_height(rays, i, heights);
-    fill_fans(rays, front);
+    fill_fans(set, front);
     for (int round = 0; round < 2; ++round) take_medians(rays, front);
+    raise_over_fans(set, rays, front);
     lower_to_neighbours(set, front, [&](std::size_t from, std::size_t to) {
         return front[from] + max_front_slope * rays.between(from, to, front[from]);
     });
-    std::vector<std::uint32_t> layers(set.lines.size());
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        const auto first_above = std::upper_bound(heights.begin(), heights.end(), front[i]);
-        layers[i] = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(first_above - heights.begin()) - 1);
-    }
-    limit_count_differences(set, layers);
-    return layers;
+    for (double& height : front) height = std::clamp(height, heights[1], heights.back());
+    return front;
 }
 
 std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, std::uint32_t layers) {
@@ -166,7 +168,7 @@ std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, s
             return last <= transition_aspect * rays.to_neighbours(i, height);
         });
     }
-    fill_fans(rays, ratios);
+    fill_fans(set, ratios);
     // The heights are (r s - h) / (r - 1), where s = h r^(N - 1) is the last spacing. So where the last spacings of
     // neighbours are in a ratio q > 1, their heights are in a smaller one.
     const double max_step = bisect(1, max_neighbour_ratio,

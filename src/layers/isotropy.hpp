@@ -12,9 +12,10 @@ namespace lamina::layers {
 /// Bounds of the adaptive law's ratio.
 inline constexpr double min_adaptive_ratio = 1.05, max_adaptive_ratio = 1.5;
 
-/// Returns the number of layers on each ray up to the first whose spacing reaches the distance of the rays there, or
-/// all of them where none does. Neighbours differ by at most one. heights[n] is the height of layer n; heights[0] = 0.
-std::vector<std::uint32_t> layers_up_to_isotropy(const RaySet& set, std::span<const double> heights);
+/// Returns, for each ray, the height at which the spacing of the layers reaches the distance of the rays there, or the
+/// height of all layers where none does; the height of one layer at least. It varies smoothly along the walls.
+/// heights[n] is the height of layer n; heights[0] = 0.
+std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights);
 
 /// Returns, for each ray, the ratio of geometric growth with which the last of `layers` spacings equals the distance of
 /// the rays there, from min_adaptive_ratio to max_adaptive_ratio. It varies along the wall so slowly that heights of

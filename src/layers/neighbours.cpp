@@ -7,6 +7,24 @@ RayNeighbours::RayNeighbours(const RaySet& set) : next(set.following()), previou
     for (std::size_t i = 0; i < next.size(); ++i) previous[next[i]] = i;
 }
 
+void fill_fans(const RaySet& set, std::vector<double>& values) {
+    const RayNeighbours rays(set);
+    const auto same_origin = [&](std::size_t a, std::size_t b) { return set.lines[a].origin == set.lines[b].origin; };
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (same_origin(rays.previous[i], i) || !same_origin(i, rays.next[i])) continue;
+        std::vector<std::size_t> fan{i};
+        while (same_origin(i, rays.next[fan.back()])) fan.push_back(rays.next[fan.back()]);
+        const std::size_t last_index = fan.size() - 1;
+        const double first = values[fan.front()], last = values[fan.back()];
+        const auto [min, max] = std::minmax(first, last);
+        for (std::size_t k = 1; k < last_index; ++k) {
+            const double share = static_cast<double>(k), rest = static_cast<double>(last_index - k);
+            // Rounding must not lead out of the range that values may lie in.
+            values[fan[k]] = std::clamp((first * rest + last * share) / static_cast<double>(last_index), min, max);
+        }
+    }
+}
+
 void limit_count_differences(const RaySet& set, std::vector<std::uint32_t>& counts) {
     lower_to_neighbours(set, counts, [&](std::size_t from, std::size_t) { return counts[from] + 1; });
 }

@@ -31,6 +31,9 @@ void lower_to_neighbours(const RaySet& set, std::vector<T>& values, Bound bound)
     }
 }
 
+/// Gives the rays inside each fan values between those of its first and last ray.
+void fill_fans(const RaySet& set, std::vector<double>& values);
+
 /// Lowers numbers of layers until those of neighbouring rays differ by at most one.
 void limit_count_differences(const RaySet& set, std::vector<std::uint32_t>& counts);
 

@@ -33,10 +33,11 @@ double height_to_keep_clear(std::span<const Point> outline, const LayerGrowth& g
 
 /// The ray of a vertex, or the first or last one of a fan.
 struct TiltableRay {
-    double* tilt;     ///< the entry of WallVertex::tilt that is to be set
-    double max_tilt;  ///< to either side, in radians
-    double turning;   ///< angle to the next ray, in radians
-    double distance;  ///< to the origin of the next ray, along the wall
+    double* tilt;       ///< the entry of WallVertex::tilt that is to be set
+    double max_tilt;    ///< to either side, in radians
+    double turning;     ///< angle to the next ray, in radians
+    double distance;    ///< to the origin of the next ray, along the wall
+    double to_normals;  ///< angle from the ray, not tilted, to the normals of the edges on both sides, in radians
 };
 
 std::vector<TiltableRay> tiltable_rays(std::span<const Point> outline, std::vector<WallVertex>& vertices) {
@@ -47,34 +48,50 @@ std::vector<TiltableRay> tiltable_rays(std::span<const Point> outline, std::vect
         const double angle_left = core::radians(max_angle_from_normal_deg) - 0.5 * std::abs(vertex.turning);
         const double max_tilt =
             std::clamp(vertex.fan ? 0.25 * vertex.turning : angle_left, 0.0, core::radians(max_tilt_deg));
-        if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, vertex.turning, 0});
-        const double turning = 0.5 * ((vertex.fan ? 0 : vertex.turning) + (after.fan ? 0 : after.turning));
-        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, turning, distance(outline[i], outline[next])});
+        if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, vertex.turning, 0, 0});
+        const double to_normals = vertex.fan ? 0 : 0.5 * vertex.turning;
+        const double turning = to_normals + (after.fan ? 0 : 0.5 * after.turning);
+        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, turning, distance(outline[i], outline[next]), to_normals});
     }
     return rays;
 }
 
-}  // namespace
+/// Returns the distance from a ray to the next one, as wide as it is seen along the rays and as high as they meet above
+/// the wall: rays that leave the wall at an angle b from its normal are cos b times as far apart, and meet cos b times
+/// as high.
+double upright_distance(const TiltableRay& ray, const TiltableRay& next) {
+    const double angle = std::max(std::abs(*ray.tilt - ray.to_normals), std::abs(*next.tilt + next.to_normals));
+    const double c = core::cos_reproducible(std::min(angle, core::radians(max_angle_from_normal_deg)));
+    return c * c * ray.distance;
+}
 
-/// Let a(s) be the angle of the bisectors along the wall. `upper_offset` is how far the least function above a that
-/// falls no faster than allowed lies above a, `lower_offset` how far the greatest such function below a lies below it.
-/// The mean of the two functions falls no faster either, equals a where a itself is admissible, and treats both
-/// directions of the wall alike. The tilt is the difference between this mean and a.
-void smooth_normals(std::span<const Point> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
-    if (std::none_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; })) return;
-    const std::vector<TiltableRay> rays = tiltable_rays(outline, vertices);
+/// Tilts the rays so that none falls faster than max_fall, in radians per unit of length. Let a(s) be the angle of the
+/// bisectors along the wall. `upper_offset` is how far the least function above a that falls no faster than allowed
+/// lies above a, `lower_offset` how far the greatest such function below a lies below it. The mean of the two functions
+/// falls no faster either, equals a where a itself is admissible, and treats both directions of the wall alike. The
+/// tilt is the difference between this mean and a.
+void tilt(std::span<const TiltableRay> rays, double max_fall) {
     const std::size_t n = rays.size();
-    const double max_fall = 1 / (clearance * height_to_keep_clear(outline, growth));  // radians per unit of length
-    const auto rise = [&](std::size_t i) { return rays[i].turning + max_fall * rays[i].distance; };
-    std::vector<double> upper_offset(n, 0.0), lower_offset(n, 0.0);
+    std::vector<double> rise(n), upper_offset(n, 0.0), lower_offset(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+        rise[i] = rays[i].turning + max_fall * upright_distance(rays[i], rays[(i + 1) % n]);
     // Each loop goes round twice, since the first round must carry its end over to its start.
     for (std::size_t k = 0; k < 2 * n; ++k) {
         const std::size_t i = k % n, j = n - 1 - i;
-        upper_offset[(i + 1) % n] = std::max(0.0, upper_offset[i] - rise(i));
-        lower_offset[j] = std::max(0.0, lower_offset[(j + 1) % n] - rise(j));
+        upper_offset[(i + 1) % n] = std::max(0.0, upper_offset[i] - rise[i]);
+        lower_offset[j] = std::max(0.0, lower_offset[(j + 1) % n] - rise[j]);
     }
     for (std::size_t i = 0; i < n; ++i)
         *rays[i].tilt = std::clamp(0.5 * (upper_offset[i] - lower_offset[i]), -rays[i].max_tilt, rays[i].max_tilt);
+}
+
+}  // namespace
+
+void smooth_normals(std::span<const Point> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
+    constexpr int rounds = 3;  // the tilts of one decide the distances of the next
+    if (std::none_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; })) return;
+    const std::vector<TiltableRay> rays = tiltable_rays(outline, vertices);
+    for (int round = 0; round < rounds; ++round) tilt(rays, 1 / (clearance * height_to_keep_clear(outline, growth)));
     for (WallVertex& vertex : vertices)
         if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];
 }

@@ -126,7 +126,6 @@ void validate(const BorderOptions& options) {
     require_in_range(numbers_above(1), options.max_ratio, "max_ratio");
     require_in_range(positive_numbers, options.gradation, "gradation");
     if (!(options.max_edge > 0)) throw OptionError("max_edge", "must be greater than 0");
-    if (options.ray_gradation) require_in_range(positive_numbers, *options.ray_gradation, "ray_gradation");
 }
 
 }  // namespace lamina

@@ -16,13 +16,13 @@ struct PolygonEdge {
     Point a, b;
     double length;
     std::size_t previous, next;  ///< indices of the edges before a and behind b
-    double target_factor = 0;    ///< BorderDivision::target_factors; 0 for edges that come of no division
+    double requested;            ///< the length that it asks edges beside it for, at least its own
 };
 
-/// Returns the edges of closed polygons, one polygon after the other. target_factors: one number per polygon and edge,
+/// Returns the edges of closed polygons, one polygon after the other. least_requests: one length per polygon and edge,
 /// or empty.
 std::vector<PolygonEdge> polygon_edges(std::span<const std::vector<Point>> polygons,
-                                       std::span<const std::vector<double>> target_factors = {});
+                                       std::span<const std::vector<double>> least_requests = {});
 
 /// Returns a search tree over segments with the ends a and b.
 template <class Segments>

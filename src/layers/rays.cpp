@@ -28,14 +28,15 @@ Point bisector(Point tangent_before, Point tangent_after, double turning) {
 }
 
 /// Returns the vertices of the outline with their normals, not smoothed yet.
-std::vector<WallVertex> wall_vertices(std::span<const Point> outline, const LayerOptions& options) {
+std::vector<WallVertex> wall_vertices(std::span<const Point> outline, const LayerOptions& options,
+                                      double min_fan_turning_deg) {
     const std::size_t n = outline.size();
     std::vector<WallVertex> vertices(n);
     Point before = unit(outline[0] - outline[n - 1]);
     for (std::size_t i = 0; i < n; ++i) {
         const Point after = unit(outline[(i + 1) % n] - outline[i]);
         const double turning = core::angle_between(before, after);
-        const bool fan = options.corners == CornerRays::fan && turning > core::radians(sharp_corner_deg);
+        const bool fan = options.corners == CornerRays::fan && turning > core::radians(min_fan_turning_deg);
         vertices[i] = {turning, -perpendicular(before), -perpendicular(after), bisector(before, after, turning), fan};
         before = after;
     }
@@ -71,8 +72,11 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 
 }  // namespace
 
-std::vector<RayLine> make_rays(std::span<const Point> outline, const LayerOptions& options, const LayerGrowth& growth) {
-    std::vector<WallVertex> vertices = wall_vertices(outline, options);
+std::vector<RayLine> make_rays(std::span<const Point> outline, bool resampled, const LayerOptions& options,
+                               const LayerGrowth& growth) {
+    const double min_fan_turning_deg =
+        resampled ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
+    std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
     smooth_normals(outline, growth, vertices);
     const double max_angle = core::radians(options.max_ray_angle_deg);
     std::vector<RayLine> rays;

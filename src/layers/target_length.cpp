@@ -31,8 +31,7 @@ void TargetLength::add_sources(const BorderOptions& options) {
     for (std::size_t i = 0; i < edges_.size(); ++i) {
         const PolygonEdge& edge = edges_[i];
         const std::size_t first = sources_.size();
-        const double requested = edge.target_factor > 0 ? edge.target_factor * edge.length : edge.length;
-        add_edge_sources(edges_, edge_tree, i, requested, sources_);
+        add_edge_sources(edges_, edge_tree, i, edge.requested, sources_);
         at_start_[i] = std::min(at_start_[i], sources_[first].size);
         at_start_[edge.next] = std::min(at_start_[edge.next], sources_.back().size);
     }

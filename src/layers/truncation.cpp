@@ -212,7 +212,8 @@ void lower_to_sample(const RaySet& set, const RaySample& sample, std::span<const
     }
 }
 
-/// Bounds the slope of the limits along each wall.
+}  // namespace
+
 void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<double>& limits) {
     lower_to_neighbours(set, limits, [&](std::size_t from, std::size_t to) {
         const double height = std::min(limits[from], heights.full_height(from));
@@ -220,8 +221,6 @@ void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<d
                max_limit_slope * distance(at_height(set.lines[from], height), at_height(set.lines[to], height));
     });
 }
-
-}  // namespace
 
 std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights) {
     std::vector<double> limits(set.lines.size(), HUGE_VAL);

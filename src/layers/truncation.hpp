@@ -13,4 +13,7 @@ namespace lamina::layers {
 /// Source: thesis 3.2, generalised to all rays against all rays and walls.
 std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights);
 
+/// Bounds the slope of the limits along each wall.
+void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<double>& limits);
+
 }  // namespace lamina::layers

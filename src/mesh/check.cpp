@@ -17,6 +17,7 @@
 #include "mesh/defects.hpp"
 #include "mesh/delaunay_count.hpp"
 #include "mesh/exempt.hpp"
+#include "mesh/walls.hpp"
 
 namespace lamina::mesh {
 
@@ -107,6 +108,7 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     check.layer = cells.layer.summary();
     check.isotropic = cells.isotropic.summary();
     check.isotropic.exempt = count_exempt(mesh, adjacency, constraints, cells.narrow);
+    check.walls = measure_walls(mesh, adjacency, options.first_height);
     check.edges_without_first_layer = count_edges_without_first_layer(mesh, adjacency);
 
     const std::vector<Segment> edges = boundary_edges(mesh, adjacency);

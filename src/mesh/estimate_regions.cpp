@@ -70,7 +70,7 @@ std::vector<Region> estimate_regions(const Mesh& mesh) {
     }
     std::vector<bool> at_wall(mesh.points.size(), false);  // per set, at its first vertex
     for (const Marker& marker : mesh.markers) {
-        if (marker.kind == MarkerKind::far_field || marker.kind == MarkerKind::symmetry) continue;
+        if (!may_be_wall(marker.kind)) continue;
         for (const Segment& edge : marker.edges)
             at_wall[sets.find(edge.a.value)] = at_wall[sets.find(edge.b.value)] = true;
     }

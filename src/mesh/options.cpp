@@ -12,6 +12,9 @@ OptionTable<MeshCheckOptions> make_table() {
     table.number("min-angle", "DEG",
                  "require this smallest angle of isotropic triangles, in degrees, but in sharp corners",
                  numbers_from_to(0, 60), member_at(&MeshCheckOptions::min_angle_deg));
+    table.number("first-height", "H",
+                 "compare the heights of first cells with this one, in units of the mesh, instead of with their median",
+                 positive_numbers, member_at(&MeshCheckOptions::first_height));
     return table.take();
 }
 

@@ -121,7 +121,6 @@ SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& grow
 BorderOptions border_options(const CaseOptions& options, std::span<const SizeSource> sources) {
     BorderOptions border;
     border.gradation = border_gradation(options.sizing.field);
-    border.ray_gradation = std::max(border.gradation, min_wall_gradation);
     border.max_edge =
         frozen_share * std::min(options.sizing.wall_size.value_or(HUGE_VAL), options.sizing.field.max_size);
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
@@ -134,6 +133,12 @@ BorderOptions border_options(const CaseOptions& options, std::span<const SizeSou
         source.size *= frozen_share / division_tolerance;
         border.sources.push_back(source);
     }
+    return border;
+}
+
+BorderOptions wall_border_options(const CaseOptions& options, std::span<const SizeSource> sources) {
+    BorderOptions border = border_options(options, sources);
+    border.gradation = std::max(border.gradation, min_wall_gradation);
     return border;
 }
 

@@ -16,6 +16,7 @@
 #include "layers/fill.hpp"
 #include "mesh/isotropic_cells.hpp"
 #include "pipeline/mesh_limits.hpp"
+#include "pipeline/ray_plan.hpp"
 #include "pipeline/warnings.hpp"
 
 namespace lamina::pipeline {
@@ -54,7 +55,8 @@ private:
 
 /// Records the times of the threads over `elapsed` seconds in which they shared several kinds of work, and divides
 /// these seconds among the kinds.
-void record_shared_times(const core::BusyTimes& times, double elapsed, MeshResult& result) {
+void record_shared_times(const core::BusyTimes& times, double elapsed, StageSeconds& seconds,
+                         std::vector<ThreadSeconds>& thread_seconds) {
     ThreadSeconds sum;
     for (std::size_t i = 0; i < times.threads(); ++i) {
         const ThreadSeconds thread{times.seconds(i, decomposition_work), times.seconds(i, layer_work),
@@ -62,13 +64,13 @@ void record_shared_times(const core::BusyTimes& times, double elapsed, MeshResul
         sum.decomposition += thread.decomposition;
         sum.layer_triangulation += thread.layer_triangulation;
         sum.refinement += thread.refinement;
-        result.thread_seconds.push_back(thread);
+        thread_seconds.push_back(thread);
     }
     const double all = sum.decomposition + sum.layer_triangulation + sum.refinement;
     const double share = all > 0 ? elapsed / all : 0;
-    result.seconds.decomposition = share * sum.decomposition;
-    result.seconds.layer_triangulation = share * sum.layer_triangulation;
-    result.seconds.refinement = share * sum.refinement;
+    seconds.decomposition += share * sum.decomposition;
+    seconds.layer_triangulation += share * sum.layer_triangulation;
+    seconds.refinement += share * sum.refinement;
 }
 
 /// Records the results of the refinement, and how good the estimates of the numbers of triangles were.
@@ -96,34 +98,12 @@ void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOpt
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
     result.layer_coverage = layer.coverage;
     if (!options.enabled) return;
+    result.border_steps = border_steps(layer);
     result.first_height = layer.growth.first_height;
     if (const auto* flow = std::get_if<YPlus>(&options.first_height)) {
         result.y_plus = *flow;
         result.y_plus->chord = flow->chord.value_or(chord);
     }
-}
-
-/// Throws OptionError where the bodies fit into the far field, but not with their layers: the heights are wrong then,
-/// rather than the far field.
-void require_room_for_layers(const Geometry& geometry, const std::vector<std::vector<Point>>& fronts,
-                             const FarField& far_field, const LayerOptions& options, const LayerGrowth& growth) {
-    const Box bodies = bounding_box(geometry), domain = far_field.box();
-    Box with_layers = bodies;
-    for (const std::vector<Point>& front : fronts)
-        for (const Point p : front) with_layers.include(p);
-    if (!decoupling::leaves_room(far_field, bodies) || decoupling::leaves_room(far_field, with_layers)) return;
-    const bool by_y_plus = std::holds_alternative<YPlus>(options.first_height);
-    const double thickness = std::max({bodies.lower.x - with_layers.lower.x, bodies.lower.y - with_layers.lower.y,
-                                       with_layers.upper.x - bodies.upper.x, with_layers.upper.y - bodies.upper.y});
-    const double distance = std::min({bodies.lower.x - domain.lower.x, bodies.lower.y - domain.lower.y,
-                                      domain.upper.x - bodies.upper.x, domain.upper.y - bodies.upper.y});
-    throw OptionError(
-        by_y_plus ? "y_plus" : "first_height",
-        fmt::format("a first height of {:.4g}{} {} a layer that is {:.4g} thick, but the far field is "
-                    "only {:.4g} away: lower the first height, {}the growth ({:.4g}), or set a thickness",
-                    growth.first_height, growth.layers ? fmt::format(" and {} layers", *growth.layers) : "",
-                    growth.layers ? "make" : "makes", thickness, distance,
-                    growth.layers ? "the number of layers or " : "", growth.growth));
 }
 
 void require_valid(const MeshCheck& check) {
@@ -154,37 +134,24 @@ double mean_edge_over_size(const Mesh& mesh, const SizeField& size) {
     return edges > 0 ? sum / static_cast<double>(edges) : 0.0;
 }
 
-MeshResult run(Geometry geometry, const CaseOptions& options, StageClock& clock, double geometry_seconds) {
+/// Makes the mesh on these rays: the stages from the layer's border to the check. `seconds` holds the times so far.
+MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageClock& clock, StageSeconds seconds) {
     MeshResult result;
-    StageSeconds& seconds = result.seconds;
-    clock.lap();
-
-    clock.begin("surface");
-    const double chord = bounding_box(geometry).width();
-    const LayerGrowth growth = layer_growth(options.layer, chord);
-    geometry = prepare_surfaces(std::move(geometry), options.surface, spacing_limits(options, growth));
-    const SizedBodies bodies = sized_bodies(geometry);
-    const FarField far_field = place_far_field(bounding_box(geometry), options.far_field);
-    require_options_within(options, growth, bodies, far_field.box());
-    seconds.geometry = geometry_seconds + clock.lap();
-
-    clock.begin("layers");
-    Rays rays = grow_rays(geometry, options.layer, growth);
-    const auto tips = fronts(rays);
-    if (options.layer.enabled) require_room_for_layers(geometry, tips, far_field, options.layer, growth);
-    const SizeRequests requests = gather_size_requests(options.sizing, bodies, tips, far_field.box());
-    const Layer layer = close_border(std::move(rays), border_options(options, requests.at_borders));
-    seconds.layers = clock.lap();
+    result.geometry = plan.geometry;
+    result.thinned_rays = plan.thinned_rays;
+    const Layer layer = close_border(plan.rays, border_options(options, plan.requests.at_borders));
+    seconds.layers += clock.lap();
 
     clock.begin("sizing");
-    const SizeField size = make_size_field(border_loops(layer), requests.sources, options.sizing, far_field.box());
-    result.estimate = estimate_within_limits(options, layer, size, far_field);
-    seconds.sizing = clock.lap();
+    const SizeField size =
+        make_size_field(border_loops(layer), plan.requests.sources, options.sizing, plan.far_field.box());
+    result.estimate = estimate_within_limits(options, layer, size, plan.far_field);
+    seconds.sizing += clock.lap();
 
     clock.begin("decoupling", result.estimate);
     Decoupling decoupling =
-        decouple(layer.points, layer.borders, size, far_field, options.decoupling, limited(options));
-    seconds.decoupling = clock.lap();
+        decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, limited(options));
+    seconds.decoupling += clock.lap();
 
     // Each of the first cuts of the layer occupies one thread, so the other threads refine meanwhile (thesis 6.6).
     clock.begin("layer triangulation and refinement");
@@ -194,26 +161,72 @@ MeshResult run(Geometry geometry, const CaseOptions& options, StageClock& clock,
     core::parallel_invoke(
         [&] { cells = layers::fill(layer, options.layer.topology, options.decomposition, &times); },
         [&] { refinements = decoupling::refine_all(decoupling.subdomains, &times, refinement_work); });
-    record_shared_times(times, clock.lap(), result);
+    record_shared_times(times, clock.lap(), seconds, result.thread_seconds);
 
     clock.begin("assembly");
     result.threads = thread_count();
-    summarize_layer(layer, cells, options.layer, chord, result);
+    summarize_layer(layer, cells, options.layer, plan.chord, result);
     summarize_refinement(decoupling.subdomains, refinements, result);
-    result.mesh =
-        assemble(geometry, layer, std::move(cells), std::move(decoupling), std::move(refinements), options.assemble);
+    result.mesh = assemble(plan.geometry, layer, std::move(cells), std::move(decoupling), std::move(refinements),
+                           options.assemble);
     require_made_within(options.limits, result.mesh);
-    seconds.assembly = clock.lap();
+    seconds.assembly += clock.lap();
 
     clock.begin("check");
-    result.check = check_mesh(result.mesh, {.min_angle_deg = options.refine.min_angle_deg});
+    MeshCheckOptions check_options{.min_angle_deg = options.refine.min_angle_deg};
+    if (options.layer.enabled) check_options.first_height = layer.growth.first_height;
+    result.check = check_mesh(result.mesh, check_options);
     require_valid(result.check);
     result.mean_edge_over_size = mean_edge_over_size(result.mesh, size);
-    seconds.check = clock.lap();
+    result.warnings = find_warnings(result, options, plan.chord, size);
+    seconds.check += clock.lap();
+    result.seconds = seconds;
+    return result;
+}
 
-    result.geometry = std::move(geometry);
-    result.warnings = find_warnings(result, options, chord, size);
-    seconds.total = clock.total();
+/// Replaces the mesh by others, on shorter rays and with shorter edges of borders, for as long as fewer and fewer
+/// triangles have an angle below the bound that no sharp corner excuses.
+void make_room(const CaseOptions& options, RayPlan& plan, StageClock& clock, MeshResult& best) {
+    constexpr int max_rounds_without_gain = 2, max_rounds = 12;
+    const auto narrow = [](const MeshResult& result) {
+        return result.check.isotropic.angles_below_bound - result.check.isotropic.exempt;
+    };
+    MeshResult next;
+    const MeshResult* last = &best;
+    int rounds_without_gain = 0;
+    for (int round = 0; round < max_rounds && rounds_without_gain < max_rounds_without_gain; ++round) {
+        if (!make_room_at_narrow_triangles(*last, options, plan)) return;
+        clock.begin("layers");
+        next = mesh_on_rays(plan, options, clock, last->seconds);
+        last = &next;
+        ++rounds_without_gain;
+        if (narrow(next) >= narrow(best)) continue;
+        best = std::move(next);
+        last = &best;
+        rounds_without_gain = 0;
+    }
+    best.seconds = last->seconds;
+}
+
+MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& clock, double geometry_seconds) {
+    StageSeconds seconds;
+    clock.lap();
+
+    clock.begin("surface");
+    const double chord = bounding_box(given).width();
+    const LayerGrowth growth = layer_growth(options.layer, chord);
+    const SpacingLimits limits = spacing_limits(options, growth);
+    Geometry prepared = prepare_surfaces(given, options.surface, limits);
+    require_options_within(options, growth, sized_bodies(prepared),
+                           place_far_field(bounding_box(prepared), options.far_field).box());
+    seconds.geometry = geometry_seconds + clock.lap();
+
+    clock.begin("layers");
+    RayPlan plan = plan_rays(std::move(prepared), chord, options, growth);
+    refine_walls_below_borders(given, options, limits, growth, plan);
+    MeshResult result = mesh_on_rays(plan, options, clock, seconds);
+    make_room(options, plan, clock, result);
+    result.seconds.total = clock.total();
     return result;
 }
 
@@ -230,7 +243,7 @@ MeshResult generate_mesh(Geometry geometry, const CaseOptions& options, const Pr
     MeshResult result;
     with_threads(options.threads, [&] {
         StageClock clock(progress);
-        result = run(std::move(geometry), options, clock, 0);
+        result = run(geometry, options, clock, 0);
     });
     return result;
 }
@@ -243,7 +256,7 @@ MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptio
         clock.begin("geometry");
         Geometry geometry = read_geometry(inputs, options.geometry);
         const double geometry_seconds = clock.lap();
-        result = run(std::move(geometry), options, clock, geometry_seconds);
+        result = run(geometry, options, clock, geometry_seconds);
     });
     return result;
 }

@@ -115,6 +115,17 @@ void warn_of_cut_rays(const MeshResult& result, std::vector<Warning>& warnings) 
     }
 }
 
+void warn_of_thinned_layers(const MeshResult& result, std::vector<Warning>& warnings) {
+    if (result.thinned_rays == 0) return;
+    warnings.push_back(
+        {.code = WarningCode::layers_thinned,
+         .number = static_cast<double>(result.thinned_rays),
+         .unit = "rays",
+         .message = fmt::format("the layers on {} are thinner than there is room for, since the triangles beyond could "
+                                "not keep the bound on their angles otherwise (--layers, --thickness, --surface)",
+                                counted(result.thinned_rays, "ray", "rays"))});
+}
+
 void warn_of_transition(const MeshResult& result, std::vector<Warning>& warnings) {
     constexpr double min_ratio = 0.1, max_ratio = 5;
     const TransitionSummary& transition = result.check.transition;
@@ -256,6 +267,7 @@ std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& 
     warn_of_topology(result, warnings);
     warn_of_first_layer(result, warnings);
     warn_of_cut_rays(result, warnings);
+    warn_of_thinned_layers(result, warnings);
     warn_of_transition(result, warnings);
     warn_of_large_angles(result, warnings);
     warn_of_refinement(result, options, size, warnings);

@@ -89,6 +89,8 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, double scale, st
     rule.gradation = std::min(
         {margin * 2 * (options.max_ratio - 1) / (options.max_ratio + 1), options.gradation, request.limits.gradation});
     rule.max_corner_ratio = options.max_ratio;
+    for (const WallSpacing& wall : request.limits.walls)
+        if (wall.element == element) rule.walls.push_back(wall);
     rule.clearance_share = options.gap_spacing;
     rule.clearance = [&walls = request.walls, element, min_own_clearance = options.corner_spacing * scale,
                       max_clearance = rule.max_spacing / options.gap_spacing](Point p, Point normal) {

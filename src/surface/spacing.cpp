@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "core/bounding_box.hpp"
+#include "core/box_tree.hpp"
+#include "core/segments.hpp"
 
 namespace lamina::surface {
 
@@ -56,6 +59,25 @@ void limit_by_clearance(const SplineCurve& curve, CurveSamples& samples, const S
     }
 }
 
+/// Bounds spacings near stretches of the outline. They grow with the straight distance from these.
+void limit_near_walls(CurveSamples& samples, const SpacingRule& rule) {
+    if (rule.walls.empty()) return;
+    std::vector<Box> boxes;
+    std::vector<double> spacings;
+    for (const WallSpacing& wall : rule.walls) {
+        boxes.push_back(core::bounding_box(wall.a, wall.b));
+        spacings.push_back(wall.spacing);
+    }
+    const core::BoxTree tree(std::move(boxes));
+    const auto values = tree.group_minima(std::move(spacings));
+    for (CurveSample& sample : samples) {
+        const double limit = tree.minimum(sample.at, rule.gradation, sample.spacing, values, [&](std::size_t i) {
+            return core::distance_to_segment(sample.at, rule.walls[i].a, rule.walls[i].b);
+        });
+        sample.spacing = std::min(sample.spacing, std::max(limit, rule.min_spacing));
+    }
+}
+
 /// Bounds the spacings at both ends of a curve, by its length too: a short curve between two corners can have no longer
 /// edges.
 void limit_at_corners(CurveSamples& samples, double max_at_start, double max_at_end, double min_spacing) {
@@ -73,6 +95,7 @@ std::vector<CurveSamples> sample_spacings(std::span<const SplineCurve> curves, s
         CurveSamples& samples = result.emplace_back(sample(curves[i]));
         limit_by_curvature(curves[i], samples, rule);
         limit_by_clearance(curves[i], samples, rule);
+        limit_near_walls(samples, rule);
         limit_at_corners(samples, corner_spacing[i], corner_spacing[(i + 1) % curves.size()], rule.min_spacing);
     }
     return result;

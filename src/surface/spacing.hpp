@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <lamina/geometry.hpp>
 #include <lamina/point.hpp>
 
 #include "surface/spline.hpp"
@@ -23,7 +24,8 @@ struct SpacingRule {
     /// Returns the free room outside of a point of the outline, given the point and the outward unit normal there. May
     /// be empty.
     std::function<double(Point, Point)> clearance;
-    double clearance_share;  ///< largest spacing as a share of the free room
+    double clearance_share;          ///< largest spacing as a share of the free room
+    std::vector<WallSpacing> walls;  ///< largest spacings at stretches of the outline
 };
 
 /// A sample of a curve, with the target spacing there.

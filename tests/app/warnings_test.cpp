@@ -62,6 +62,26 @@ TEST(WarningsOfTheProgram, StrictWritesTheOutputsAndFails) {
     EXPECT_EQ(good.err, "");
 }
 
+/// A plate with a slit that narrows to a point.
+const std::string plate_with_slit = "1 0\n1 0.1\n0.62 0.1\n0.2 0.03\n0.6 0.1\n0 0.1\n0 0\n1 0\n";
+
+TEST(WarningsOfTheProgram, AnglesBelowTheBoundWriteNothingUnlessDefectsAreAllowed) {
+    const TemporaryFolder folder;
+    folder.write("slit.dat", plate_with_slit);
+    const std::vector<std::string> arguments{"mesh", "slit.dat", "--far-field", "15", "--quiet", "-o", "m.su2"};
+    const ProgramRun refused = run_lamina(folder, arguments);
+    EXPECT_EQ(refused.exit_code, not_to_the_standard);
+    EXPECT_NE(lines_of(refused.err).back().find("--allow-defects"), std::string::npos) << refused.err;
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"slit.dat"});
+
+    std::vector<std::string> allowed = arguments;
+    allowed.push_back("--allow-defects");
+    const ProgramRun run = run_lamina(folder, allowed);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.err.find("angle below the bound"), std::string::npos) << run.err;
+    EXPECT_EQ(run_lamina(folder, {"check", "m.su2"}).exit_code, 0);
+}
+
 /// A square that is 10 wide, as a .poly file.
 const std::string wide_square = "4 2 0 0\n1 0 0\n2 10 0\n3 10 10\n4 0 10\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
 

@@ -41,7 +41,7 @@ void expect_heights(const Layer& layer, const LayerOptions& options) {
                     distance(layer.points[ray.vertex(n - 1).index()], layer.points[ray.vertex(n).index()]);
                 const double rounding = 1e-15 * scale / test::first_height(options);
                 if (n == 1) {
-                    ASSERT_NEAR(spacing / test::first_height(options), 1, 1e-9 + rounding);
+                    ASSERT_NEAR(spacing / (ray.slant * test::first_height(options)), 1, 1e-9 + rounding);
                 } else {
                     ASSERT_NEAR(spacing / spacing_below, options.growth * ray.stretch, 1e-9 + 4 * rounding);
                 }

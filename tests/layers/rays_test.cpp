@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <set>
+#include <utility>
 
 #include <lamina/layers.hpp>
 
@@ -39,7 +42,7 @@ Outline noisy(Outline outline, double noise) {
 }
 
 std::vector<RayLine> rays_of(const Outline& outline, const LayerOptions& options) {
-    return layers::make_rays(outline, options, test::growth_of(options));
+    return layers::make_rays(outline, false, options, test::growth_of(options));
 }
 
 TEST(Rays, AreBisectorsWhereTheWallIsConvexOrTurnsGently) {
@@ -139,30 +142,76 @@ std::size_t division_points(const Layer& layer, std::size_t element) {
         std::count_if(border.begin(), border.end(), [&](VertexId v) { return v.index() >= first; }));
 }
 
-/// A fine body above a coarse wall requests short edges of the wall's border.
-TEST(Rays, AreInsertedWhereTheBorderOfAResampledElementWouldBeDivided) {
+/// A fine body above a coarse wall requests short edges of the wall's border, and with them a finer wall below.
+TEST(Rays, AskForFinerResampledWallsBelowBordersThatWouldBeDivided) {
     const Outline wall = shapes::refined(shapes::polygon({{0, -1}, {4, -1}, {4, 0}, {0, 0}}), 20);
     const Outline fine = shapes::moved(shapes::circle(0.05, 200), 0, 1, {2, 0.3});
-    LayerOptions options = layers_as_high_as(0.05);
-    for (const bool mirror : {false, true}) {
-        Geometry geometry = mirror ? shapes::geometry({shapes::mirrored(wall), shapes::mirrored(fine)})
-                                   : shapes::geometry({wall, fine});
-        BorderOptions border;
-        const Layer divided = test::make_layer(geometry, options, border);
-        border.ray_gradation = border.gradation;
-        const Layer kept = test::make_layer(geometry, options, border);
-        EXPECT_EQ(kept.points, divided.points);  // the elements are not resampled
+    const LayerOptions options = layers_as_high_as(0.05);
+    const BorderOptions border;
+    Geometry geometry = shapes::geometry({wall, fine});
+    EXPECT_GT(division_points(test::make_layer(geometry, options, border), 0), 20u);
+    EXPECT_TRUE(wall_spacings(grow_rays(geometry, options), border).empty());  // no element is resampled
 
-        for (Element& element : geometry.elements) element.resampled = true;
-        const Layer layer = test::checked_layer(geometry, options, border);
-        EXPECT_GT(division_points(divided, 0), 20u);
-        EXPECT_LT(division_points(layer, 0), division_points(divided, 0) / 4);
-        // The border has about as many edges as before.
-        EXPECT_LT(double(layer.borders[0].size()), 1.15 * double(divided.borders[0].size()));
-        for (const Point p : geometry.elements[0].points)
-            EXPECT_TRUE(std::any_of(layer.walls[0].begin(), layer.walls[0].end(),
-                                    [&](VertexId v) { return layer.points[v.index()] == p; }));
+    for (Element& element : geometry.elements) element.resampled = true;
+    const std::vector<WallSpacing> spacings = wall_spacings(grow_rays(geometry, options), border);
+    ASSERT_FALSE(spacings.empty());
+    for (const WallSpacing& spacing : spacings) {
+        EXPECT_EQ(spacing.element, 0u);
+        EXPECT_LT(spacing.spacing, distance(spacing.a, spacing.b));
+        EXPECT_GT(spacing.spacing, 0.001);
     }
+}
+
+/// Rays of a resampled outline leave its blunter corners in fans, so that no refining rays divide the edges beside.
+TEST(Rays, LeaveBluntCornersOfResampledOutlinesInFans) {
+    const Outline hexagon = shapes::refined(shapes::polygon({{0, 0}, {2, -0.5}, {4, 0}, {4, 2}, {2, 2.5}, {0, 2}}), 20);
+    const LayerOptions options = layers_as_high_as(0.05);
+    const auto origins = [&](bool resampled) {
+        const std::vector<RayLine> rays = layers::make_rays(hexagon, resampled, options, test::growth_of(options));
+        std::set<std::pair<double, double>> points;
+        for (const RayLine& ray : rays) points.emplace(ray.origin.x, ray.origin.y);
+        return points.size();
+    };
+    EXPECT_EQ(origins(true), hexagon.size());
+    EXPECT_GT(origins(false), hexagon.size());
+}
+
+/// Rows over both walls of a cove corner keep their heights above the walls, up to the layer's end.
+TEST(Rays, OutOfCoveCornersKeepTheHeightsAboveBothWalls) {
+    const Outline cove = shapes::refined(shapes::polygon({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 2}, {0, 2}}), 40);
+    const LayerOptions options = layers_as_high_as(0.1);
+    const Layer layer = test::checked_layer(cove, options);
+    std::size_t slanted = 0;
+    for (const Ray& ray : layer.rays[0]) {
+        const Point origin = layer.points[ray.origin.index()];
+        EXPECT_EQ(ray.layers, ray.requested) << origin.x << ' ' << origin.y;
+        if (!(origin.x <= 2 && origin.x > 1 && origin.y == 2)) continue;  // the wall left of the corner
+        slanted += ray.slant > 1.001;
+        for (std::uint32_t n = 1; n <= ray.layers; ++n)
+            EXPECT_NEAR((layer.points[ray.vertex(n).index()].y - 2) / layer_height(layer.growth, n), 1, 1.1e-3);
+    }
+    EXPECT_GT(slanted, 2u);
+}
+
+TEST(Rays, AreShortenedInCirclesAndLeadOverToThoseBeside) {
+    const Outline outline = shapes::circle(1, 200);
+    const LayerOptions options = layers_as_high_as(0.2);
+    const Geometry geometry = shapes::geometry({outline});
+    Rays rays = grow_rays(geometry, options);
+    EXPECT_EQ(shorten_rays(std::vector<Circle>{{{3, 0}, 0.5}}, rays), 0u);
+    const std::size_t shortened = shorten_rays(std::vector<Circle>{{{1.2, 0}, 0.1}}, rays);
+    EXPECT_GT(shortened, 2u);
+    EXPECT_LT(shortened, 12u);
+    const Layer layer = close_border(rays);
+    for (const std::string& finding : check_layer(layer, options)) ADD_FAILURE() << finding;
+    std::size_t cut = 0;
+    for (const Ray& ray : layer.rays[0]) {
+        cut += ray.layers < ray.requested;
+        const Point origin = layer.points[ray.origin.index()], tip = layer.points[ray.tip().index()];
+        if (distance(origin, {1, 0}) < 0.05) EXPECT_LT(distance(origin, tip), 0.15);
+        if (origin.x < 0.5) EXPECT_EQ(ray.layers, ray.requested);
+    }
+    EXPECT_GT(cut, shortened);
 }
 
 TEST(Rays, OfAMirroredOutlineAreMirrored) {

@@ -83,7 +83,7 @@ TEST(Concavities, LayersThatFillThem) {
             const CaseOptions options = options_with(layers);
             const MeshResult result = mesh_of({outline}, options);
             expect_sound(result, options);
-            EXPECT_EQ(result.refinement.oversized, 0u);
+            EXPECT_EQ(result.check.isotropic.angles_below_bound, result.check.isotropic.exempt);
         }
 }
 

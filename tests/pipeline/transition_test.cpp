@@ -70,6 +70,32 @@ TEST(Transition, SymmetricCamberedBluntAndCoarseSections) {
     }
 }
 
+/// What the fewest options give: an even wall, first cells as high as asked for, and a layer that ends without steps
+/// and does not thin out at the trailing edge.
+TEST(Transition, SectionsOfTheirFormulaHaveEvenWallsAndSmoothBorders) {
+    for (const char* name : {"naca:0012", "naca:4412", "naca:23012", "naca:0006", "naca:0012:extended"}) {
+        SCOPED_TRACE(name);
+        const MeshResult result = generate_mesh({name}, automatic(1.2));
+        const WallSummary& walls = result.check.walls;
+        EXPECT_LE(walls.max_ratio, even_wall_ratio);
+        EXPECT_EQ(walls.uneven_vertices, 0u);
+        EXPECT_EQ(walls.first_cells, walls.edges);
+        EXPECT_EQ(walls.share_of_kept_heights, 1);
+        EXPECT_LT(result.border_steps.max_step, 0.5);
+        EXPECT_EQ(result.border_steps.full_columns, result.border_steps.columns);
+        EXPECT_GT(result.check.transition.p01_area_ratio, 0.5);
+        EXPECT_LT(result.check.transition.p99_area_ratio, 2.25);
+        EXPECT_LT(result.check.layer.max_angle_deg, 100);
+        double beyond_tail = 0;  // of cells of the layer behind the trailing edge
+        for (std::size_t t = 0; t < result.mesh.triangles.size(); ++t)
+            for (const VertexId v : result.mesh.triangles[t].v)
+                if (result.mesh.region[t] == Region::layer)
+                    beyond_tail = std::max(beyond_tail, result.mesh.points[v.index()].x - 1);
+        EXPECT_GT(beyond_tail, 0.008);
+        EXPECT_LT(beyond_tail, 0.02);
+    }
+}
+
 TEST(Transition, TwoElements) {
     const shapes::Outline flap = shapes::moved(naca("2412", 120), -0.5, 0.3, {1.005, -0.03});
     expect_good_transition({naca("4412", 160), flap}, automatic(1.2));

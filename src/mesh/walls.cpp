@@ -1,0 +1,112 @@
+#include "mesh/walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/angles.hpp"
+
+namespace lamina::mesh {
+
+namespace {
+
+/// A directed edge of a wall, the mesh on its left.
+struct WallEdge {
+    VertexId from, to;
+    std::uint32_t edge;  ///< as numbered by CellEdges
+};
+
+/// Returns the edges of all walls, sorted by their first vertex.
+std::vector<WallEdge> wall_edges(const Mesh& mesh, const CellEdges& edges, const Adjacency& adjacency) {
+    std::vector<Segment> segments;
+    for (const Marker& marker : mesh.markers)
+        if (may_be_wall(marker.kind)) segments.insert(segments.end(), marker.edges.begin(), marker.edges.end());
+    std::sort(segments.begin(), segments.end());
+    std::vector<WallEdge> walls;
+    for (const std::uint32_t edge : adjacency.boundary) {
+        const WallEdge wall{edges.origin(edge), edges.target(edge), edge};
+        if (std::binary_search(segments.begin(), segments.end(), Segment{wall.from, wall.to})) walls.push_back(wall);
+    }
+    std::sort(walls.begin(), walls.end(), [](const WallEdge& a, const WallEdge& b) { return a.from < b.from; });
+    return walls;
+}
+
+/// Returns whether two edges meet at a corner of a base: a convex one nearer to a right angle than to a straight wall
+/// or a sharp edge. The mesh lies on the left of both, so that the wall turns right round a convex corner.
+bool is_corner_of_base(Point a, Point b, Point c) {
+    constexpr double min_turning_deg = 45, max_turning_deg = 135;
+    const double turning = -core::degrees(core::angle_between(b - a, c - b));
+    return turning > min_turning_deg && turning < max_turning_deg;
+}
+
+/// Compares the lengths of neighbouring edges.
+void measure_ratios(const Mesh& mesh, std::span<const WallEdge> walls, WallSummary& summary) {
+    for (const WallEdge& wall : walls) {
+        const auto after = std::lower_bound(walls.begin(), walls.end(), wall.to,
+                                            [](const WallEdge& edge, VertexId v) { return edge.from < v; });
+        if (after == walls.end() || after->from != wall.to) continue;
+        const Point a = mesh.points[wall.from.index()], b = mesh.points[wall.to.index()],
+                    c = mesh.points[after->to.index()];
+        if (is_corner_of_base(a, b, c)) continue;
+        const double before_length = distance(a, b), after_length = distance(b, c);
+        const double ratio = std::max(before_length, after_length) / std::min(before_length, after_length);
+        summary.uneven_vertices += ratio > even_wall_ratio;
+        if (ratio <= summary.max_ratio) continue;
+        summary.max_ratio = ratio;
+        summary.max_ratio_at = b;
+    }
+}
+
+/// Returns the height of a cell over one of its edges: the mean distance of its other corners from the edge's line.
+double height_over(const Mesh& mesh, const CellEdges& edges, std::uint32_t edge) {
+    const Point a = mesh.points[edges.origin(edge).index()], b = mesh.points[edges.target(edge).index()];
+    const std::size_t cell = edges.cell_of(edge), corners = edges.corners(cell), first = edge - edges.first(cell);
+    double sum = 0;
+    for (std::size_t i = 2; i < corners; ++i) {
+        const Point p = mesh.points[edges.corner(cell, (first + i) % corners).index()];
+        sum += cross(b - a, p - a);
+    }
+    return sum / (distance(a, b) * static_cast<double>(corners - 2));
+}
+
+void measure_first_heights(const Mesh& mesh, const CellEdges& edges, std::span<const WallEdge> walls,
+                           std::optional<double> wanted, WallSummary& summary) {
+    std::vector<std::pair<double, VertexId>> heights;  // and the vertex at which the edge begins
+    for (const WallEdge& wall : walls) {
+        const std::size_t cell = edges.cell_of(wall.edge);
+        const bool of_first_layer =
+            mesh.layer.empty() ? !mesh.region.empty() && mesh.region[cell] == Region::layer : mesh.layer[cell] == 1;
+        if (of_first_layer) heights.emplace_back(height_over(mesh, edges, wall.edge), wall.from);
+    }
+    if (heights.empty()) return;
+    summary.first_cells = heights.size();
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), middle, heights.end());
+    summary.median_first_height = middle->first;
+    const double reference = wanted.value_or(middle->first);
+    std::size_t kept = 0;
+    double worst = 1;
+    for (const auto& [height, at] : heights) {
+        const double deviation = std::max(height / reference, reference / height);
+        kept += deviation <= 1 + first_height_tolerance;
+        if (deviation <= worst) continue;
+        worst = deviation;
+        summary.worst_first_height = height / reference;
+        summary.worst_first_height_at = mesh.points[at.index()];
+    }
+    summary.share_of_kept_heights = static_cast<double>(kept) / static_cast<double>(heights.size());
+}
+
+}  // namespace
+
+WallSummary measure_walls(const Mesh& mesh, const Adjacency& adjacency, std::optional<double> first_height) {
+    const CellEdges edges(mesh);
+    const std::vector<WallEdge> walls = wall_edges(mesh, edges, adjacency);
+    WallSummary summary;
+    summary.edges = walls.size();
+    measure_ratios(mesh, walls, summary);
+    measure_first_heights(mesh, edges, walls, first_height, summary);
+    return summary;
+}
+
+}  // namespace lamina::mesh

@@ -1,0 +1,36 @@
+// The rays that a mesh is made on: planned with the walls below them, and shortened where the mesh shows that it must
+// be.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <lamina/pipeline.hpp>
+
+namespace lamina::pipeline {
+
+/// The walls, the far field round them, the rays on them, and the sizes that their fronts and the options request.
+struct RayPlan {
+    Geometry geometry;
+    double chord;  ///< extent in x of the input
+    FarField far_field;
+    Rays rays;
+    SizeRequests requests;
+    std::size_t thinned_rays = 0;           ///< MeshResult::thinned_rays
+    std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
+};
+
+/// Makes rays on prepared walls. Throws OptionError where their layers do not fit into the far field.
+RayPlan plan_rays(Geometry geometry, double chord, const CaseOptions& options, const LayerGrowth& growth);
+
+/// Prepares the walls anew, from the given geometry, with a finer spacing where the layer's border would be divided,
+/// and makes rays on them. Rows of cells would end in fans below division points (docs/decisions/0017).
+void refine_walls_below_borders(const Geometry& given, const CaseOptions& options, SpacingLimits limits,
+                                const LayerGrowth& growth, RayPlan& plan);
+
+/// If the mesh has isotropic triangles whose angle is below the bound, and no sharp corner excuses them: shortens the
+/// rays that end beside them or, where no layer is left, the edges of the borders there. Returns whether it changed the
+/// plan.
+bool make_room_at_narrow_triangles(const MeshResult& result, const CaseOptions& options, RayPlan& plan);
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,61 @@
+// The measures of walls: how even their edges are, and how high the first cells.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include <lamina/mesh.hpp>
+
+#include "support/sample_meshes.hpp"
+
+namespace lamina {
+namespace {
+
+using test::annulus;
+using test::shuffled;
+
+/// The inner circle of the annulus has radius 1, the next one 1.2.
+constexpr std::size_t around = 24;
+const double step = 2 * std::numbers::pi / around;
+
+TEST(Walls, OfAnEvenRing) {
+    for (const bool quads : {false, true}) {
+        // The far corners of a cell lie 1.2 cos(step / 2) from the middle in the direction of the edge's normal, and a
+        // single one the same: the normal goes through the middle of both edges.
+        const double height = 0.2 * std::cos(step / 2);
+        for (unsigned seed = 0; seed < 3; ++seed) {
+            const Mesh ring = annulus({.around = around, .quads_in_layer = quads});
+            const WallSummary walls = check_mesh(seed == 0 ? ring : shuffled(ring, seed)).walls;
+            EXPECT_EQ(walls.edges, around);
+            EXPECT_EQ(walls.first_cells, around);
+            EXPECT_NEAR(walls.max_ratio, 1, 1e-12);
+            EXPECT_EQ(walls.uneven_vertices, 0u);
+            EXPECT_NEAR(walls.median_first_height, height, 1e-12);
+            EXPECT_EQ(walls.share_of_kept_heights, 1);
+        }
+    }
+}
+
+TEST(Walls, WithOneVertexOutOfPlace) {
+    Mesh ring = annulus({.around = around});
+    ring.points[3] = {std::cos(3.5 * step), std::sin(3.5 * step)};  // halfway to the next vertex of the wall
+    const MeshCheck check = check_mesh(ring);
+    ASSERT_TRUE(check.valid());
+    const double ratio = std::sin(0.75 * step) / std::sin(0.25 * step);
+    EXPECT_NEAR(check.walls.max_ratio, ratio, 1e-12);
+    EXPECT_EQ(check.walls.max_ratio_at, ring.points[3]);
+    EXPECT_EQ(check.walls.uneven_vertices, 3u);
+    EXPECT_LT(check.walls.share_of_kept_heights, 1);
+}
+
+TEST(Walls, CompareFirstHeightsWithTheOneAskedFor) {
+    const Mesh ring = annulus({.around = around});
+    const double height = 0.2 * std::cos(step / 2);
+    EXPECT_EQ(check_mesh(ring, {.first_height = 1.005 * height}).walls.share_of_kept_heights, 1);
+    const WallSummary walls = check_mesh(ring, {.first_height = 2 * height}).walls;
+    EXPECT_EQ(walls.share_of_kept_heights, 0);
+    EXPECT_NEAR(walls.worst_first_height, 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace lamina
