@@ -7,6 +7,20 @@
 
 namespace lamina::core {
 
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find(separator, at), text.size());
+        parts.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return parts;
+}
+
+void require_text(bool condition, const std::string& text, const std::string& reason) {
+    if (!condition) throw UsageError("'" + text + "': " + reason);
+}
+
 double parse_number(const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -17,14 +31,12 @@ double parse_number(const std::string& text) {
 
 std::vector<double> parse_numbers(const std::string& text, char separator) {
     std::vector<double> numbers;
-    for (std::size_t at = 0; at <= text.size();) {
-        const std::size_t end = std::min(text.find(separator, at), text.size());
+    for (const std::string& part : split(text, separator)) {
         try {
-            numbers.push_back(parse_number(text.substr(at, end - at)));
+            numbers.push_back(parse_number(part));
         } catch (const UsageError& error) {
             throw UsageError("'" + text + "': " + error.what());
         }
-        at = end + 1;
     }
     return numbers;
 }

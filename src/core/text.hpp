@@ -40,6 +40,12 @@ std::string concat(const Parts&... parts) {
     return (std::string() + ... + to_text(parts));
 }
 
+/// Returns the parts of a text between separators, of which there is one more than separators.
+LAMINA_EXPORT std::vector<std::string> split(const std::string& text, char separator);
+
+/// Throws UsageError with this reason, which quotes the text, unless the condition holds.
+LAMINA_EXPORT void require_text(bool condition, const std::string& text, const std::string& reason);
+
 /// Returns the finite number that fills the whole text. Throws UsageError with the bare reason.
 LAMINA_EXPORT double parse_number(const std::string& text);
 

@@ -10,6 +10,7 @@
 #include <lamina/geometry.hpp>
 #include <lamina/suggestion.hpp>
 
+#include "core/text.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/element_names.hpp"
 #include "geometry/parse_airfoil.hpp"
@@ -32,12 +33,7 @@ std::optional<TrailingEdge> trailing_edge_named(const std::string& word) {
 
 /// Returns the section of an input naca:DIGITS[:POINTS][:blunt|:extended|:sharp].
 Element read_naca(const std::string& input, std::size_t default_points) {
-    std::vector<std::string> parts;
-    for (std::size_t start = naca_prefix.size(); start <= input.size();) {
-        const std::size_t end = std::min(input.find(':', start), input.size());
-        parts.push_back(input.substr(start, end - start));
-        start = end + 1;
-    }
+    std::vector<std::string> parts = core::split(input.substr(naca_prefix.size()), ':');
     std::size_t points = default_points;
     const std::optional<TrailingEdge> named = parts.size() > 1 ? trailing_edge_named(parts.back()) : std::nullopt;
     if (named) parts.pop_back();

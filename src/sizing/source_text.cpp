@@ -8,33 +8,20 @@
 
 #include "core/text.hpp"
 
-namespace lamina::sizing {
-
-namespace {
-
-/// Throws UsageError with this reason unless the condition holds.
-void require(bool condition, const std::string& text, const std::string& reason) {
-    if (!condition) throw UsageError("'" + text + "': " + reason);
-}
-
-}  // namespace
-
-}  // namespace lamina::sizing
-
 namespace lamina {
 
-using namespace sizing;
+using core::require_text;
 
 WakeOptions parse_wake(const std::string& text) {
     const std::vector<double> numbers = core::parse_numbers(text, ':');
-    require(numbers.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
+    require_text(numbers.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
     WakeOptions wake;
     wake.angle_deg = numbers[0];
-    require(std::abs(wake.angle_deg) <= 360, text, "the angle must be from -360 to 360 degrees");
+    require_text(std::abs(wake.angle_deg) <= 360, text, "the angle must be from -360 to 360 degrees");
     if (numbers.size() > 1) wake.length = numbers[1];
-    require(wake.length > 0, text, "the length must be > 0");
+    require_text(wake.length > 0, text, "the length must be > 0");
     if (numbers.size() > 2) wake.size = numbers[2];
-    require(wake.size.value_or(1) > 0, text, "the size must be > 0");
+    require_text(wake.size.value_or(1) > 0, text, "the size must be > 0");
     return wake;
 }
 
@@ -47,14 +34,14 @@ SizeSource parse_size_source(const std::string& text) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string shape = text.substr(0, colon);
     const std::size_t count = shape == "box" || shape == "line" ? 5 : shape == "circle" ? 4 : 0;
-    require(count > 0 && colon < text.size(), text,
-            "a shape is box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H");
+    require_text(count > 0 && colon < text.size(), text,
+                 "a shape is box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H");
     const std::vector<double> numbers = core::parse_numbers(text.substr(colon + 1), ',');
-    require(numbers.size() == count, text,
-            core::concat("a ", shape, " takes ", count, " numbers, not ", numbers.size()));
-    require(numbers.back() > 0, text, "the edge length must be > 0");
+    require_text(numbers.size() == count, text,
+                 core::concat("a ", shape, " takes ", count, " numbers, not ", numbers.size()));
+    require_text(numbers.back() > 0, text, "the edge length must be > 0");
     if (shape == "circle") {
-        require(numbers[2] > 0, text, "the radius must be > 0");
+        require_text(numbers[2] > 0, text, "the radius must be > 0");
         return {.a = {numbers[0], numbers[1]}, .b = {numbers[0], numbers[1]}, .size = numbers[3], .radius = numbers[2]};
     }
     const Point a{numbers[0], numbers[1]}, b{numbers[2], numbers[3]};
