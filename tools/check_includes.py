@@ -29,6 +29,7 @@ PUBLIC = REPOSITORY / "include" / "lamina"
 OWNERS = {name: "core" for name in ("angle_bounds", "error", "export", "files", "ids", "limits", "option",
                                     "option_builders", "point", "predicates", "suggestion", "threads", "version",
                                     "warning")}
+OWNERS["transformation"] = "geometry"
 OWNERS["triangle_files"] = "io"
 
 # The colours of docs/images/stages.dot.

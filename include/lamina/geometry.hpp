@@ -12,6 +12,7 @@
 #include <lamina/export.hpp>
 #include <lamina/option.hpp>
 #include <lamina/point.hpp>
+#include <lamina/transformation.hpp>
 #include <lamina/warning.hpp>
 
 namespace lamina {
@@ -46,8 +47,9 @@ struct Element {
     std::vector<Point> points;
     std::vector<std::size_t> lines;    ///< per point: its line in the file; 0 where lamina added the point
     std::vector<std::string> repairs;  ///< repairs by the reader: "line 12: duplicate of line 11 removed (0.5, 0.1)"
-    std::vector<Warning> warnings;     ///< by the reader; their messages do not name the element
-    std::vector<std::string> surface_notes;  ///< changes that prepare_surfaces() made to the points, and why
+    std::vector<std::string> transformations;  ///< what transformed() and flipped() did, in order
+    std::vector<Warning> warnings;             ///< by the reader; their messages do not name the element
+    std::vector<std::string> surface_notes;    ///< changes that prepare_surfaces() made to the points, and why
     /// Whether the points are many exact samples of a curve, of which prepare_surfaces() takes as many as a wall needs.
     bool samples_of_curve = false;
     bool resampled = false;  ///< whether prepare_surfaces() chose the spacing of the points
@@ -71,6 +73,8 @@ struct GeometryOptions {
     /// Surface points of `naca:` inputs that do not give their number; 0: many samples of the formula, of which
     /// prepare_surfaces() takes as many as a wall needs (Element::samples_of_curve).
     std::size_t naca_points = 0;
+    bool flip = false;                              ///< whether the flow comes from the right: flipped()
+    std::vector<Transformation> transformations{};  ///< applied in this order, after the flip: transformed()
 };
 
 /// Returns the table of these options, with names, ranges and help.
@@ -80,10 +84,10 @@ LAMINA_EXPORT const OptionTable<GeometryOptions>& geometry_option_table();
 LAMINA_EXPORT void validate(const GeometryOptions& options);
 
 /// Reads every input, which is a path, "-" for standard input, or `naca:DIGITS[:POINTS][:blunt|:extended]`, and
-/// repairs, orients, names and checks its elements. Coordinates are neither scaled nor moved. Throws InputError for
-/// input that cannot be repaired (no or too few points, NaN, an outline that crosses itself, elements that cross or
-/// contain each other, coordinates outside the exact range of predicates.hpp), IoError for files that cannot be read,
-/// UsageError for names that are no markers.
+/// repairs, orients, names, transforms and checks its elements. Coordinates change only as the options ask. Throws
+/// InputError for input that cannot be repaired (no or too few points, NaN, an outline that crosses itself, elements
+/// that cross or contain each other, coordinates outside the exact range of predicates.hpp) or transformed, IoError for
+/// files that cannot be read, UsageError for names that are no markers or that no element has.
 LAMINA_EXPORT Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
 
 /// Reads one file, which may hold several elements. Takes the same steps and throws the same errors as read_geometry().

@@ -154,8 +154,14 @@ constexpr OtherWord mesh_words[] = {
     {"2", "", "every mesh is two-dimensional"},
     {"force", "", "outputs are replaced without asking, and inputs never"},
     {"overwrite", "", "outputs are replaced without asking, and inputs never"},
-    {"scale", "", "lamina never scales or moves coordinates"},
-    {"rotate", "", "lamina never scales or moves coordinates"},
+    {"deflection", "", "--transform ELEMENT:flap:DEG:X,Y deflects a flap"},
+    {"flap", "", "--transform ELEMENT:flap:DEG:X,Y deflects a flap"},
+    {"mirror", "", "--transform ELEMENT:mirror[:Y] mirrors a section"},
+    {"move", "", "--transform ELEMENT:shift:DX,DY moves a section"},
+    {"rotate", "", "--transform ELEMENT:rotate:DEG[:X,Y] turns a section"},
+    {"scale", "", "--transform ELEMENT:scale:S[:X,Y] scales a section"},
+    {"shift", "", "--transform ELEMENT:shift:DX,DY moves a section"},
+    {"translate", "", "--transform ELEMENT:shift:DX,DY moves a section"},
 };
 
 constexpr OtherWord delaunay_words[] = {

@@ -49,6 +49,7 @@ Json input_report(const Geometry& geometry) {
                          {"points", element.points.size()},
                          {"points_read", element.points_read},
                          {"repairs", element.repairs},
+                         {"transformations", element.transformations},
                          {"surface", element.surface_notes}});
     }
     return input;

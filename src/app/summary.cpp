@@ -56,6 +56,7 @@ std::string element_lines(const Element& element) {
     std::string text = fmt::format("{}: {} points on the wall, from {} (format {})\n", element.name,
                                    element.points.size(), element.file, element.format);
     for (const std::string& repair : element.repairs) text += summary_line("repaired", repair);
+    for (const std::string& change : element.transformations) text += summary_line("transformed", change);
     for (const std::string& note : element.surface_notes) text += summary_line("surface", note);
     return text;
 }

@@ -12,6 +12,15 @@ OptionTable<GeometryOptions> make_table() {
     table.list("names", OptionKind::words, "A,B,...",
                "marker names, one per element; else the stems of the files, or 'airfoil' for a single element",
                member_at(&GeometryOptions::names));
+    table.flag("flip",
+               "exchange left and right of the whole configuration, for flow that comes from the right; before any "
+               "--transform",
+               true, member_at(&GeometryOptions::flip));
+    table.specs("transform", "ELEMENT:CHANGE",
+                "change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] "
+                "(counter-clockwise, about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), "
+                "flap:DEG:X,Y (a plain flap with its hinge at X,Y, downwards); may be given several times, in order",
+                parse_transformation, transformation_text, member_at(&GeometryOptions::transformations));
     table
         .count("naca-points", "N",
                "surface points of naca: inputs that do not give their number; 0: as many as a wall needs",

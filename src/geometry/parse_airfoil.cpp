@@ -20,8 +20,10 @@ std::vector<Element> parse_airfoil(std::string_view text, const std::string& fil
 Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options) {
     Geometry geometry{std::move(elements)};
     name_elements(geometry.elements, options);
+    if (options.flip) geometry = flipped(std::move(geometry));
+    geometry = transformed(std::move(geometry), options.transformations);
     check_simple(geometry);
-    add_orientation_warnings(geometry);
+    add_orientation_warnings(geometry, options.flip);
     return geometry;
 }
 

@@ -1,0 +1,124 @@
+// Transformations of elements.
+#include <lamina/geometry.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/option_builders.hpp>
+
+#include "core/angles.hpp"
+#include "geometry/plain_flap.hpp"
+#include "geometry/source_point.hpp"
+
+namespace lamina::geometry {
+
+namespace {
+
+/// Moves the points of an element and the places of its warnings.
+template <class Map>
+void map_points(Element& e, Map map) {
+    for (Point& p : e.points) p = map(p);
+    for (Warning& warning : e.warnings)
+        if (warning.at) warning.at = map(*warning.at);
+}
+
+/// Puts an element that was mirrored back into counter-clockwise order; the first point stays first.
+void reverse_order(Element& e) {
+    std::reverse(e.points.begin() + 1, e.points.end());
+    if (!e.lines.empty()) std::reverse(e.lines.begin() + 1, e.lines.end());
+}
+
+/// Returns the cosine and the sine of an angle, which are 0, 1 and -1 exactly at multiples of 90 degrees.
+Point direction(double angle_deg) {
+    const double quarters = std::floor(angle_deg / 90 + 0.5);
+    Point result = core::rotated({1, 0}, core::radians(angle_deg - 90 * quarters));
+    const int turns = (static_cast<int>(quarters) % 4 + 4) % 4;
+    for (int k = 0; k < turns; ++k) result = perpendicular(result);
+    return result;
+}
+
+/// Changes an element and returns what was done, as a note.
+struct Change {
+    Element& element;
+
+    std::string operator()(const Scaling& s) const {
+        map_points(element, [&](Point p) { return s.center + s.factor * (p - s.center); });
+        return fmt::format("scaled by {} about {}", s.factor, coordinates(s.center));
+    }
+    std::string operator()(const Rotation& r) const {
+        const Point d = direction(r.angle_deg);
+        map_points(element, [&](Point p) {
+            const Point arm = p - r.center;
+            return r.center + Point{arm.x * d.x - arm.y * d.y, arm.x * d.y + arm.y * d.x};
+        });
+        return fmt::format("rotated by {} degrees about {}", r.angle_deg, coordinates(r.center));
+    }
+    std::string operator()(const Shift& s) const {
+        map_points(element, [&](Point p) { return p + s.by; });
+        return fmt::format("shifted by {}", coordinates(s.by));
+    }
+    std::string operator()(const Mirroring& m) const {
+        map_points(element, [&](Point p) { return Point{p.x, 2 * m.y - p.y}; });
+        reverse_order(element);
+        return fmt::format("mirrored in the line y = {}", m.y);
+    }
+    std::string operator()(const FlapDeflection& f) const {
+        std::vector<SourcePoint> outline;
+        for (std::size_t i = 0; i < element.points.size(); ++i)
+            outline.push_back({element.points[i], element.lines.empty() ? 0 : element.lines[i]});
+        outline = with_deflected_flap(outline, f, element);
+        element.points.clear();
+        element.lines.clear();
+        for (const SourcePoint& p : outline) {
+            element.points.push_back(p.at);
+            element.lines.push_back(p.line);
+        }
+        // Only a tail that was cut has a warning with a place by now, and it turns with the flap.
+        for (Warning& warning : element.warnings)
+            if (warning.at && warning.at->x > f.hinge.x)
+                warning.at = f.hinge + core::rotated(*warning.at - f.hinge, -core::radians(f.angle_deg));
+        return fmt::format("flap deflected by {} degrees about {}", f.angle_deg, coordinates(f.hinge));
+    }
+};
+
+void require_known_element(const Geometry& geometry, const std::string& name) {
+    std::vector<std::string> names{std::string(every_element)};
+    for (const Element& e : geometry.elements) names.push_back(e.name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+        throw OptionError("transform", "element " + unknown_choice(name, names));
+}
+
+}  // namespace
+
+}  // namespace lamina::geometry
+
+namespace lamina {
+
+using namespace geometry;
+
+Geometry transformed(Geometry geometry, std::span<const Transformation> transformations) {
+    for (const Transformation& transformation : transformations) {
+        require_known_element(geometry, transformation.element);
+        for (Element& e : geometry.elements)
+            if (transformation.element == every_element || transformation.element == e.name)
+                e.transformations.push_back(std::visit(Change{e}, transformation.change));
+    }
+    return geometry;
+}
+
+Geometry flipped(Geometry geometry) {
+    const Box box = bounding_box(geometry);
+    const double sum = box.lower.x + box.upper.x;
+    for (Element& e : geometry.elements) {
+        map_points(e, [&](Point p) { return Point{sum - p.x, p.y}; });
+        reverse_order(e);
+        e.transformations.push_back(fmt::format("left and right exchanged: x is now {} - x", sum));
+    }
+    return geometry;
+}
+
+}  // namespace lamina
