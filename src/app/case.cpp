@@ -8,10 +8,11 @@
 
 #include "app/case_file.hpp"
 #include "app/option_hint.hpp"
+#include "app/presets.hpp"
 
 namespace lamina::app {
 
-MeshCase case_of_inputs(const std::vector<std::string>& inputs) {
+MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optional<std::string>& preset) {
     if (inputs.empty()) throw UsageError("no INPUT: give an airfoil file, naca:DIGITS or a case file");
     for (const std::string& input : inputs)
         if (input.starts_with('-') && !is_standard_stream(input))
@@ -19,11 +20,11 @@ MeshCase case_of_inputs(const std::vector<std::string>& inputs) {
     const auto is_case_file = [](const std::string& input) {
         return std::filesystem::path(input).extension() == ".toml";
     };
-    if (inputs.size() == 1 && is_case_file(inputs.front())) return read_case_file(inputs.front());
+    if (inputs.size() == 1 && is_case_file(inputs.front())) return read_case_file(inputs.front(), preset);
     const auto case_file = std::find_if(inputs.begin(), inputs.end(), is_case_file);
     if (case_file != inputs.end()) throw UsageError("case file " + *case_file + " must be the only INPUT");
 
-    MeshCase mesh_case;
+    MeshCase mesh_case = case_of_preset(preset.value_or(no_preset));
     mesh_case.inputs = inputs;
     return mesh_case;
 }

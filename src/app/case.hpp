@@ -1,6 +1,7 @@
 // One run of `lamina mesh`: its inputs, its options and its outputs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,11 @@ namespace lamina::app {
 /// When the names of the stages are printed on standard error. `automatic`: where it is a terminal.
 enum class ProgressShown { automatic, always, never };
 
+/// The word for no preset (presets.hpp).
+inline constexpr const char* no_preset = "none";
+
 struct MeshCase {
+    std::string preset = no_preset;    ///< the preset that its options began with
     std::string case_file;             ///< the case file that it was read from; empty: none
     std::vector<std::string> inputs;   ///< airfoil files and NACA names; never a case file
     std::vector<std::string> outputs;  ///< mesh files
@@ -29,7 +34,8 @@ struct MeshCase {
 };
 
 /// Returns the case that the INPUT arguments of a command stand for: the contents of a case file, or the defaults with
-/// these inputs. Throws UsageError where a case file stands beside other inputs, and the errors of read_case_file().
-MeshCase case_of_inputs(const std::vector<std::string>& inputs);
+/// these inputs. The preset replaces that of the case file. Throws UsageError where a case file stands beside other
+/// inputs, and the errors of read_case_file().
+MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optional<std::string>& preset = {});
 
 }  // namespace lamina::app

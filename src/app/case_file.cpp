@@ -13,6 +13,7 @@
 
 #include "app/option_hint.hpp"
 #include "app/options.hpp"
+#include "app/presets.hpp"
 
 namespace lamina::app {
 
@@ -89,9 +90,9 @@ std::string toml_text(const OptionValue& value) {
 
 }  // namespace
 
-MeshCase read_case_file(const std::filesystem::path& file) {
+MeshCase read_case_file(const std::filesystem::path& file, const std::optional<std::string>& preset) {
     const toml::table table = parse(file);
-    MeshCase mesh_case;
+    MeshCase mesh_case = case_of_preset(preset.value_or(table[preset_option].value_or<std::string>(no_preset)));
     for (const auto& [key, node] : table) {
         const std::string_view name = key.str();
         const std::string origin = fmt::format("{}:{}: {}", file.string(), key.source().begin.line, name);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/options.hpp"
+#include "app/presets.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
@@ -50,12 +52,19 @@ CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
     return given->expected(1, -1)->allow_extra_args(given->get_positional());
 }
 
+/// Returns the preset that the command line names.
+std::optional<std::string> preset_of_command_line(const GivenOptions& options) {
+    for (const auto& [option, given] : options)
+        if (option->name == preset_option && given->count() > 0) return given->results().back();
+    return {};
+}
+
 /// Returns the case that the command line describes. Its options override those of the case file.
 MeshCase case_of_command_line(const GivenOptions& options) {
     MeshCase mesh_case;
     for (const auto& [option, given] : options) {
         if (given->get_positional()) {
-            mesh_case = case_of_inputs(given->results());
+            mesh_case = case_of_inputs(given->results(), preset_of_command_line(options));
         } else if (given->count() > 0) {
             const std::string origin = "option --" + option->name;
             assign(*option, mesh_case, value_of_text(option->kind, given->results(), origin), origin);

@@ -13,6 +13,7 @@
 #include <lamina/option_builders.hpp>
 
 #include "app/format_help.hpp"
+#include "app/presets.hpp"
 
 namespace lamina::app {
 
@@ -29,6 +30,10 @@ OptionTable<MeshCase> file_options() {
     table.list("output", OptionKind::paths, "FILE",
                "mesh file to write; may be given several times; - is standard output, with --format",
                member_at(&MeshCase::outputs));
+    table.choice(preset_option,
+                 "options to begin with, which all others override; thesis: what the cases of J. K. Pardue's thesis "
+                 "have in common",
+                 preset_choices(), member_at(&MeshCase::preset));
     table.text("format", OptionKind::word, format_names(),
                "format of every mesh file; else the extension of each says its format", member_at(&MeshCase::format));
     table.flag("wall-distance", "write the distance to the nearest wall as point data, in VTU files", true,

@@ -1,0 +1,54 @@
+#include "app/presets.hpp"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "app/table_option.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+/// A preset: the names and values of the options that it sets.
+struct Preset {
+    std::string name;
+    std::vector<std::pair<std::string, OptionValue>> values;
+};
+
+const std::vector<Preset>& presets() {
+    static const std::vector<Preset> table{
+        // What the cases of J. K. Pardue's thesis (2015) have in common (docs/reproduction.md).
+        {"thesis",
+         {{"first-height", 2.5e-5},
+          {"growth", 1.15},
+          {"layers", std::int64_t{30}},
+          {"max-ray-angle", 4.0},
+          {"layer-topology", std::string("delaunay")},
+          {"far-field", 50.0}}},
+    };
+    return table;
+}
+
+Choices<std::string> make_choices() {
+    Choices<std::string> choices{{no_preset, no_preset}};
+    for (const Preset& preset : presets()) choices.emplace_back(preset.name, preset.name);
+    return choices;
+}
+
+}  // namespace
+
+const Choices<std::string>& preset_choices() {
+    static const Choices<std::string> choices = make_choices();
+    return choices;
+}
+
+MeshCase case_of_preset(const std::string& name) {
+    MeshCase mesh_case;
+    for (const Preset& preset : presets())
+        if (preset.name == name)
+            for (const auto& [option, value] : preset.values) find_row(mesh_options(), option).set(mesh_case, value);
+    return mesh_case;
+}
+
+}  // namespace lamina::app
