@@ -13,7 +13,7 @@ namespace lamina {
 
 /// The ways to treat the given points.
 enum class SurfaceTreatment {
-    automatic,  ///< coarse samples of a smooth curve are resampled; all other elements are kept
+    automatic,  ///< coarse samples of a smooth curve are resampled, stretch by stretch; all others are kept
     keep,       ///< kept exactly
     resample,   ///< replaced by new points on a spline through them
 };
@@ -26,10 +26,15 @@ struct SurfaceOptions {
     std::optional<std::size_t> points{};
     /// The points are smoothed first; each moves by at most this many units of the input. Empty: no smoothing.
     std::optional<double> smooth{};
-    double max_turning_deg = 10;          ///< largest turning at a vertex between two corners
-    double max_ratio = 1.2;               ///< largest ratio of neighbouring spacings, where none is below min_spacing
-    double gradation = 0.18;              ///< growth of the spacing per unit of arc length, within max_ratio
-    double max_spacing = 0.02;            ///< largest spacing
+    double max_turning_deg = 10;  ///< largest turning at a vertex between two corners
+    double max_ratio = 1.2;       ///< largest ratio of neighbouring spacings, where none is below min_spacing
+    double gradation = 0.18;      ///< growth of the spacing per unit of arc length, within max_ratio
+    double max_spacing = 0.02;    ///< largest spacing
+    /// The largest spacing at the leading edge, which is the point of the outline farthest from its trailing edge.
+    /// Makes `automatic` resample. Empty: as the other options ask.
+    std::optional<double> leading_edge_spacing{};
+    /// The spacing at the trailing edge, in place of those at corners below. Makes `automatic` resample.
+    std::optional<double> trailing_edge_spacing{};
     double sharp_corner_spacing = 0.001;  ///< at sharp corners (sharp_corner_deg)
     double corner_spacing = 0.004;        ///< at all other corners
     double gap_spacing = 1;               ///< as a share of the distance to the next element, or across a cove
@@ -54,11 +59,12 @@ struct SpacingLimits {
     std::vector<WallSpacing> walls{};  ///< spacings of stretches of resampled walls; they grow by the gradation beside
 };
 
-/// Keeps or resamples each element, as the options say, and finds its features. Element::surface_notes tells which of
-/// the two was done, and why. Resampling puts a cubic spline, parametrised by chord length, through the points between
-/// corners and divides it into a whole number of edges that take equal shares of the integral of ds / spacing; corners
-/// stay vertices exactly. An element whose resampled outline would cross itself or another one is kept as given.
-/// Mirrored or reversed input gives mirrored points, up to rounding.
+/// Keeps or resamples each stretch of each element between two corners, as the options say, and finds the features of
+/// the elements. Element::surface_notes tells what was done, and why. Resampling puts a cubic spline, parametrised by
+/// chord length, through the points between corners and divides it into a whole number of edges that take equal shares
+/// of the integral of ds / spacing; corners stay vertices exactly. Where the resampled outline would cross itself or
+/// another one, the given points stay vertices, and the straight edges between them are divided instead of the spline;
+/// an element that still crosses is kept as given. Mirrored or reversed input gives mirrored points, up to rounding.
 /// Precondition: check_simple(); the result passes it, too. Throws OptionError for options out of range.
 /// Source: J. F. Thompson, B. K. Soni, N. P. Weatherill, Handbook of Grid Generation (1999), chapters 3 and 30; C. de
 /// Boor, A Practical Guide to Splines (1978), chapter 4.

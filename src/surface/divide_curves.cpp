@@ -42,15 +42,19 @@ struct EdgeCount {
     double first_length, last_length;  ///< lengths of the first and the last edge
 };
 
-/// Counts the edges of a curve: at least min_edges and as many as its spacings ask for, made even where the
-/// curve turns by more than 90 degrees.
-EdgeCount count_edges(const SplineCurve& curve, const CurveSamples& samples, double min_edges) {
-    constexpr double slack = 1e-6;  // of an edge, so that rounding does not decide
+/// Returns whether a curve turns by more than 90 degrees.
+bool turns_far(const SplineCurve& curve, const CurveSamples& samples) {
     double turning = 0;
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) turning += turning_between(curve, samples[i], samples[i + 1]);
+    return std::abs(turning) > 0.5 * core::pi;
+}
+
+/// Counts the edges of a curve: at least min_edges and as many as its spacings ask for, made even if it says so.
+EdgeCount count_edges(const CurveSamples& samples, double min_edges, bool is_even) {
+    constexpr double slack = 1e-6;  // of an edge, so that rounding does not decide
     const double integral = integrate(samples);
     double edges = std::max(std::ceil(integral - slack), min_edges);
-    if (std::abs(turning) > 0.5 * core::pi) edges = 2 * std::ceil(0.5 * edges - 0.25);
+    if (is_even) edges = 2 * std::ceil(0.5 * edges - 0.25);
 
     const double edge = integral / edges, length = samples.back().arc_length;
     EdgeCount count{integral, edges, length, length};
@@ -69,19 +73,23 @@ EdgeCount count_edges(const SplineCurve& curve, const CurveSamples& samples, dou
 }
 
 /// Lowers the spacings at corners whose two edges differ by more than the rule allows: the whole numbers of edges make
-/// short curves finer than their spacing asks for. The shorter edge becomes the spacing on both sides. Returns whether
-/// a spacing was lowered.
-bool even_out_corners(std::vector<CurveSamples>& curves, std::span<const EdgeCount> counts, const SpacingRule& rule) {
+/// short curves finer than their spacing asks for. The shorter edge becomes the spacing on both sides, unless the
+/// longer one is kept. Returns whether a spacing was lowered.
+bool even_out_corners(std::span<const OutlineCurve> curves, std::vector<CurveSamples>& samples,
+                      std::span<const EdgeCount> counts, const SpacingRule& rule) {
     constexpr double max_factor = 0.98;  // so that every round changes something
     bool changed = false;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const std::size_t j = (i + 1) % curves.size();
         const double before = counts[i].last_length, after = counts[j].first_length;
         if (std::max(before, after) <= rule.max_corner_ratio * std::min(before, after)) continue;
+        if (curves[before > after ? i : j].is_kept) continue;
+        double &end = samples[i].back().spacing, &start = samples[j].front().spacing;
         const double spacing =
-            std::min(max_factor * curves[j].front().spacing, std::min(before, after) / (1 + 0.5 * rule.gradation));
+            std::min(max_factor * std::min(end, start), std::min(before, after) / (1 + 0.5 * rule.gradation));
         if (spacing < rule.min_spacing) continue;
-        curves[i].back().spacing = curves[j].front().spacing = spacing;
+        if (!curves[i].is_kept) end = spacing;
+        if (!curves[j].is_kept) start = spacing;
         changed = true;
     }
     return changed;
@@ -89,7 +97,7 @@ bool even_out_corners(std::vector<CurveSamples>& curves, std::span<const EdgeCou
 
 /// Curves with their graded spacings, and the edges of each.
 struct DivisionPlan {
-    std::vector<CurveSamples> curves;
+    std::vector<CurveSamples> samples;
     std::vector<EdgeCount> counts;
 
     /// Returns the number of edges of all curves.
@@ -100,18 +108,32 @@ struct DivisionPlan {
     }
 };
 
-DivisionPlan make_plan(std::span<const SplineCurve> curves, std::vector<CurveSamples> spacings,
+bool have_equal_spacings(const CurveSamples& a, const CurveSamples& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const CurveSample& s, const CurveSample& t) { return s.spacing == t.spacing; });
+}
+
+DivisionPlan make_plan(std::span<const OutlineCurve> curves, std::vector<CurveSamples> spacings,
                        const SpacingRule& rule) {
     constexpr int max_rounds = 30;
-    DivisionPlan plan{std::move(spacings), {}};
     // An outline has at least three edges.
     const double min_edges = curves.size() == 1 ? 3 : curves.size() == 2 ? 2 : 1;
+    std::vector<bool> is_even;
+    for (std::size_t i = 0; i < curves.size(); ++i) is_even.push_back(turns_far(curves[i].curve, spacings[i]));
+    DivisionPlan plan{std::move(spacings), {}};
+    std::vector<CurveSamples> counted(curves.size());  // what the edges were counted from
+    plan.counts.resize(curves.size());
     for (int round = 0; round < max_rounds; ++round) {
-        limit_gradation(plan.curves, rule.gradation);
-        plan.counts.clear();
-        for (std::size_t i = 0; i < curves.size(); ++i)
-            plan.counts.push_back(count_edges(curves[i], plan.curves[i], min_edges));
-        if (curves.size() == 1 || !even_out_corners(plan.curves, plan.counts, rule)) break;
+        limit_gradation(curves, plan.samples, rule.gradation);
+        for (std::size_t i = 0; i < curves.size(); ++i) {
+            const CurveSamples& samples = plan.samples[i];
+            if (round > 0 && have_equal_spacings(samples, counted[i])) continue;
+            const double length = samples.back().arc_length;
+            plan.counts[i] =
+                curves[i].is_kept ? EdgeCount{1, 1, length, length} : count_edges(samples, min_edges, is_even[i]);
+            counted[i] = samples;
+        }
+        if (curves.size() == 1 || !even_out_corners(curves, plan.samples, plan.counts, rule)) break;
     }
     return plan;
 }
@@ -133,6 +155,7 @@ void place_points(const SplineCurve& curve, const CurveSamples& samples, const E
                   DividedCurves& result) {
     result.starts.push_back(result.points.size());
     result.points.push_back(samples.front().at);
+    result.positions.push_back(0);
     double sum = 0, next = 1;
     std::size_t first_sample = 0;  // of the edge that begins at the last point
     const auto finish_edge = [&](Point end, std::size_t last_sample) {
@@ -145,10 +168,12 @@ void place_points(const SplineCurve& curve, const CurveSamples& samples, const E
             const double share = a + (b - a) * ((next * edge - sum) / part);
             const CurveSample &from = samples[i], &to = samples[i + 1];
             const double start = from.piece == to.piece ? from.share : 0;
-            const Point at = curve.at(to.piece, on_knot(start + share * (to.share - start)));
+            const double on_piece = on_knot(start + share * (to.share - start));
+            const Point at = curve.at(to.piece, on_piece);
             finish_edge(at, i);
             first_sample = i + 1;
             result.points.push_back(at);
+            result.positions.push_back(static_cast<double>(to.piece) + on_piece);
             ++next;
         }
         sum += part;
@@ -156,27 +181,28 @@ void place_points(const SplineCurve& curve, const CurveSamples& samples, const E
     finish_edge(samples.back().at, samples.size() - 1);
 }
 
-DividedCurves place_all_points(std::span<const SplineCurve> curves, const DivisionPlan& plan) {
+DividedCurves place_all_points(std::span<const OutlineCurve> curves, const DivisionPlan& plan) {
     DividedCurves result;
-    for (std::size_t i = 0; i < curves.size(); ++i) place_points(curves[i], plan.curves[i], plan.counts[i], result);
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        place_points(curves[i].curve, plan.samples[i], plan.counts[i], result);
     return result;
 }
 
 }  // namespace
 
-DividedCurves divide_curves(std::span<const SplineCurve> curves, std::span<const double> corner_spacing,
-                            const SpacingRule& rule) {
-    return place_all_points(curves, make_plan(curves, sample_spacings(curves, corner_spacing, rule), rule));
+DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingRule& rule) {
+    return place_all_points(curves, make_plan(curves, sample_spacings(curves, rule), rule));
 }
 
-DividedCurves divide_curves_into(std::span<const SplineCurve> curves, std::span<const double> corner_spacing,
-                                 const SpacingRule& rule, std::size_t edges) {
+DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const SpacingRule& rule, std::size_t edges) {
     constexpr int max_doublings = 40, max_bisections = 30;
-    const std::vector<CurveSamples> spacings = sample_spacings(curves, corner_spacing, rule);
+    const std::vector<CurveSamples> spacings = sample_spacings(curves, rule);
     const auto scaled_plan = [&](double factor) {
         std::vector<CurveSamples> scaled = spacings;
-        for (CurveSamples& samples : scaled)
-            for (CurveSample& sample : samples) sample.spacing *= factor;
+        for (std::size_t i = 0; i < curves.size(); ++i) {
+            if (curves[i].is_kept) continue;
+            for (CurveSample& sample : scaled[i]) sample.spacing *= factor;
+        }
         return make_plan(curves, std::move(scaled), rule);
     };
     const auto target = static_cast<double>(edges);

@@ -9,17 +9,28 @@
 
 namespace lamina::surface {
 
+std::vector<bool> find_zigzags(std::span<const double> turning, double min_turning) {
+    const std::size_t n = turning.size();
+    std::vector<bool> zigzags(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double before = turning[(i + n - 1) % n], after = turning[(i + 1) % n];
+        zigzags[i] = std::min({std::abs(turning[i]), std::abs(before), std::abs(after)}) > min_turning &&
+                     turning[i] * before < 0 && turning[i] * after < 0;
+    }
+    return zigzags;
+}
+
 NoiseEstimate estimate_noise(std::span<const Point> outline, std::span<const std::size_t> corners) {
     constexpr double min_turning = core::radians(0.2);
     const std::size_t n = outline.size();
     std::vector<double> turning = turning_angles(outline);
     for (std::size_t corner : corners) turning[corner] = 0;
+    const std::vector<bool> zigzags = find_zigzags(turning, min_turning);
     NoiseEstimate noise;
     for (std::size_t i = 0; i < n; ++i) {
+        if (!zigzags[i]) continue;
         const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
         const double angle = std::abs(turning[i]);
-        const double smallest = std::min({angle, std::abs(turning[before]), std::abs(turning[after])});
-        if (smallest < min_turning || turning[i] * turning[before] > 0 || turning[i] * turning[after] > 0) continue;
         ++noise.vertices;
         noise.max_turning = std::max(noise.max_turning, angle);
         // A vertex that moves aside by d turns by d (1/l + 1/m) more, where l and m are the lengths of its edges. Half

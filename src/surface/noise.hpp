@@ -9,6 +9,11 @@
 
 namespace lamina::surface {
 
+/// Returns, for each vertex of a closed outline with these turning angles in radians, whether the outline zigzags: the
+/// sense of turning changes on both sides of the vertex, and it turns by more than `min_turning` there and at both
+/// neighbours.
+std::vector<bool> find_zigzags(std::span<const double> turning, double min_turning);
+
 /// An estimate of the noise of an outline.
 struct NoiseEstimate {
     std::size_t vertices = 0;  ///< number of vertices that zigzag

@@ -19,6 +19,16 @@ OptionTable<SurfaceOptions> make_table() {
                  at(&SurfaceOptions::treatment));
     table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle requires",
                 numbers_from_to(3, 1e7), at(&SurfaceOptions::points));
+    table.number("spacing-le", "SHARE",
+                 "wall spacing at the leading edge at most, in lengths of the element; makes auto resample. Where the "
+                 "curvature asks for less, it gets less",
+                 positive_numbers, at(&SurfaceOptions::leading_edge_spacing));
+    table.number("spacing-te", "SHARE",
+                 "wall spacing at the trailing edge, in lengths of the element; makes auto resample; else as the layer "
+                 "asks, about 0.001",
+                 positive_numbers, at(&SurfaceOptions::trailing_edge_spacing));
+    table.number("spacing-max", "SHARE", "largest wall spacing, in lengths of the element", positive_numbers,
+                 at(&SurfaceOptions::max_spacing));
     table.number("smooth", "TOL", "smooth the points first; none moves by more than this, in units of the input",
                  positive_numbers, at(&SurfaceOptions::smooth));
 
@@ -30,7 +40,6 @@ OptionTable<SurfaceOptions> make_table() {
     library(table.number("surface-gradation", "G", "growth of the spacing per unit of arc length", positive_numbers,
                          at(&SurfaceOptions::gradation)));
     const std::pair<const char*, double SurfaceOptions::*> shares[] = {
-        {"max-spacing", &SurfaceOptions::max_spacing},
         {"sharp-corner-spacing", &SurfaceOptions::sharp_corner_spacing},
         {"corner-spacing", &SurfaceOptions::corner_spacing},
         {"gap-spacing", &SurfaceOptions::gap_spacing},

@@ -2,7 +2,9 @@
 // a spline that is divided anew.
 #include "surface/resample.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "surface/notes.hpp"
 #include "surface/smooth_run.hpp"
 #include "surface/spline.hpp"
+#include "surface/trailing_edge.hpp"
 
 namespace lamina::surface {
 
@@ -28,53 +31,150 @@ constexpr double max_close_share = 0.1;
 struct CorneredOutline {
     std::vector<Point> points;
     std::vector<std::size_t> corners;
+    std::vector<std::size_t> origins;  ///< per point: index of the given one, or of the first one of a merged pair
 };
 
 /// Replaces each pair of samples that are much closer to each other than to the next ones by one point, since such a
 /// pair tells little but its rounding. Pairs whose point would be a corner stay, as at a narrow base, and so do pairs
-/// that are `max_pair_length` apart or more, where one of the two is misplaced.
-CorneredOutline merge_close_pairs(const Element& element, double max_pair_length) {
+/// that are `max_pair_length` apart or more, where one of the two is misplaced, and those beside an edge that stays
+/// straight.
+CorneredOutline merge_close_pairs(const Element& element, std::span<const EdgeTreatment> treatment,
+                                  double max_pair_length) {
     const std::vector<Point>& points = element.points;
     const std::size_t n = points.size();
     const auto length_after = [&](std::size_t i) { return distance(points[i % n], points[(i + 1) % n]); };
+    const auto is_spline = [&](std::size_t i) { return treatment[i % n] == EdgeTreatment::spline; };
     std::vector<bool> is_merged(n);  // whether a point is merged with the next one
     for (std::size_t i = 0; n >= 5 && i < n; ++i)
-        is_merged[i] = length_after(i) < std::min(max_pair_length, max_close_share * std::min(length_after(i + n - 1),
+        is_merged[i] = is_spline(i + n - 1) && is_spline(i) && is_spline(i + 1) &&
+                       length_after(i) < std::min(max_pair_length, max_close_share * std::min(length_after(i + n - 1),
                                                                                               length_after(i + 1)));
-    if (std::find(is_merged.begin(), is_merged.end(), true) == is_merged.end())
-        return {points, element.features.corners};
 
-    std::vector<std::size_t> origins;  // indices in `points` of the kept points
-    const auto kept_points = [&] {
-        std::vector<Point> kept;
-        origins.clear();
+    CorneredOutline outline;
+    const auto keep_points = [&] {
+        outline.points.clear();
+        outline.origins.clear();
         for (std::size_t i = 0; i < n; ++i) {
             if (is_merged[(i + n - 1) % n]) continue;
-            kept.push_back(is_merged[i] ? midpoint(points[i], points[(i + 1) % n]) : points[i]);
-            origins.push_back(i);
+            outline.points.push_back(is_merged[i] ? midpoint(points[i], points[(i + 1) % n]) : points[i]);
+            outline.origins.push_back(i);
         }
-        return kept;
     };
-    for (std::size_t corner : find_corners(kept_points())) is_merged[origins[corner]] = false;
-    std::vector<Point> kept = kept_points();
-    std::vector<std::size_t> corners = find_corners(kept);
-    return {std::move(kept), std::move(corners)};
+    keep_points();
+    if (outline.points.size() == n) {
+        outline.corners = element.features.corners;
+        return outline;
+    }
+    for (std::size_t corner : find_corners(outline.points)) is_merged[outline.origins[corner]] = false;
+    keep_points();
+    outline.corners = find_corners(outline.points);
+    return outline;
+}
+
+/// The points of an outline from one corner to the next, and the numbers of the given points that they come from.
+struct Stretch {
+    SmoothRun run;
+    std::vector<std::size_t> origins;  ///< per point of the run; the first one of a closed run stands again at the end
+};
+
+std::vector<Stretch> stretches_of(const CorneredOutline& outline) {
+    std::vector<Stretch> stretches;
+    for (SmoothRun& run : split_at_corners(outline.points, outline.corners)) {
+        const std::size_t first = run.closed ? 0 : outline.corners[stretches.size()];
+        Stretch& stretch = stretches.emplace_back(Stretch{std::move(run), {}});
+        const std::size_t count = stretch.run.points.size() + (stretch.run.closed ? 1 : 0);
+        for (std::size_t k = 0; k < count; ++k)
+            stretch.origins.push_back(outline.origins[(first + k) % outline.points.size()]);
+    }
+    return stretches;
+}
+
+/// Returns what becomes of a stretch between two of its points. Where samples between the two were left out, the
+/// spline takes the place of all edges there.
+EdgeTreatment treatment_of(const Stretch& stretch, std::size_t piece, std::span<const EdgeTreatment> treatment) {
+    const std::size_t from = stretch.origins[piece], to = stretch.origins[piece + 1];
+    return (from + 1) % treatment.size() == to ? treatment[from] : EdgeTreatment::spline;
 }
 
 /// Drops the sample beside a corner that is much closer to the corner than to the next sample, and within the tolerance
-/// of the straight line between the two.
-void drop_close_to_corners(SmoothRun& run, double tolerance) {
-    std::vector<Point>& p = run.points;
+/// of the straight line between the two, unless an edge there stays straight.
+void drop_close_to_corners(Stretch& stretch, std::span<const EdgeTreatment> treatment, double tolerance) {
+    std::vector<Point>& p = stretch.run.points;
+    std::vector<std::size_t>& origins = stretch.origins;
     const auto is_close = [&](Point corner, Point sample, Point next) {
         return distance(corner, sample) < max_close_share * distance(sample, next) &&
                core::distance_to_segment(sample, corner, next) < tolerance;
     };
-    if (run.closed) return;
-    if (p.size() > 3 && is_close(p[0], p[1], p[2])) p.erase(p.begin() + 1);
-    if (p.size() > 3 && is_close(p.back(), p[p.size() - 2], p[p.size() - 3])) p.erase(p.end() - 2);
+    const auto are_splines = [&](std::size_t piece) {
+        return treatment_of(stretch, piece, treatment) == EdgeTreatment::spline &&
+               treatment_of(stretch, piece + 1, treatment) == EdgeTreatment::spline;
+    };
+    if (stretch.run.closed) return;
+    if (p.size() > 3 && are_splines(0) && is_close(p[0], p[1], p[2])) {
+        p.erase(p.begin() + 1);
+        origins.erase(origins.begin() + 1);
+    }
+    if (p.size() > 3 && are_splines(p.size() - 3) && is_close(p.back(), p[p.size() - 2], p[p.size() - 3])) {
+        p.erase(p.end() - 2);
+        origins.erase(origins.end() - 2);
+    }
 }
 
-SpacingRule make_spacing_rule(const ResamplingRequest& request, double scale, std::size_t element) {
+/// The curves of an outline.
+struct OutlineCurves {
+    std::vector<OutlineCurve> curves;
+    std::vector<std::vector<std::size_t>> knots;  ///< per curve: the given points at the ends of its pieces
+    std::vector<bool> starts_at_corner;           ///< per curve
+};
+
+/// Appends the curves of a stretch: pieces of its spline in a row are one curve, and so is each straight edge.
+void append_curves(const Stretch& stretch, std::span<const EdgeTreatment> treatment, OutlineCurves& result) {
+    const SplineCurve spline(stretch.run);
+    const std::size_t n = spline.pieces();
+    const auto treatment_at = [&](std::size_t piece) { return treatment_of(stretch, piece % n, treatment); };
+    const auto is_spline = [&](std::size_t piece) { return treatment_at(piece) == EdgeTreatment::spline; };
+    std::size_t first = 0;  // the piece at which the curves of a closed run start: a straight one, if there is any
+    while (stretch.run.closed && first < n && is_spline(first)) ++first;
+    for (std::size_t k = 0, count = 0; k < n; k += count) {
+        const std::size_t piece = (first + k) % n;
+        count = 1;
+        while (is_spline(piece) && k + count < n && is_spline(piece + count)) ++count;
+        const auto straight = [&] { return SplineCurve({{spline.at(piece, 0), spline.at(piece, 1)}, false}); };
+        result.curves.push_back({count == n         ? spline
+                                 : is_spline(piece) ? spline.part(piece, count)
+                                                    : straight(),
+                                 HUGE_VAL, treatment_at(piece) == EdgeTreatment::keep});
+        std::vector<std::size_t>& knots = result.knots.emplace_back(1, stretch.origins[piece]);
+        for (std::size_t j = 0; j < count; ++j) knots.push_back(stretch.origins[(piece + j) % n + 1]);
+        result.starts_at_corner.push_back(k == 0 && !stretch.run.closed);
+    }
+}
+
+/// The vertices at both ends of the chord of an element: at its trailing edge, both corners of a base, and at its
+/// leading edge, two points that are as far from the trailing edge as each other.
+struct ChordEnds {
+    std::vector<Point> leading, trailing;
+};
+
+ChordEnds find_chord_ends(std::span<const Point> outline) {
+    constexpr double rounding = 1e-9;
+    OutlineFeatures features;
+    find_trailing_edge(outline, features);
+    ChordEnds ends;
+    double farthest = 0;
+    for (Point p : outline) {
+        farthest = std::max(farthest, distance(p, features.trailing_edge));
+        if (p == features.trailing_edge) ends.trailing = {p};
+    }
+    if (ends.trailing.empty() && features.base)
+        ends.trailing = {outline[features.base->first], outline[features.base->last]};
+    for (Point p : outline)
+        if (distance(p, features.trailing_edge) >= (1 - rounding) * farthest) ends.leading.push_back(p);
+    return ends;
+}
+
+SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds& ends, double scale,
+                              std::size_t element) {
     const SurfaceOptions& options = request.options;
     // The bound on turning holds for the mean over two edges, of which gradation makes one longer.
     constexpr double turning_share = 0.85;
@@ -96,24 +196,31 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, double scale, st
                       max_clearance = rule.max_spacing / options.gap_spacing](Point p, Point normal) {
         return walls.clearance(element, p, normal, min_own_clearance, max_clearance);
     };
+    const auto add_bounds = [&](std::span<const Point> points, const std::optional<double>& spacing) {
+        if (!spacing) return;
+        for (Point p : points) rule.point_spacings.push_back({p, *spacing * scale});
+    };
+    add_bounds(ends.leading, options.leading_edge_spacing);
+    add_bounds(ends.trailing, options.trailing_edge_spacing);
     return rule;
 }
 
-/// Returns the largest spacing at each corner, or no bound for an outline without corners.
-std::vector<double> corner_spacings(const CorneredOutline& outline, const ResamplingRequest& request, double scale) {
-    if (outline.corners.empty()) return {HUGE_VAL};
-    const SurfaceOptions& options = request.options;
+/// Sets the largest spacing at each corner. Beside a kept edge, that edge alone sets it.
+void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, const ResamplingRequest& request,
+                      const ChordEnds& ends, double scale) {
     const std::vector<double> turning = turning_angles(outline.points);
-    const double spacing_by_options = options.sharp_corner_spacing * scale;
-    const std::optional<double>& fan_spacing = request.limits.fan_spacing;
-    const double sharp_spacing =
-        fan_spacing ? std::clamp(*fan_spacing, 0.25 * spacing_by_options, options.corner_spacing * scale)
-                    : spacing_by_options;
-    std::vector<double> spacings;
-    for (std::size_t c : outline.corners)
-        spacings.push_back(turning[c] > core::radians(sharp_corner_deg) ? sharp_spacing
-                                                                        : options.corner_spacing * scale);
-    return spacings;
+    const std::optional<double>& trailing_edge_spacing = request.options.trailing_edge_spacing;
+    std::size_t corners = 0;
+    for (std::size_t i = 0, n = curves.curves.size(); i < n; ++i) {
+        if (!curves.starts_at_corner[i]) continue;
+        const std::size_t corner = outline.corners[corners++];
+        if (curves.curves[i].is_kept || curves.curves[(i + n - 1) % n].is_kept) continue;
+        const std::vector<Point>& trailing = ends.trailing;
+        const bool is_trailing = std::find(trailing.begin(), trailing.end(), outline.points[corner]) != trailing.end();
+        curves.curves[i].start_spacing = trailing_edge_spacing && is_trailing
+                                             ? *trailing_edge_spacing * scale
+                                             : request.corner_spacing(turning[corner], scale);
+    }
 }
 
 /// Returns, per new point, the line of the file if a given point stands there, as at corners, else 0.
@@ -130,39 +237,73 @@ std::vector<std::size_t> lines_of(const Element& given, const std::vector<Point>
     return lines;
 }
 
+/// Returns, per edge of a divided outline, the given edges whose place it takes.
+std::vector<GivenEdges> origins_of(const OutlineCurves& outline, const DividedCurves& divided, std::size_t given) {
+    std::vector<GivenEdges> origins;
+    for (std::size_t c = 0; c < outline.curves.size(); ++c) {
+        const std::vector<std::size_t>& knots = outline.knots[c];
+        const std::size_t end = c + 1 < divided.starts.size() ? divided.starts[c + 1] : divided.points.size();
+        for (std::size_t i = divided.starts[c]; i < end; ++i) {
+            const double from = std::floor(divided.positions[i]);
+            const double to = i + 1 < end ? std::ceil(divided.positions[i + 1]) : static_cast<double>(knots.size() - 1);
+            const std::size_t first = knots[static_cast<std::size_t>(from)], last = knots[static_cast<std::size_t>(to)];
+            origins.push_back({first, 1 + (last + given - first - 1) % given});
+        }
+    }
+    return origins;
+}
+
 }  // namespace
+
+double ResamplingRequest::max_turning_deg() const { return std::min(options.max_turning_deg, limits.max_turning_deg); }
+
+double ResamplingRequest::corner_spacing(double turning, double extent) const {
+    if (turning <= core::radians(sharp_corner_deg)) return options.corner_spacing * extent;
+    const double by_options = options.sharp_corner_spacing * extent;
+    return limits.fan_spacing ? std::clamp(*limits.fan_spacing, 0.25 * by_options, options.corner_spacing * extent)
+                              : by_options;
+}
 
 double extent(std::span<const Point> outline) { return core::longer_side(core::bounding_box(outline)); }
 
-Element resample(const Element& given, std::size_t index, const ResamplingRequest& request, const std::string& reason) {
+ResampledElement resample(const Element& given, std::size_t index, const ResamplingRequest& request,
+                          std::span<const EdgeTreatment> treatment, const std::string& reason) {
     constexpr double max_pair_share = 1e-3;  // of the extent
     const SurfaceOptions& options = request.options;
     const double scale = extent(given.points);
-    const CorneredOutline outline = merge_close_pairs(given, max_pair_share * scale);
-    std::vector<SplineCurve> curves;
-    for (SmoothRun& run : split_at_corners(outline.points, outline.corners)) {
-        drop_close_to_corners(run, 0.5 * options.tolerance * scale);
-        curves.emplace_back(run);
+    const CorneredOutline outline = merge_close_pairs(given, treatment, max_pair_share * scale);
+    OutlineCurves outline_curves;
+    for (Stretch& stretch : stretches_of(outline)) {
+        drop_close_to_corners(stretch, treatment, 0.5 * options.tolerance * scale);
+        append_curves(stretch, treatment, outline_curves);
     }
-    const SpacingRule rule = make_spacing_rule(request, scale, index);
-    const std::vector<double> corner_spacing_bounds = corner_spacings(outline, request, scale);
+    const ChordEnds ends = find_chord_ends(given.points);
+    limit_at_corners(outline_curves, outline, request, ends, scale);
+    const SpacingRule rule = make_spacing_rule(request, ends, scale, index);
 
-    DividedCurves divided = options.points ? divide_curves_into(curves, corner_spacing_bounds, rule, *options.points)
-                                           : divide_curves(curves, corner_spacing_bounds, rule);
+    const std::vector<OutlineCurve>& curves = outline_curves.curves;
+    DividedCurves divided =
+        options.points ? divide_curves_into(curves, rule, *options.points) : divide_curves(curves, rule);
     // Where lamina decides by itself, it never takes points away from a fine outline.
-    if (!options.points && options.treatment == SurfaceTreatment::automatic && !given.samples_of_curve &&
-        divided.points.size() < given.points.size())
-        divided = divide_curves_into(curves, corner_spacing_bounds, rule, given.points.size());
+    const bool decides_alone = options.treatment == SurfaceTreatment::automatic && !options.points &&
+                               !options.leading_edge_spacing && !options.trailing_edge_spacing;
+    if (decides_alone && !given.samples_of_curve && divided.points.size() < given.points.size())
+        divided = divide_curves_into(curves, rule, given.points.size());
 
+    std::vector<GivenEdges> origins = origins_of(outline_curves, divided, given.points.size());
     Element element = given;
     element.points = std::move(divided.points);
     element.lines = lines_of(given, element.points);
     element.resampled = true;
-    element.features.corners = outline.corners.empty() ? std::vector<std::size_t>{} : std::move(divided.starts);
+    element.features.corners.clear();
+    for (std::size_t c = 0; c < curves.size(); ++c)
+        if (outline_curves.starts_at_corner[c]) element.features.corners.push_back(divided.starts[c]);
+    const auto kept = static_cast<std::size_t>(std::count(treatment.begin(), treatment.end(), EdgeTreatment::keep));
     element.surface_notes.push_back(
-        fmt::format("{} points resampled to {}: {}; {} kept, edges within {:.2g} of the spline", given.points.size(),
-                    element.points.size(), reason, counted(outline.corners.size(), "corner"), divided.deviation));
-    return element;
+        fmt::format("{} points resampled to {}: {}; {}{} kept, edges within {:.2g} of the spline", given.points.size(),
+                    element.points.size(), reason, counted(outline.corners.size(), "corner"),
+                    kept > 0 ? " and " + counted(kept, "given edge") : "", divided.deviation));
+    return {std::move(element), std::move(origins)};
 }
 
 }  // namespace lamina::surface

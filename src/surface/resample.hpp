@@ -1,10 +1,10 @@
 // New points on a smooth curve through the given ones.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <lamina/surface.hpp>
 
@@ -21,11 +21,34 @@ struct ResamplingRequest {
     const SpacingLimits& limits;
     const ClearanceSearch& walls;
 
-    double max_turning_deg() const { return std::min(options.max_turning_deg, limits.max_turning_deg); }
+    /// Returns the largest turning at a vertex between two corners, in degrees.
+    double max_turning_deg() const;
+    /// Returns the largest spacing at a corner that turns by this angle, in radians, of an outline of this extent.
+    double corner_spacing(double turning, double extent) const;
+};
+
+/// What becomes of an edge between two given points.
+enum class EdgeTreatment {
+    keep,    ///< it stays one edge
+    divide,  ///< it stays straight and is divided
+    spline,  ///< a spline between the two points takes its place, and is divided
+};
+
+/// Given edges that follow each other round an outline.
+struct GivenEdges {
+    std::size_t first, count;
+};
+
+/// An element with new points.
+struct ResampledElement {
+    Element element;
+    std::vector<GivenEdges> origins;  ///< per new edge: the given ones whose place it takes
 };
 
 /// Returns the element, whose number in its geometry is `index`, with new points, and adds a note that quotes `reason`.
+/// `treatment` holds what becomes of each given edge.
 /// Precondition: the corners of its outline are known (Element::features).
-Element resample(const Element& given, std::size_t index, const ResamplingRequest& request, const std::string& reason);
+ResampledElement resample(const Element& given, std::size_t index, const ResamplingRequest& request,
+                          std::span<const EdgeTreatment> treatment, const std::string& reason);
 
 }  // namespace lamina::surface

@@ -86,34 +86,65 @@ void limit_at_corners(CurveSamples& samples, double max_at_start, double max_at_
     samples.back().spacing = std::min({samples.back().spacing, max_at_end, max_spacing});
 }
 
+/// Lowers the spacing at the samples that are nearest to a point. The two sides of a corner are as near as each other.
+void limit_at_point(std::span<const OutlineCurve> curves, std::vector<CurveSamples>& samples,
+                    const PointSpacing& bound) {
+    double nearest = HUGE_VAL;
+    for (const CurveSamples& curve : samples)
+        for (const CurveSample& sample : curve) nearest = std::min(nearest, distance(sample.at, bound.at));
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        if (curves[i].is_kept) continue;
+        for (CurveSample& sample : samples[i])
+            if (distance(sample.at, bound.at) == nearest) sample.spacing = std::min(sample.spacing, bound.spacing);
+    }
+}
+
+/// Returns the two ends of a curve that stays one edge.
+CurveSamples samples_of_kept(const SplineCurve& line, double min_spacing) {
+    const Point a = line.at(0, 0), b = line.at(0, 1);
+    const double edge = distance(a, b), spacing = std::max(edge, min_spacing);
+    return {{0, 0, 0, a, spacing}, {0, 1, edge, b, spacing}};
+}
+
 }  // namespace
 
-std::vector<CurveSamples> sample_spacings(std::span<const SplineCurve> curves, std::span<const double> corner_spacing,
-                                          const SpacingRule& rule) {
+std::vector<CurveSamples> sample_spacings(std::span<const OutlineCurve> curves, const SpacingRule& rule) {
     std::vector<CurveSamples> result;
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        CurveSamples& samples = result.emplace_back(sample(curves[i]));
-        limit_by_curvature(curves[i], samples, rule);
-        limit_by_clearance(curves[i], samples, rule);
+        const SplineCurve& curve = curves[i].curve;
+        if (curves[i].is_kept) {
+            result.push_back(samples_of_kept(curve, rule.min_spacing));
+            continue;
+        }
+        CurveSamples& samples = result.emplace_back(sample(curve));
+        limit_by_curvature(curve, samples, rule);
+        limit_by_clearance(curve, samples, rule);
         limit_near_walls(samples, rule);
-        limit_at_corners(samples, corner_spacing[i], corner_spacing[(i + 1) % curves.size()], rule.min_spacing);
+        limit_at_corners(samples, curves[i].start_spacing, curves[(i + 1) % curves.size()].start_spacing,
+                         rule.min_spacing);
     }
+    for (const PointSpacing& bound : rule.point_spacings) limit_at_point(curves, result, bound);
     return result;
 }
 
-void limit_gradation(std::vector<CurveSamples>& curves, double gradation) {
+void limit_gradation(std::span<const OutlineCurve> curves, std::vector<CurveSamples>& curve_samples, double gradation) {
     // All samples round the outline, and the arc length from each to the next one. It is 0 at a corner, and from the
     // last sample of a single closed curve to its first one, since both are the same point.
     std::vector<CurveSample*> samples;
     std::vector<double> steps;
-    for (CurveSamples& curve : curves)
+    std::vector<bool> is_kept;
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+        CurveSamples& curve = curve_samples[c];
         for (std::size_t i = 0; i < curve.size(); ++i) {
             samples.push_back(&curve[i]);
             steps.push_back(i + 1 < curve.size() ? curve[i + 1].arc_length - curve[i].arc_length : 0);
+            is_kept.push_back(curves[c].is_kept);
         }
+    }
     const std::size_t n = samples.size();
     const auto limit = [&](std::size_t to, std::size_t from, double step) {
-        samples[to]->spacing = std::min(samples[to]->spacing, samples[from]->spacing + gradation * step);
+        if (!is_kept[to])
+            samples[to]->spacing = std::min(samples[to]->spacing, samples[from]->spacing + gradation * step);
     };
     const auto next = [&](std::size_t i) { return i + 1 < n ? i + 1 : 0; };
     // The second round carries bounds on past the first sample.

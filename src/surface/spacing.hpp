@@ -13,6 +13,12 @@
 
 namespace lamina::surface {
 
+/// A bound on the spacing at one place of an outline.
+struct PointSpacing {
+    Point at;
+    double spacing;
+};
+
 /// Bounds on the edges of an outline. Lengths are in units of the input.
 struct SpacingRule {
     double max_spacing;
@@ -26,6 +32,16 @@ struct SpacingRule {
     std::function<double(Point, Point)> clearance;
     double clearance_share;          ///< largest spacing as a share of the free room
     std::vector<WallSpacing> walls;  ///< largest spacings at stretches of the outline
+    /// Bounds that hold at the nearest point of the outline each. They may be below min_spacing.
+    std::vector<PointSpacing> point_spacings;
+};
+
+/// One of the curves that follow each other round an outline. Each ends where the next one starts; a single closed
+/// curve may have no corner.
+struct OutlineCurve {
+    SplineCurve curve;
+    double start_spacing = 0;  ///< largest spacing where it starts; infinity means no bound
+    bool is_kept = false;      ///< whether it stays one edge; it is a straight line then
 };
 
 /// A sample of a curve, with the target spacing there.
@@ -38,14 +54,13 @@ struct CurveSample {
 };
 using CurveSamples = std::vector<CurveSample>;
 
-/// Returns samples of each curve with the spacing that the rule allows, before gradation. corner_spacing holds, per
-/// curve, the largest spacing at its start; infinity means no bound. Curves follow each other round an outline.
-std::vector<CurveSamples> sample_spacings(std::span<const SplineCurve> curves, std::span<const double> corner_spacing,
-                                          const SpacingRule& rule);
+/// Returns samples of each curve with the spacing that the rule allows, before gradation. The spacing of a kept curve
+/// is its length, but no less than min_spacing.
+std::vector<CurveSamples> sample_spacings(std::span<const OutlineCurve> curves, const SpacingRule& rule);
 
 /// Lowers spacings until none grows faster than `gradation` per unit of arc length, all round the outline and across
-/// its corners.
-void limit_gradation(std::vector<CurveSamples>& curves, double gradation);
+/// its corners. Kept curves stay as they are and bound the spacings at their ends.
+void limit_gradation(std::span<const OutlineCurve> curves, std::vector<CurveSamples>& samples, double gradation);
 
 /// Returns the angle by which a curve turns from one sample to another, in radians, positive to the left.
 double turning_between(const SplineCurve& curve, const CurveSample& from, const CurveSample& to);

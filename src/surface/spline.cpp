@@ -45,8 +45,11 @@ std::vector<Point> spline_slopes(std::span<const Point> points, std::span<const 
 ///        i ____ i+1        The slope at i lies between the chords from i-1 to i and from i to i+1, or beyond them by
 ///         /                at most a quarter of the turning at i-1, i and i+1 together.
 ///     i-1
+///
+/// Where one of the two chords is more than 20 times as long as the other one, the slope is near its direction: as on
+/// the flank behind a small round nose, a long edge would else bulge by its share of what the short ones turn.
 std::vector<Point> limit_slopes(std::vector<Point> slopes, std::span<const Point> points) {
-    constexpr double margin_share = 0.25, min_length = 0.5, max_length = 1.6;
+    constexpr double margin_share = 0.25, min_length = 0.5, max_length = 1.6, max_chord_ratio = 20;
     const std::size_t n = points.size();
     if (n < 3) return slopes;
     std::vector<double> turning(n);
@@ -63,12 +66,27 @@ std::vector<Point> limit_slopes(std::vector<Point> slopes, std::span<const Point
             slopes[i] = limited_length * unit(slopes[i]);
         }
     };
+    const auto chord = [&](std::size_t i) { return distance(points[i], points[i + 1]); };
+    // Returns how much of the turning between two chords counts on the first of them.
+    const auto share_on = [&](double on, double other) { return std::min(1.0, max_chord_ratio * other / on); };
+    const auto turning_on_next = [&](std::size_t i) {
+        return i > 0 ? std::abs(turning[i]) * share_on(chord(i), chord(i - 1)) : 0;
+    };
+    const auto turning_on_last = [&](std::size_t i) {
+        return i + 1 < n ? std::abs(turning[i]) * share_on(chord(i - 1), chord(i)) : 0;
+    };
     for (std::size_t i = 1; i + 1 < n; ++i) {
-        const double margin =
-            margin_share * (std::abs(turning[i - 1]) + std::abs(turning[i]) + std::abs(turning[i + 1]));
-        limit(i, points[i] - points[i - 1], std::min(0.0, turning[i]) - margin, std::max(0.0, turning[i]) + margin);
+        const double margin = margin_share * (turning_on_next(i - 1) + std::abs(turning[i]) + turning_on_last(i + 1));
+        const double share = std::min(share_on(chord(i - 1), chord(i)), share_on(chord(i), chord(i - 1)));
+        double lower = std::min(0.0, turning[i]) - margin, upper = std::max(0.0, turning[i]) + margin;
+        if (share < 1) {
+            const double direction = chord(i) > chord(i - 1) ? turning[i] : 0;  // of the longer chord
+            lower = direction + share * (lower - direction);
+            upper = direction + share * (upper - direction);
+        }
+        limit(i, points[i] - points[i - 1], lower, upper);
     }
-    const double first = std::abs(turning[1]), last = std::abs(turning[n - 2]);
+    const double first = turning_on_last(1), last = turning_on_next(n - 2);
     limit(0, points[1] - points[0], -first, first);
     limit(n - 1, points[n - 1] - points[n - 2], -last, last);
     return slopes;
@@ -86,6 +104,20 @@ SplineCurve::SplineCurve(const SmoothRun& run) {
         slopes_.push_back(slopes[i]);
     }
     if (run.closed) slopes_.back() = slopes_.front();
+}
+
+SplineCurve SplineCurve::part(std::size_t first, std::size_t count) const {
+    SplineCurve part;
+    part.t_.push_back(0);
+    part.points_.push_back(points_[first]);
+    part.slopes_.push_back(slopes_[first]);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t piece = (first + k) % pieces();
+        part.t_.push_back(part.t_.back() + (t_[piece + 1] - t_[piece]));
+        part.points_.push_back(points_[piece + 1]);
+        part.slopes_.push_back(slopes_[piece + 1]);
+    }
+    return part;
 }
 
 Point SplineCurve::at(std::size_t piece, double share) const {

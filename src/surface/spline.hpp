@@ -17,6 +17,10 @@ class SplineCurve {
 public:
     explicit SplineCurve(const SmoothRun& run);
 
+    /// Returns `count` consecutive pieces from piece `first` on as a curve of their own. Those of a closed curve are
+    /// counted round it.
+    SplineCurve part(std::size_t first, std::size_t count) const;
+
     /// Returns the number of cubic pieces. A closed curve has one per point, an open one has one less.
     std::size_t pieces() const { return t_.size() - 1; }
 
@@ -26,6 +30,8 @@ public:
     Point direction(std::size_t piece, double share) const;
 
 private:
+    SplineCurve() = default;
+
     std::vector<double> t_;      ///< chord length from the first point, per point
     std::vector<Point> points_;  ///< the first one of a closed curve stands again at the end
     std::vector<Point> slopes_;  ///< derivative by t, per point

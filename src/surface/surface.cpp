@@ -11,9 +11,10 @@
 
 #include <lamina/error.hpp>
 
-#include "core/reproducible_math.hpp"
 #include "surface/clearance.hpp"
 #include "surface/corners.hpp"
+#include "surface/crossings.hpp"
+#include "surface/decision.hpp"
 #include "surface/notes.hpp"
 #include "surface/resample.hpp"
 #include "surface/smooth_run.hpp"
@@ -23,9 +24,6 @@
 namespace lamina::surface {
 
 namespace {
-
-/// Returns whether an element has too many corners for samples of a smooth curve. Iced sections have.
-bool is_jagged(const Element& e) { return e.features.corners.size() > std::max<std::size_t>(8, e.points.size() / 25); }
 
 // ---- smoothing -----------------------------------------------------------------------------------------------------
 
@@ -44,64 +42,7 @@ void smooth(Element& e, double tolerance) {
     e.surface_notes.push_back(fmt::format("smoothed: points moved by up to {:.2g}", moved));
 }
 
-// ---- the decision --------------------------------------------------------------------------------------------------
-
-/// How finely an outline is sampled.
-struct Sampling {
-    double max_turning_deg = 0;  ///< at vertices that are no corners
-    double max_ratio = 1;        ///< of neighbouring spacings
-    double max_spacing = 0;      ///< as a share of the element's length
-};
-
-Sampling measure_sampling(const Element& e) {
-    Sampling s;
-    const std::size_t n = e.points.size();
-    const std::vector<double> turning = turning_angles(e.points);
-    std::vector<bool> is_corner(n);
-    for (std::size_t c : e.features.corners) is_corner[c] = true;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double before = distance(e.points[(i + n - 1) % n], e.points[i]),
-                     after = distance(e.points[i], e.points[(i + 1) % n]);
-        s.max_ratio = std::max({s.max_ratio, before / after, after / before});
-        s.max_spacing = std::max(s.max_spacing, after);
-        if (!is_corner[i]) s.max_turning_deg = std::max(s.max_turning_deg, core::degrees(std::abs(turning[i])));
-    }
-    s.max_spacing /= extent(e.points);
-    return s;
-}
-
-struct Decision {
-    bool resample;
-    std::string reason;  ///< a statement about the points: "they turn by up to 12.3 degrees"
-};
-
-Decision decide(const Element& e, const ResamplingRequest& request) {
-    // Beyond these bounds, samples of a smooth curve are too coarse for a mesh. Ratios up to 2 may be a user's choice.
-    constexpr double max_ratio = 2, max_spacing = 0.05;
-    constexpr std::size_t min_dense_points = 1000;
-    const SurfaceOptions& options = request.options;
-    if (options.treatment == SurfaceTreatment::keep) return {false, "as requested"};
-    if (options.points) return {true, fmt::format("about {} points are requested", *options.points)};
-    if (options.treatment == SurfaceTreatment::resample) return {true, "as requested"};
-    if (e.samples_of_curve) return {true, "its formula is known"};
-    if (e.format == "naca") return {false, "generated points are exact"};
-    if (e.points.size() >= min_dense_points) return {false, "they are dense"};
-    const std::vector<std::size_t>& corners = e.features.corners;
-    if (corners.size() == e.points.size()) return {true, "they are the corners of a polygon"};
-    if (is_jagged(e)) return {false, fmt::format("{} of them are corners", corners.size())};
-    const Sampling s = measure_sampling(e);
-    if (s.max_turning_deg > request.max_turning_deg())
-        return {true, fmt::format("they turn by up to {:.1f} degrees", s.max_turning_deg)};
-    if (s.max_spacing > max_spacing)
-        return {true, fmt::format("they are up to {:.1f} % of the length apart", 100 * s.max_spacing)};
-    if (s.max_ratio > max_ratio)
-        return {true, fmt::format("neighbouring spacings differ by up to {:.1f}", s.max_ratio)};
-    return {false,
-            fmt::format("they turn by at most {:.1f} degrees, and neighbouring spacings differ by at most {:.2f}",
-                        s.max_turning_deg, s.max_ratio)};
-}
-
-// ---- safety --------------------------------------------------------------------------------------------------------
+// ---- where outlines cross ------------------------------------------------------------------------------------------
 
 /// Gives an element back its given points, unless it has them already, and adds a note with the reason.
 void restore(Geometry& geometry, std::size_t element, const Geometry& given, const std::string& reason) {
@@ -132,6 +73,89 @@ void restore_crossing(Geometry& geometry, const Geometry& given) {
         restore(geometry, e, given, "its smooth curve would cross that of another element");
 }
 
+/// An element, what becomes of its points, and the edges of the new ones.
+struct Plan {
+    Decision decision;
+    std::vector<GivenEdges> origins;  ///< as in ResampledElement; empty where all points are kept
+    std::size_t straightened = 0;     ///< number of edges that stay straight lest they cross
+};
+
+/// Makes the new points of an element.
+void apply(Plan& plan, Element& element, const Element& given, std::size_t index, const ResamplingRequest& request) {
+    ResampledElement resampled = resample(given, index, request, plan.decision.edges, plan.decision.reason);
+    element = std::move(resampled.element);
+    plan.origins = std::move(resampled.origins);
+    if (plan.straightened > 0)
+        element.surface_notes.push_back(
+            fmt::format("{} stay straight, since the smooth curve would cross itself or another one",
+                        counted(plan.straightened, "given edge")));
+}
+
+/// Replaces given edges that are kept beside far shorter new ones, until there are none.
+void even_out_joints(Plan& plan, Element& element, const Element& given, std::size_t index,
+                     const ResamplingRequest& request) {
+    constexpr int max_rounds = 20;
+    constexpr double max_ratio = 1.25;
+    const double gradation = std::min(request.options.gradation, request.limits.gradation);
+    for (int round = 0; round < max_rounds; ++round) {
+        const std::size_t n = element.points.size();
+        const std::vector<EdgeTreatment> before = plan.decision.edges;
+        const auto is_kept = [&](std::size_t i) { return before[plan.origins[i].first] == EdgeTreatment::keep; };
+        // From a joint on, replaced edges end about as long as the new one that they begin beside, plus the gradation.
+        const auto replace_from = [&](std::size_t other, std::size_t step) {
+            const auto length = [&](std::size_t i) { return distance(element.points[i], element.points[(i + 1) % n]); };
+            double spacing = length(other);
+            for (std::size_t i = (other + step) % n; is_kept(i) && length(i) > max_ratio * spacing;
+                 i = (i + step) % n) {
+                plan.decision.replace_kept(plan.origins[i].first);
+                spacing += gradation * length(i);
+            }
+        };
+        for (std::size_t i = 0; i < n; ++i) {
+            if (is_kept(i)) continue;
+            replace_from(i, 1);
+            replace_from(i, n - 1);
+        }
+        if (plan.decision.edges == before) return;
+        apply(plan, element, given, index, request);
+    }
+}
+
+/// Makes given edges straight that are on the spline, and so many more on both sides of them. Returns whether there
+/// were any.
+bool straighten(Plan& plan, GivenEdges range, std::size_t margin) {
+    std::vector<EdgeTreatment>& edges = plan.decision.edges;
+    const std::size_t n = edges.size(), count = std::min(range.count + 2 * margin, n);
+    const std::size_t before = plan.straightened;
+    for (std::size_t k = 0; k < count; ++k) {
+        EdgeTreatment& edge = edges[(range.first + n - margin % n + k) % n];
+        if (edge != EdgeTreatment::spline) continue;
+        edge = EdgeTreatment::divide;
+        ++plan.straightened;
+    }
+    return plan.straightened > before;
+}
+
+/// Makes edges straight, of which new outlines cross themselves or each other, until none crosses any more or no edge
+/// that crosses is left on a spline.
+void straighten_crossing(Geometry& geometry, std::vector<Plan>& plans, const Geometry& given,
+                         const ResamplingRequest& request) {
+    constexpr int max_rounds = 12;
+    std::size_t margin = 0;
+    for (int round = 0; round < max_rounds; ++round) {
+        std::vector<bool> is_changed(plans.size());
+        for (const CrossingEdge& edge : find_crossing_edges(geometry)) {
+            Plan& plan = plans[edge.element];
+            if (plan.origins.empty()) continue;
+            if (straighten(plan, plan.origins[edge.index], margin)) is_changed[edge.element] = true;
+        }
+        if (std::find(is_changed.begin(), is_changed.end(), true) == is_changed.end()) return;
+        for (std::size_t e = 0; e < plans.size(); ++e)
+            if (is_changed[e]) apply(plans[e], geometry.elements[e], given.elements[e], e, request);
+        margin = std::max<std::size_t>(1, 2 * margin);
+    }
+}
+
 }  // namespace
 
 }  // namespace lamina::surface
@@ -159,15 +183,19 @@ Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const S
     const ClearanceSearch walls(given);
     const ResamplingRequest request{options, limits, walls};
     Geometry result = given;
+    std::vector<Plan> plans;
     for (std::size_t i = 0; i < given.elements.size(); ++i) {
         Element& element = result.elements[i];
-        const Decision decision = decide(element, request);
-        if (decision.resample) {
-            element = resample(given.elements[i], i, request, decision.reason);
+        Plan& plan = plans.emplace_back(Plan{decide(element, request), {}});
+        if (plan.decision.keeps_all()) {
+            element.surface_notes.push_back(
+                fmt::format("{} points kept: {}", element.points.size(), plan.decision.reason));
         } else {
-            element.surface_notes.push_back(fmt::format("{} points kept: {}", element.points.size(), decision.reason));
+            apply(plan, element, given.elements[i], i, request);
+            even_out_joints(plan, element, given.elements[i], i, request);
         }
     }
+    straighten_crossing(result, plans, given, request);
     restore_crossing(result, given);
     for (Element& e : result.elements) find_trailing_edge(e.points, e.features);
     return result;

@@ -1,0 +1,243 @@
+#include "surface/decision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/reproducible_math.hpp"
+#include "surface/corners.hpp"
+#include "surface/noise.hpp"
+
+namespace lamina::surface {
+
+namespace {
+
+/// Beyond these bounds, samples of a smooth curve are too coarse for a mesh. Ratios up to 2 may be a user's choice.
+constexpr double max_given_ratio = 2, max_given_spacing = 0.05;
+/// So many points are kept, even where they are spaced as a generator of meshes would not ...
+constexpr std::size_t min_dense_points = 1000;
+/// ... unless neighbouring spacings differ by more than this, as where points are random.
+constexpr double max_dense_ratio = 10;
+/// The largest ratio of neighbouring spacings in a stretch that is kept beside one that is replaced.
+constexpr double max_kept_ratio = 1.25;
+
+/// An outline that turns by less at each vertex is straight.
+constexpr double min_curve_turning = core::radians(0.01);
+
+/// In a jagged outline, zigzags of more than this are part of the shape, and so are vertices that turn by more than
+/// that, ...
+constexpr double min_zigzag = core::radians(2), max_bend = core::radians(30);
+/// ... and so are stretches of fewer edges than this, unless they turn by less than the angle at each vertex and are
+/// coarse.
+constexpr std::size_t min_smooth_edges = 8;
+constexpr double max_smooth_turning = core::radians(5);
+
+/// Edges that follow each other in a closed outline of n points.
+struct EdgeRange {
+    std::size_t first, count;
+    bool is_closed = false;  ///< whether it is the whole outline, which has no ends
+};
+
+/// How finely a range of edges samples a curve. Both ends of the range are left out of turning and ratio.
+struct Sampling {
+    double max_turning = 0;
+    double max_ratio = 1;  ///< of neighbouring spacings
+    double max_spacing = 0;
+    double first_spacing = 0, last_spacing = 0;
+};
+
+/// Returns the larger values of two ranges, but for the spacings at their ends.
+Sampling coarser(const Sampling& a, const Sampling& b) {
+    return {std::max(a.max_turning, b.max_turning), std::max(a.max_ratio, b.max_ratio),
+            std::max(a.max_spacing, b.max_spacing), 0, 0};
+}
+
+/// A closed outline with its measures.
+struct MeasuredOutline {
+    std::size_t n;
+    double extent;
+    std::vector<double> turning;  ///< per vertex
+    std::vector<double> lengths;  ///< per edge, which has the number of its first point
+
+    explicit MeasuredOutline(std::span<const Point> points)
+        : n(points.size()), extent(surface::extent(points)), turning(turning_angles(points)) {
+        for (std::size_t i = 0; i < n; ++i) lengths.push_back(distance(points[i], points[(i + 1) % n]));
+    }
+
+    /// Returns the ratio of the spacings on both sides of a vertex, the larger one over the smaller.
+    double ratio_at(std::size_t i) const {
+        const double before = lengths[(i + n - 1) % n], after = lengths[i];
+        return std::max(before / after, after / before);
+    }
+
+    /// Returns whether an edge is far longer than one of its neighbours.
+    bool is_long(std::size_t i) const {
+        return lengths[i] > max_given_ratio * std::min(lengths[(i + n - 1) % n], lengths[(i + 1) % n]);
+    }
+
+    Sampling sampling(EdgeRange range) const {
+        Sampling s;
+        for (std::size_t k = 0; k < range.count; ++k) {
+            const std::size_t i = (range.first + k) % n;
+            s.max_spacing = std::max(s.max_spacing, lengths[i]);
+            if (k == 0 && !range.is_closed) continue;
+            s.max_turning = std::max(s.max_turning, std::abs(turning[i]));
+            s.max_ratio = std::max(s.max_ratio, ratio_at(i));
+        }
+        s.first_spacing = lengths[range.first];
+        s.last_spacing = lengths[(range.first + range.count - 1) % n];
+        return s;
+    }
+};
+
+/// Cuts a closed outline of n points at vertices, given by ascending index. Without any it is one range.
+std::vector<EdgeRange> ranges_between(std::span<const std::size_t> vertices, std::size_t n) {
+    if (vertices.empty()) return {{0, n, true}};
+    std::vector<EdgeRange> ranges;
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+        const std::size_t end = k + 1 < vertices.size() ? vertices[k + 1] : vertices[0] + n;
+        ranges.push_back({vertices[k], end - vertices[k]});
+    }
+    return ranges;
+}
+
+/// Returns the decision to keep all edges of these ranges.
+Decision keep_all(std::span<const EdgeRange> ranges, std::size_t edges) {
+    Decision decision{std::vector(edges, EdgeTreatment::keep), std::vector<std::size_t>(edges),
+                      std::vector(ranges.size(), true), ""};
+    for (std::size_t r = 0; r < ranges.size(); ++r)
+        for (std::size_t k = 0; k < ranges[r].count; ++k) decision.ranges[(ranges[r].first + k) % edges] = r;
+    return decision;
+}
+
+void replace_range(Decision& decision, std::size_t range) {
+    for (std::size_t i = 0; i < decision.edges.size(); ++i)
+        if (decision.ranges[i] == range) decision.edges[i] = EdgeTreatment::spline;
+}
+
+/// Returns the reason why points are too coarse for a mesh, or nothing where they are not.
+std::string coarseness(const Sampling& s, double extent, const ResamplingRequest& request) {
+    if (core::degrees(s.max_turning) > request.max_turning_deg())
+        return fmt::format("they turn by up to {:.1f} degrees", core::degrees(s.max_turning));
+    if (s.max_spacing > max_given_spacing * extent)
+        return fmt::format("they are up to {:.1f} % of the length apart", 100 * s.max_spacing / extent);
+    if (s.max_ratio > max_given_ratio) return fmt::format("neighbouring spacings differ by up to {:.1f}", s.max_ratio);
+    return "";
+}
+
+// ---- jagged outlines -----------------------------------------------------------------------------------------------
+
+/// Returns whether a range of edges between two jags samples a smooth curve.
+bool is_smooth(const Sampling& s, std::size_t edges, double max_spacing) {
+    return edges >= min_smooth_edges ||
+           (edges > 1 && s.max_turning < max_smooth_turning && s.max_spacing > max_spacing);
+}
+
+Decision decide_jagged(const Element& e, const ResamplingRequest& request) {
+    const MeasuredOutline outline(e.points);
+    std::vector<bool> is_jag = find_zigzags(outline.turning, min_zigzag);
+    for (const std::size_t corner : e.features.corners) is_jag[corner] = true;
+    std::vector<std::size_t> jags;
+    for (std::size_t i = 0; i < outline.n; ++i)
+        if (is_jag[i] || std::abs(outline.turning[i]) > max_bend) jags.push_back(i);
+
+    const std::vector<EdgeRange> ranges = ranges_between(jags, outline.n);
+    Decision decision = keep_all(ranges, outline.n);
+    Sampling replaced;
+    for (std::size_t r = 0; r < ranges.size(); ++r) {
+        const Sampling s = outline.sampling(ranges[r]);
+        decision.is_smooth[r] = is_smooth(s, ranges[r].count, request.options.max_spacing * outline.extent);
+        if (!decision.is_smooth[r] || coarseness(s, outline.extent, request).empty()) continue;
+        replace_range(decision, r);
+        replaced = coarser(replaced, s);
+    }
+    for (std::size_t i = 0; i < outline.n; ++i)
+        if (decision.edges[i] == EdgeTreatment::keep && outline.is_long(i)) decision.replace_kept(i);
+
+    const std::string reason = coarseness(replaced, outline.extent, request);
+    decision.reason = decision.keeps_all()
+                          ? fmt::format("{} of them are corners", e.features.corners.size())
+                          : fmt::format("between {} corners {}", e.features.corners.size(),
+                                        reason.empty() ? "some edges are far longer than their neighbours" : reason);
+    return decision;
+}
+
+// ---- smooth outlines -----------------------------------------------------------------------------------------------
+
+/// Returns whether the points between two corners obey the rules of new ones, so that they can stay beside new ones. A
+/// straight side does not matter: new points lie on it as well.
+bool is_fine(const Sampling& s, EdgeRange range, const MeasuredOutline& outline, const ResamplingRequest& request) {
+    const auto fits_corner = [&](std::size_t corner, double spacing) {
+        return spacing <= max_kept_ratio * request.corner_spacing(outline.turning[corner % outline.n], outline.extent);
+    };
+    return s.max_turning > min_curve_turning && core::degrees(s.max_turning) <= request.max_turning_deg() &&
+           s.max_spacing <= request.options.max_spacing * outline.extent && s.max_ratio <= max_kept_ratio &&
+           fits_corner(range.first, s.first_spacing) && fits_corner(range.first + range.count, s.last_spacing);
+}
+
+Decision decide_smooth(const Element& e, const ResamplingRequest& request) {
+    const MeasuredOutline outline(e.points);
+    const std::vector<EdgeRange> ranges = ranges_between(e.features.corners, outline.n);
+    Sampling all;
+    for (const EdgeRange range : ranges) all = coarser(all, outline.sampling(range));
+    Decision decision = keep_all(ranges, outline.n);
+    if (outline.n >= min_dense_points && all.max_ratio <= max_dense_ratio) {
+        decision.reason = "they are dense";
+        return decision;
+    }
+    for (const std::size_t corner : e.features.corners)
+        all.max_ratio = std::max(all.max_ratio, outline.ratio_at(corner));
+    decision.reason = coarseness(all, outline.extent, request);
+    if (decision.reason.empty()) {
+        decision.reason =
+            fmt::format("they turn by at most {:.1f} degrees, and neighbouring spacings differ by at most {:.2f}",
+                        core::degrees(all.max_turning), all.max_ratio);
+        return decision;
+    }
+    for (std::size_t r = 0; r < ranges.size(); ++r)
+        if (ranges.size() == 1 || !is_fine(outline.sampling(ranges[r]), ranges[r], outline, request))
+            replace_range(decision, r);
+    return decision;
+}
+
+}  // namespace
+
+bool Decision::keeps_all() const {
+    return std::all_of(edges.begin(), edges.end(), [](EdgeTreatment t) { return t == EdgeTreatment::keep; });
+}
+
+void Decision::replace_kept(std::size_t edge) {
+    if (is_smooth[ranges[edge]]) {
+        replace_range(*this, ranges[edge]);
+    } else {
+        edges[edge] = EdgeTreatment::divide;
+    }
+}
+
+bool is_jagged(const Element& e) { return e.features.corners.size() > std::max<std::size_t>(8, e.points.size() / 25); }
+
+Decision decide(const Element& e, const ResamplingRequest& request) {
+    const SurfaceOptions& options = request.options;
+    const auto all = [&](EdgeTreatment treatment, std::string reason) {
+        return Decision{std::vector(e.points.size(), treatment),
+                        std::vector<std::size_t>(e.points.size()),
+                        {true},
+                        std::move(reason)};
+    };
+    if (options.treatment == SurfaceTreatment::keep) return all(EdgeTreatment::keep, "as requested");
+    if (options.points)
+        return all(EdgeTreatment::spline, fmt::format("about {} points are requested", *options.points));
+    if (options.treatment == SurfaceTreatment::resample) return all(EdgeTreatment::spline, "as requested");
+    if (options.leading_edge_spacing || options.trailing_edge_spacing)
+        return all(EdgeTreatment::spline, "a spacing is requested");
+    if (e.samples_of_curve) return all(EdgeTreatment::spline, "its formula is known");
+    if (e.format == "naca") return all(EdgeTreatment::keep, "generated points are exact");
+    if (e.features.corners.size() == e.points.size())
+        return all(EdgeTreatment::spline, "they are the corners of a polygon");
+    return is_jagged(e) ? decide_jagged(e, request) : decide_smooth(e, request);
+}
+
+}  // namespace lamina::surface

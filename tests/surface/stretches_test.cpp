@@ -1,0 +1,233 @@
+// The surface stage decides stretch by stretch what becomes of the given points, and follows requested spacings.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lamina/surface.hpp>
+
+#include "support/geometry_fixtures.hpp"
+#include "support/outline_measures.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+/// Returns a circle of 12 points with a vertical edge at its right.
+Outline twelve_sided_circle() { return shapes::moved(shapes::circle(1, 12), 0.2617993877991494, 1, {0, 0}); }
+
+/// Returns how many notes of an element contain a text.
+std::size_t count_notes(const Element& e, const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(e.surface_notes.begin(), e.surface_notes.end(),
+                      [&](const std::string& note) { return note.find(text) != std::string::npos; }));
+}
+
+TEST(Crossings, MakeOnlyTheEdgesStraightThatCross) {
+    // The spline through the coarse arc crosses the plate, which its chords just miss.
+    const Outline arc = twelve_sided_circle();
+    const double reach = std::cos(0.2617993877991494);
+    const Outline plate{{reach + 0.005, -0.3}, {1.5, -0.3}, {1.5, 0.3}, {reach + 0.005, 0.3}};
+    const Geometry given = shapes::geometry({arc, plate});
+    ASSERT_NO_THROW(check_simple(given));
+    for (const SurfaceOptions& options : {resampling(), SurfaceOptions{}}) {
+        const Geometry result = prepare_surfaces(given, options);
+        EXPECT_NO_THROW(check_simple(result));
+        const Element& e = result.elements[0];
+        EXPECT_FALSE(e.surface_restored);
+        EXPECT_EQ(count_notes(e, "1 given edge stay"), 1u) << e.surface_notes.back();
+        for (Point p : e.points) {
+            EXPECT_LT(p.x, reach + 1e-12);
+            if (p.x < 0.9 * reach) {
+                EXPECT_NEAR(length(p), 1, 2e-3);
+            }
+        }
+        EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+    }
+}
+
+TEST(Crossings, OfTwoSplinesInASlotAreResolvedOnBothSides) {
+    const Outline left = twelve_sided_circle();
+    const double reach = std::cos(0.2617993877991494), gap = 0.02;
+    const Outline right = shapes::moved(left, 0, 1, {2 * reach + gap, 0});
+    const Geometry result = prepare_surfaces(shapes::geometry({left, right}), {});
+    EXPECT_NO_THROW(check_simple(result));
+    for (const Element& e : result.elements) {
+        EXPECT_EQ(count_notes(e, "stay straight"), 1u);
+        EXPECT_GT(e.points.size(), 100u);
+        EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+        EXPECT_LE(max_turning_deg(e.points, 14), SurfaceOptions{}.max_turning_deg);
+    }
+    EXPECT_TRUE(std::all_of(result.elements[0].points.begin(), result.elements[0].points.end(),
+                            [&](Point p) { return p.x < reach + 1e-12; }));
+}
+
+TEST(Crossings, OfAnOutlineWithItselfLeaveTheRestOnTheSpline) {
+    // The walls of a slot bulge towards each other between their samples.
+    const Outline given{{-1, 0},     {1, 0},       {1, 2},        {0.24, 2},     {0.018, 1.4}, {0.018, 0.8},
+                        {0.24, 0.2}, {-0.24, 0.2}, {-0.018, 0.8}, {-0.018, 1.4}, {-0.24, 2},   {-1, 2}};
+    const Element e = prepared(given, {});
+    EXPECT_FALSE(e.surface_restored);
+    EXPECT_EQ(count_notes(e, "2 given edges stay straight"), 1u) << e.surface_notes.back();
+    for (Point p : {given[4], given[5], given[8], given[9]}) EXPECT_TRUE(contains(e.points, p));
+    EXPECT_GT(max_distance_from(given, e.points), 1e-3) << "the rest of the walls is bent";
+    EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+    expect_equal_loops(shapes::mirrored(e.points), prepared(shapes::mirrored(given), {}).points);
+}
+
+/// Returns a plate of unit length with a round nose, whose sides have one point each.
+Outline round_nosed_plate(double thickness) {
+    const double r = 0.5 * thickness;
+    Outline outline{{1, r}, {0.5, r}};
+    for (int k = 0; k <= 8; ++k) {
+        const double t = 3.14159265358979323846 * (0.5 + k / 8.0);
+        outline.push_back({r + r * std::cos(t), r * std::sin(t)});
+    }
+    outline.push_back({0.5, -r});
+    outline.push_back({1, -r});
+    return outline;
+}
+
+TEST(Resampling, AThinPlateWithASmallRoundNoseStaysThin) {
+    const Outline plate = round_nosed_plate(4e-4);
+    const Element e = prepared(plate, {});
+    EXPECT_FALSE(e.surface_restored);
+    EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+    EXPECT_LE(max_edge_length(e.points), 0.021);
+    EXPECT_LT(max_distance_from(plate, e.points), 1e-4);
+    expect_equal_loops(e.points, shapes::mirrored(e.points));
+}
+
+/// Returns a coarse section, with the points of its nose replaced by ice: fine points, of which every other one stands
+/// off the section.
+Outline iced_section(double ice_up_to = 0.06) {
+    const Outline coarse = naca_airfoil("0012", 40).points, fine = naca_airfoil("0012", 300).points;
+    Outline outline;
+    bool is_iced = false, is_off = false;
+    for (Point p : coarse) {
+        if (p.x > ice_up_to) {
+            outline.push_back(p);
+        } else if (!is_iced) {
+            is_iced = true;
+            for (Point q : fine) {
+                if (q.x > ice_up_to) continue;
+                is_off = !is_off;
+                outline.push_back(is_off ? q : q + Point{-0.003, q.y > 0 ? 0.003 : -0.003});
+            }
+        }
+    }
+    return outline;
+}
+
+TEST(AutomaticSurface, KeepsIceAndResamplesTheSmoothRearBehindIt) {
+    const Outline iced = iced_section();
+    const Element e = prepared(iced, {});
+    EXPECT_TRUE(e.resampled);
+    EXPECT_NE(e.surface_notes.back().find("corners they"), std::string::npos) << e.surface_notes.back();
+    for (Point p : iced) {
+        if (p.x < 0.055) {
+            EXPECT_TRUE(contains(e.points, p)) << p.x << ' ' << p.y;
+        }
+    }
+    for (Point p : e.points) {
+        if (p.x < 0.05) {
+            EXPECT_LT(distance_to(iced, p), 1e-12);
+        }
+        if (p.x > 0.1) {
+            EXPECT_NEAR(std::abs(p.y), naca_half_thickness(0.12, p.x, -0.1036), 1e-3);
+        }
+    }
+    EXPECT_LE(max_edge_length(e.points), 0.0215);
+    // Given points may stand as they do; wherever one of three is new, their spacings are graded.
+    const std::size_t n = e.points.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Outline three{e.points[i], e.points[(i + 1) % n], e.points[(i + 2) % n]};
+        if (std::all_of(three.begin(), three.end(), [&](Point p) { return contains(iced, p); })) continue;
+        const double before = distance(three[0], three[1]), after = distance(three[1], three[2]);
+        EXPECT_LE(std::max(before / after, after / before), 1.25) << three[1].x << ' ' << three[1].y;
+    }
+    const Outline mirrored = prepared(shapes::mirrored(iced), {}).points;
+    expect_equal_loops(shapes::mirrored(e.points), mirrored);
+}
+
+/// Returns an arc of a circle, with points `spacing` apart, closed by two sides of two edges that meet in a corner.
+Outline cone(double spacing) {
+    constexpr double half_gap = 1.0471975511965976;
+    const Point apex{0.815, 0}, start{std::cos(half_gap), std::sin(half_gap)}, end{start.x, -start.y};
+    const auto edges = static_cast<std::size_t>(std::ceil(2 * (3.14159265358979323846 - half_gap) / spacing));
+    Outline outline{apex, midpoint(apex, start)};
+    for (std::size_t k = 0; k <= edges; ++k) {
+        const double t =
+            half_gap + 2 * (3.14159265358979323846 - half_gap) * static_cast<double>(k) / static_cast<double>(edges);
+        outline.push_back(k == edges ? end : Point{std::cos(t), std::sin(t)});
+    }
+    outline.push_back(midpoint(apex, end));
+    return outline;
+}
+
+TEST(AutomaticSurface, KeepsAStretchThatIsFineBesideOneThatIsCoarse) {
+    const Outline given = cone(0.009);
+    const Element e = prepared(given, {});
+    for (std::size_t i = 2; i + 1 < given.size(); ++i) EXPECT_TRUE(contains(e.points, given[i])) << i;
+    EXPECT_EQ(count_notes(e, "given edges kept"), 1u) << e.surface_notes.back();
+    EXPECT_GT(e.points.size(), given.size() + 40);
+    EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+}
+
+TEST(AutomaticSurface, BendsTheCurvedSideOfAPolygonOnly) {
+    const Outline given = cone(0.3);
+    const Element e = prepared(given, {});
+    for (Point p : e.points) {
+        if (p.x > 0.5 + 1e-12) {
+            EXPECT_LT(distance_to(given, p), 1e-12) << "a straight side";
+        } else {
+            EXPECT_NEAR(length(p), 1, 2e-3) << "the arc";
+        }
+    }
+    EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+}
+
+/// Returns the length of the edges of an outline at its vertex that is nearest to a point.
+double spacing_at(const Outline& p, Point at) {
+    const auto nearer = [&](Point a, Point b) { return distance(a, at) < distance(b, at); };
+    const auto i = static_cast<std::size_t>(std::min_element(p.begin(), p.end(), nearer) - p.begin());
+    return std::max(distance(p[i], p[(i + 1) % p.size()]), distance(p[(i + p.size() - 1) % p.size()], p[i]));
+}
+
+TEST(RequestedSpacings, AreFollowedAtBothEndsOfTheChord) {
+    const Outline fine = naca_airfoil("0012", 300).points, blunt = shapes::section(0.12, 0.004, 20);
+    SurfaceOptions options;
+    options.leading_edge_spacing = 2e-4;
+    options.trailing_edge_spacing = 3e-4;
+    options.max_spacing = 0.01;
+    for (const Outline& outline : {fine, blunt, shapes::moved(fine, 0, 10, {3, 4})}) {
+        const Element e = prepared(outline, options);
+        const double chord = summarize(e).chord;
+        const Point nose = outline[outline.size() / 2], tail = outline[0];
+        EXPECT_TRUE(e.resampled);
+        EXPECT_LE(spacing_at(e.points, nose), 1.2 * 2e-4 * chord);
+        EXPECT_GE(spacing_at(e.points, nose), 0.8 * 2e-4 * chord);
+        EXPECT_LE(spacing_at(e.points, tail), 1.2 * 3e-4 * chord);
+        EXPECT_GE(spacing_at(e.points, tail), 0.8 * 3e-4 * chord);
+        EXPECT_LE(max_edge_length(e.points), 1.01 * 0.01 * chord);
+        EXPECT_LE(max_spacing_ratio(e.points), options.max_ratio);
+        expect_equal_loops(shapes::mirrored(e.points), prepared(shapes::mirrored(outline), options).points);
+    }
+}
+
+TEST(RequestedSpacings, YieldToTheCurvatureAtTheNoseAndReplaceThatOfCornersAtTheTail) {
+    const Outline outline = naca_airfoil("0012", 60).points;
+    SurfaceOptions coarse;
+    coarse.leading_edge_spacing = 0.02;
+    coarse.trailing_edge_spacing = 0.005;
+    const Outline wall = prepared(outline, coarse).points, plain = prepared(outline, resampling(10)).points;
+    EXPECT_NEAR(spacing_at(wall, {0, 0}), spacing_at(plain, {0, 0}), 0.2 * spacing_at(plain, {0, 0}));
+    EXPECT_GT(spacing_at(wall, {1, 0}), 0.004);
+    EXPECT_LT(spacing_at(plain, {1, 0}), 0.0012);
+    EXPECT_LE(max_distance_from(naca_airfoil("0012", 2000).points, wall), 2 * coarse.tolerance);
+}
+
+}  // namespace
+}  // namespace lamina
