@@ -21,6 +21,8 @@ constexpr double max_given_ratio = 2, max_given_spacing = 0.05;
 constexpr std::size_t min_dense_points = 1000;
 /// ... unless neighbouring spacings differ by more than this, as where points are random.
 constexpr double max_dense_ratio = 10;
+/// Points that are nearer to each other, as a share of the element's length, make cells that are far higher than wide.
+constexpr double min_given_spacing = 5e-7;
 /// The largest ratio of neighbouring spacings in a stretch that is kept beside one that is replaced.
 constexpr double max_kept_ratio = 1.25;
 
@@ -45,14 +47,18 @@ struct EdgeRange {
 struct Sampling {
     double max_turning = 0;
     double max_ratio = 1;  ///< of neighbouring spacings
-    double max_spacing = 0;
+    double min_spacing = HUGE_VAL, max_spacing = 0;
     double first_spacing = 0, last_spacing = 0;
 };
 
 /// Returns the larger values of two ranges, but for the spacings at their ends.
 Sampling coarser(const Sampling& a, const Sampling& b) {
-    return {std::max(a.max_turning, b.max_turning), std::max(a.max_ratio, b.max_ratio),
-            std::max(a.max_spacing, b.max_spacing), 0, 0};
+    return {std::max(a.max_turning, b.max_turning),
+            std::max(a.max_ratio, b.max_ratio),
+            std::min(a.min_spacing, b.min_spacing),
+            std::max(a.max_spacing, b.max_spacing),
+            0,
+            0};
 }
 
 /// A closed outline with its measures.
@@ -82,6 +88,7 @@ struct MeasuredOutline {
         Sampling s;
         for (std::size_t k = 0; k < range.count; ++k) {
             const std::size_t i = (range.first + k) % n;
+            s.min_spacing = std::min(s.min_spacing, lengths[i]);
             s.max_spacing = std::max(s.max_spacing, lengths[i]);
             if (k == 0 && !range.is_closed) continue;
             s.max_turning = std::max(s.max_turning, std::abs(turning[i]));
@@ -184,13 +191,16 @@ Decision decide_smooth(const Element& e, const ResamplingRequest& request) {
     Sampling all;
     for (const EdgeRange range : ranges) all = coarser(all, outline.sampling(range));
     Decision decision = keep_all(ranges, outline.n);
-    if (outline.n >= min_dense_points && all.max_ratio <= max_dense_ratio) {
+    const bool are_too_close = all.min_spacing < min_given_spacing * outline.extent;
+    if (outline.n >= min_dense_points && all.max_ratio <= max_dense_ratio && !are_too_close) {
         decision.reason = "they are dense";
         return decision;
     }
     for (const std::size_t corner : e.features.corners)
         all.max_ratio = std::max(all.max_ratio, outline.ratio_at(corner));
     decision.reason = coarseness(all, outline.extent, request);
+    if (decision.reason.empty() && are_too_close)
+        decision.reason = fmt::format("some are only {:.1g} of the length apart", all.min_spacing / outline.extent);
     if (decision.reason.empty()) {
         decision.reason =
             fmt::format("they turn by at most {:.1f} degrees, and neighbouring spacings differ by at most {:.2f}",

@@ -1,6 +1,7 @@
 // The surface stage decides stretch by stretch what becomes of the given points, and follows requested spacings.
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -150,6 +151,25 @@ TEST(AutomaticSurface, KeepsIceAndResamplesTheSmoothRearBehindIt) {
     }
     const Outline mirrored = prepared(shapes::mirrored(iced), {}).points;
     expect_equal_loops(shapes::mirrored(e.points), mirrored);
+}
+
+TEST(AutomaticSurface, ResamplesDensePointsThatAreRandomOrFarTooClose) {
+    std::mt19937 random(11);
+    std::vector<double> angles;
+    for (int i = 0; i < 1200; ++i) angles.push_back(shapes::full_turn * static_cast<double>(random()) / 4294967296.0);
+    std::sort(angles.begin(), angles.end());
+    Outline scattered, clustered = shapes::ellipse(1, 0.2, 1200);
+    for (double t : angles) scattered.push_back({std::cos(t), 0.2 * std::sin(t)});
+    // Each edge beside the first vertex is half as long as the one before it.
+    for (double t = shapes::full_turn / 2400; t > 1e-8; t *= 0.5)
+        clustered.insert(clustered.begin() + 1, {std::cos(t), 0.2 * std::sin(t)});
+    for (const Outline& outline : {scattered, clustered}) {
+        const Element e = prepared(outline, {});
+        EXPECT_TRUE(e.resampled);
+        EXPECT_NEAR(static_cast<double>(e.points.size()), static_cast<double>(outline.size()), 4);
+        EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+        EXPECT_LT(max_distance_from(shapes::ellipse(1, 0.2, 4000), e.points), 1e-4);
+    }
 }
 
 /// Returns an arc of a circle, with points `spacing` apart, closed by two sides of two edges that meet in a corner.
