@@ -49,7 +49,7 @@ bool turns_far(const SplineCurve& curve, const CurveSamples& samples) {
     return std::abs(turning) > 0.5 * core::pi;
 }
 
-/// Counts the edges of a curve: at least min_edges and as many as its spacings ask for, made even if it says so.
+/// Counts the edges of a curve: at least min_edges and as many as its spacings ask for; an even number if is_even.
 EdgeCount count_edges(const CurveSamples& samples, double min_edges, bool is_even) {
     constexpr double slack = 1e-6;  // of an edge, so that rounding does not decide
     const double integral = integrate(samples);

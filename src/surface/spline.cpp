@@ -47,7 +47,7 @@ std::vector<Point> spline_slopes(std::span<const Point> points, std::span<const 
 ///     i-1
 ///
 /// Where one of the two chords is more than 20 times as long as the other one, the slope is near its direction: as on
-/// the flank behind a small round nose, a long edge would else bulge by its share of what the short ones turn.
+/// the flank behind a small round nose, the long edge would otherwise bulge by its share of what the short one turns.
 std::vector<Point> limit_slopes(std::vector<Point> slopes, std::span<const Point> points) {
     constexpr double margin_share = 0.25, min_length = 0.5, max_length = 1.6, max_chord_ratio = 20;
     const std::size_t n = points.size();
@@ -67,7 +67,7 @@ std::vector<Point> limit_slopes(std::vector<Point> slopes, std::span<const Point
         }
     };
     const auto chord = [&](std::size_t i) { return distance(points[i], points[i + 1]); };
-    // Returns how much of the turning between two chords counts on the first of them.
+    // Returns the share of the turning between two chords that counts on the first of them.
     const auto share_on = [&](double on, double other) { return std::min(1.0, max_chord_ratio * other / on); };
     const auto turning_on_next = [&](std::size_t i) {
         return i > 0 ? std::abs(turning[i]) * share_on(chord(i), chord(i - 1)) : 0;

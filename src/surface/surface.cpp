@@ -1,4 +1,4 @@
-// The stage "prepare": the decision which elements are resampled, and the safety net behind it.
+// The stage "prepare": new points for the elements that need them, and the safety net behind it.
 #include <lamina/surface.hpp>
 
 #include <algorithm>
