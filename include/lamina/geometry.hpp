@@ -52,7 +52,9 @@ struct Element {
     std::vector<std::string> surface_notes;    ///< changes that prepare_surfaces() made to the points, and why
     /// Whether the points are many exact samples of a curve, of which prepare_surfaces() takes as many as a wall needs.
     bool samples_of_curve = false;
-    bool resampled = false;  ///< whether prepare_surfaces() chose the spacing of points, of all or of some stretches
+    /// Whether prepare_surfaces() chose the spacing of points, of all or of some stretches, and the outline is smooth
+    /// but at few corners.
+    bool resampled = false;
     /// Whether prepare_surfaces() kept the points although the options ask for others, which would have crossed.
     bool surface_restored = false;
     OutlineFeatures features;  ///< set by prepare_surfaces()

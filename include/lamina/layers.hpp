@@ -56,7 +56,7 @@ struct YPlus {
 /// Options of the layer.
 struct LayerOptions {
     bool enabled = true;  ///< false: the outer region begins at the walls
-    /// Height of the first layer along the ray in units of the input, or the flow that it follows from.
+    /// Height of the first layer above the wall in units of the input, or the flow that it follows from.
     std::variant<double, YPlus> first_height = 1e-5;
     /// Ratio of the heights of successive layers, or the power of the polynomial law. The other laws do not use it.
     double growth = 1.2;

@@ -74,9 +74,11 @@ struct QualitySummary {
     double share_below_40_deg = 0;  ///< share of the cells whose smallest angle is below 40 degrees
     /// Number of cells whose smallest angle is below MeshCheckOptions::min_angle_deg.
     std::size_t angles_below_bound = 0;
-    /// The number of these cells that are exempt: isotropic cells at a corner below 60 degrees between two frozen
-    /// edges, which no refinement could mend. An edge counts as frozen where the mesh shows it: on the boundary,
-    /// between the regions, between two pieces, and on constraints.
+    /// The number of these cells that are exempt since no refinement could mend them. They are isotropic cells at a
+    /// corner below 60 degrees between two frozen edges, and triangles whose shortest edge leads across such a corner
+    /// of the boundary or of the layer. An edge counts as frozen where the mesh shows it: on the boundary, between the
+    /// regions, between two pieces, and on constraints. Source: J. R. Shewchuk, Delaunay refinement algorithms for
+    /// triangular mesh generation (2002), on small input angles.
     std::size_t exempt = 0;
     double max_neighbour_area_ratio = 0;   ///< over edges between two isotropic cells; 0 for the layer
     double p999_neighbour_area_ratio = 0;  ///< 99.9th percentile, within 0.2 %

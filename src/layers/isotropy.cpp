@@ -106,6 +106,19 @@ void take_medians(const RayDistances& rays, std::vector<double>& values) {
     }
 }
 
+/// Rounds the kinks of the front but at fans.
+void round_kinks(const RayDistances& rays, std::vector<double>& front) {
+    constexpr int rounds = 8;
+    for (int round = 0; round < rounds; ++round) {
+        const std::vector<double> before = front;
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            const std::size_t p = rays.previous(i), n = rays.next(i);
+            if (!rays.same_origin(p, i) && !rays.same_origin(i, n))
+                front[i] = 0.5 * before[i] + 0.25 * (before[p] + before[n]);
+        }
+    }
+}
+
 /// Returns the height at which the spacing would equal the distance of the rays. It lies between the last layer that is
 /// lower than wide and the first that is not; where all are lower it is the height of the last one.
 double isotropic_height(const RayDistances& rays, std::size_t ray, std::span<const double> heights) {
@@ -152,6 +165,7 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
     lower_to_neighbours(set, front, [&](std::size_t from, std::size_t to) {
         return front[from] + max_front_slope * rays.between(from, to, front[from]);
     });
+    round_kinks(rays, front);
     for (double& height : front) height = std::clamp(height, heights[1], heights.back());
     return front;
 }

@@ -47,7 +47,7 @@ void add_first_height(OptionTableBuilder<LayerOptions>& table) {
     };
     table
         .add({"first-height", OptionKind::number, "H",
-              "height of the first layer, measured along the ray, in units of the input", positive_numbers.text(),
+              "height of the first layer above the wall, in units of the input", positive_numbers.text(),
               set_first_height, get_first_height})
         .excludes = {"y-plus"};
     add_flow_number(table, "y-plus", "Y", "instead: y+ of the top of the first layer, on a flat plate", &YPlus::y_plus)

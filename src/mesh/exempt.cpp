@@ -1,6 +1,7 @@
 #include "mesh/exempt.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
@@ -72,20 +73,90 @@ private:
     }
 };
 
+/// The outline of the isotropic region: the edges of its cells on the boundary of the mesh and on the layer. The region
+/// lies on the left.
+class Outline {
+public:
+    Outline(const Mesh& mesh, const Adjacency& adjacency) : mesh_(mesh) {
+        const CellEdges edges(mesh);
+        for (std::size_t e = 0; e < edges.size(); ++e) {
+            const std::uint32_t twin = adjacency.twin[e];
+            if (!is_isotropic(mesh, edges.cell_of(e))) continue;
+            if (twin == no_edge || !is_isotropic(mesh, edges.cell_of(twin)))
+                next_.emplace_back(edges.origin(e), edges.target(e));
+        }
+        std::sort(next_.begin(), next_.end());
+    }
+
+    /// Returns whether the edge opposite the smallest angle of a triangle spans a sharp corner of the outline: whether
+    /// both its ends lie on the outline, few edges from one corner that encloses less than 60 degrees.
+    ///
+    ///                     p2 ___---
+    ///            p1 ___---  |
+    ///      v ___---   |     |       triangles with the edges p1 q1 and p2 q2
+    ///        ---______|_____|__
+    ///                 q1    q2
+    bool is_spanned(const Triangle& triangle) const {
+        std::size_t shortest = 0;
+        for (std::size_t i = 1; i < 3; ++i)
+            if (length(triangle, i) < length(triangle, shortest)) shortest = i;
+        const VertexId p = triangle.v[shortest], q = triangle.v[(shortest + 1) % 3];
+        return leads_round_sharp_corner(p, q) || leads_round_sharp_corner(q, p);
+    }
+
+private:
+    const Mesh& mesh_;
+    std::vector<std::pair<VertexId, VertexId>> next_;  ///< both ends of each edge, sorted
+
+    Point at(VertexId v) const { return mesh_.points[v.index()]; }
+    double length(const Triangle& triangle, std::size_t i) const {
+        return distance(at(triangle.v[i]), at(triangle.v[(i + 1) % 3]));
+    }
+
+    /// Returns the next vertex of the outline; the same one where the outline does not pass it, or passes it twice.
+    VertexId after(VertexId v) const {
+        const auto edge = std::lower_bound(next_.begin(), next_.end(), std::pair{v, VertexId{0}});
+        if (edge == next_.end() || edge->first != v) return v;
+        const auto other = edge + 1;
+        return other != next_.end() && other->first == v ? v : edge->second;
+    }
+
+    /// Returns whether the outline leads from one vertex to another in few edges, round a sharp corner.
+    bool leads_round_sharp_corner(VertexId from, VertexId to) const {
+        constexpr int max_edges = 32;
+        bool sharp = false;
+        VertexId v = from, next = after(v);
+        for (int edges = 0; edges < max_edges && next != v; ++edges) {
+            if (next == to) return sharp;
+            const VertexId beyond = after(next);
+            sharp |= core::encloses_sharp_angle(at(beyond) - at(next), at(v) - at(next));
+            v = next;
+            next = beyond;
+        }
+        return false;
+    }
+};
+
 }  // namespace
 
 std::size_t count_exempt(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
                          const std::vector<std::uint32_t>& cells) {
     const FrozenCorners corners(mesh, adjacency, constraints);
-    const auto count = [&](std::size_t begin, std::size_t end) {
-        return std::count_if(cells.begin() + static_cast<std::ptrdiff_t>(begin),
-                             cells.begin() + static_cast<std::ptrdiff_t>(end),
-                             [&](std::uint32_t cell) { return corners.has_sharp_corner(cell); });
+    const auto find_others = [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> others;
+        for (std::size_t i = begin; i < end; ++i)
+            if (!corners.has_sharp_corner(cells[i])) others.push_back(cells[i]);
+        return others;
     };
-    std::size_t exempt = 0;
-    for (const auto part : core::parallel_blocks(cells.size(), cells_per_block, count))
-        exempt += static_cast<std::size_t>(part);
-    return exempt;
+    std::vector<std::uint32_t> others;
+    for (const std::vector<std::uint32_t>& part : core::parallel_blocks(cells.size(), cells_per_block, find_others))
+        others.insert(others.end(), part.begin(), part.end());
+    if (others.empty()) return cells.size();
+    const Outline outline(mesh, adjacency);
+    std::erase_if(others, [&](std::uint32_t cell) {
+        return cell < mesh.triangles.size() && outline.is_spanned(mesh.triangles[cell]);
+    });
+    return cells.size() - others.size();
 }
 
 }  // namespace lamina::mesh

@@ -84,6 +84,7 @@ struct Plan {
 void apply(Plan& plan, Element& element, const Element& given, std::size_t index, const ResamplingRequest& request) {
     ResampledElement resampled = resample(given, index, request, plan.decision.edges, plan.decision.reason);
     element = std::move(resampled.element);
+    element.resampled = !is_jagged(given);
     plan.origins = std::move(resampled.origins);
     if (plan.straightened > 0)
         element.surface_notes.push_back(
