@@ -166,7 +166,7 @@ struct Rays {
     std::vector<char> resampled;        ///< one per element: Element::resampled
     bool enabled = true;                ///< LayerOptions::enabled
     LayerGrowth growth;                 ///< the growth that was requested
-    LayerHeights heights;               ///< as the growth law makes them
+    LayerHeights heights;               ///< as the growth law makes them, along the rays (Ray::slant)
     LayerHeights fitted;                ///< the same, but on rays that are cut short stretched to end at their limits
     std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
     std::vector<std::uint32_t> counts;  ///< number of layers on each ray
@@ -184,13 +184,14 @@ LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& optio
 
 /// A circle.
 struct Circle {
-    Point middle;
-    double radius = 0;
+    Point middle;       ///< its middle
+    double radius = 0;  ///< in units of the input
 };
 
 /// Lowers the limits of the rays that end in one of these circles to a part of their heights, leads the limits over to
-/// those beside, and finds the numbers of layers anew. Returns how many rays it lowered.
-LAMINA_EXPORT std::size_t shorten_rays(std::span<const Circle> places, Rays& rays);
+/// those beside, and finds the numbers of layers anew. No rays are added where numbers of layers change. Returns, for
+/// each circle, how many rays with layers end in it.
+LAMINA_EXPORT std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays);
 
 /// Returns, for each element, its front: the closed polygon through the tips of its rays, counter-clockwise.
 LAMINA_EXPORT std::vector<std::vector<Point>> fronts(const Rays& rays);
@@ -309,7 +310,7 @@ LAMINA_EXPORT std::vector<WallSpacing> wall_spacings(const Rays& rays, const Bor
 
 /// Places the points on the rays and divides the fronts, which become outer borders that can be frozen. Throws
 /// OptionError for options out of range.
-LAMINA_EXPORT Layer close_border(Rays rays, const BorderOptions& options = {});
+LAMINA_EXPORT Layer close_border(const Rays& rays, const BorderOptions& options = {});
 
 /// Neighbouring columns end evenly where their ends differ in height by at most this share of a last cell.
 inline constexpr double even_border_step = 1.0 / 3;

@@ -80,6 +80,8 @@ struct QualitySummary {
     /// regions, between two pieces, and on constraints. Source: J. R. Shewchuk, Delaunay refinement algorithms for
     /// triangular mesh generation (2002), on small input angles.
     std::size_t exempt = 0;
+    /// Returns the number of angles below the bound that are not exempt.
+    std::size_t unexcused() const { return angles_below_bound - exempt; }
     double max_neighbour_area_ratio = 0;   ///< over edges between two isotropic cells; 0 for the layer
     double p999_neighbour_area_ratio = 0;  ///< 99.9th percentile, within 0.2 %
     /// Longest edge over the height on it; for a quad, squared longest edge over area.
@@ -130,7 +132,8 @@ struct MeshCheck {
     std::size_t delaunay_violations = 0;  ///< number of those with a vertex strictly inside the opposite circle (exact)
     /// Number of boundary edges of layer cells that reach beyond layer 1, where the first height is not kept.
     std::size_t edges_without_first_layer = 0;
-    WallSummary walls;  ///< of all edges of walls
+    WallSummary walls;                           ///< of all edges of walls
+    std::vector<std::uint32_t> unexcused_cells;  ///< isotropic cells with an angle below the bound that are not exempt
 
     /// Returns whether the mesh has no defects.
     bool valid() const { return defect_count == 0; }
@@ -158,9 +161,9 @@ LAMINA_EXPORT MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& opt
 
 /// Returns regions for a mesh without them, judged by the shapes of the cells. Thin cells are quadrilaterals, and
 /// triangles with an angle below proved_min_angle_deg. Those that hang together with a wall, from vertex to vertex
-/// through thin and right-angled cells, are taken for the layer; a marker counts as a wall unless it is a far field or
-/// a symmetry. Other cells of a layer, such as its last rows, count as isotropic. Empty where no cell is taken for the
-/// layer. Precondition: all indices are in range.
+/// through thin and right-angled cells, are taken for the layer, and so are those that one cell parts from it; a marker
+/// counts as a wall unless it is a far field or a symmetry. Other cells of a layer, such as its last rows, count as
+/// isotropic. Empty where no cell is taken for the layer. Precondition: all indices are in range.
 LAMINA_EXPORT std::vector<Region> estimate_regions(const Mesh& mesh);
 
 /// Returns a hash of the mesh as 32 lower-case hexadecimal digits. It does not depend on the numbering, and hence not

@@ -125,6 +125,7 @@ struct MeshResult {
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     BorderSteps border_steps;                     ///< of the layer's outer border
     std::size_t thinned_rays = 0;                 ///< rays shortened so that triangles beyond keep the bound on angles
+    Point thinned_at{};                           ///< origin of the one that lost the largest share of its height
     RefineStats refinement;                       ///< summed over the subdomains
     double mean_edge_over_size = 0;               ///< mean isotropic edge over h at its middle, of a sample; 0: no edge
     RunEstimate estimate;                         ///< made before the work
@@ -134,7 +135,7 @@ struct MeshResult {
 /// A message of a run that goes on.
 struct ProgressEvent {
     std::string stage;                      ///< the name of the stage that begins
-    std::optional<RunEstimate> estimate{};  ///< given once, when the work that takes the time begins
+    std::optional<RunEstimate> estimate{};  ///< given once, when the work that takes the time first begins
 };
 
 /// A function that is called when a stage begins. It may be empty.
@@ -143,7 +144,7 @@ using Progress = std::function<void(const ProgressEvent&)>;
 /// Runs all stages on bodies in memory. Never returns a mesh that is not valid. Throws OptionError, InputError and
 /// MeshError, and LimitError in the first second or two where the run would exceed options.limits by estimate.
 /// Precondition: check_simple(geometry).
-LAMINA_EXPORT MeshResult generate_mesh(Geometry geometry, const CaseOptions& options = {},
+LAMINA_EXPORT MeshResult generate_mesh(const Geometry& geometry, const CaseOptions& options = {},
                                        const Progress& progress = {});
 
 /// Reads the inputs and runs all stages on them. Throws IoError, too.

@@ -127,7 +127,7 @@ std::string check_summary(const std::string& file, const Mesh& mesh, const MeshC
 /// Accepts exempt angles, which lie in sharp corners of frozen edges, as long as they are few.
 void require_angles(const QualitySummary& isotropic, double min_angle_deg, Shortcomings& shortcomings) {
     constexpr double max_exempt_share = 0.001;
-    if (const std::size_t narrow = isotropic.angles_below_bound - isotropic.exempt; narrow > 0)
+    if (const std::size_t narrow = isotropic.unexcused(); narrow > 0)
         shortcomings.push_back(fmt::format("{} triangles have an angle below {} degrees", narrow, min_angle_deg));
     if (static_cast<double>(isotropic.exempt) > max_exempt_share * static_cast<double>(isotropic.cells))
         shortcomings.push_back(

@@ -76,12 +76,12 @@ void print_warnings(std::span<const Warning> warnings) {
 }
 
 void require_promised_angles(const MeshCheck& check, bool allow_defects) {
-    const std::size_t narrow = check.isotropic.angles_below_bound - check.isotropic.exempt;
+    const std::size_t narrow = check.isotropic.unexcused();
     if (allow_defects || narrow == 0) return;
     throw MeshError(
-        fmt::format("{} triangle{} beyond the layer {} an angle below the bound, down to {:.2f} degrees; "
-                    "nothing is written (--allow-defects writes the mesh all the same)",
-                    narrow, narrow == 1 ? "" : "s", narrow == 1 ? "has" : "have", check.isotropic.min_angle_deg));
+        fmt::format("{} triangle{} beyond the layer {} an angle below the bound; nothing is written "
+                    "(--allow-defects writes the mesh all the same)",
+                    narrow, narrow == 1 ? "" : "s", narrow == 1 ? "has" : "have"));
 }
 
 void require_no_warnings(std::span<const Warning> warnings, bool strict) {

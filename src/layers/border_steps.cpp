@@ -8,12 +8,14 @@ namespace lamina {
 
 namespace {
 
+/// Returns the height of the top of layer n above the wall.
 double height_at(const Layer& layer, const Ray& ray, std::uint32_t n) {
-    return distance(layer.points[ray.origin.index()], layer.points[ray.vertex(n).index()]);
+    return distance(layer.points[ray.origin.index()], layer.points[ray.vertex(n).index()]) / ray.slant;
 }
 
+/// Returns the height of the last layer; 0 where there is none.
 double last_spacing(const Layer& layer, const Ray& ray) {
-    return height_at(layer, ray, ray.layers) - height_at(layer, ray, ray.layers - 1);
+    return ray.layers == 0 ? 0 : height_at(layer, ray, ray.layers) - height_at(layer, ray, ray.layers - 1);
 }
 
 }  // namespace
@@ -26,7 +28,7 @@ BorderSteps border_steps(const Layer& layer) {
             if (a.requested == 0 && b.requested == 0) continue;
             ++steps.columns;
             steps.full_columns += a.layers == a.requested && b.layers == b.requested;
-            if (a.layers == 0 || b.layers == 0) continue;
+            if (a.layers == 0 && b.layers == 0) continue;
             const double step = std::abs(height_at(layer, a, a.layers) - height_at(layer, b, b.layers)) /
                                 std::max(last_spacing(layer, a), last_spacing(layer, b));
             steps.uneven_columns += step > even_border_step;

@@ -46,8 +46,7 @@ using namespace layers;
 /// Where rays converge, edges of the front are shorter than those of the wall below. If they requested their own
 /// lengths, the wall beside would become finer for them, then the wall below, and then these edges themselves.
 std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& options) {
-    constexpr double request_share = 1;  // of the wall edge below
-    constexpr double margin = 0.97;      // for walls whose whole numbers of edges differ from those asked for
+    constexpr double margin = 0.97;  // for walls whose whole numbers of edges differ from those asked for
     validate(options);
     const LayeredRays layered = layered_rays(rays);
     const FrontCorners corners = front_corners(layered);
@@ -55,20 +54,22 @@ std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& op
     for (std::size_t e = 0; e < corners.size(); ++e)
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
             const auto [a, b] = wall_below(rays, corners[e], k);
-            least_requests[e].push_back(request_share * distance(a, b));
+            least_requests[e].push_back(distance(a, b));
         }
     const BorderDivision division = divide_fronts(layered, corners, options, least_requests);
     std::vector<WallSpacing> spacings;
-    for (std::size_t e = 0; e < corners.size(); ++e)
-        for (std::size_t k = 0; rays.resampled[e] && k < corners[e].size(); ++k) {
+    for (std::size_t e = 0; e < corners.size(); ++e) {
+        if (!rays.resampled[e]) continue;
+        for (std::size_t k = 0; k < corners[e].size(); ++k) {
             const auto [a, b] = wall_below(rays, corners[e], k);
-            const double spacing = margin * distance(a, b) * target_slack / division.excess[e][k];
-            if (a != b && division.excess[e][k] > target_slack) spacings.push_back({e, a, b, spacing});
+            const double excess = division.excess[e][k] / target_slack;
+            if (a != b && excess > 1) spacings.push_back({e, a, b, margin * distance(a, b) / excess});
         }
+    }
     return spacings;
 }
 
-Layer close_border(Rays rays, const BorderOptions& options) {
+Layer close_border(const Rays& rays, const BorderOptions& options) {
     validate(options);
     const LayeredRays layered = layered_rays(rays);
     const FrontCorners corners = front_corners(layered);

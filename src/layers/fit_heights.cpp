@@ -77,6 +77,7 @@ StretchedLayers layers_up_to(double height, std::span<const double> heights) {
 }
 
 double stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n) {
+    if (n < 2 || heights[n] == height) return 1;
     return max_stretch_below(height, heights, n, {});
 }
 
@@ -89,7 +90,7 @@ LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> li
             if (limits[i] >= heights.full_height(i)) continue;
             const double own = columns[i].stretch;
             extra[i] = layers_within(limits[i], heights.of(i), {1 / (max_stretch * own), max_stretch / own}).stretch;
-            columns[i].stretch = own * extra[i];
+            columns[i].stretch = std::clamp(own * extra[i], 1 / max_stretch, max_stretch);
         }
     });
     std::vector<double> table = heights.table();

@@ -21,7 +21,7 @@ struct StretchedLayers {
 StretchedLayers layers_up_to(double height, std::span<const double> heights);
 
 /// Returns the largest stretch up to max_stretch with which n layers end at `height` or below; 1 / max_stretch if there
-/// is none.
+/// is none, and 1 for one layer, whose height no stretch changes.
 double stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n);
 
 /// Returns the heights, where the columns of rays that are cut short are stretched. A ray is cut short if its limit is

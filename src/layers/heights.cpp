@@ -89,7 +89,7 @@ std::vector<double> slants(const RaySet& set) {
         };
         add_edge(before, ray.origin);
         add_edge(ray.origin, after);
-        if (edges * (1 - negligible) > sum) result[i] = std::min(max_slant, edges / std::max(sum, edges / max_slant));
+        if (edges * (1 - negligible) > sum) result[i] = edges / std::max(sum, edges / max_slant);
     }
     fill_fans(set, result);
     return result;

@@ -1,5 +1,6 @@
 // Rays along the bisectors of a concave corner, or of a noisy stretch of wall, would meet close to the wall. They may
-// turn towards each other by no more than 1 in (clearance x height of the layers) along the wall. The turning beyond
+// turn towards each other by no more than 1 in (clearance x height of the layers) along the wall, which counts less the
+// more they lean (upright_distance()). The turning beyond
 // that is spread over the rays on both sides, which are tilted out of the corner (docs/decisions/0011).
 #include "layers/normal_smoothing.hpp"
 
@@ -91,7 +92,8 @@ void smooth_normals(std::span<const Point> outline, const LayerGrowth& growth, s
     constexpr int rounds = 3;  // the tilts of one decide the distances of the next
     if (std::none_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; })) return;
     const std::vector<TiltableRay> rays = tiltable_rays(outline, vertices);
-    for (int round = 0; round < rounds; ++round) tilt(rays, 1 / (clearance * height_to_keep_clear(outline, growth)));
+    const double max_fall = 1 / (clearance * height_to_keep_clear(outline, growth));
+    for (int round = 0; round < rounds; ++round) tilt(rays, max_fall);
     for (WallVertex& vertex : vertices)
         if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];
 }

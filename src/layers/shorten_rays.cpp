@@ -1,6 +1,7 @@
 // Rays shortened where the layer leaves no room for good triangles beyond it.
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <lamina/layers.hpp>
@@ -13,7 +14,7 @@ namespace lamina {
 
 using namespace layers;
 
-std::size_t shorten_rays(std::span<const Circle> places, Rays& rays) {
+std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays) {
     constexpr double kept_share = 0.6;  // of the height
     std::vector<Box> boxes;
     boxes.reserve(places.size());
@@ -23,22 +24,26 @@ std::size_t shorten_rays(std::span<const Circle> places, Rays& rays) {
     }
     const core::BoxTree tree(std::move(boxes));
     const LayeredRays layered = layered_rays(rays);
-    std::vector<std::size_t> shortened;
+    std::vector<std::size_t> ends(places.size(), 0), shortened;
     for (std::size_t i = 0; i < rays.set.lines.size(); ++i) {
         if (rays.counts[i] == 0) continue;
         const Point tip = layered.tip(i);
         Box at_tip;
         at_tip.include(tip);
         bool near = false;
-        tree.overlaps(at_tip, [&](std::size_t k) { near |= distance(places[k].middle, tip) <= places[k].radius; });
+        tree.overlaps(at_tip, [&](std::size_t k) {
+            if (distance(places[k].middle, tip) > places[k].radius) return;
+            near = true;
+            ++ends[k];
+        });
         if (near) shortened.push_back(i);
     }
-    if (shortened.empty()) return 0;
+    if (shortened.empty()) return ends;
     for (const std::size_t i : shortened)
         rays.limits[i] = std::min(rays.limits[i], kept_share * rays.fitted.of(i)[rays.counts[i]]);
     smooth_limits(rays.set, rays.heights, rays.limits);
     fit_and_count_layers(rays);
-    return shortened.size();
+    return ends;
 }
 
 }  // namespace lamina

@@ -107,7 +107,8 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     check.transition = summarize_transition(std::move(cells.transition));
     check.layer = cells.layer.summary();
     check.isotropic = cells.isotropic.summary();
-    check.isotropic.exempt = count_exempt(mesh, adjacency, constraints, cells.narrow);
+    check.unexcused_cells = find_unexcused(mesh, adjacency, constraints, cells.narrow);
+    check.isotropic.exempt = cells.narrow.size() - check.unexcused_cells.size();
     check.walls = measure_walls(mesh, adjacency, options.first_height);
     check.edges_without_first_layer = count_edges_without_first_layer(mesh, adjacency);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,17 +38,39 @@ private:
 /// What the shape of a cell says about it.
 enum class Look {
     thin,  ///< a cell of the layer if it hangs together with a wall
-    row,   ///< half of a rectangle, as in rows of a layer where cells are as high as wide; elsewhere one of 20 cells
+    row,   ///< about half of a rectangle, as in rows of a layer where cells are as high as wide; elsewhere one of few
     other
 };
 
 Look look_of(const Mesh& mesh, std::size_t cell) {
+    constexpr double max_slant_deg = 4;  // rows whose height changes along the wall lean
     if (cell >= mesh.triangles.size()) return Look::thin;
     const auto& v = mesh.triangles[cell].v;
     const core::CellShape shape =
         core::measure_triangle(mesh.points[v[0].index()], mesh.points[v[1].index()], mesh.points[v[2].index()]);
     if (shape.min_angle_deg < proved_min_angle_deg) return Look::thin;
-    return std::abs(shape.max_angle_deg - 90) < 1 ? Look::row : Look::other;
+    return std::abs(shape.max_angle_deg - 90) < max_slant_deg ? Look::row : Look::other;
+}
+
+/// Adds to the layer those of the cells that one other cell parts from it at most.
+void add_thin_cells_near_layer(const Mesh& mesh, std::span<const std::uint32_t> thin, std::vector<Region>& regions) {
+    if (thin.empty()) return;
+    const CellEdges cells(mesh);
+    std::vector<char> in_layer(mesh.points.size(), 0), near(mesh.points.size(), 0);  // per vertex
+    const auto has = [&](const std::vector<char>& marks, std::size_t cell) {
+        for (std::size_t i = 0; i < cells.corners(cell); ++i)
+            if (marks[cells.corner(cell, i).index()]) return true;
+        return false;
+    };
+    const auto mark = [&](std::vector<char>& marks, std::size_t cell) {
+        for (std::size_t i = 0; i < cells.corners(cell); ++i) marks[cells.corner(cell, i).index()] = 1;
+    };
+    for (std::size_t cell = 0; cell < cells.cells(); ++cell)
+        if (regions[cell] == Region::layer) mark(in_layer, cell);
+    for (std::size_t cell = 0; cell < cells.cells(); ++cell)
+        if (has(in_layer, cell)) mark(near, cell);
+    for (const std::uint32_t cell : thin)
+        if (has(near, cell)) regions[cell] = Region::layer;
 }
 
 }  // namespace
@@ -74,11 +97,13 @@ std::vector<Region> estimate_regions(const Mesh& mesh) {
         for (const Segment& edge : marker.edges)
             at_wall[sets.find(edge.a.value)] = at_wall[sets.find(edge.b.value)] = true;
     }
-    std::erase_if(thin, [&](std::uint32_t cell) { return !at_wall[sets.find(cells.corner(cell, 0).value)]; });
+    const auto first_apart = std::partition(
+        thin.begin(), thin.end(), [&](std::uint32_t cell) { return at_wall[sets.find(cells.corner(cell, 0).value)]; });
     std::vector<Region> regions;
-    if (thin.empty()) return regions;
+    if (first_apart == thin.begin()) return regions;
     regions.assign(cells.cells(), Region::isotropic);
-    for (const std::uint32_t cell : thin) regions[cell] = Region::layer;
+    std::for_each(thin.begin(), first_apart, [&](std::uint32_t cell) { regions[cell] = Region::layer; });
+    add_thin_cells_near_layer(mesh, std::span(first_apart, thin.end()), regions);
     return regions;
 }
 

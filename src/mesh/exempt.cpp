@@ -101,6 +101,7 @@ public:
         for (std::size_t i = 1; i < 3; ++i)
             if (length(triangle, i) < length(triangle, shortest)) shortest = i;
         const VertexId p = triangle.v[shortest], q = triangle.v[(shortest + 1) % 3];
+        if (after(p) == q || after(q) == p) return false;  // it is an edge of the outline itself
         return leads_round_sharp_corner(p, q) || leads_round_sharp_corner(q, p);
     }
 
@@ -139,8 +140,9 @@ private:
 
 }  // namespace
 
-std::size_t count_exempt(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
-                         const std::vector<std::uint32_t>& cells) {
+std::vector<std::uint32_t> find_unexcused(const Mesh& mesh, const Adjacency& adjacency,
+                                          const std::vector<Segment>& constraints,
+                                          const std::vector<std::uint32_t>& cells) {
     const FrozenCorners corners(mesh, adjacency, constraints);
     const auto find_others = [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> others;
@@ -151,12 +153,12 @@ std::size_t count_exempt(const Mesh& mesh, const Adjacency& adjacency, const std
     std::vector<std::uint32_t> others;
     for (const std::vector<std::uint32_t>& part : core::parallel_blocks(cells.size(), cells_per_block, find_others))
         others.insert(others.end(), part.begin(), part.end());
-    if (others.empty()) return cells.size();
+    if (others.empty()) return others;
     const Outline outline(mesh, adjacency);
     std::erase_if(others, [&](std::uint32_t cell) {
         return cell < mesh.triangles.size() && outline.is_spanned(mesh.triangles[cell]);
     });
-    return cells.size() - others.size();
+    return others;
 }
 
 }  // namespace lamina::mesh

@@ -1,7 +1,6 @@
-// Counts the cells whose angles no refinement could mend.
+// The cells whose angles no refinement could mend, and the others.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,10 +10,12 @@
 
 namespace lamina::mesh {
 
-/// Returns how many of `cells`, which are isotropic, have a corner between two frozen edges that enclose less than 60
-/// degrees. Frozen edges are those that the mesh shows: on the boundary, beside the layer or another piece, and
-/// constraints. Precondition: `constraints` are those of sorted_constraints().
-std::size_t count_exempt(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
-                         const std::vector<std::uint32_t>& cells);
+/// Returns those of `cells`, which are isotropic, that are not exempt: that neither have a corner between two frozen
+/// edges that enclose less than 60 degrees, nor are triangles whose shortest edge leads across such a corner of the
+/// isotropic region's outline, from one side to the other. Frozen edges are those that the mesh shows: on the boundary,
+/// beside the layer or another piece, and constraints. Precondition: `constraints` are those of sorted_constraints().
+std::vector<std::uint32_t> find_unexcused(const Mesh& mesh, const Adjacency& adjacency,
+                                          const std::vector<Segment>& constraints,
+                                          const std::vector<std::uint32_t>& cells);
 
 }  // namespace lamina::mesh

@@ -39,19 +39,20 @@ bool is_corner_of_base(Point a, Point b, Point c) {
     return turning > min_turning_deg && turning < max_turning_deg;
 }
 
-/// Compares the lengths of neighbouring edges.
+/// Compares the lengths of neighbouring edges. Vertices that several walls pass are left out.
 void measure_ratios(const Mesh& mesh, std::span<const WallEdge> walls, WallSummary& summary) {
+    const auto begins_before = [](const WallEdge& edge, VertexId v) { return edge.from < v; };
     for (const WallEdge& wall : walls) {
-        const auto after = std::lower_bound(walls.begin(), walls.end(), wall.to,
-                                            [](const WallEdge& edge, VertexId v) { return edge.from < v; });
+        const auto after = std::lower_bound(walls.begin(), walls.end(), wall.to, begins_before);
         if (after == walls.end() || after->from != wall.to) continue;
+        if (after + 1 != walls.end() && (after + 1)->from == wall.to) continue;
         const Point a = mesh.points[wall.from.index()], b = mesh.points[wall.to.index()],
                     c = mesh.points[after->to.index()];
-        if (is_corner_of_base(a, b, c)) continue;
+        if (a == b || b == c || is_corner_of_base(a, b, c)) continue;
         const double before_length = distance(a, b), after_length = distance(b, c);
         const double ratio = std::max(before_length, after_length) / std::min(before_length, after_length);
         summary.uneven_vertices += ratio > even_wall_ratio;
-        if (ratio <= summary.max_ratio) continue;
+        if (!(ratio > summary.max_ratio)) continue;
         summary.max_ratio = ratio;
         summary.max_ratio_at = b;
     }
@@ -76,20 +77,22 @@ void measure_first_heights(const Mesh& mesh, const CellEdges& edges, std::span<c
         const std::size_t cell = edges.cell_of(wall.edge);
         const bool of_first_layer =
             mesh.layer.empty() ? !mesh.region.empty() && mesh.region[cell] == Region::layer : mesh.layer[cell] == 1;
-        if (of_first_layer) heights.emplace_back(height_over(mesh, edges, wall.edge), wall.from);
+        if (of_first_layer && mesh.points[wall.from.index()] != mesh.points[wall.to.index()])
+            heights.emplace_back(height_over(mesh, edges, wall.edge), wall.from);
     }
     if (heights.empty()) return;
     summary.first_cells = heights.size();
-    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::nth_element(heights.begin(), middle, heights.end());
+    std::vector<std::pair<double, VertexId>> sorted = heights;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
     summary.median_first_height = middle->first;
     const double reference = wanted.value_or(middle->first);
     std::size_t kept = 0;
-    double worst = 1;
+    double worst = 0;
     for (const auto& [height, at] : heights) {
-        const double deviation = std::max(height / reference, reference / height);
-        kept += deviation <= 1 + first_height_tolerance;
-        if (deviation <= worst) continue;
+        const double deviation = std::abs(height / reference - 1);
+        kept += deviation <= first_height_tolerance;
+        if (!(deviation > worst)) continue;
         worst = deviation;
         summary.worst_first_height = height / reference;
         summary.worst_first_height_at = mesh.points[at.index()];

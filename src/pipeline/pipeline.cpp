@@ -134,11 +134,14 @@ double mean_edge_over_size(const Mesh& mesh, const SizeField& size) {
     return edges > 0 ? sum / static_cast<double>(edges) : 0.0;
 }
 
-/// Makes the mesh on these rays: the stages from the layer's border to the check. `seconds` holds the times so far.
-MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageClock& clock, StageSeconds seconds) {
+/// Makes the mesh on these rays: the stages from the layer's border to the check. `seconds` holds the times so far;
+/// `announce_estimate` says whether the estimate is part of the progress.
+MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageClock& clock, StageSeconds seconds,
+                        bool announce_estimate) {
     MeshResult result;
     result.geometry = plan.geometry;
     result.thinned_rays = plan.thinned_rays;
+    result.thinned_at = plan.thinned_at;
     const Layer layer = close_border(plan.rays, border_options(options, plan.requests.at_borders));
     seconds.layers += clock.lap();
 
@@ -148,7 +151,7 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
     result.estimate = estimate_within_limits(options, layer, size, plan.far_field);
     seconds.sizing += clock.lap();
 
-    clock.begin("decoupling", result.estimate);
+    clock.begin("decoupling", announce_estimate ? std::optional(result.estimate) : std::nullopt);
     Decoupling decoupling =
         decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, limited(options));
     seconds.decoupling += clock.lap();
@@ -185,27 +188,36 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
 }
 
 /// Replaces the mesh by others, on shorter rays and with shorter edges of borders, for as long as fewer and fewer
-/// triangles have an angle below the bound that no sharp corner excuses.
+/// triangles have an angle below the bound that no sharp corner excuses. A bound above the proved one is no promise, so
+/// nothing is done for it.
 void make_room(const CaseOptions& options, RayPlan& plan, StageClock& clock, MeshResult& best) {
     constexpr int max_rounds_without_gain = 2, max_rounds = 12;
-    const auto narrow = [](const MeshResult& result) {
-        return result.check.isotropic.angles_below_bound - result.check.isotropic.exempt;
-    };
+    constexpr double gain = 0.9;  // the share of such triangles that a round must leave at most
+    if (options.refine.min_angle_deg > proved_min_angle_deg) return;
     MeshResult next;
     const MeshResult* last = &best;
     int rounds_without_gain = 0;
     for (int round = 0; round < max_rounds && rounds_without_gain < max_rounds_without_gain; ++round) {
+        const StageSeconds seconds = last->seconds;
         if (!make_room_at_narrow_triangles(*last, options, plan)) return;
-        clock.begin("layers");
-        next = mesh_on_rays(plan, options, clock, last->seconds);
+        next = {};  // so that no more than two meshes are held
+        clock.begin("layers, thinned");
+        try {
+            next = mesh_on_rays(plan, options, clock, seconds, false);
+        } catch (const Error&) {
+            return;  // the best mesh so far is valid
+        }
         last = &next;
-        ++rounds_without_gain;
-        if (narrow(next) >= narrow(best)) continue;
-        best = std::move(next);
-        last = &best;
-        rounds_without_gain = 0;
+        const auto before = static_cast<double>(best.check.isotropic.unexcused()),
+                   after = static_cast<double>(next.check.isotropic.unexcused());
+        rounds_without_gain = after <= gain * before ? 0 : rounds_without_gain + 1;
+        if (after < before) {
+            best = std::move(next);
+            last = &best;
+        } else {
+            best.seconds = next.seconds;
+        }
     }
-    best.seconds = last->seconds;
 }
 
 MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& clock, double geometry_seconds) {
@@ -224,7 +236,7 @@ MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& cl
     clock.begin("layers");
     RayPlan plan = plan_rays(std::move(prepared), chord, options, growth);
     refine_walls_below_borders(given, options, limits, growth, plan);
-    MeshResult result = mesh_on_rays(plan, options, clock, seconds);
+    MeshResult result = mesh_on_rays(plan, options, clock, seconds, true);
     make_room(options, plan, clock, result);
     result.seconds.total = clock.total();
     return result;
@@ -238,7 +250,7 @@ namespace lamina {
 
 using namespace pipeline;
 
-MeshResult generate_mesh(Geometry geometry, const CaseOptions& options, const Progress& progress) {
+MeshResult generate_mesh(const Geometry& geometry, const CaseOptions& options, const Progress& progress) {
     validate(options);
     MeshResult result;
     with_threads(options.threads, [&] {

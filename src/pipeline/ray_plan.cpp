@@ -8,9 +8,7 @@
 
 #include <lamina/error.hpp>
 
-#include "core/cell_shape.hpp"
 #include "decoupling/far_field.hpp"
-#include "mesh/isotropic_cells.hpp"
 
 namespace lamina::pipeline {
 
@@ -39,19 +37,37 @@ void require_room_for_layers(const Geometry& geometry, const std::vector<std::ve
                     growth.layers ? "the number of layers or " : "", growth.growth));
 }
 
-/// Returns circles round the isotropic triangles with an angle below the bound. They hold the ends of the rays beside.
-std::vector<Circle> narrow_triangles(const Mesh& mesh, double min_angle_deg) {
+/// Returns circles round the triangles with an angle below the bound that no sharp corner excuses. They hold the ends of
+/// the rays beside.
+std::vector<Circle> circles_round_unexcused(const MeshResult& result) {
     constexpr double reach = 1.5;  // in longest edges
     std::vector<Circle> circles;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (!mesh::is_isotropic(mesh, t)) continue;
-        const auto corner = [&](int i) { return mesh.points[mesh.triangles[t].v[i].index()]; };
+    for (const std::uint32_t cell : result.check.unexcused_cells) {
+        const auto corner = [&](int i) { return result.mesh.points[result.mesh.triangles[cell].v[i].index()]; };
         const Point a = corner(0), b = corner(1), c = corner(2);
-        if (core::measure_triangle(a, b, c).min_angle_deg >= min_angle_deg) continue;
         circles.push_back(
             {(1.0 / 3) * (a + b + c), reach * std::max({distance(a, b), distance(b, c), distance(c, a)})});
     }
     return circles;
+}
+
+bool same_points(const Geometry& a, const Geometry& b) {
+    return std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(),
+                      [](const Element& first, const Element& second) { return first.points == second.points; });
+}
+
+/// Counts the rays whose limits are lower than they were at first, and finds the one that lost most of its height.
+void count_thinned(RayPlan& plan) {
+    plan.thinned_rays = 0;
+    double least_share = 1;
+    for (std::size_t i = 0; i < plan.first_limits.size(); ++i) {
+        const double before = std::min(plan.first_limits[i], plan.rays.heights.full_height(i));
+        if (plan.rays.limits[i] >= before) continue;
+        ++plan.thinned_rays;
+        if (plan.rays.limits[i] >= least_share * before) continue;
+        least_share = plan.rays.limits[i] / before;
+        plan.thinned_at = plan.rays.set.lines[i].origin;
+    }
 }
 
 }  // namespace
@@ -62,7 +78,13 @@ RayPlan plan_rays(Geometry geometry, double chord, const CaseOptions& options, c
     const auto tips = fronts(rays);
     if (options.layer.enabled) require_room_for_layers(geometry, tips, far_field, options.layer, growth);
     SizeRequests requests = gather_size_requests(options.sizing, sized_bodies(geometry), tips, far_field.box());
-    return {std::move(geometry), chord, std::move(far_field), std::move(rays), std::move(requests)};
+    std::vector<double> limits = rays.limits;
+    return {.geometry = std::move(geometry),
+            .chord = chord,
+            .far_field = std::move(far_field),
+            .rays = std::move(rays),
+            .requests = std::move(requests),
+            .first_limits = std::move(limits)};
 }
 
 void refine_walls_below_borders(const Geometry& given, const CaseOptions& options, SpacingLimits limits,
@@ -74,25 +96,25 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
             wall_spacings(plan.rays, wall_border_options(options, plan.requests.at_borders));
         if (finer.empty()) return;
         limits.walls.insert(limits.walls.end(), finer.begin(), finer.end());
-        plan = plan_rays(prepare_surfaces(given, options.surface, limits), plan.chord, options, growth);
+        Geometry prepared = prepare_surfaces(given, options.surface, limits);
+        if (same_points(prepared, plan.geometry)) return;  // the rest are stretches that keep their given points
+        plan = plan_rays(std::move(prepared), plan.chord, options, growth);
     }
 }
 
 bool make_room_at_narrow_triangles(const MeshResult& result, const CaseOptions& options, RayPlan& plan) {
-    // Where no layer is left to be thinned, the borders' edges are shortened to this share of the triangles'.
+    // Where no layer is left to be thinned, the borders' edges become this share of the circles' radii.
     constexpr double edge_share = 0.3;
-    const QualitySummary& quality = result.check.isotropic;
-    if (!options.layer.enabled || quality.angles_below_bound == quality.exempt) return false;
-    const std::vector<Circle> narrow = narrow_triangles(result.mesh, options.refine.min_angle_deg);
-    const std::size_t shortened = shorten_rays(narrow, plan.rays);
-    if (shortened > 0) {
-        plan.requests =
-            gather_size_requests(options.sizing, sized_bodies(plan.geometry), fronts(plan.rays), plan.far_field.box());
-        plan.thinned_rays += shortened;
-    } else {
-        for (const Circle& place : narrow)
-            plan.short_edges.push_back({.a = place.middle, .b = place.middle, .size = edge_share * place.radius});
+    if (!options.layer.enabled || result.check.unexcused_cells.empty()) return false;
+    const std::vector<Circle> places = circles_round_unexcused(result);
+    const std::vector<std::size_t> ends = shorten_rays(places, plan.rays);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const Point at = places[k].middle;
+        if (ends[k] == 0) plan.short_edges.push_back({.a = at, .b = at, .size = edge_share * places[k].radius});
     }
+    count_thinned(plan);
+    plan.requests =
+        gather_size_requests(options.sizing, sized_bodies(plan.geometry), fronts(plan.rays), plan.far_field.box());
     plan.requests.at_borders.insert(plan.requests.at_borders.end(), plan.short_edges.begin(), plan.short_edges.end());
     return true;
 }

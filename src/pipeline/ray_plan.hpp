@@ -16,7 +16,9 @@ struct RayPlan {
     FarField far_field;
     Rays rays;
     SizeRequests requests;
+    std::vector<double> first_limits{};     ///< of the rays, before any was shortened
     std::size_t thinned_rays = 0;           ///< MeshResult::thinned_rays
+    Point thinned_at{};                     ///< MeshResult::thinned_at
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
 };
 

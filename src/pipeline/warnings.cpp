@@ -119,11 +119,13 @@ void warn_of_thinned_layers(const MeshResult& result, std::vector<Warning>& warn
     if (result.thinned_rays == 0) return;
     warnings.push_back(
         {.code = WarningCode::layers_thinned,
+         .at = result.thinned_at,
          .number = static_cast<double>(result.thinned_rays),
          .unit = "rays",
-         .message = fmt::format("the layers on {} are thinner than there is room for, since the triangles beyond could "
-                                "not keep the bound on their angles otherwise (--layers, --thickness, --surface)",
-                                counted(result.thinned_rays, "ray", "rays"))});
+         .message = fmt::format("the layers on {} are thinner than there is room for (most at {}), since the triangles "
+                                "beyond could not keep the bound on their angles otherwise (--layers, --thickness, "
+                                "--surface)",
+                                counted(result.thinned_rays, "ray", "rays"), place_text(result.thinned_at))});
 }
 
 void warn_of_transition(const MeshResult& result, std::vector<Warning>& warnings) {
@@ -195,18 +197,19 @@ void warn_of_refinement(const MeshResult& result, const CaseOptions& options, co
                             .unit = unit,
                             .message = fmt::format("{} (worst at {})", message, place_text(at))});
     };
-    const auto smallest_angle = [&] {
-        return worst_place(mesh, Region::isotropic,
-                           [&](std::size_t cell) { return -shape_of(mesh, cell).min_angle_deg; });
-    };
-    const QualitySummary& quality = result.check.isotropic;
-    if (const std::size_t narrow = quality.angles_below_bound - quality.exempt; narrow > 0)
-        add(WarningCode::small_angle, narrow, "triangles", smallest_angle(),
+    const auto angle_of = [&](std::size_t cell) { return shape_of(mesh, cell).min_angle_deg; };
+    const std::vector<std::uint32_t>& narrow = result.check.unexcused_cells;
+    if (!narrow.empty()) {
+        const std::size_t worst =
+            *std::min_element(narrow.begin(), narrow.end(), [&](auto a, auto b) { return angle_of(a) < angle_of(b); });
+        add(WarningCode::small_angle, narrow.size(), "triangles", middle_of(mesh, worst),
             fmt::format("{} below the bound of {} degrees, down to {:.2f}",
-                        counted(narrow, "triangle has an angle", "triangles have an angle"),
-                        options.refine.min_angle_deg, quality.min_angle_deg));
+                        counted(narrow.size(), "triangle has an angle", "triangles have an angle"),
+                        options.refine.min_angle_deg, angle_of(worst)));
+    }
     if (const std::size_t refused = result.refinement.refused; refused > 0)
-        add(WarningCode::refused_points, refused, "points", smallest_angle(),
+        add(WarningCode::refused_points, refused, "points",
+            worst_place(mesh, Region::isotropic, [&](std::size_t cell) { return -angle_of(cell); }),
             fmt::format("refinement left out {} too near to the layer's border or to a separator",
                         counted(refused, "point", "points")));
     if (const std::size_t oversized = result.refinement.oversized; oversized > 0) {

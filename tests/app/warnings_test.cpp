@@ -63,7 +63,7 @@ TEST(WarningsOfTheProgram, StrictWritesTheOutputsAndFails) {
 }
 
 /// A plate with a slit that narrows to a point.
-const std::string plate_with_slit = "1 0\n1 0.1\n0.62 0.1\n0.2 0.03\n0.6 0.1\n0 0.1\n0 0\n1 0\n";
+const std::string plate_with_slit = "1 0\n1 0.1\n0.61 0.1\n0.2 0.03\n0.6 0.1\n0 0.1\n0 0\n1 0\n";
 
 TEST(WarningsOfTheProgram, AnglesBelowTheBoundWriteNothingUnlessDefectsAreAllowed) {
     const TemporaryFolder folder;

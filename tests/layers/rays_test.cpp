@@ -198,8 +198,8 @@ TEST(Rays, AreShortenedInCirclesAndLeadOverToThoseBeside) {
     const LayerOptions options = layers_as_high_as(0.2);
     const Geometry geometry = shapes::geometry({outline});
     Rays rays = grow_rays(geometry, options);
-    EXPECT_EQ(shorten_rays(std::vector<Circle>{{{3, 0}, 0.5}}, rays), 0u);
-    const std::size_t shortened = shorten_rays(std::vector<Circle>{{{1.2, 0}, 0.1}}, rays);
+    EXPECT_EQ(shorten_rays(std::vector<Circle>{{{3, 0}, 0.5}}, rays), std::vector<std::size_t>{0});
+    const std::size_t shortened = shorten_rays(std::vector<Circle>{{{3, 0}, 0.5}, {{1.2, 0}, 0.1}}, rays)[1];
     EXPECT_GT(shortened, 2u);
     EXPECT_LT(shortened, 12u);
     const Layer layer = close_border(rays);

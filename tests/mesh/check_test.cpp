@@ -411,5 +411,53 @@ TEST(CheckExempt, SharpCornerOfTheBoundarySharedByTwoTriangles) {
     EXPECT_EQ(check.isotropic.exempt, 2u);
 }
 
+/// Returns a wedge with its tip at the origin, between two straight sides of `parts` edges of length 1: strips of two
+/// triangles behind the one at the tip.
+Mesh wedge(std::uint32_t parts, double height) {
+    Mesh mesh;
+    mesh.points = {{0, 0}};
+    for (std::uint32_t i = 1; i <= parts; ++i) {
+        mesh.points.push_back({1.0 * i, 0});
+        mesh.points.push_back({1.0 * i, height * i});
+    }
+    const auto lower = [](std::uint32_t i) { return VertexId(i == 0 ? 0 : 2 * i - 1); };
+    const auto upper = [](std::uint32_t i) { return VertexId(2 * i); };
+    mesh.triangles.push_back({{lower(0), lower(1), upper(1)}});
+    for (std::uint32_t i = 1; i < parts; ++i) {
+        mesh.triangles.push_back({{lower(i), lower(i + 1), upper(i)}});
+        mesh.triangles.push_back({{lower(i + 1), upper(i + 1), upper(i)}});
+    }
+    Marker& wall = mesh.markers.emplace_back(Marker{"wall", MarkerKind::wall, {}});
+    for (std::uint32_t i = 0; i < parts; ++i) {
+        wall.edges.push_back({lower(i), lower(i + 1)});
+        wall.edges.push_back({upper(i + 1), upper(i)});
+    }
+    wall.edges.push_back({lower(parts), upper(parts)});
+    return mesh;
+}
+
+TEST(CheckExempt, TrianglesWhoseShortestEdgeLeadsAcrossASharpCorner) {
+    const MeshCheck check = check_mesh(wedge(3, 0.1), {.min_angle_deg = 20});
+    ASSERT_TRUE(check.valid());
+    EXPECT_EQ(check.isotropic.angles_below_bound, 5u);
+    EXPECT_EQ(check.isotropic.exempt, 4u);  // the shortest edge of the last triangle is an edge of the wall
+    EXPECT_EQ(check.unexcused_cells, std::vector<std::uint32_t>{4});
+}
+
+TEST(CheckExempt, NotFarFromTheCornerAndNotInAStripWithoutOne) {
+    const MeshCheck far = check_mesh(wedge(40, 0.001), {.min_angle_deg = 2});
+    ASSERT_TRUE(far.valid());
+    EXPECT_GT(far.isotropic.unexcused(), 20u);
+    EXPECT_LT(far.isotropic.unexcused(), far.isotropic.cells - 20);
+    EXPECT_EQ(far.unexcused_cells.size(), far.isotropic.unexcused());
+
+    Mesh strip = wedge(3, 0.1);  // its tip is cut off, so that no two sides enclose a sharp corner
+    for (std::uint32_t i = 1; i <= 3; ++i) strip.points[2 * i].y = 0.1;
+    strip.points[0] = {0.97, 0.05};
+    const MeshCheck check = check_mesh(strip, {.min_angle_deg = 20});
+    ASSERT_TRUE(check.valid());
+    EXPECT_EQ(check.isotropic.exempt, 0u);
+}
+
 }  // namespace
 }  // namespace lamina

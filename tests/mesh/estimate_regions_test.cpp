@@ -49,11 +49,15 @@ TEST(EstimateRegions, RowsOfRectanglesLeadOn) {
     EXPECT_EQ(regions[0], Region::layer);
     EXPECT_EQ(regions[2], Region::isotropic);
     EXPECT_EQ(regions[4], Region::layer);
-    Mesh slanted = stack({0, 0.01, 1, 1.01});
-    for (std::size_t i = 4; i < 8; ++i) slanted.points[i].x += 0.4;
+    // Slanted rows do not lead on, but one of them makes no gap.
+    Mesh slanted = stack({0, 0.01, 1, 2, 2.01});
+    for (std::size_t i = 4; i < 10; ++i) slanted.points[i].x += i < 6 ? 0.4 : 0.8;
     const std::vector<Region> other = estimate_regions(slanted);
     EXPECT_EQ(other[0], Region::layer);
-    EXPECT_EQ(other[4], Region::isotropic);
+    EXPECT_EQ(other[6], Region::isotropic);
+    slanted = stack({0, 0.01, 1, 1.01});
+    for (std::size_t i = 4; i < 8; ++i) slanted.points[i].x += 0.4;
+    EXPECT_EQ(estimate_regions(slanted)[4], Region::layer);
 }
 
 }  // namespace

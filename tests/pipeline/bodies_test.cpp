@@ -1,6 +1,7 @@
 // Meshes of several elements, of concavities and of measured sections.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -85,6 +86,23 @@ TEST(Concavities, LayersThatFillThem) {
             expect_sound(result, options);
             EXPECT_EQ(result.check.isotropic.angles_below_bound, result.check.isotropic.exempt);
         }
+}
+
+/// A plate with a slit of 3 degrees. Triangles near its tip are exempt; others need thinner layers.
+TEST(Concavities, LayersInASlitAreThinnedUntilTheAnglesBeyondKeepTheBound) {
+    const Outline plate{{0, 0}, {1, 0}, {1, 0.1}, {0.62, 0.1}, {0.2, 0.03}, {0.6, 0.1}, {0, 0.1}};
+    CaseOptions options;
+    options.far_field.size = 15;
+    for (const bool mirrored : {false, true}) {
+        const MeshResult result = mesh_of({mirrored ? shapes::mirrored(plate) : plate}, options);
+        EXPECT_EQ(result.check.isotropic.unexcused(), 0u);
+        EXPECT_GT(result.check.isotropic.exempt, 1u);
+        EXPECT_GT(result.thinned_rays, 0u);
+        EXPECT_LT(result.thinned_rays, result.layer_coverage[0].all.rays / 10);
+        EXPECT_LT(distance(result.thinned_at, {0.2, mirrored ? -0.03 : 0.03}), 0.1);
+        const auto is_thinned = [](const Warning& warning) { return warning.code == WarningCode::layers_thinned; };
+        EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(), is_thinned));
+    }
 }
 
 std::filesystem::path shared_geometry() {
