@@ -27,17 +27,21 @@ inline double squared_distance(const Box& box, Point p) {
 /// The tree over the boxes of items, which are numbered by their places in the sequence.
 class BoxTree {
 public:
-    explicit BoxTree(std::vector<Box> items) {
-        levels_.push_back(std::move(items));
-        while (levels_.back().size() > arity) {
-            const std::vector<Box>& below = levels_.back();
+    explicit BoxTree(std::vector<Box> items) : levels_(group_boxes(std::move(items))) {}
+
+    /// Returns the boxes of each group of items on every level, from those of the items, which come first.
+    static std::vector<std::vector<Box>> group_boxes(std::vector<Box> items) {
+        std::vector<std::vector<Box>> levels{std::move(items)};
+        while (levels.back().size() > arity) {
+            const std::vector<Box>& below = levels.back();
             std::vector<Box> level((below.size() + arity - 1) / arity);
             for (std::size_t i = 0; i < below.size(); ++i) {
                 level[i / arity].include(below[i].lower);
                 level[i / arity].include(below[i].upper);
             }
-            levels_.push_back(std::move(level));
+            levels.push_back(std::move(level));
         }
+        return levels;
     }
 
     /// Calls visit(item) for each item whose box overlaps the query, in ascending order.
@@ -86,10 +90,21 @@ public:
     /// Returns min(start, distance from p to the nearest item). distance(item) is as for minimum().
     template <class Distance>
     double min_distance(Point p, double start, Distance&& distance) const {
+        return min_distance_among(
+            p, start, 0, [](const Box&, std::size_t, std::size_t) { return true; }, distance);
+    }
+
+    /// Returns the same for items that are `least` away at least. Groups of items that may_count(box, level, index)
+    /// rejects are passed over: it tells of a group on a level of group_boxes(), and of its box, whether an item of it
+    /// can be nearest.
+    template <class MayCount, class Distance>
+    double min_distance_among(Point p, double start, double least, MayCount&& may_count, Distance&& distance) const {
         double best = start;
-        walk([&](const Box& box, std::size_t,
-                 std::size_t) { return best > 0 && squared_distance(box, p) < best * best; },
-             [&](std::size_t item) { best = std::min(best, distance(item)); });
+        walk(
+            [&](const Box& box, std::size_t level, std::size_t i) {
+                return best > least && squared_distance(box, p) < best * best && may_count(box, level, i);
+            },
+            [&](std::size_t item) { best = std::min(best, distance(item)); });
         return best;
     }
 

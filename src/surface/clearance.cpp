@@ -8,31 +8,60 @@
 
 namespace lamina::surface {
 
+namespace {
+
+/// Walls of one element face each other where the product of their unit normals is below this.
+constexpr double max_facing_product = -0.5;
+
+/// Returns the point of a box that is farthest against a direction. Products of the direction with other points of the
+/// box are no less, even when rounded.
+Point farthest_against(Point direction, const Box& box) {
+    return {direction.x > 0 ? box.lower.x : box.upper.x, direction.y > 0 ? box.lower.y : box.upper.y};
+}
+
+}  // namespace
+
 ClearanceSearch::ClearanceSearch(const Geometry& geometry) {
-    std::vector<Box> boxes;
-    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
-        const std::vector<Point>& p = geometry.elements[e].points;
+    for (const Element& element : geometry.elements) {
+        const std::vector<Point>& p = element.points;
+        ElementWalls& walls = elements_.emplace_back();
+        std::vector<Box> boxes, normals;
         for (std::size_t i = 0; i < p.size(); ++i) {
-            edges_.push_back({e, p[i], p[(i + 1) % p.size()]});
-            boxes.push_back(core::bounding_box(edges_.back().a, edges_.back().b));
+            const Point a = p[i], b = p[(i + 1) % p.size()], normal = unit(-perpendicular(b - a));
+            walls.edges.push_back({a, b, midpoint(a, b), normal});
+            boxes.push_back(core::bounding_box(a, b));
+            normals.push_back({normal, normal});
         }
+        walls.tree = core::BoxTree(std::move(boxes));
+        walls.normals = core::BoxTree::group_boxes(std::move(normals));
     }
-    tree_ = core::BoxTree(std::move(boxes));
 }
 
 double ClearanceSearch::clearance(std::size_t element, Point p, Point normal, double min_own_clearance,
                                   double max_clearance) const {
-    return tree_.min_distance(p, max_clearance, [&](std::size_t i) {
-        const WallEdge& edge = edges_[i];
-        const double d = core::distance_to_segment(p, edge.a, edge.b);
-        if (edge.element != element) return d;
+    double nearest = max_clearance;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+        const ElementWalls& walls = elements_[e];
+        const auto distance_to = [&](const WallEdge& edge) { return core::distance_to_segment(p, edge.a, edge.b); };
+        if (e != element) {
+            nearest = walls.tree.min_distance(p, nearest, [&](std::size_t i) { return distance_to(walls.edges[i]); });
+            continue;
+        }
         // Two walls of one element face each other where their normals meet. Neither the other side of the body nor the
         // wall round a corner does.
-        const Point towards = midpoint(edge.a, edge.b) - p, edge_normal = unit(-perpendicular(edge.b - edge.a));
-        const bool faces_p =
-            dot(towards, normal) > 0 && dot(towards, edge_normal) < 0 && dot(normal, edge_normal) < -0.5;
-        return faces_p ? std::max(d, min_own_clearance) : HUGE_VAL;
-    });
+        const auto may_face_p = [&](const Box& box, std::size_t level, std::size_t i) {
+            return dot(farthest_against(-normal, box) - p, normal) > 0 &&
+                   dot(normal, farthest_against(normal, walls.normals[level][i])) < max_facing_product;
+        };
+        nearest = walls.tree.min_distance_among(p, nearest, min_own_clearance, may_face_p, [&](std::size_t i) {
+            const WallEdge& edge = walls.edges[i];
+            const Point towards = edge.middle - p;
+            const bool faces_p = dot(towards, normal) > 0 && dot(towards, edge.normal) < 0 &&
+                                 dot(normal, edge.normal) < max_facing_product;
+            return faces_p ? std::max(distance_to(edge), min_own_clearance) : HUGE_VAL;
+        });
+    }
+    return nearest;
 }
 
 }  // namespace lamina::surface

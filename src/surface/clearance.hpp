@@ -22,11 +22,16 @@ public:
 
 private:
     struct WallEdge {
-        std::size_t element;
         Point a, b;
+        Point middle, normal;  ///< the normal is the outward unit one
     };
-    std::vector<WallEdge> edges_;
-    core::BoxTree tree_{{}};
+    /// The walls of an element.
+    struct ElementWalls {
+        std::vector<WallEdge> edges;
+        core::BoxTree tree{{}};
+        std::vector<std::vector<Box>> normals;  ///< boxes round the normals of each group of edges of the tree
+    };
+    std::vector<ElementWalls> elements_;
 };
 
 }  // namespace lamina::surface

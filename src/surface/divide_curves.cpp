@@ -42,13 +42,6 @@ struct EdgeCount {
     double first_length, last_length;  ///< lengths of the first and the last edge
 };
 
-/// Returns whether a curve turns by more than 90 degrees.
-bool turns_far(const SplineCurve& curve, const CurveSamples& samples) {
-    double turning = 0;
-    for (std::size_t i = 0; i + 1 < samples.size(); ++i) turning += turning_between(curve, samples[i], samples[i + 1]);
-    return std::abs(turning) > 0.5 * core::pi;
-}
-
 /// Counts the edges of a curve: at least min_edges and as many as its spacings ask for; an even number if is_even.
 EdgeCount count_edges(const CurveSamples& samples, double min_edges, bool is_even) {
     constexpr double slack = 1e-6;  // of an edge, so that rounding does not decide
@@ -74,11 +67,11 @@ EdgeCount count_edges(const CurveSamples& samples, double min_edges, bool is_eve
 
 /// Lowers the spacings at corners whose two edges differ by more than the rule allows: the whole numbers of edges make
 /// short curves finer than their spacing asks for. The shorter edge becomes the spacing on both sides, unless the
-/// longer one is kept. Returns whether a spacing was lowered.
-bool even_out_corners(std::span<const OutlineCurve> curves, std::vector<CurveSamples>& samples,
-                      std::span<const EdgeCount> counts, const SpacingRule& rule) {
+/// longer one is kept. Returns the curves at whose start a spacing was lowered.
+std::vector<std::size_t> even_out_corners(std::span<const OutlineCurve> curves, std::vector<CurveSamples>& samples,
+                                          std::span<const EdgeCount> counts, const SpacingRule& rule) {
     constexpr double max_factor = 0.98;  // so that every round changes something
-    bool changed = false;
+    std::vector<std::size_t> lowered;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const std::size_t j = (i + 1) % curves.size();
         const double before = counts[i].last_length, after = counts[j].first_length;
@@ -90,9 +83,9 @@ bool even_out_corners(std::span<const OutlineCurve> curves, std::vector<CurveSam
         if (spacing < rule.min_spacing) continue;
         if (!curves[i].is_kept) end = spacing;
         if (!curves[j].is_kept) start = spacing;
-        changed = true;
+        lowered.push_back(j);
     }
-    return changed;
+    return lowered;
 }
 
 /// Curves with their graded spacings, and the edges of each.
@@ -108,32 +101,30 @@ struct DivisionPlan {
     }
 };
 
-bool have_equal_spacings(const CurveSamples& a, const CurveSamples& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const CurveSample& s, const CurveSample& t) { return s.spacing == t.spacing; });
-}
-
-DivisionPlan make_plan(std::span<const OutlineCurve> curves, std::vector<CurveSamples> spacings,
-                       const SpacingRule& rule) {
+DivisionPlan make_plan(std::span<const OutlineCurve> curves, SampledOutline outline, const SpacingRule& rule) {
     constexpr int max_rounds = 30;
     // An outline has at least three edges.
     const double min_edges = curves.size() == 1 ? 3 : curves.size() == 2 ? 2 : 1;
-    std::vector<bool> is_even;
-    for (std::size_t i = 0; i < curves.size(); ++i) is_even.push_back(turns_far(curves[i].curve, spacings[i]));
-    DivisionPlan plan{std::move(spacings), {}};
-    std::vector<CurveSamples> counted(curves.size());  // what the edges were counted from
-    plan.counts.resize(curves.size());
-    for (int round = 0; round < max_rounds; ++round) {
-        limit_gradation(curves, plan.samples, rule.gradation);
+    DivisionPlan plan{std::move(outline.samples), std::vector<EdgeCount>(curves.size())};
+    std::vector<bool> is_changed(curves.size(), true);
+    limit_gradation(curves, plan.samples, rule.gradation);
+    for (int round = 1;; ++round) {
         for (std::size_t i = 0; i < curves.size(); ++i) {
+            if (!is_changed[i]) continue;
             const CurveSamples& samples = plan.samples[i];
-            if (round > 0 && have_equal_spacings(samples, counted[i])) continue;
             const double length = samples.back().arc_length;
+            const bool is_even = std::abs(outline.turning[i]) > 0.5 * core::pi;
             plan.counts[i] =
-                curves[i].is_kept ? EdgeCount{1, 1, length, length} : count_edges(samples, min_edges, is_even[i]);
-            counted[i] = samples;
+                curves[i].is_kept ? EdgeCount{1, 1, length, length} : count_edges(samples, min_edges, is_even);
         }
-        if (curves.size() == 1 || !even_out_corners(curves, plan.samples, plan.counts, rule)) break;
+        if (curves.size() == 1 || round == max_rounds) break;
+        is_changed.assign(curves.size(), false);
+        const std::vector<std::size_t> lowered = even_out_corners(curves, plan.samples, plan.counts, rule);
+        for (const std::size_t i : lowered) {
+            is_changed[i] = is_changed[(i + curves.size() - 1) % curves.size()] = true;
+            limit_gradation_from(i, curves, plan.samples, rule.gradation, is_changed);
+        }
+        if (lowered.empty()) break;
     }
     return plan;
 }
@@ -190,18 +181,19 @@ DividedCurves place_all_points(std::span<const OutlineCurve> curves, const Divis
 
 }  // namespace
 
-DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingRule& rule) {
-    return place_all_points(curves, make_plan(curves, sample_spacings(curves, rule), rule));
+DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known) {
+    return place_all_points(curves, make_plan(curves, sample_spacings(curves, rule, known), rule));
 }
 
-DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const SpacingRule& rule, std::size_t edges) {
+DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known,
+                                 std::size_t edges) {
     constexpr int max_doublings = 40, max_bisections = 30;
-    const std::vector<CurveSamples> spacings = sample_spacings(curves, rule);
+    const SampledOutline outline = sample_spacings(curves, rule, known);
     const auto scaled_plan = [&](double factor) {
-        std::vector<CurveSamples> scaled = spacings;
+        SampledOutline scaled = outline;
         for (std::size_t i = 0; i < curves.size(); ++i) {
             if (curves[i].is_kept) continue;
-            for (CurveSample& sample : scaled[i]) sample.spacing *= factor;
+            for (CurveSample& sample : scaled.samples[i]) sample.spacing *= factor;
         }
         return make_plan(curves, std::move(scaled), rule);
     };

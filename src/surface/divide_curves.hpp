@@ -22,10 +22,11 @@ struct DividedCurves {
 
 /// Divides the curves of an outline so that edges equidistribute the integral of ds / spacing. Each curve that is not
 /// kept gets a whole number of edges, and an even one where it turns by more than 90 degrees, so that a symmetric nose
-/// keeps its vertex.
-DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingRule& rule);
+/// keeps its vertex. `known` holds samples of curves, as for sample_spacings().
+DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known);
 
 /// Divides curves likewise, but with all spacings scaled so that there are about `edges` edges.
-DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const SpacingRule& rule, std::size_t edges);
+DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known,
+                                 std::size_t edges);
 
 }  // namespace lamina::surface

@@ -267,7 +267,7 @@ double ResamplingRequest::corner_spacing(double turning, double extent) const {
 double extent(std::span<const Point> outline) { return core::longer_side(core::bounding_box(outline)); }
 
 ResampledElement resample(const Element& given, std::size_t index, const ResamplingRequest& request,
-                          std::span<const EdgeTreatment> treatment, const std::string& reason) {
+                          std::span<const EdgeTreatment> treatment, const std::string& reason, SampledCurves& known) {
     constexpr double max_pair_share = 1e-3;  // of the extent
     const SurfaceOptions& options = request.options;
     const double scale = extent(given.points);
@@ -283,12 +283,12 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;
     DividedCurves divided =
-        options.points ? divide_curves_into(curves, rule, *options.points) : divide_curves(curves, rule);
+        options.points ? divide_curves_into(curves, rule, known, *options.points) : divide_curves(curves, rule, known);
     // Where lamina decides by itself, it never takes points away from a fine outline.
     const bool decides_alone = options.treatment == SurfaceTreatment::automatic && !options.points &&
                                !options.leading_edge_spacing && !options.trailing_edge_spacing;
     if (decides_alone && !given.samples_of_curve && divided.points.size() < given.points.size())
-        divided = divide_curves_into(curves, rule, given.points.size());
+        divided = divide_curves_into(curves, rule, known, given.points.size());
 
     std::vector<GivenEdges> origins = origins_of(outline_curves, divided, given.points.size());
     Element element = given;

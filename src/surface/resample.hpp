@@ -9,6 +9,7 @@
 #include <lamina/surface.hpp>
 
 #include "surface/clearance.hpp"
+#include "surface/spacing.hpp"
 
 namespace lamina::surface {
 
@@ -46,9 +47,10 @@ struct ResampledElement {
 };
 
 /// Returns the element, whose number in its geometry is `index`, with new points, and adds a note that quotes `reason`.
-/// `treatment` holds what becomes of each given edge.
+/// `treatment` holds what becomes of each given edge, and `known` the curves of earlier calls for the same element and
+/// request.
 /// Precondition: the corners of its outline are known (Element::features).
 ResampledElement resample(const Element& given, std::size_t index, const ResamplingRequest& request,
-                          std::span<const EdgeTreatment> treatment, const std::string& reason);
+                          std::span<const EdgeTreatment> treatment, const std::string& reason, SampledCurves& known);
 
 }  // namespace lamina::surface

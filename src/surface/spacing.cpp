@@ -14,6 +14,11 @@ namespace lamina::surface {
 
 namespace {
 
+/// Returns the angle by which a curve turns from one sample to another, in radians, positive to the left.
+double turning_between(const SplineCurve& curve, const CurveSample& from, const CurveSample& to) {
+    return core::angle_between(curve.direction(from.piece, from.share), curve.direction(to.piece, to.share));
+}
+
 /// Samples a curve so closely that it turns by about a degree at most between two samples, and that arc length between
 /// them is nearly linear in the parameter. Spacings are still unbounded.
 CurveSamples sample(const SplineCurve& curve) {
@@ -106,24 +111,62 @@ CurveSamples samples_of_kept(const SplineCurve& line, double min_spacing) {
     return {{0, 0, 0, a, spacing}, {0, 1, edge, b, spacing}};
 }
 
+/// Returns a curve with the bounds that hold along it.
+SampledCurve sample_by_rule(const SplineCurve& curve, const SpacingRule& rule) {
+    SampledCurve result{curve, sample(curve), 0};
+    CurveSamples& samples = result.samples;
+    limit_by_curvature(curve, samples, rule);
+    limit_by_clearance(curve, samples, rule);
+    limit_near_walls(samples, rule);
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+        result.turning += turning_between(curve, samples[i], samples[i + 1]);
+    return result;
+}
+
+/// Returns the same, from the known curves if it is among them. If not, it is added.
+const SampledCurve& find_sampled(const SplineCurve& curve, const SpacingRule& rule, SampledCurves& known) {
+    const Point start = curve.at(0, 0);
+    const auto at = known.find(start);
+    if (at != known.end() && at->second.curve == curve) return at->second;
+    return known.insert_or_assign(start, sample_by_rule(curve, rule)).first->second;
+}
+
+/// A sample of one of the curves of an outline.
+struct SamplePosition {
+    std::size_t curve, sample;
+};
+
+/// Returns the sample of an outline after or before another one. The last one of a curve and the first one of the next
+/// curve are at the same place.
+SamplePosition neighbour(const std::vector<CurveSamples>& curves, SamplePosition at, bool is_after) {
+    const std::size_t n = curves.size();
+    if (is_after) {
+        if (at.sample + 1 < curves[at.curve].size()) return {at.curve, at.sample + 1};
+        return {at.curve + 1 < n ? at.curve + 1 : 0, 0};
+    }
+    if (at.sample > 0) return {at.curve, at.sample - 1};
+    const std::size_t before = (at.curve > 0 ? at.curve : n) - 1;
+    return {before, curves[before].size() - 1};
+}
+
 }  // namespace
 
-std::vector<CurveSamples> sample_spacings(std::span<const OutlineCurve> curves, const SpacingRule& rule) {
-    std::vector<CurveSamples> result;
+SampledOutline sample_spacings(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known) {
+    SampledOutline result;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const SplineCurve& curve = curves[i].curve;
         if (curves[i].is_kept) {
-            result.push_back(samples_of_kept(curve, rule.min_spacing));
+            result.samples.push_back(samples_of_kept(curve, rule.min_spacing));
+            result.turning.push_back(0);
             continue;
         }
-        CurveSamples& samples = result.emplace_back(sample(curve));
-        limit_by_curvature(curve, samples, rule);
-        limit_by_clearance(curve, samples, rule);
-        limit_near_walls(samples, rule);
+        const SampledCurve& sampled = find_sampled(curve, rule, known);
+        CurveSamples& samples = result.samples.emplace_back(sampled.samples);
+        result.turning.push_back(sampled.turning);
         limit_at_corners(samples, curves[i].start_spacing, curves[(i + 1) % curves.size()].start_spacing,
                          rule.min_spacing);
     }
-    for (const PointSpacing& bound : rule.point_spacings) limit_at_point(curves, result, bound);
+    for (const PointSpacing& bound : rule.point_spacings) limit_at_point(curves, result.samples, bound);
     return result;
 }
 
@@ -154,8 +197,30 @@ void limit_gradation(std::span<const OutlineCurve> curves, std::vector<CurveSamp
         for (std::size_t i = n; i-- > 0;) limit(i, next(i), steps[i]);
 }
 
-double turning_between(const SplineCurve& curve, const CurveSample& from, const CurveSample& to) {
-    return core::angle_between(curve.direction(from.piece, from.share), curve.direction(to.piece, to.share));
+void limit_gradation_from(std::size_t curve, std::span<const OutlineCurve> curves, std::vector<CurveSamples>& samples,
+                          double gradation, std::vector<bool>& is_changed) {
+    // Whatever a spacing does not lower, it would not lower anything beyond either.
+    const auto spread = [&](SamplePosition from, bool is_after) {
+        while (true) {
+            const SamplePosition to = neighbour(samples, from, is_after);
+            if (curves[to.curve].is_kept) return;
+            const CurveSample& source = samples[from.curve][from.sample];
+            CurveSample& target = samples[to.curve][to.sample];
+            const double step = to.curve != from.curve ? 0
+                                : is_after             ? target.arc_length - source.arc_length
+                                                       : source.arc_length - target.arc_length;
+            const double limit = source.spacing + gradation * step;
+            if (!(limit < target.spacing)) return;
+            target.spacing = limit;
+            is_changed[to.curve] = true;
+            from = to;
+        }
+    };
+    const SamplePosition start{curve, 0}, end = neighbour(samples, start, false);
+    for (const SamplePosition position : {start, end}) {
+        spread(position, true);
+        spread(position, false);
+    }
 }
 
 }  // namespace lamina::surface

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -54,15 +55,37 @@ struct CurveSample {
 };
 using CurveSamples = std::vector<CurveSample>;
 
+/// A curve with samples whose spacings obey the bounds of a rule that hold along it, but not those at its ends and at
+/// points.
+struct SampledCurve {
+    SplineCurve curve;
+    CurveSamples samples;
+    double turning;  ///< angle by which the curve turns from end to end, in radians, positive to the left
+};
+struct LexicographicOrder {
+    bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
+};
+/// Sampled curves by the points where they start.
+using SampledCurves = std::map<Point, SampledCurve, LexicographicOrder>;
+
+/// What is known of the curves of an outline, per curve.
+struct SampledOutline {
+    std::vector<CurveSamples> samples;
+    std::vector<double> turning;  ///< as of SampledCurve
+};
+
 /// Returns samples of each curve with the spacing that the rule allows, before gradation. The spacing of a kept curve
-/// is its length, but no less than min_spacing.
-std::vector<CurveSamples> sample_spacings(std::span<const OutlineCurve> curves, const SpacingRule& rule);
+/// is its length, but no less than min_spacing. Curves that are in `known` already, by the same rule, are taken from
+/// there; others are added.
+SampledOutline sample_spacings(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known);
 
 /// Lowers spacings until none grows faster than `gradation` per unit of arc length, all round the outline and across
 /// its corners. Kept curves stay as they are and bound the spacings at their ends.
 void limit_gradation(std::span<const OutlineCurve> curves, std::vector<CurveSamples>& samples, double gradation);
 
-/// Returns the angle by which a curve turns from one sample to another, in radians, positive to the left.
-double turning_between(const SplineCurve& curve, const CurveSample& from, const CurveSample& to);
+/// Does the same where all spacings were limited before, and only those on both sides of the start of a curve have been
+/// lowered since. Sets is_changed of the curves on which spacings are lowered.
+void limit_gradation_from(std::size_t curve, std::span<const OutlineCurve> curves, std::vector<CurveSamples>& samples,
+                          double gradation, std::vector<bool>& is_changed);
 
 }  // namespace lamina::surface

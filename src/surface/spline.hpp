@@ -21,6 +21,8 @@ public:
     /// counted round it.
     SplineCurve part(std::size_t first, std::size_t count) const;
 
+    bool operator==(const SplineCurve& other) const = default;
+
     /// Returns the number of cubic pieces. A closed curve has one per point, an open one has one less.
     std::size_t pieces() const { return t_.size() - 1; }
 

@@ -78,11 +78,13 @@ struct Plan {
     Decision decision;
     std::vector<GivenEdges> origins;  ///< as in ResampledElement; empty where all points are kept
     std::size_t straightened = 0;     ///< number of edges that stay straight lest they cross
+    SampledCurves sampled{};          ///< the curves that the points were put on, for the next time
 };
 
 /// Makes the new points of an element.
 void apply(Plan& plan, Element& element, const Element& given, std::size_t index, const ResamplingRequest& request) {
-    ResampledElement resampled = resample(given, index, request, plan.decision.edges, plan.decision.reason);
+    ResampledElement resampled =
+        resample(given, index, request, plan.decision.edges, plan.decision.reason, plan.sampled);
     element = std::move(resampled.element);
     element.resampled = !is_jagged(given);
     plan.origins = std::move(resampled.origins);
