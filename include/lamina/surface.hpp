@@ -90,7 +90,8 @@ struct ElementSummary {
 /// Measures an element.
 LAMINA_EXPORT ElementSummary summarize(const Element& element);
 
-/// Returns several lines of text on each element: its source, its measures, its repairs and notes (`lamina info`).
+/// Returns several lines of text on each element: its source, its measures, repairs, transformations and
+/// notes (`lamina info`).
 LAMINA_EXPORT std::string describe(const Geometry& geometry);
 
 }  // namespace lamina

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -58,6 +59,10 @@ ElementSummary summarize(const Element& element) {
 std::string describe(const Geometry& geometry) {
     std::string text;
     const auto out = std::back_inserter(text);
+    const auto out_list = [&](const char* label, const std::vector<std::string>& lines) {
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            fmt::format_to(out, "  {:<14} {}\n", i == 0 ? label : "", lines[i]);
+    };
     for (const Element& e : geometry.elements) {
         const ElementSummary s = summarize(e);
         fmt::format_to(out, "{}\n", e.name);
@@ -77,16 +82,12 @@ std::string describe(const Geometry& geometry) {
                        s.max_turning_at.x, s.max_turning_at.y, counted(s.sharp_corners, "sharp corner"));
         fmt::format_to(out, "  trailing edge  {}, at ({:.6g}, {:.6g})\n", s.blunt_trailing_edge ? "blunt" : "not blunt",
                        s.trailing_edge.x, s.trailing_edge.y);
-        if (e.repairs.empty()) {
-            fmt::format_to(out, "  repairs        none\n");
-        } else {
-            for (std::size_t i = 0; i < e.repairs.size(); ++i)
-                fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "repairs" : "", e.repairs[i]);
-        }
-        for (std::size_t i = 0; i < e.warnings.size(); ++i)
-            fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "warnings" : "", e.warnings[i].message);
-        for (std::size_t i = 0; i < e.surface_notes.size(); ++i)
-            fmt::format_to(out, "  {:<14} {}\n", i == 0 ? "surface" : "", e.surface_notes[i]);
+        out_list("repairs", e.repairs.empty() ? std::vector<std::string>{"none"} : e.repairs);
+        out_list("transformed", e.transformations);
+        std::vector<std::string> warnings;
+        for (const Warning& warning : e.warnings) warnings.push_back(warning.message);
+        out_list("warnings", warnings);
+        out_list("surface", e.surface_notes);
     }
     return text;
 }

@@ -76,5 +76,19 @@ TEST(Describe, TellsMeasuresAndRepairs) {
     EXPECT_NE(describe(read_geometry(naca)).find("200 generated"), std::string::npos);
 }
 
+TEST(Describe, ListsTransformations) {
+    const std::vector<std::string> naca{"naca:0012:200"};
+    GeometryOptions options;
+    options.flip = true;
+    options.transformations = {parse_transformation("airfoil:scale:2"), parse_transformation("airfoil:rotate:3")};
+    const Geometry geometry = read_geometry(naca, options);
+    const std::vector<std::string>& done = geometry.elements[0].transformations;
+    ASSERT_EQ(done.size(), 3u);
+    EXPECT_NE(describe(geometry).find("  transformed    " + done[0] + "\n                 " + done[1] +
+                                      "\n                 " + done[2] + "\n"),
+              std::string::npos)
+        << describe(geometry);
+}
+
 }  // namespace
 }  // namespace lamina
