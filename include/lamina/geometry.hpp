@@ -52,6 +52,9 @@ struct Element {
     std::vector<std::string> surface_notes;    ///< changes that prepare_surfaces() made to the points, and why
     /// Whether the points are many exact samples of a curve, of which prepare_surfaces() takes as many as a wall needs.
     bool samples_of_curve = false;
+    /// Indices of points, ascending, that are corners however little the outline turns there: those that a flap makes,
+    /// and where the two parts of the mean line of a NACA section meet.
+    std::vector<std::size_t> given_corners;
     /// Whether prepare_surfaces() chose the spacing of points, of all or of some stretches, and the outline is smooth
     /// but at few corners.
     bool resampled = false;

@@ -153,6 +153,7 @@ SourcePoints with_turned_rear(const SourcePoints& surface, const Hinge& hinge) {
     SourcePoints arc;
     if (opening) arc = arc_between(parts, hinge);
     if (!opening && !on_surface) cut_at_crossing(parts, hinge);
+    parts.rear[0].is_corner |= !opening;
     drop_close_second(parts.front, hinge);
     drop_close_second(parts.rear, hinge);
 

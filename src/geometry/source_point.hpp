@@ -13,7 +13,8 @@ namespace lamina::geometry {
 
 struct SourcePoint {
     Point at;
-    std::size_t line = 0;  ///< counts from 1; 0: not in the file
+    std::size_t line = 0;    ///< counts from 1; 0: not in the file
+    bool is_corner = false;  ///< whether it is one of Element::given_corners
 };
 
 /// Returns the longer side of the box round points, which are SourcePoints or derived from them; 0 without points.

@@ -28,6 +28,8 @@ void map_points(Element& e, Map map) {
 
 /// Puts an element that was mirrored back into counter-clockwise order; the first point stays first.
 void reverse_order(Element& e) {
+    for (std::size_t& corner : e.given_corners) corner = (e.points.size() - corner) % e.points.size();
+    std::sort(e.given_corners.begin(), e.given_corners.end());
     std::reverse(e.points.begin() + 1, e.points.end());
     if (!e.lines.empty()) std::reverse(e.lines.begin() + 1, e.lines.end());
 }
@@ -70,10 +72,13 @@ struct Change {
         std::vector<SourcePoint> outline;
         for (std::size_t i = 0; i < element.points.size(); ++i)
             outline.push_back({element.points[i], element.lines.empty() ? 0 : element.lines[i]});
+        for (const std::size_t corner : element.given_corners) outline[corner].is_corner = true;
         outline = with_deflected_flap(outline, f, element);
         element.points.clear();
         element.lines.clear();
+        element.given_corners.clear();
         for (const SourcePoint& p : outline) {
+            if (p.is_corner) element.given_corners.push_back(element.points.size());
             element.points.push_back(p.at);
             element.lines.push_back(p.line);
         }

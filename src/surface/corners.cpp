@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/angles.hpp"
 #include "core/bounding_box.hpp"
@@ -167,6 +168,17 @@ std::vector<std::size_t> find_corners(std::span<const Point> outline) {
     std::vector<std::size_t> corners;
     for (std::size_t i = 0; i < outline.size(); ++i)
         if (finder.is_corner(i)) corners.push_back(i);
+    return corners;
+}
+
+bool is_given_corner(const Element& element, std::size_t point) {
+    return std::binary_search(element.given_corners.begin(), element.given_corners.end(), point);
+}
+
+std::vector<std::size_t> find_corners(const Element& element) {
+    const std::vector<std::size_t> found = find_corners(element.points), &given = element.given_corners;
+    std::vector<std::size_t> corners;
+    std::set_union(found.begin(), found.end(), given.begin(), given.end(), std::back_inserter(corners));
     return corners;
 }
 

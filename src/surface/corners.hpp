@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <lamina/geometry.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina::surface {
@@ -29,5 +30,11 @@ std::vector<double> turning_angles(std::span<const Point> outline);
 /// longer than 0.35 of the outline, where it turns by more than one degree; and the first and the last vertex, if they
 /// end the chord, turn by more than 60 degrees and are no such nose (docs/decisions/0009).
 std::vector<std::size_t> find_corners(std::span<const Point> outline);
+
+/// Returns whether a point is one of the corners that an element brings along (Element::given_corners).
+bool is_given_corner(const Element& element, std::size_t point);
+
+/// Returns the same corners of an element, and those that it brings along.
+std::vector<std::size_t> find_corners(const Element& element);
 
 }  // namespace lamina::surface

@@ -176,9 +176,12 @@ Decision decide_jagged(const Element& e, const ResamplingRequest& request) {
 
 /// Returns whether the points between two corners obey the rules of new ones, so that they can stay beside new ones. A
 /// straight side does not matter: new points lie on it as well.
-bool is_fine(const Sampling& s, EdgeRange range, const MeasuredOutline& outline, const ResamplingRequest& request) {
-    const auto fits_corner = [&](std::size_t corner, double spacing) {
-        return spacing <= max_kept_ratio * request.corner_spacing(outline.turning[corner % outline.n], outline.extent);
+bool is_fine(const Sampling& s, EdgeRange range, const MeasuredOutline& outline, const Element& e,
+             const ResamplingRequest& request) {
+    const auto fits_corner = [&](std::size_t vertex, double spacing) {
+        const std::size_t corner = vertex % outline.n;
+        return spacing <= max_kept_ratio * request.corner_spacing(outline.turning[corner], outline.extent,
+                                                                  is_given_corner(e, corner));
     };
     return s.max_turning > min_curve_turning && core::degrees(s.max_turning) <= request.max_turning_deg() &&
            s.max_spacing <= request.options.max_spacing * outline.extent && s.max_ratio <= max_kept_ratio &&
@@ -208,7 +211,7 @@ Decision decide_smooth(const Element& e, const ResamplingRequest& request) {
         return decision;
     }
     for (std::size_t r = 0; r < ranges.size(); ++r)
-        if (ranges.size() == 1 || !is_fine(outline.sampling(ranges[r]), ranges[r], outline, request))
+        if (ranges.size() == 1 || !is_fine(outline.sampling(ranges[r]), ranges[r], outline, e, request))
             replace_range(decision, r);
     return decision;
 }

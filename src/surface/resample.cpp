@@ -46,7 +46,8 @@ CorneredOutline merge_close_pairs(const Element& element, std::span<const EdgeTr
     const auto is_spline = [&](std::size_t i) { return treatment[i % n] == EdgeTreatment::spline; };
     std::vector<bool> is_merged(n);  // whether a point is merged with the next one
     for (std::size_t i = 0; n >= 5 && i < n; ++i)
-        is_merged[i] = is_spline(i + n - 1) && is_spline(i) && is_spline(i + 1) &&
+        is_merged[i] = !is_given_corner(element, i) && !is_given_corner(element, (i + 1) % n) && is_spline(i + n - 1) &&
+                       is_spline(i) && is_spline(i + 1) &&
                        length_after(i) < std::min(max_pair_length, max_close_share * std::min(length_after(i + n - 1),
                                                                                               length_after(i + 1)));
 
@@ -67,7 +68,11 @@ CorneredOutline merge_close_pairs(const Element& element, std::span<const EdgeTr
     }
     for (std::size_t corner : find_corners(outline.points)) is_merged[outline.origins[corner]] = false;
     keep_points();
-    outline.corners = find_corners(outline.points);
+    Element merged;
+    merged.points = outline.points;
+    for (std::size_t i = 0; i < outline.origins.size(); ++i)
+        if (is_given_corner(element, outline.origins[i])) merged.given_corners.push_back(i);
+    outline.corners = find_corners(merged);
     return outline;
 }
 
@@ -206,8 +211,8 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds&
 }
 
 /// Sets the largest spacing at each corner. Beside a kept edge, that edge alone sets it.
-void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, const ResamplingRequest& request,
-                      const ChordEnds& ends, double scale) {
+void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, const Element& given,
+                      const ResamplingRequest& request, const ChordEnds& ends, double scale) {
     const std::vector<double> turning = turning_angles(outline.points);
     const std::optional<double>& trailing_edge_spacing = request.options.trailing_edge_spacing;
     std::size_t corners = 0;
@@ -217,9 +222,10 @@ void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, con
         if (curves.curves[i].is_kept || curves.curves[(i + n - 1) % n].is_kept) continue;
         const std::vector<Point>& trailing = ends.trailing;
         const bool is_trailing = std::find(trailing.begin(), trailing.end(), outline.points[corner]) != trailing.end();
+        const bool is_given = is_given_corner(given, outline.origins[corner]);
         curves.curves[i].start_spacing = trailing_edge_spacing && is_trailing
                                              ? *trailing_edge_spacing * scale
-                                             : request.corner_spacing(turning[corner], scale);
+                                             : request.corner_spacing(turning[corner], scale, is_given);
     }
 }
 
@@ -257,7 +263,8 @@ std::vector<GivenEdges> origins_of(const OutlineCurves& outline, const DividedCu
 
 double ResamplingRequest::max_turning_deg() const { return std::min(options.max_turning_deg, limits.max_turning_deg); }
 
-double ResamplingRequest::corner_spacing(double turning, double extent) const {
+double ResamplingRequest::corner_spacing(double turning, double extent, bool is_given) const {
+    if (is_given && std::abs(core::degrees(turning)) <= max_turning_deg()) return HUGE_VAL;
     if (turning <= core::radians(sharp_corner_deg)) return options.corner_spacing * extent;
     const double by_options = options.sharp_corner_spacing * extent;
     return limits.fan_spacing ? std::clamp(*limits.fan_spacing, 0.25 * by_options, options.corner_spacing * extent)
@@ -278,7 +285,7 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
         append_curves(stretch, treatment, outline_curves);
     }
     const ChordEnds ends = find_chord_ends(given.points);
-    limit_at_corners(outline_curves, outline, request, ends, scale);
+    limit_at_corners(outline_curves, outline, given, request, ends, scale);
     const SpacingRule rule = make_spacing_rule(request, ends, scale, index);
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;
@@ -296,8 +303,12 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
     element.lines = lines_of(given, element.points);
     element.resampled = true;
     element.features.corners.clear();
-    for (std::size_t c = 0; c < curves.size(); ++c)
-        if (outline_curves.starts_at_corner[c]) element.features.corners.push_back(divided.starts[c]);
+    element.given_corners.clear();
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+        if (!outline_curves.starts_at_corner[c]) continue;
+        element.features.corners.push_back(divided.starts[c]);
+        if (is_given_corner(given, outline_curves.knots[c].front())) element.given_corners.push_back(divided.starts[c]);
+    }
     const auto kept = static_cast<std::size_t>(std::count(treatment.begin(), treatment.end(), EdgeTreatment::keep));
     element.surface_notes.push_back(
         fmt::format("{} points resampled to {}: {}; {}{} kept, edges within {:.2g} of the spline", given.points.size(),

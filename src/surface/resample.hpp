@@ -24,8 +24,9 @@ struct ResamplingRequest {
 
     /// Returns the largest turning at a vertex between two corners, in degrees.
     double max_turning_deg() const;
-    /// Returns the largest spacing at a corner that turns by this angle, in radians, of an outline of this extent.
-    double corner_spacing(double turning, double extent) const;
+    /// Returns the largest spacing at a corner that turns by this angle, in radians, of an element of this extent. One
+    /// that the element brings along sets none where it turns no more than other vertices may.
+    double corner_spacing(double turning, double extent, bool is_given) const;
 };
 
 /// What becomes of an edge between two given points.

@@ -169,7 +169,7 @@ using namespace surface;
 
 Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const SpacingLimits& limits) {
     validate(options);
-    for (Element& e : given.elements) e.features.corners = find_corners(e.points);
+    for (Element& e : given.elements) e.features.corners = find_corners(e);
     if (options.smooth) {
         Geometry smoothed = given;
         for (Element& e : smoothed.elements) smooth(e, *options.smooth);

@@ -110,6 +110,25 @@ TEST(PlainFlap, HasASmoothArcAndACorner) {
     }
 }
 
+TEST(PlainFlap, MarksTheCornerOfTheSideThatCloses) {
+    const FlapDeflection flap{5, {0.75, 0.01}};
+    Geometry geometry = transformed(shapes::geometry({naca_airfoil("0012", 200).points}), {{{"all", flap}}});
+    const std::vector<std::size_t> corners = geometry.elements[0].given_corners;
+    ASSERT_EQ(corners.size(), 1u);
+    const Point corner = geometry.elements[0].points[corners[0]];
+    EXPECT_LT(distance(corner, {0.75, -0.03}), 0.02);
+    // It stays the same vertex in the mirror image, and beside that of a second flap.
+    geometry = transformed(std::move(geometry), {{{"all", Mirroring{0}}, {"all", FlapDeflection{5, {0.5, 0}}}}});
+    const Element& e = geometry.elements[0];
+    ASSERT_EQ(e.given_corners.size(), 2u);
+    EXPECT_EQ(std::count_if(e.given_corners.begin(), e.given_corners.end(),
+                            [&](std::size_t i) {
+                                return distance(e.points[i], turned_down({corner.x, -corner.y}, 5, {0.5, 0})) < 1e-13;
+                            }),
+              1);
+    EXPECT_TRUE(std::is_sorted(e.given_corners.begin(), e.given_corners.end()));
+}
+
 TEST(PlainFlap, OfTheMirrorImageIsTheMirrorImage) {
     const std::vector<Point> section = naca_airfoil("0012", 100).points;
     const std::vector<Point> up = flapped(section, -25, {0.8, 0}), down = flapped(section, 25, {0.8, 0});

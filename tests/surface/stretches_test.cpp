@@ -187,6 +187,22 @@ Outline cone(double spacing) {
     return outline;
 }
 
+TEST(Resampling, KeepsTheCornerOfAFlapThatIsHardlyDeflected) {
+    for (const double angle_deg : {1.0, 5.0, 9.0})
+        for (const std::string section : {"naca:0012", "naca:4412", "naca:0012:60"}) {
+            const std::vector<std::string> inputs{section};
+            GeometryOptions options;
+            options.transformations = {{"all", FlapDeflection{angle_deg, {0.75, 0.01}}}};
+            const Element given = read_geometry(inputs, options).elements[0];
+            const Element result = prepare_surfaces({{given}}, resampling()).elements[0];
+            ASSERT_FALSE(given.given_corners.empty());
+            ASSERT_EQ(result.given_corners.size(), given.given_corners.size());
+            for (std::size_t k = 0; k < given.given_corners.size(); ++k)
+                EXPECT_EQ(result.points[result.given_corners[k]], given.points[given.given_corners[k]]);
+            EXPECT_LE(max_spacing_ratio(result.points), 1.25) << section << ' ' << angle_deg;
+        }
+}
+
 TEST(AutomaticSurface, KeepsAStretchThatIsFineBesideOneThatIsCoarse) {
     const Outline given = cone(0.009);
     const Element e = prepared(given, {});
