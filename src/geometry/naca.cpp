@@ -2,11 +2,13 @@
 // Source: E. N. Jacobs, K. E. Ward, R. M. Pinkerton, NACA Report 460 (1933); E. N. Jacobs, R. M. Pinkerton, NACA Report
 // 537 (1935). For a sharp trailing edge the last coefficient of the thickness is -0.1036, which closes the tail with
 // the least change elsewhere (J. Moran, Theoretical and Computational Aerodynamics, 1984).
-#include <lamina/geometry.hpp>
+#include "geometry/naca.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -63,6 +65,13 @@ struct NacaSection {
     FourDigitLine four_digit{0, 0};
 
     Camber camber(double x) const { return five_digit ? (*five_digit)(x) : four_digit(x); }
+
+    /// Returns the x where both parts of the mean line meet. The curvature or the third derivative jumps there. Where
+    /// the curvature does, the outline has a corner, since the thickness is put on across the mean line.
+    std::optional<double> joint() const {
+        if (five_digit) return five_digit->r;
+        return four_digit.max_camber > 0 ? std::optional(four_digit.position) : std::nullopt;
+    }
 };
 
 UsageError bad_digits(const std::string& digits, const std::string& reason) {
@@ -111,6 +120,21 @@ NacaSection parse_digits(const std::string& digits) {
     return section;
 }
 
+// ---- abscissae -----------------------------------------------------------------------------------------------------
+
+/// Returns n + 1 numbers from 0 to 1 by cosine spacing.
+std::vector<double> cosine_abscissae(std::size_t n) {
+    std::vector<double> abscissae;
+    for (std::size_t k = 0; k <= n; ++k) {
+        // (1 - cos 2a) / 2 = sin^2 a has no cancellation at the leading edge.
+        const double s = core::sin_reproducible(core::pi * static_cast<double>(k) / static_cast<double>(2 * n));
+        abscissae.push_back(k == n ? 1.0 : s * s);
+    }
+    return abscissae;
+}
+
+// ---- points --------------------------------------------------------------------------------------------------------
+
 /// Points of both surfaces from the leading to the trailing edge, which both have in common.
 struct NacaSurfaces {
     std::vector<Point> upper, lower;
@@ -119,15 +143,14 @@ struct NacaSurfaces {
 /// Where the published thickness vanishes behind the trailing edge, in chords.
 constexpr double end_of_thickness = 1.0089304115;
 
-/// Returns n + 1 points of each surface by cosine spacing.
-NacaSurfaces make_surfaces(const NacaSection& section, std::size_t n, TrailingEdge trailing_edge) {
+/// Returns the points of each surface at ascending parameters x from 0 to 1.
+NacaSurfaces make_surfaces(const NacaSection& section, std::span<const double> abscissae, TrailingEdge trailing_edge) {
+    const std::size_t n = abscissae.size() - 1;
     const double last_coefficient = trailing_edge == TrailingEdge::sharp ? -0.1036 : -0.1015;
     const double length = trailing_edge == TrailingEdge::extended ? end_of_thickness : 1;
     NacaSurfaces surfaces{std::vector<Point>(n + 1), std::vector<Point>(n + 1)};
     for (std::size_t k = 1; k <= n; ++k) {
-        // (1 - cos 2a) / 2 = sin^2 a has no cancellation at the leading edge.
-        const double s = core::sin_reproducible(core::pi * static_cast<double>(k) / static_cast<double>(2 * n));
-        const double x = k == n ? 1.0 : s * s;
+        const double x = abscissae[k];
         const double stretched = length * x;
         const double half_thickness =
             5 * section.thickness *
@@ -146,7 +169,40 @@ NacaSurfaces make_surfaces(const NacaSection& section, std::size_t n, TrailingEd
     return surfaces;
 }
 
+Element make_element(const std::string& digits, const NacaSurfaces& surfaces) {
+    RawOutline outline;
+    outline.title = fmt::format("NACA {}", digits);
+    outline.format = "naca";
+    const std::size_t n = surfaces.upper.size() - 1;
+    for (std::size_t k = n + 1; k-- > 0;) outline.points.push_back({surfaces.upper[k], 0});
+    for (std::size_t k = 1; k <= n; ++k) outline.points.push_back({surfaces.lower[k], 0});
+    Element element = repair_outline(outline, "naca:" + digits);
+    element.points_read = 0;
+    element.repairs.clear();  // joining the surfaces and closing the base repair nothing
+    element.name = "airfoil";
+    return element;
+}
+
 }  // namespace
+
+Element sample_naca_section(const std::string& digits, TrailingEdge trailing_edge) {
+    constexpr std::size_t edges = 1000;  // of each surface
+    const NacaSection section = parse_digits(digits);
+    const std::optional<double> joint = section.joint();
+    std::vector<double> abscissae = cosine_abscissae(edges);
+    std::size_t nearest = 0;
+    for (std::size_t k = 0; joint && k <= edges; ++k)
+        if (std::abs(abscissae[k] - *joint) < std::abs(abscissae[nearest] - *joint)) nearest = k;
+    if (joint) abscissae[nearest] = *joint;
+
+    const NacaSurfaces surfaces = make_surfaces(section, abscissae, trailing_edge);
+    Element element = make_element(digits, surfaces);
+    element.samples_of_curve = true;
+    for (std::size_t i = 0; joint && i < element.points.size(); ++i)
+        if (element.points[i] == surfaces.upper[nearest] || element.points[i] == surfaces.lower[nearest])
+            element.given_corners.push_back(i);
+    return element;
+}
 
 }  // namespace lamina::geometry
 
@@ -161,18 +217,7 @@ Element naca_airfoil(const std::string& digits, std::size_t points, TrailingEdge
             fmt::format("naca:{}: {} points; {} to {} can be made", digits, points, min_points, max_points));
     const std::size_t n =
         trailing_edge != TrailingEdge::blunt ? (points + 1) / 2 : points / 2;  // edges of each surface
-    const NacaSurfaces surfaces = make_surfaces(section, n, trailing_edge);
-
-    RawOutline outline;
-    outline.title = fmt::format("NACA {}", digits);
-    outline.format = "naca";
-    for (std::size_t k = n + 1; k-- > 0;) outline.points.push_back({surfaces.upper[k], 0});
-    for (std::size_t k = 1; k <= n; ++k) outline.points.push_back({surfaces.lower[k], 0});
-    Element element = repair_outline(outline, "naca:" + digits);
-    element.points_read = 0;
-    element.repairs.clear();  // joining the surfaces and closing the base repair nothing
-    element.name = "airfoil";
-    return element;
+    return make_element(digits, make_surfaces(section, cosine_abscissae(n), trailing_edge));
 }
 
 }  // namespace lamina

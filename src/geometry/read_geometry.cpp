@@ -13,15 +13,12 @@
 #include "core/text.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/element_names.hpp"
+#include "geometry/naca.hpp"
 #include "geometry/parse_airfoil.hpp"
 
 namespace lamina::geometry {
 
 namespace {
-
-/// Samples of a section that does not give its number of points: a spline through them stays within 1e-10 chords of the
-/// formula.
-constexpr std::size_t many_samples = 2000;
 
 /// Returns the trailing edge that a word of an input names.
 std::optional<TrailingEdge> trailing_edge_named(const std::string& word) {
@@ -46,8 +43,9 @@ Element read_naca(const std::string& input, std::size_t default_points) {
         throw UsageError(fmt::format("{}: expected naca:DIGITS[:POINTS][:blunt|:extended|:sharp]", input));
     }
     const bool is_free = parts.size() == 1 && default_points == 0;
-    Element element = naca_airfoil(parts[0], is_free ? many_samples : points, named.value_or(TrailingEdge::sharp));
-    element.samples_of_curve = is_free;
+    const TrailingEdge trailing_edge = named.value_or(TrailingEdge::sharp);
+    Element element =
+        is_free ? sample_naca_section(parts[0], trailing_edge) : naca_airfoil(parts[0], points, trailing_edge);
     element.file = input;
     return element;
 }

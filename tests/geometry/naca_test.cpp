@@ -144,6 +144,16 @@ TEST(Naca, CosineSpacing) {
         EXPECT_NEAR(e.points[k].x, 0.5 * (1 + std::cos(full_turn * static_cast<double>(k) / 64)), 1e-15);
 }
 
+TEST(Naca, ManySamplesHaveACornerWhereTheMeanLineBends) {
+    const Element e = naca("naca:4412", 0);
+    EXPECT_EQ(e.points.size(), 2000u);
+    ASSERT_EQ(e.given_corners.size(), 2u);
+    EXPECT_EQ(midpoint(e.points[e.given_corners[0]], e.points[e.given_corners[1]]), (Point{0.4, 0.04}));
+    EXPECT_EQ(naca("naca:23012", 0).given_corners.size(), 2u);
+    EXPECT_TRUE(naca("naca:0012", 0).given_corners.empty());
+    EXPECT_TRUE(naca("naca:4412").given_corners.empty());
+}
+
 TEST(Naca, InputsMayGiveTheNumberOfPoints) {
     EXPECT_EQ(naca("naca:0012").points.size(), 200u);
     EXPECT_FALSE(naca("naca:0012").samples_of_curve);
