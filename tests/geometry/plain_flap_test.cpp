@@ -52,14 +52,14 @@ std::vector<Point> sorted(std::vector<Point> points) {
     return points;
 }
 
-std::vector<std::vector<Point>> sections() {
+std::vector<std::vector<Point>> flapped_sections() {
     return {naca_airfoil("0012", 60).points,    naca_airfoil("4412", 201, TrailingEdge::blunt).points,
             naca_airfoil("23021", 2000).points, shapes::joukowski(0.1, 0.05, 80),
             shapes::section(0.1, 0.01, 12),     fixtures::loop};
 }
 
 TEST(PlainFlap, IsSimpleAndTurnsTheTrailingEdge) {
-    for (const std::vector<Point>& section : sections())
+    for (const std::vector<Point>& section : flapped_sections())
         for (const double angle_deg : {-60.0, -20.0, -1.0, 0.01, 5.0, 10.0, 40.0})
             for (const double share : {0.4, 0.75, 0.9}) {
                 const Geometry given = shapes::geometry({section});

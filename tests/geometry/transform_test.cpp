@@ -16,14 +16,14 @@ namespace lamina {
 namespace {
 
 /// Returns the transformations that these texts stand for.
-std::vector<Transformation> parsed(const std::vector<std::string>& texts) {
+std::vector<Transformation> parsed_transformations(const std::vector<std::string>& texts) {
     std::vector<Transformation> result;
     for (const std::string& text : texts) result.push_back(parse_transformation(text));
     return result;
 }
 
 Geometry transformed_by(const Geometry& geometry, const std::vector<std::string>& texts) {
-    return transformed(geometry, parsed(texts));
+    return transformed(geometry, parsed_transformations(texts));
 }
 
 /// Expects the same points in the same order, within a tolerance.
@@ -174,7 +174,8 @@ TEST(ReadGeometry, OneFileMayBeGivenTwice) {
     const std::vector<std::string> inputs{file, file};
     EXPECT_THROW(read_geometry(inputs), InputError);
     GeometryOptions options;
-    options.transformations = parsed({"blade_2:mirror", "blade_2:rotate:-20", "blade_2:shift:0.4,-0.5"});
+    options.transformations =
+        parsed_transformations({"blade_2:mirror", "blade_2:rotate:-20", "blade_2:shift:0.4,-0.5"});
     const Geometry geometry = read_geometry(inputs, options);
     EXPECT_EQ(geometry.elements[0].name, "blade_1");
     EXPECT_EQ(geometry.elements[0].points, fixtures::loop);
@@ -182,7 +183,7 @@ TEST(ReadGeometry, OneFileMayBeGivenTwice) {
     EXPECT_EQ(geometry.elements[1].points.size(), fixtures::loop.size());
     EXPECT_EQ(geometry.elements[1].transformations.size(), 3u);
     const std::vector<std::string> sections{"naca:0012:50", "naca:0012:50"};
-    options.transformations = parsed({"naca0012_2:shift:0,1"});
+    options.transformations = parsed_transformations({"naca0012_2:shift:0,1"});
     EXPECT_EQ(read_geometry(sections, options).elements[1].points[0].y, 1);
 }
 
@@ -191,7 +192,7 @@ TEST(ReadGeometry, ErrorsNamePlacesAfterTheTransformation) {
     const std::vector<std::string> inputs{folder.write("a.dat", fixtures::selig).string(),
                                           folder.write("b.dat", fixtures::selig).string()};
     GeometryOptions options;
-    options.transformations = parsed({"b:rotate:90:0.5,0", "all:shift:100,0"});
+    options.transformations = parsed_transformations({"b:rotate:90:0.5,0", "all:shift:100,0"});
     try {
         read_geometry(inputs, options);
         ADD_FAILURE();
@@ -200,7 +201,7 @@ TEST(ReadGeometry, ErrorsNamePlacesAfterTheTransformation) {
         EXPECT_NEAR(error.place().at->x, 100.5, 0.5);
         EXPECT_GT(error.place().line, 0u);
     }
-    options.transformations = parsed({"all:scale:1e70"});
+    options.transformations = parsed_transformations({"all:scale:1e70"});
     EXPECT_THROW(read_geometry(inputs, options), InputError);
 }
 
