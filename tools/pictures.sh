@@ -65,6 +65,16 @@ picture separators-equidistributed pieces -1.3,0.3,0.1,1.3
 picture separators-k-rule k-rule -1.3,0.3,0.1,1.3
 
 [ -n "${2:-}" ] || exit 0
+# as_it_comes NAME WINDOW INPUT: draws a window of INPUT, meshed with layers up to isotropy from y+ and nothing else.
+as_it_comes() {
+    "$lamina" mesh "$3" --y-plus 1 --reynolds 5e6 --layers auto --quiet -o "$scratch/$1.vtu"
+    picture "$1" "$1" "$2"
+}
+as_it_comes auto-tail naca:0012 0.95,1.04,-0.035,0.035
+as_it_comes auto-nose "$2/uiuc/selig/rae2822.dat" -0.03,0.07,-0.04,0.04
+as_it_comes auto-base "$2/uiuc/selig/s9104.dat" 0.97,1.03,-0.02,0.026
+as_it_comes auto-ice "$2/special/iced/iced_glc305_08030736.dat" -0.07,0.06,-0.05,0.05
+
 multielement=$2/multielement
 # high_lift NAME FILE...: meshes elements of the collection with the default layer.
 high_lift() {

@@ -108,7 +108,8 @@ enum class TrailingEdge {
 /// A stretch of the wall of an element, with the largest spacing of its vertices there.
 struct WallSpacing {
     std::size_t element;  ///< index in Geometry::elements
-    Point a, b;           ///< the ends of the stretch, on the wall or near to it
+    Point a;              ///< one end of the stretch, on the wall or near to it
+    Point b;              ///< the other end
     double spacing;       ///< in units of the input
 };
 
