@@ -10,7 +10,7 @@ namespace lamina::app {
 
 namespace {
 
-/// A preset: the names and values of the options that it sets.
+/// A preset: its name, and the names and values of the options that it sets.
 struct Preset {
     std::string name;
     std::vector<std::pair<std::string, OptionValue>> values;

@@ -18,10 +18,7 @@ struct WallEdge {
 
 /// Returns the edges of all walls, sorted by their first vertex.
 std::vector<WallEdge> wall_edges(const Mesh& mesh, const CellEdges& edges, const Adjacency& adjacency) {
-    std::vector<Segment> segments;
-    for (const Marker& marker : mesh.markers)
-        if (may_be_wall(marker.kind)) segments.insert(segments.end(), marker.edges.begin(), marker.edges.end());
-    std::sort(segments.begin(), segments.end());
+    const std::vector<Segment> segments = sorted_wall_edges(mesh);
     std::vector<WallEdge> walls;
     for (const std::uint32_t edge : adjacency.boundary) {
         const WallEdge wall{edges.origin(edge), edges.target(edge), edge};
@@ -101,6 +98,14 @@ void measure_first_heights(const Mesh& mesh, const CellEdges& edges, std::span<c
 }
 
 }  // namespace
+
+std::vector<Segment> sorted_wall_edges(const Mesh& mesh) {
+    std::vector<Segment> edges;
+    for (const Marker& marker : mesh.markers)
+        if (may_be_wall(marker.kind)) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
+    std::sort(edges.begin(), edges.end());
+    return edges;
+}
 
 WallSummary measure_walls(const Mesh& mesh, const Adjacency& adjacency, std::optional<double> first_height) {
     const CellEdges edges(mesh);

@@ -10,6 +10,7 @@
 
 #include "core/cell_shape.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/walls.hpp"
 
 namespace lamina::pipeline {
 
@@ -63,10 +64,7 @@ Point worst_place(const Mesh& mesh, Region region, Badness badness) {
 
 /// Returns the place of the wall edge whose cell reaches to the highest layer.
 Point highest_first_cell(const Mesh& mesh) {
-    std::vector<Segment> walls;
-    for (const Marker& marker : mesh.markers)
-        if (marker.kind == MarkerKind::wall) walls.insert(walls.end(), marker.edges.begin(), marker.edges.end());
-    std::sort(walls.begin(), walls.end());
+    const std::vector<Segment> walls = mesh::sorted_wall_edges(mesh);
     return worst_place(mesh, Region::layer, [&](std::size_t cell) {
         const auto corners = corners_of(mesh, cell);
         for (std::size_t i = 0; i < corners.size(); ++i)

@@ -1,4 +1,4 @@
-// Where outlines cross themselves or each other.
+// The search for edges at which outlines cross themselves or each other.
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,7 @@
 
 namespace lamina::surface {
 
-/// What becomes of the points of an element.
+/// The decision on one element: which of its given edges stay as they are, are divided, or give way to a spline.
 struct Decision {
     std::vector<EdgeTreatment> edges;  ///< per edge of the outline
     std::vector<std::size_t> ranges;   ///< per edge: number of its range, which lies between two corners or jags

@@ -301,7 +301,6 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
     Element element = given;
     element.points = std::move(divided.points);
     element.lines = lines_of(given, element.points);
-    element.resampled = true;
     element.features.corners.clear();
     element.given_corners.clear();
     for (std::size_t c = 0; c < curves.size(); ++c) {

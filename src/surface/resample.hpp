@@ -29,7 +29,7 @@ struct ResamplingRequest {
     double corner_spacing(double turning, double extent, bool is_given) const;
 };
 
-/// What becomes of an edge between two given points.
+/// The three ways to treat an edge between two neighbouring given points of an outline.
 enum class EdgeTreatment {
     keep,    ///< it stays one edge
     divide,  ///< it stays straight and is divided

@@ -68,7 +68,8 @@ struct LexicographicOrder {
 /// Sampled curves by the points where they start.
 using SampledCurves = std::map<Point, SampledCurve, LexicographicOrder>;
 
-/// What is known of the curves of an outline, per curve.
+/// The samples of all curves of an outline, and the angles by which the curves turn. Both lists hold one entry per
+/// curve.
 struct SampledOutline {
     std::vector<CurveSamples> samples;
     std::vector<double> turning;  ///< as of SampledCurve
