@@ -5,9 +5,9 @@
 #   tools/pictures.sh [PROGRAM [COLLECTION]]
 #
 # PROGRAM is the path of lamina [build/release/src/app/lamina]. COLLECTION is the folder with the collection of airfoil
-# files; without it the script leaves out the pictures of high-lift sections. The script needs the Debian packages
-# graphviz and pngquant; pngquant makes the pictures a fifth as large. The script does not make pieces-several.png and
-# wake.png.
+# files; without it the script leaves out the pictures of its sections. The script needs the Debian packages graphviz,
+# imagemagick, fonts-dejavu-core and pngquant; pngquant makes the pictures a fifth as large. The script does not make
+# pieces-several.png and wake.png.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.."
 lamina=$(readlink -f "${1:-build/release/src/app/lamina}")
@@ -65,15 +65,20 @@ picture separators-equidistributed pieces -1.3,0.3,0.1,1.3
 picture separators-k-rule k-rule -1.3,0.3,0.1,1.3
 
 [ -n "${2:-}" ] || exit 0
-# as_it_comes NAME WINDOW INPUT: draws a window of INPUT, meshed with layers up to isotropy from y+ and nothing else.
-as_it_comes() {
-    "$lamina" mesh "$3" --y-plus 1 --reynolds 5e6 --layers auto --quiet -o "$scratch/$1.vtu"
-    picture "$1" "$1" "$2"
-}
-as_it_comes auto-tail naca:0012 0.95,1.04,-0.035,0.035
-as_it_comes auto-nose "$2/uiuc/selig/rae2822.dat" -0.03,0.07,-0.04,0.04
-as_it_comes auto-base "$2/uiuc/selig/s9104.dat" 0.97,1.03,-0.02,0.026
-as_it_comes auto-ice "$2/special/iced/iced_glc305_08030736.dat" -0.07,0.06,-0.05,0.05
+# Sheets of places round sections, meshed with layers up to isotropy from y+ and nothing else.
+while IFS='|' read -r sheet name window input; do
+    files=()
+    for file in $input; do [[ $file == naca:* ]] && files+=("$file") || files+=("$2/$file"); done
+    "$lamina" mesh "${files[@]}" --y-plus 1 --reynolds 5e6 --layers auto --quiet -o "$scratch/place.vtu" 2>/dev/null
+    mkdir -p "$scratch/$sheet"
+    "$lamina" plot "$scratch/place.vtu" -o "$scratch/$sheet/$name.png" --window "$window" --width 1000
+done < <(grep -v '^#' tools/places.txt)
+for sheet in noses tails bases high-lift ice; do
+    montage -font DejaVu-Sans -label '%t' "$scratch/$sheet"/*.png -geometry '500x420>+4+4' -tile 3x \
+        "$scratch/$sheet.png"
+    pngquant --force --speed 1 --nofs -o "$images/auto-$sheet.png" 16 "$scratch/$sheet.png"
+    echo "$images/auto-$sheet.png"
+done
 
 multielement=$2/multielement
 # high_lift NAME FILE...: meshes elements of the collection with the default layer.

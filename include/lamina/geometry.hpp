@@ -55,9 +55,8 @@ struct Element {
     /// Indices of points, ascending, that are corners however little the outline turns there: those that a flap makes,
     /// and where the two parts of the mean line of a NACA section meet.
     std::vector<std::size_t> given_corners;
-    /// Whether prepare_surfaces() chose the spacing of points, of all or of some stretches, and the outline is smooth
-    /// but at few corners.
-    bool resampled = false;
+    bool resampled = false;  ///< whether prepare_surfaces() chose the spacing of points, of all or of some stretches
+    bool smooth = false;     ///< whether the resampled outline is smooth but at few corners, as iced ones are not
     /// Whether prepare_surfaces() kept the points although the options ask for others, which would have crossed.
     bool surface_restored = false;
     OutlineFeatures features;  ///< set by prepare_surfaces()

@@ -45,7 +45,7 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, const Lay
 RaySet rays_of(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth) {
     RaySet set;
     for (const Element& element : geometry.elements) {
-        const std::vector<RayLine> rays = make_rays(element.points, element.resampled, options, growth);
+        const std::vector<RayLine> rays = make_rays(element.points, element.smooth, options, growth);
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/angles.hpp"
+#include "core/reproducible_math.hpp"
 #include "layers/heights.hpp"
 
 namespace lamina::layers {
@@ -22,6 +23,11 @@ constexpr double max_thickness_share = 0.05;
 constexpr double max_tilt_deg = 45;
 /// Largest angle between a tilted ray and the normals of the edges at its origin, in degrees.
 constexpr double max_angle_from_normal_deg = 65;
+/// A tilted ray is higher above one of the edges at its origin than above the other. Where the wall is smooth, both
+/// heights stay within this share of their mean.
+constexpr double max_height_difference = 0.009;
+/// Vertices that turn by more than this are corners. They are few, and the rays beside them need their rays to tilt.
+constexpr double max_smooth_turning_deg = 6;
 
 /// Returns the height below which the rays of an outline should not meet.
 double height_to_keep_clear(std::span<const Point> outline, const LayerGrowth& growth) {
@@ -41,14 +47,25 @@ struct TiltableRay {
     double to_normals;  ///< angle from the ray, not tilted, to the normals of the edges on both sides, in radians
 };
 
+/// Returns the largest tilt of the one ray of a vertex. A ray that is tilted by t where the wall turns by 2 b is
+/// cos(t + b) / (cos t cos b) = 1 - tan t tan b times the mean of both heights above one edge, 1 + tan t tan b times
+/// above the other.
+double max_tilt_of_bisector(const WallVertex& vertex) {
+    const double b = 0.5 * std::abs(vertex.turning);
+    double tilt = std::min(core::radians(max_tilt_deg), core::radians(max_angle_from_normal_deg) - b);
+    if (2 * b <= core::radians(max_smooth_turning_deg))
+        tilt = std::min(tilt, core::atan2_reproducible(max_height_difference * core::cos_reproducible(b),
+                                                       core::sin_reproducible(b)));
+    return std::max(tilt, 0.0);
+}
+
 std::vector<TiltableRay> tiltable_rays(std::span<const Point> outline, std::vector<WallVertex>& vertices) {
     std::vector<TiltableRay> rays;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
         WallVertex &vertex = vertices[i], &after = vertices[next];
-        const double angle_left = core::radians(max_angle_from_normal_deg) - 0.5 * std::abs(vertex.turning);
-        const double max_tilt =
-            std::clamp(vertex.fan ? 0.25 * vertex.turning : angle_left, 0.0, core::radians(max_tilt_deg));
+        const double max_tilt = vertex.fan ? std::clamp(0.25 * vertex.turning, 0.0, core::radians(max_tilt_deg))
+                                           : max_tilt_of_bisector(vertex);
         if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, vertex.turning, 0, 0});
         const double to_normals = vertex.fan ? 0 : 0.5 * vertex.turning;
         const double turning = to_normals + (after.fan ? 0 : 0.5 * after.turning);

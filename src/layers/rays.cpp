@@ -72,10 +72,10 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 
 }  // namespace
 
-std::vector<RayLine> make_rays(std::span<const Point> outline, bool resampled, const LayerOptions& options,
+std::vector<RayLine> make_rays(std::span<const Point> outline, bool smooth, const LayerOptions& options,
                                const LayerGrowth& growth) {
     const double min_fan_turning_deg =
-        resampled ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
+        smooth ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
     smooth_normals(outline, growth, vertices);
     const double max_angle = core::radians(options.max_ray_angle_deg);

@@ -11,9 +11,9 @@ namespace lamina::layers {
 /// Returns the rays of one counter-clockwise outline in the order of the wall: the bisector at each vertex, or a fan at
 /// a sharp corner, both smoothed in concavities, and refining rays on the edges between, so that neighbours differ by
 /// at most options.max_ray_angle_deg. The vertices of the outline are origins exactly; the rays of a fan have one
-/// origin. On a resampled outline, which is smooth but at its corners, blunter corners have fans, too: refining rays
-/// would divide the edges beside them into far shorter ones. Source: thesis 3 and 3.1.
-std::vector<RayLine> make_rays(std::span<const Point> outline, bool resampled, const LayerOptions& options,
+/// origin. On an outline that is smooth but at its corners (Element::smooth), blunter corners have fans, too: refining
+/// rays would divide the edges beside them into far shorter ones. Source: thesis 3 and 3.1.
+std::vector<RayLine> make_rays(std::span<const Point> outline, bool smooth, const LayerOptions& options,
                                const LayerGrowth& growth);
 
 }  // namespace lamina::layers

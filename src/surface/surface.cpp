@@ -86,7 +86,8 @@ void apply(Plan& plan, Element& element, const Element& given, std::size_t index
     ResampledElement resampled =
         resample(given, index, request, plan.decision.edges, plan.decision.reason, plan.sampled);
     element = std::move(resampled.element);
-    element.resampled = !is_jagged(given);
+    element.resampled = true;
+    element.smooth = !is_jagged(given);
     plan.origins = std::move(resampled.origins);
     if (plan.straightened > 0)
         element.surface_notes.push_back(

@@ -109,6 +109,33 @@ TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
     }
 }
 
+/// A ray tilted at a vertex is not as high above both edges there. Where the wall is smooth, first heights stay within
+/// a hundredth all the same.
+TEST(Rays, TiltNoFurtherThanHeightsAboveBothEdgesAllow) {
+    std::size_t tilted = 0;
+    for (double amplitude : {0.01, 0.02, 0.03}) {
+        Outline outline = shapes::circle(1, 600);
+        for (std::size_t i = 0; i < outline.size(); ++i)
+            outline[i] = (1 + amplitude * std::cos(shapes::full_turn * static_cast<double>(i) / 30)) * outline[i];
+        const std::vector<RayLine> rays = rays_of(outline, layers_as_high_as(0.2));
+        const std::size_t n = outline.size();
+        for (const RayLine& ray : rays) {
+            const auto at = std::find(outline.begin(), outline.end(), ray.origin);
+            if (at == outline.end()) continue;  // a ray between two vertices
+            const std::size_t i = static_cast<std::size_t>(at - outline.begin());
+            const Point before = unit(outline[i] - outline[(i + n - 1) % n]),
+                        after = unit(outline[(i + 1) % n] - outline[i]);
+            if (std::abs(core::angle_between(before, after)) > core::radians(6)) continue;
+            const double height_before = dot(-perpendicular(before), ray.direction),
+                         height_after = dot(-perpendicular(after), ray.direction);
+            const double mean = 0.5 * (height_before + height_after);
+            EXPECT_NEAR(height_before / mean, 1, 0.00901);
+            tilted += std::abs(height_before / mean - 1) > 0.008;
+        }
+    }
+    EXPECT_GT(tilted, 20u);
+}
+
 /// A small body lies near one vertex of a wall of few vertices. With one layer more per vertex, the layer would never
 /// recover.
 TEST(Rays, AreInsertedWhereNumbersOfLayersChangeFasterThanTheWallHasVertices) {
@@ -162,12 +189,12 @@ TEST(Rays, AskForFinerResampledWallsBelowBordersThatWouldBeDivided) {
     }
 }
 
-/// Rays of a resampled outline leave its blunter corners in fans, so that no refining rays divide the edges beside.
-TEST(Rays, LeaveBluntCornersOfResampledOutlinesInFans) {
+/// Rays of a smooth outline leave its blunter corners in fans, so that no refining rays divide the edges beside.
+TEST(Rays, LeaveBluntCornersOfSmoothOutlinesInFans) {
     const Outline hexagon = shapes::refined(shapes::polygon({{0, 0}, {2, -0.5}, {4, 0}, {4, 2}, {2, 2.5}, {0, 2}}), 20);
     const LayerOptions options = layers_as_high_as(0.05);
-    const auto origins = [&](bool resampled) {
-        const std::vector<RayLine> rays = layers::make_rays(hexagon, resampled, options, test::growth_of(options));
+    const auto origins = [&](bool smooth) {
+        const std::vector<RayLine> rays = layers::make_rays(hexagon, smooth, options, test::growth_of(options));
         std::set<std::pair<double, double>> points;
         for (const RayLine& ray : rays) points.emplace(ray.origin.x, ray.origin.y);
         return points.size();

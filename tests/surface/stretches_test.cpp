@@ -125,7 +125,8 @@ Outline iced_section(double ice_up_to = 0.06) {
 TEST(AutomaticSurface, KeepsIceAndResamplesTheSmoothRearBehindIt) {
     const Outline iced = iced_section();
     const Element e = prepared(iced, {});
-    EXPECT_FALSE(e.resampled);  // the outline is not smooth
+    EXPECT_TRUE(e.resampled);
+    EXPECT_FALSE(e.smooth);
     EXPECT_NE(e.surface_notes.back().find("corners they"), std::string::npos) << e.surface_notes.back();
     for (Point p : iced) {
         if (p.x < 0.055) {
@@ -165,7 +166,7 @@ TEST(AutomaticSurface, ResamplesDensePointsThatAreRandomOrFarTooClose) {
         clustered.insert(clustered.begin() + 1, {std::cos(t), 0.2 * std::sin(t)});
     for (const Outline& outline : {scattered, clustered}) {
         const Element e = prepared(outline, {});
-        EXPECT_TRUE(e.resampled);
+        EXPECT_TRUE(e.resampled && e.smooth);
         EXPECT_NEAR(static_cast<double>(e.points.size()), static_cast<double>(outline.size()), 4);
         EXPECT_LE(max_spacing_ratio(e.points), 1.25);
         EXPECT_LT(max_distance_from(shapes::ellipse(1, 0.2, 4000), e.points), 1e-4);
