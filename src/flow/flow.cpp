@@ -1,0 +1,129 @@
+// The flow round the bodies: panels, their solution and its check, sides.
+#include <lamina/flow.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/text.hpp"
+#include "flow/contour.hpp"
+#include "flow/panel_system.hpp"
+#include "flow/sides.hpp"
+
+namespace lamina::flow {
+
+namespace {
+
+/// A defect of a solution, with the worst place.
+struct Defect {
+    std::size_t element;
+    Point at;
+    double number;
+    std::string text;
+};
+
+std::optional<Defect> find_wild_speed(std::span<const PanelSheet> sheets) {
+    for (std::size_t e = 0; e < sheets.size(); ++e) {
+        const PanelSheet& sheet = sheets[e];
+        double fastest = 0;
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < sheet.strengths.size(); ++i) {
+            const double speed = std::abs(sheet.strengths[i]);
+            if (!std::isfinite(speed))
+                return Defect{e, sheet.nodes[i], speed, "the equations of the panel method have no solution"};
+            if (speed <= fastest) continue;
+            fastest = speed;
+            at = i;
+        }
+        if (fastest > max_flow_speed)
+            return Defect{
+                e, sheet.nodes[at], fastest,
+                core::concat("the panel method gives ", std::round(fastest), " times the free stream's speed")};
+    }
+    return std::nullopt;
+}
+
+/// Looks at the velocity through the middles of some panels. The panels give exactly no flux through each of them, so
+/// that the root mean square tells whether they are short enough for the flow.
+std::optional<Defect> find_leak(std::span<const PanelSheet> sheets, double alpha_deg) {
+    constexpr std::size_t max_samples = 40;
+    for (std::size_t e = 0; e < sheets.size(); ++e) {
+        const PanelSheet& sheet = sheets[e];
+        const std::size_t panels = sheet.nodes.size() - 1, stride = 1 + panels / max_samples;
+        double sum = 0, worst = 0;
+        std::size_t count = 0, at = 0;
+        for (std::size_t i = stride / 2; i < panels; i += stride) {
+            const Point a = sheet.nodes[i], b = sheet.nodes[i + 1];
+            const Point velocity = sheet_velocity(sheets, alpha_deg, midpoint(a, b));
+            const double through = cross(unit(b - a), velocity);
+            sum += through * through;
+            ++count;
+            if (std::abs(through) <= worst) continue;
+            worst = std::abs(through);
+            at = i;
+        }
+        const double leak = std::sqrt(sum / static_cast<double>(count));
+        std::fprintf(stderr, "leak %zu rms %.4f worst %.4f at %g %g\n", e, leak, worst, sheet.nodes[at].x,
+                     sheet.nodes[at].y);
+        if (!(leak <= max_flow_leak))
+            return Defect{e, midpoint(sheet.nodes[at], sheet.nodes[at + 1]), leak,
+                          core::concat("the flow of the panel method crosses the wall")};
+    }
+    return std::nullopt;
+}
+
+std::optional<Defect> add_elements(Flow& flow) {
+    for (std::size_t e = 0; e < flow.sheets.size(); ++e) {
+        std::optional<ElementFlow> sides = make_sides(flow.sheets[e]);
+        if (!sides) return Defect{e, flow.sheets[e].nodes.front(), 0, "the flow arrives at its trailing edge alone"};
+        sides->lift = lift_of_pressures(flow.sheets[e], flow.alpha_deg) / flow.chord;
+        flow.elements.push_back(std::move(*sides));
+    }
+    return std::nullopt;
+}
+
+/// Makes the flow an estimate, and says why.
+void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& geometry, const Defect& defect) {
+    flow.estimated = true;
+    flow.sheets.clear();
+    flow.elements.clear();
+    for (const Contour& contour : contours) flow.elements.push_back(make_flat_plates(contour.nodes));
+    const std::string& name = geometry.elements[defect.element].name;
+    flow.warnings.push_back({WarningCode::flow_estimated, name, defect.at, defect.number, "",
+                             core::concat(defect.text, " at (", defect.at.x, ", ", defect.at.y, ") of ", name,
+                                          "; the flow along all walls is taken for that along flat plates")});
+}
+
+}  // namespace
+
+}  // namespace lamina::flow
+
+namespace lamina {
+
+using namespace flow;
+
+Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
+    validate(conditions);
+    Flow flow;
+    flow.alpha_deg = conditions.alpha_deg;
+    flow.chord = conditions.chord.value_or(bounding_box(geometry).width());
+    const std::vector<Contour> contours = make_contours(geometry);
+    flow.sheets = solve_panels(contours, flow.alpha_deg);
+    std::optional<Defect> defect = find_wild_speed(flow.sheets);
+    if (!defect) defect = find_leak(flow.sheets, flow.alpha_deg);
+    if (!defect) defect = add_elements(flow);
+    if (defect) fall_back(flow, contours, geometry, *defect);
+    double total = 0;
+    for (const PanelSheet& sheet : flow.sheets) total += circulation(sheet);
+    flow.lift = -2 * total / flow.chord;
+    for (std::size_t e = 0; e < flow.elements.size(); ++e) flow.elements[e].name = geometry.elements[e].name;
+    return flow;
+}
+
+Point flow_velocity(const Flow& flow, Point p) { return sheet_velocity(flow.sheets, flow.alpha_deg, p); }
+
+}  // namespace lamina

@@ -1,0 +1,220 @@
+// Source: M. Drela, XFOIL: an analysis and design system for low Reynolds number airfoils, in Low Reynolds Number
+// Aerodynamics (1989), section 3.1; J. Katz, A. Plotkin, Low-Speed Aerodynamics, 2nd ed. (2001), section 11.4.
+//
+// The stream function of the free stream and of all sheets is constant along each body. Unlike a condition on normal
+// velocities at the middles of panels, this one stays well-posed where the two sides of a thin trailing edge close to a
+// cusp, and its solution at the nodes is the velocity along the wall itself.
+#include "flow/panel_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angles.hpp"
+#include "core/parallel.hpp"
+#include "flow/dense_solve.hpp"
+#include "flow/panel_kernel.hpp"
+
+namespace lamina::flow {
+
+namespace {
+
+/// The panels of one body, in units of the system's length.
+struct Body {
+    std::vector<Point> nodes;
+    std::vector<double> lengths;  ///< per panel
+    std::vector<Point> along;     ///< per panel: its unit vector
+    bool blunt, rounded;
+    std::size_t column;  ///< of its first node in the system; its constant follows that of its last node
+    // The base runs from the last node to the first one. Its sheets send the flow off with the speed at the trailing
+    // edge in the direction between the two sides.
+    double base_length = 0;
+    Point base_along{};
+    double base_strength = 0, base_source = 0;  ///< over the speed at the trailing edge
+};
+
+Body make_body(const Contour& contour, std::size_t column, Point origin, double unit_length) {
+    Body body{{}, {}, {}, contour.blunt, contour.rounded, column};
+    for (const Point p : contour.nodes)
+        body.nodes.push_back({(p.x - origin.x) / unit_length, (p.y - origin.y) / unit_length});
+    for (std::size_t i = 0; i + 1 < body.nodes.size(); ++i) {
+        body.lengths.push_back(distance(body.nodes[i], body.nodes[i + 1]));
+        body.along.push_back((1 / body.lengths[i]) * (body.nodes[i + 1] - body.nodes[i]));
+    }
+    if (!body.blunt) return body;
+    const Point base = body.nodes.front() - body.nodes.back();
+    body.base_length = length(base);
+    body.base_along = (1 / body.base_length) * base;
+    const Point leaving = leaving_direction(body.nodes);
+    body.base_strength = dot(leaving, body.base_along);
+    body.base_source = -dot(leaving, perpendicular(body.base_along));
+    return body;
+}
+
+/// Adds to a row of the system what unit strengths at the nodes of a body give to the stream function at a point.
+void add_sheet(std::span<double> row, const Body& body, Point p, std::span<SeenNode> seen) {
+    const std::size_t n = body.nodes.size();
+    for (std::size_t j = 0; j < n; ++j) seen[j] = see(body.nodes[j], p);
+    constexpr double factor = 1 / (2 * core::pi);
+    for (std::size_t j = 0; j + 1 < n; ++j) {
+        const SeenPanel panel = see_panel(seen[j], seen[j + 1], body.lengths[j], body.along[j]);
+        const PanelIntegrals log = integrate_log(panel, seen[j], seen[j + 1]);
+        row[body.column + j] -= factor * (log.constant - log.linear);
+        row[body.column + j + 1] -= factor * log.linear;
+    }
+}
+
+/// Returns the stream function of the base of a body at a point for unit speed at its trailing edge. That of sources
+/// needs the angle of the direction from the base's first end to the point, measured from the base, which must not
+/// jump along a body. `is_at_start` marks that end, where there is no such angle.
+double base_stream_function(const Body& body, Point p, double direction_angle, bool is_at_start) {
+    const SeenNode a = see(body.nodes.back(), p), b = see(body.nodes.front(), p);
+    const SeenPanel panel = see_panel(a, b, body.base_length, body.base_along);
+    const double vortices = -body.base_strength * integrate_log(panel, a, b).constant;
+    const double log_ratio = 0.5 * (b.log_distance2 - a.log_distance2);
+    const double angles = is_at_start ? core::pi * panel.length
+                                      : panel.length * direction_angle +
+                                            (panel.length - panel.xi) * panel.signed_angle() - panel.eta * log_ratio;
+    return (vortices + body.base_source * angles) / (2 * core::pi);
+}
+
+/// Adds to the rows of a body what the base of another one, or its own, gives to the stream function at its nodes.
+void add_base(std::vector<double>& matrix, std::size_t size, const Body& at, const Body& of) {
+    double angle = 0;
+    Point last{};
+    for (std::size_t i = 0; i < at.nodes.size(); ++i) {
+        const Point p = at.nodes[i], from_start = p - of.nodes.back();
+        const bool is_at_start = squared_length(from_start) == 0;
+        if (!is_at_start) {
+            angle += core::angle_between(i == 0 ? of.base_along : last, from_start);
+            last = from_start;
+        }
+        const double value = 0.5 * base_stream_function(of, p, angle, is_at_start);
+        double* const row = matrix.data() + (at.column + i) * size + of.column;
+        row[0] -= value;  // the speed at the trailing edge is half the difference of the strengths there
+        row[of.nodes.size() - 1] += value;
+    }
+}
+
+/// Puts into a row the condition that the mean speed of both sides at a sharp trailing edge continues linearly that at
+/// the next two pairs of nodes. The nodes of both sides coincide there, so that the stream function gives one condition
+/// for two strengths.
+void extrapolate_speed(std::span<double> row, const Body& body) {
+    const std::size_t last = body.nodes.size() - 1;
+    const auto& l = body.lengths;
+    const double near = 0.5 * (l[0] + l[last - 1]), far = near + 0.5 * (l[1] + l[last - 2]);
+    const double share = near / (far - near);
+    const double weight[3] = {1, -(1 + share), share};
+    for (std::size_t k = 0; k < 3; ++k) {
+        row[body.column + k] -= weight[k];
+        row[body.column + last - k] += weight[k];
+    }
+}
+
+/// The condition that the flow leaves the trailing edge smoothly: at a corner both sides have the same speed there.
+/// Without a corner the trailing edge is a stagnation point.
+void add_kutta_conditions(std::vector<double>& matrix, std::size_t size, const Body& body) {
+    const std::size_t last = body.column + body.nodes.size() - 1;
+    const auto row = [&](std::size_t i) { return std::span(matrix).subspan(i * size, size); };
+    row(last + 1)[last] = 1;
+    row(last + 1)[body.column] = body.rounded ? 0 : 1;
+    if (body.blunt) return;
+    std::fill(row(last).begin(), row(last).end(), 0.0);
+    if (body.rounded) {
+        row(last)[body.column] = 1;
+    } else {
+        extrapolate_speed(row(last), body);
+    }
+}
+
+std::vector<Body> make_bodies(std::span<const Contour> contours) {
+    // The logarithms of lengths depend on their unit. The extent of the bodies takes its place, so that scaling by a
+    // power of two changes no bit.
+    Box box;
+    for (const Contour& contour : contours)
+        for (const Point p : contour.nodes) box.include(p);
+    std::vector<Body> bodies;
+    std::size_t column = 0;
+    for (const Contour& contour : contours) {
+        bodies.push_back(make_body(contour, column, box.lower, std::max(box.width(), box.height())));
+        column += contour.nodes.size() + 1;
+    }
+    return bodies;
+}
+
+std::vector<double> solve_strengths(std::span<const Body> bodies, Point stream) {
+    const std::size_t size = bodies.back().column + bodies.back().nodes.size() + 1;
+    std::vector<double> matrix(size * size), right_side(size);
+    for (const Body& at : bodies) {
+        constexpr std::size_t grain = 16;
+        core::parallel_for(at.nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
+            std::vector<SeenNode> seen(size);
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::span<double> row = std::span(matrix).subspan((at.column + i) * size, size);
+                for (const Body& of : bodies) add_sheet(row, of, at.nodes[i], seen);
+            }
+        });
+        for (const Body& of : bodies)
+            if (of.blunt) add_base(matrix, size, at, of);
+        const std::size_t constant = at.column + at.nodes.size();
+        for (std::size_t i = 0; i < at.nodes.size(); ++i) {
+            matrix[(at.column + i) * size + constant] = -1;
+            right_side[at.column + i] = -cross(stream, at.nodes[i]);
+        }
+        add_kutta_conditions(matrix, size, at);
+        if (!at.blunt) right_side[constant - 1] = 0;
+    }
+    return solve_dense(std::move(matrix), right_side);
+}
+
+}  // namespace
+
+Point free_stream(double alpha_deg) {
+    const double alpha = core::radians(alpha_deg);
+    return {core::cos_reproducible(alpha), core::sin_reproducible(alpha)};
+}
+
+Point leaving_direction(std::span<const Point> nodes) {
+    const std::size_t last = nodes.size() - 1;
+    return unit(unit(nodes[0] - nodes[1]) + unit(nodes[last] - nodes[last - 1]));
+}
+
+std::vector<PanelSheet> solve_panels(std::span<const Contour> contours, double alpha_deg) {
+    if (contours.empty()) return {};
+    const std::vector<Body> bodies = make_bodies(contours);
+    const std::vector<double> strengths = solve_strengths(bodies, free_stream(alpha_deg));
+    std::vector<PanelSheet> sheets;
+    for (std::size_t e = 0; e < bodies.size(); ++e) {
+        const auto first = strengths.begin() + static_cast<std::ptrdiff_t>(bodies[e].column);
+        PanelSheet& sheet = sheets.emplace_back();
+        sheet.nodes = contours[e].nodes;
+        sheet.strengths.assign(first, first + static_cast<std::ptrdiff_t>(sheet.nodes.size()));
+        const double speed = 0.5 * (sheet.strengths.back() - sheet.strengths.front());
+        sheet.base_strength = speed * bodies[e].base_strength;
+        sheet.base_source = speed * bodies[e].base_source;
+    }
+    return sheets;
+}
+
+Point sheet_velocity(std::span<const PanelSheet> sheets, double alpha_deg, Point p) {
+    Point velocity = free_stream(alpha_deg);
+    for (const PanelSheet& sheet : sheets) {
+        SeenNode a = see(sheet.nodes.front(), p);
+        for (std::size_t j = 1; j < sheet.nodes.size(); ++j) {
+            const SeenNode b = see(sheet.nodes[j], p);
+            const Point edge = sheet.nodes[j] - sheet.nodes[j - 1];
+            const double panel_length = length(edge);
+            const SeenPanel panel = see_panel(a, b, panel_length, (1 / panel_length) * edge);
+            velocity = velocity + vortex_velocity(panel, a, b, sheet.strengths[j - 1], sheet.strengths[j]);
+            a = b;
+        }
+        if (!has_base(sheet)) continue;
+        const SeenNode b = see(sheet.nodes.front(), p);
+        const Point base = sheet.nodes.front() - sheet.nodes.back();
+        const SeenPanel panel = see_panel(a, b, length(base), unit(base));
+        velocity = velocity + vortex_velocity(panel, a, b, sheet.base_strength, sheet.base_strength) +
+                   source_velocity(panel, a, b, sheet.base_source);
+    }
+    return velocity;
+}
+
+}  // namespace lamina::flow
