@@ -105,9 +105,9 @@ LAMINA_EXPORT Flow solve_flow(const Geometry& geometry, const FlowConditions& co
 /// Faster flow, as a multiple of the free stream's speed, is taken for a failure of the panel method.
 inline constexpr double max_flow_speed = 100;
 
-/// So is a larger velocity through the middles of an element's panels, as a root mean square over the free stream's
-/// speed.
-inline constexpr double max_flow_leak = 0.1;
+/// So is a larger velocity through the panels of an element, as the median over their middles and a multiple of the
+/// free stream's speed.
+inline constexpr double max_flow_leak = 0.02;
 
 /// Returns the velocity at a point outside of the bodies as a multiple of the free stream's speed. It is rounded off
 /// at the ends of panels nearer than their length; on a wall, ElementFlow has better values.

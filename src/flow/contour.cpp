@@ -46,33 +46,76 @@ std::size_t nearest_vertex(std::span<const Point> points, Point p) {
     return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), nearer) - points.begin());
 }
 
+/// The rear end of an outline: the vertices at which it begins and ends, which are equal at a sharp trailing edge.
+struct RearEnd {
+    std::size_t first, last;
+    bool rounded;
+};
+
+/// Returns the stretch of edges round a vertex that face to the rear: whose normals are within 60 degrees of the
+/// direction from the farthest vertex to this one.
+RearEnd facing_rear(std::span<const Point> points, std::size_t at) {
+    constexpr double cosine = 0.5;
+    const std::size_t n = points.size();
+    std::size_t nose = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        if (distance(points[i], points[at]) > distance(points[nose], points[at])) nose = i;
+    const Point axis = unit(points[at] - points[nose]);
+    const auto faces_rear = [&](std::size_t i) {
+        return dot(-perpendicular(unit(points[(i + 1) % n] - points[i])), axis) > cosine;
+    };
+    RearEnd end{at, at, false};
+    while (faces_rear((end.first + n - 1) % n)) end.first = (end.first + n - 1) % n;
+    while (faces_rear(end.last)) end.last = (end.last + 1) % n;
+    return end;
+}
+
+/// Returns the base, the sharp vertex, or the middle of the round at the trailing edge. A rear end with a corner is a
+/// base, though it may bulge; one without a corner, or as wide as half of the body, is round.
+RearEnd find_rear_end(std::span<const Point> points, const OutlineFeatures& features, double extent) {
+    if (features.base && features.trailing_edge == midpoint(points[features.base->first], points[features.base->last]))
+        return {features.base->first, features.base->last, false};
+    constexpr double max_base = 0.5, min_base_corner_deg = 30;
+    const std::size_t n = points.size();
+    const auto turning = [&](std::size_t i) {
+        return core::degrees(core::angle_between(points[i] - points[(i + n - 1) % n], points[(i + 1) % n] - points[i]));
+    };
+    const RearEnd end = facing_rear(points, nearest_vertex(points, features.trailing_edge));
+    if (end.first == end.last) return {end.first, end.last, turning(end.first) < 180 - min_rounded_deg};
+    double width = 0;
+    bool has_corner = turning(end.last) > min_base_corner_deg;
+    for (std::size_t i = end.first; i != end.last; i = (i + 1) % n) {
+        width += distance(points[i], points[(i + 1) % n]);
+        has_corner = has_corner || turning(i) > min_base_corner_deg;
+    }
+    if (has_corner && width < max_base * extent) return end;
+    std::size_t middle = end.first;
+    for (double s = 0; s < 0.5 * width; middle = (middle + 1) % n)
+        s += distance(points[middle], points[(middle + 1) % n]);
+    return {middle, middle, true};
+}
+
 OpenOutline cut_open(const Element& element, double extent) {
     const std::vector<Point>& points = element.points;
     const std::size_t n = points.size();
     OutlineFeatures features = element.features;
     if (features.corners.empty()) features.corners = surface::find_corners(element);
     surface::find_trailing_edge(points, features);
+    const RearEnd rear = find_rear_end(points, features, extent);
 
-    const bool ends_at_base =
-        features.base && features.trailing_edge == midpoint(points[features.base->first], points[features.base->last]);
-    const std::size_t first = ends_at_base ? features.base->last : nearest_vertex(points, features.trailing_edge);
-    const std::size_t last = ends_at_base ? features.base->first : first;
+    const Point lower_end = points[rear.first], upper_end = points[rear.last];
     OpenOutline outline;
-    outline.blunt = ends_at_base && distance(points[first], points[last]) > least_base * extent;
+    outline.rounded = rear.rounded;
+    outline.blunt = distance(lower_end, upper_end) > least_base * extent;
     std::vector<bool> is_corner(n);
     for (const std::size_t i : features.corners) is_corner[i] = true;
-    const std::size_t edges = first == last ? n : (last + n - first) % n;
+    const std::size_t edges = rear.first == rear.last ? n : (rear.first + n - rear.last) % n;
     for (std::size_t k = 0; k <= edges; ++k) {
-        const std::size_t i = (first + k) % n;
+        const std::size_t i = (rear.last + k) % n;
         outline.points.push_back(points[i]);
         outline.is_corner.push_back(is_corner[i] || k == 0 || k == edges);
     }
-    if (ends_at_base && !outline.blunt) outline.points.front() = outline.points.back() = features.trailing_edge;
-    if (!outline.blunt) {
-        const std::vector<Point>& p = outline.points;
-        const double turning = core::angle_between(p[edges] - p[edges - 1], p[1] - p[0]);
-        outline.rounded = core::degrees(turning) < 180 - min_rounded_deg;
-    }
+    if (!outline.blunt) outline.points.front() = outline.points.back() = midpoint(lower_end, upper_end);
     return outline;
 }
 

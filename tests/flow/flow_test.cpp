@@ -1,0 +1,206 @@
+// Properties of the flow that hold for every configuration.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <lamina/flow.hpp>
+#include <lamina/surface.hpp>
+#include <lamina/threads.hpp>
+
+#include "flow/mapped_section.hpp"
+#include "flow/sample_configurations.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina::test {
+namespace {
+
+using shapes::geometry;
+using shapes::Outline;
+
+Geometry moved(Geometry g, double scale, Point shift) {
+    for (Element& e : g.elements) e.points = shapes::moved(e.points, 0, scale, shift);
+    return g;
+}
+
+double max_speed(const Flow& flow) {
+    double fastest = 0;
+    for (const PanelSheet& sheet : flow.sheets)
+        for (const double strength : sheet.strengths) fastest = std::max(fastest, std::abs(strength));
+    return fastest;
+}
+
+void expect_sound(const Flow& flow, std::size_t elements) {
+    ASSERT_FALSE(flow.estimated) << flow.warnings[0].message;
+    ASSERT_EQ(flow.elements.size(), elements);
+    ASSERT_EQ(flow.sheets.size(), elements);
+    EXPECT_TRUE(flow.warnings.empty());
+    double sum = 0;
+    for (const ElementFlow& element : flow.elements) {
+        sum += element.lift;
+        for (const auto* side : {&element.upper, &element.lower}) {
+            ASSERT_GE(side->size(), 2u);
+            EXPECT_EQ(side->front().at, element.stagnation);
+            EXPECT_EQ(side->front().s, 0);
+            EXPECT_EQ(side->front().speed, 0);
+            for (std::size_t i = 1; i < side->size(); ++i) {
+                const FlowPoint &p = (*side)[i], &last = (*side)[i - 1];
+                EXPECT_NEAR(p.s - last.s, distance(p.at, last.at), 1e-12 * p.s);
+                EXPECT_GE(p.speed, 0);
+                EXPECT_DOUBLE_EQ(p.pressure_coefficient, 1 - p.speed * p.speed);
+            }
+        }
+        EXPECT_NEAR(element.upper.back().speed, element.lower.back().speed, 1e-9);
+    }
+    // The pressures of straight panels agree with the circulation up to the error of the panels.
+    EXPECT_NEAR(flow.lift, sum, 0.01 * std::abs(flow.lift) + 0.002);
+}
+
+TEST(Flow, SymmetricSectionsHaveNoLiftAndEqualSides) {
+    for (const double base : {0.0, 0.01, 0.2}) {
+        const Flow flow = solve_flow(geometry({shapes::section(0.12, base, 80)}));
+        expect_sound(flow, 1);
+        EXPECT_NEAR(flow.lift, 0, 1e-9);
+        EXPECT_NEAR(flow.elements[0].stagnation.y, 0, 1e-9);
+        const auto &upper = flow.elements[0].upper, &lower = flow.elements[0].lower;
+        for (std::size_t i = 1; i < std::min(upper.size(), lower.size()); ++i) {
+            EXPECT_NEAR(upper[upper.size() - i].speed, lower[lower.size() - i].speed, 1e-8);
+            EXPECT_NEAR(upper[upper.size() - i].at.y, -lower[lower.size() - i].at.y, 1e-9);
+        }
+    }
+}
+
+TEST(Flow, MirroredSectionsHaveTheOppositeLift) {
+    for (const double base : {0.0, 0.008}) {
+        const Outline outline = shapes::moved(shapes::section(0.15, base, 80), 0.05, 1, {});
+        const Flow flow = solve_flow(geometry({outline}), {.alpha_deg = 6});
+        const Flow mirrored = solve_flow(geometry({shapes::mirrored(outline)}), {.alpha_deg = -6});
+        expect_sound(flow, 1);
+        EXPECT_NEAR(mirrored.lift, -flow.lift, 1e-7);
+        EXPECT_LT(
+            distance(mirrored.elements[0].stagnation, {flow.elements[0].stagnation.x, -flow.elements[0].stagnation.y}),
+            1e-7);
+    }
+}
+
+TEST(Flow, PowersOfTwoScaleItBitForBit) {
+    const Geometry given = three_elements();
+    const Flow flow = solve_flow(given, {.alpha_deg = 7});
+    expect_sound(flow, 3);
+    for (const double scale : {0x1p-20, 0.5, 1024.0}) {
+        const Flow scaled = solve_flow(moved(given, scale, {}), {.alpha_deg = 7});
+        EXPECT_EQ(scaled.lift, flow.lift);
+        for (std::size_t e = 0; e < 3; ++e) {
+            EXPECT_EQ(scaled.sheets[e].strengths, flow.sheets[e].strengths);
+            EXPECT_EQ(scaled.elements[e].stagnation, scale * flow.elements[e].stagnation);
+            EXPECT_EQ(scaled.elements[e].lift, flow.elements[e].lift);
+        }
+    }
+}
+
+TEST(Flow, DoesNotDependOnTheNumberOfThreads) {
+    const Geometry given = three_elements();
+    Flow one, eight;
+    with_threads(1, [&] { one = solve_flow(given, {.alpha_deg = 4}); });
+    with_threads(8, [&] { eight = solve_flow(given, {.alpha_deg = 4}); });
+    EXPECT_EQ(one.lift, eight.lift);
+    for (std::size_t e = 0; e < 3; ++e) EXPECT_EQ(one.sheets[e].strengths, eight.sheets[e].strengths);
+}
+
+TEST(Flow, HardlyDependsOnShiftsAndOtherScales) {
+    const Geometry given = three_elements();
+    const Flow flow = solve_flow(given, {.alpha_deg = 4});
+    const Flow other = solve_flow(moved(given, 1000.0 / 3, {123, -456}), {.alpha_deg = 4});
+    EXPECT_NEAR(other.lift, flow.lift, 1e-6);
+    EXPECT_NEAR(max_speed(other), max_speed(flow), 1e-5);
+}
+
+TEST(Flow, HardlyDependsOnThePointsOfTheWall) {
+    const auto lift = [](Geometry g) { return solve_flow(g, {.alpha_deg = 8}).lift; };
+    const double exact = lift(geometry({naca_airfoil("2412", 2000).points}));
+    for (const std::size_t points : {40u, 60u, 100u, 300u})
+        EXPECT_NEAR(lift(geometry({naca_airfoil("2412", points).points})), exact, 1e-3 * exact) << points;
+    EXPECT_NEAR(lift(prepare_surfaces(geometry({naca_airfoil("2412", 80).points}))), exact, 1e-3 * exact);
+    // Noise as in tables of four digits.
+    std::mt19937 random(5);
+    Outline noisy = naca_airfoil("2412", 300).points;
+    for (std::size_t i = 1; i < noisy.size(); ++i) noisy[i].y += 1e-4 * (static_cast<double>(random()) / 0x1p32 - 0.5);
+    const Flow flow = solve_flow(geometry({noisy}), {.alpha_deg = 8});
+    expect_sound(flow, 1);
+    EXPECT_NEAR(flow.lift, exact, 5e-3 * exact);
+}
+
+TEST(Flow, ElementsFarApartHaveTheirOwnFlows) {
+    const Outline section = naca_airfoil("4412", 100).points;
+    const Flow alone = solve_flow(geometry({section}), {.alpha_deg = 5});
+    const Flow both =
+        solve_flow(geometry({section, shapes::moved(section, 0, 1, {0, 1000})}), {.alpha_deg = 5, .chord = 1});
+    expect_sound(both, 2);
+    // The other section induces a velocity of lift / (4 pi 1000).
+    for (const ElementFlow& element : both.elements) EXPECT_NEAR(element.lift, alone.elements[0].lift, 5e-4);
+}
+
+TEST(Flow, NarrowSlotsAndCovesAreSolved) {
+    const Flow slot = solve_flow(section_with_flap(0.005), {.alpha_deg = 8});
+    expect_sound(slot, 2);
+    // A flap raises the lift of the main section more than its own.
+    const Flow alone = solve_flow(geometry({naca_airfoil("0012", 100).points}), {.alpha_deg = 8, .chord = slot.chord});
+    EXPECT_GT(slot.elements[0].lift, 1.5 * alone.lift);
+    for (const double alpha_deg : {-10.0, 0.0, 10.0, 25.0}) {
+        const Flow cove = solve_flow(three_elements(), {.alpha_deg = alpha_deg});
+        ASSERT_FALSE(cove.estimated) << alpha_deg;
+        EXPECT_LT(max_speed(cove), 40) << alpha_deg;
+    }
+}
+
+TEST(Flow, BluntTrailingEdgesActLikeSharpOnes) {
+    const auto solve = [](double base) {
+        return solve_flow(geometry({shapes::section(0.12, base, 80)}), {.alpha_deg = 5});
+    };
+    const Flow sharp = solve(0);
+    for (const double base : {5e-5, 2e-4, 0.002, 0.01}) {
+        const Flow blunt = solve(base);
+        expect_sound(blunt, 1);
+        EXPECT_NEAR(blunt.lift, sharp.lift, 0.001 + 2 * base) << base;
+    }
+    // The sources of the base fill a wake as wide as the base with the speed at the trailing edge.
+    const Flow wide = solve(0.01);
+    EXPECT_NEAR(wide.sheets[0].base_source, wide.elements[0].upper.back().speed, 0.03);
+}
+
+TEST(Flow, AnyBodyIsSolvedOrEstimated) {
+    for (const Outline& outline :
+         {shapes::wedge(), shapes::diamond(), shapes::box(), shapes::l_shape(), shapes::c_shape(0.2),
+          shapes::circle(1, 7), shapes::v_notch(0.5), shapes::comb(4, 0.1), shapes::plate(0.001, 20),
+          shapes::plate(1e-5, 20), shapes::joukowski(0.1, 0.3, 50), Outline{{0, 0}, {1, 0}, {0.5, 0.1}}})
+        for (const double alpha_deg : {-90.0, -20.0, 0.0, 45.0, 90.0}) {
+            const Flow flow = solve_flow(geometry({outline}), {.alpha_deg = alpha_deg, .reynolds = 1e6});
+            ASSERT_EQ(flow.elements.size(), 1u);
+            ASSERT_EQ(flow.estimated, !flow.warnings.empty());
+            if (flow.estimated) std::printf("%s\n", flow.warnings[0].message.c_str());
+            for (const auto* side : {&flow.elements[0].upper, &flow.elements[0].lower})
+                for (const FlowPoint& p : *side) {
+                    ASSERT_TRUE(std::isfinite(p.speed) && std::isfinite(p.s));
+                    ASSERT_LE(p.speed, max_flow_speed);
+                }
+        }
+    std::mt19937 random(3);
+    for (int i = 0; i < 20; ++i) {
+        const Flow flow = solve_flow(geometry({shapes::star(30, 0.3, random)}), {.alpha_deg = 3});
+        ASSERT_EQ(flow.elements.size(), 1u);
+    }
+}
+
+TEST(Flow, ConditionsOutOfRangeAreRefused) {
+    const Geometry given = geometry({naca_airfoil("0012", 60).points});
+    EXPECT_THROW(solve_flow(given, {.alpha_deg = 91}), OptionError);
+    EXPECT_THROW(solve_flow(given, {.alpha_deg = NAN}), OptionError);
+    EXPECT_THROW(solve_flow(given, {.reynolds = 0}), OptionError);
+    EXPECT_THROW(solve_flow(given, {.chord = -1}), OptionError);
+}
+
+}  // namespace
+}  // namespace lamina::test
