@@ -1,14 +1,17 @@
-// Pictures of meshes.
+// Pictures of meshes, and charts.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/option.hpp>
+#include <lamina/point.hpp>
 
 namespace lamina {
 
@@ -39,5 +42,32 @@ LAMINA_EXPORT void validate(const PlotOptions& options);
 /// renamed; "-" is standard output. Throws IoError, UsageError for other formats and extensions, OptionError for
 /// options out of range.
 LAMINA_EXPORT void plot_mesh(const Mesh& mesh, const std::filesystem::path& file, const PlotOptions& options = {});
+
+/// Throws UsageError unless pictures can be written in the format of this name or, where no name is given, in the one
+/// that the extension of the file stands for.
+LAMINA_EXPORT void check_picture_format(const std::filesystem::path& file, const std::string& format = {});
+
+/// A curve of a chart.
+struct ChartCurve {
+    std::string name;           ///< in the legend
+    std::vector<Point> points;  ///< joined by straight lines in this order
+};
+
+/// Options of plot_chart().
+struct ChartOptions {
+    std::string x_label{};     ///< below the horizontal axis
+    std::string y_label{};     ///< above the vertical axis
+    bool y_downwards = false;  ///< whether the numbers of the vertical axis grow downwards
+    /// Interval of y to show, beyond which curves are cut off; empty: all.
+    std::optional<std::array<double, 2>> y_range{};
+    int width_px = 1200;   ///< width of the picture, in pixels; its height is two thirds of that
+    std::string format{};  ///< "png", "svg" or "pdf"; empty: by the extension of the file
+};
+
+/// Draws curves over axes with numbers, each in a colour of its own, as .png, .svg or .pdf. The file gets a temporary
+/// name beside the target and is renamed; "-" is standard output. Throws IoError, UsageError for other formats and
+/// extensions. Precondition: coordinates are finite, and there is at least one point.
+LAMINA_EXPORT void plot_chart(std::span<const ChartCurve> curves, const std::filesystem::path& file,
+                              const ChartOptions& options = {});
 
 }  // namespace lamina

@@ -11,6 +11,7 @@ void add_check_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_info_command(CLI::App& app);
+void add_flow_command(CLI::App& app);
 void add_delaunay_command(CLI::App& app);
 void add_completion_command(CLI::App& app);
 

@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
         add_plot_command(app);
         add_convert_command(app);
         add_info_command(app);
+        add_flow_command(app);
         add_delaunay_command(app);
         add_completion_command(app);
         for (CLI::App* command : app.get_subcommands({})) command->set_version_flag("--version", version)->group("");

@@ -63,6 +63,17 @@ void Canvas::stroke(Point a, Point b, Color color, double alpha, double width) {
     cairo_stroke(cr_.get());
 }
 
+void Canvas::write(Point at, const std::string& text, double height, Color color, double anchor) {
+    cairo_select_font_face(cr_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cr_.get(), height);
+    cairo_text_extents_t extents;
+    cairo_text_extents(cr_.get(), text.c_str(), &extents);
+    // Capitals and digits are about 0.7 of the size of a font high.
+    cairo_move_to(cr_.get(), view_.x(at) - anchor * extents.x_advance, view_.y(at) + 0.35 * height);
+    set_color(color, 1);
+    cairo_show_text(cr_.get(), text.c_str());
+}
+
 void Canvas::set_color(Color color, double alpha) {
     cairo_set_source_rgba(cr_.get(), color.r, color.g, color.b, alpha);
 }

@@ -4,6 +4,7 @@
 #include <cairo.h>
 
 #include <memory>
+#include <string>
 
 #include <lamina/point.hpp>
 
@@ -24,6 +25,11 @@ public:
     /// in part.
     void fill(const VisibleCell& cell, Color color);
     void stroke(Point a, Point b, Color color, double alpha, double width);
+    /// Writes text of this height in pixels. The point is where its vertical middle meets its left end, its middle or
+    /// its right end, as `anchor` is 0, 0.5 or 1.
+    void write(Point at, const std::string& text, double height, Color color, double anchor);
+    /// Clips what is stroked from now on to a box.
+    void restrict_to(const Box& bounds) { bounds_ = bounds; }
 
 private:
     void set_color(Color color, double alpha);

@@ -1,25 +1,17 @@
-// Pictures of meshes by Cairo: PNG, SVG, PDF.
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
+// Pictures of meshes by Cairo.
 #include <cairo.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <ostream>
 #include <tuple>
 #include <vector>
 
-#include <lamina/error.hpp>
-#include <lamina/files.hpp>
 #include <lamina/plot.hpp>
 
-#include "core/atomic_file.hpp"
-#include "core/text.hpp"
 #include "mesh/quality.hpp"
 #include "plot/canvas.hpp"
 #include "plot/color.hpp"
+#include "plot/picture_file.hpp"
 #include "plot/view.hpp"
 
 namespace lamina::plot {
@@ -157,46 +149,6 @@ void draw(cairo_surface_t* surface, const Mesh& mesh, const PictureView& view, P
     draw_markers(canvas, mesh);
 }
 
-// --- Formats
-
-using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
-
-cairo_status_t write_to_stream(void* stream, const unsigned char* bytes, unsigned length) {
-    std::ostream& out = *static_cast<std::ostream*>(stream);
-    out.write(reinterpret_cast<const char*>(bytes), length);
-    return out ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
-}
-
-CairoSurface make_png(std::ostream&, const PictureView& view) {
-    return {cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(view.width), static_cast<int>(view.height)),
-            cairo_surface_destroy};
-}
-CairoSurface make_svg(std::ostream& out, const PictureView& view) {
-    return {cairo_svg_surface_create_for_stream(write_to_stream, &out, view.width, view.height), cairo_surface_destroy};
-}
-CairoSurface make_pdf(std::ostream& out, const PictureView& view) {
-    return {cairo_pdf_surface_create_for_stream(write_to_stream, &out, view.width, view.height), cairo_surface_destroy};
-}
-
-struct PictureFormat {
-    const char* extension;
-    CairoSurface (*make)(std::ostream&, const PictureView&);
-    bool is_image;  ///< whether the file is written once all is drawn, not meanwhile
-};
-
-constexpr PictureFormat picture_formats[] = {
-    {".png", make_png, true}, {".svg", make_svg, false}, {".pdf", make_pdf, false}};
-
-/// Returns the format of this name, or the one that the extension of the file stands for where no name is given.
-const PictureFormat& picture_format_of(const fs::path& file, const std::string& name) {
-    const std::string extension = name.empty() ? core::extension_of(file) : "." + name;
-    for (const PictureFormat& format : picture_formats)
-        if (extension == format.extension) return format;
-    if (is_standard_stream(file)) throw UsageError("'-' has no extension that tells the format: png, svg or pdf");
-    throw UsageError(
-        fmt::format("{}: pictures are written as .png, .svg or .pdf, not as '{}'", file.string(), extension));
-}
-
 }  // namespace
 
 }  // namespace lamina::plot
@@ -207,20 +159,10 @@ using namespace plot;
 
 void plot_mesh(const Mesh& mesh, const fs::path& file, const PlotOptions& options) {
     validate(options);
-    const PictureFormat& format = picture_format_of(file, options.format);
+    check_picture_format(file, options.format);
     const PictureView view = make_view(mesh, options);
-    check_folder_writable(file);
-    core::write_stream_atomically(file, [&](std::ostream& out) {
-        const CairoSurface surface = format.make(out, view);
-        draw(surface.get(), mesh, view, options.color);
-        cairo_status_t status = CAIRO_STATUS_SUCCESS;
-        if (format.is_image) status = cairo_surface_write_to_png_stream(surface.get(), write_to_stream, &out);
-        cairo_surface_finish(surface.get());
-        if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
-        // A stream that failed tells its own reason.
-        if (status != CAIRO_STATUS_SUCCESS && out)
-            throw IoError(file.string(), fmt::format("cannot draw: {}", cairo_status_to_string(status)));
-    });
+    write_picture(file, options.format, view.width, view.height,
+                  [&](cairo_surface_t* surface) { draw(surface, mesh, view, options.color); });
 }
 
 }  // namespace lamina

@@ -1,0 +1,166 @@
+// lamina flow: the flow round airfoils before there is a mesh.
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/flow.hpp>
+#include <lamina/pipeline.hpp>
+#include <lamina/plot.hpp>
+
+#include "app/case.hpp"
+#include "app/commands.hpp"
+#include "app/options.hpp"
+#include "app/progress.hpp"
+#include "app/run_files.hpp"
+#include "app/standard_output.hpp"
+#include "app/summary.hpp"
+#include "app/table_option.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+struct FlowArguments {
+    std::vector<std::string> inputs;
+    std::string alpha, reynolds, chord;
+    std::string table, picture;
+};
+
+const char* state_name(BoundaryLayerState state) {
+    if (state == BoundaryLayerState::laminar) return "laminar";
+    return state == BoundaryLayerState::turbulent ? "turbulent" : "separated";
+}
+
+std::string flow_table(const Flow& flow) {
+    std::string text = "element,side,x,y,s,speed,cp,momentum,displacement,thickness,shape,skin_friction,state\n";
+    for (const ElementFlow& element : flow.elements)
+        for (const auto& [name, side] : {std::pair("upper", &element.upper), std::pair("lower", &element.lower)})
+            for (const FlowPoint& p : *side)
+                text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", element.name, name, p.at.x, p.at.y, p.s,
+                                    p.speed, p.pressure_coefficient, p.momentum, p.displacement, p.thickness, p.shape,
+                                    p.skin_friction, state_name(p.state));
+    return text;
+}
+
+std::string side_line(const std::string& name, const std::vector<FlowPoint>& side, bool has_layers) {
+    const auto largest = [&](double FlowPoint::*member) {
+        return *std::max_element(side.begin(), side.end(),
+                                 [&](const FlowPoint& a, const FlowPoint& b) { return a.*member < b.*member; });
+    };
+    const FlowPoint fastest = largest(&FlowPoint::speed);
+    std::string text = fmt::format("least pressure coefficient {:.4g} at ({:.4g}, {:.4g})",
+                                   fastest.pressure_coefficient, fastest.at.x, fastest.at.y);
+    if (has_layers) {
+        text += fmt::format(", largest thickness {:.4g}, largest skin friction {:.4g}",
+                            largest(&FlowPoint::thickness).thickness, largest(&FlowPoint::skin_friction).skin_friction);
+        const auto separated = std::find_if(
+            side.begin(), side.end(), [](const FlowPoint& p) { return p.state == BoundaryLayerState::separated; });
+        if (separated != side.end())
+            text += fmt::format(", separated from ({:.4g}, {:.4g}) on", separated->at.x, separated->at.y);
+    }
+    return summary_line(name, text);
+}
+
+std::string flow_summary(const Flow& flow, bool has_layers) {
+    std::string text = fmt::format("flow at {} degrees: lift coefficient {:.4f} based on the chord {:.6g}\n",
+                                   flow.alpha_deg, flow.lift, flow.chord);
+    for (const ElementFlow& element : flow.elements) {
+        text += fmt::format("{}: lift coefficient {:.4f}, stagnation point ({:.5g}, {:.5g})\n", element.name,
+                            element.lift, element.stagnation.x, element.stagnation.y);
+        text += side_line("upper", element.upper, has_layers) + side_line("lower", element.lower, has_layers);
+    }
+    return text;
+}
+
+/// Returns the pressures on each element against x, from the upper trailing edge round the nose to the lower one.
+std::vector<ChartCurve> pressure_curves(const Flow& flow) {
+    std::vector<ChartCurve> curves;
+    for (const ElementFlow& element : flow.elements) {
+        ChartCurve& curve = curves.emplace_back(ChartCurve{element.name, {}});
+        for (auto p = element.upper.rbegin(); p != element.upper.rend(); ++p)
+            curve.points.push_back({p->at.x, p->pressure_coefficient});
+        for (const FlowPoint& p : element.lower) curve.points.push_back({p.at.x, p.pressure_coefficient});
+    }
+    return curves;
+}
+
+/// Returns the pressures to show: all, unless few points at sharp corners, where speed has no limit, hide the rest.
+std::array<double, 2> pressures_shown(const std::vector<ChartCurve>& curves) {
+    constexpr std::size_t share = 25;
+    constexpr double room = 2;
+    std::vector<double> values;
+    for (const ChartCurve& curve : curves)
+        for (const Point p : curve.points) values.push_back(p.y);
+    std::sort(values.begin(), values.end());
+    const double usual = values[values.size() / share];
+    return {std::max(values.front(), std::min(room * usual, -1.0)), 1};
+}
+
+std::vector<RunFile> files_written(const FlowArguments& arguments) {
+    std::vector<RunFile> files;
+    if (!arguments.table.empty()) files.push_back({arguments.table, "option --output"});
+    if (!arguments.picture.empty()) files.push_back({arguments.picture, "option --picture"});
+    return files;
+}
+
+void flow(const FlowArguments& arguments) {
+    FlowConditions conditions;
+    set_by_name(flow_option_table(), "alpha", arguments.alpha, conditions);
+    set_by_name(flow_option_table(), "reynolds", arguments.reynolds, conditions);
+    set_by_name(flow_option_table(), "chord", arguments.chord, conditions);
+    const MeshCase mesh_case = case_of_inputs(arguments.inputs);
+    require_consistent(mesh_case);
+    const std::vector<RunFile> outputs = files_written(arguments);
+    std::vector<RunFile> inputs;
+    for (const std::string& input : mesh_case.inputs) inputs.push_back({input, "INPUT"});
+    require_distinct(inputs, outputs);
+    for (const RunFile& output : outputs) check_folder_writable(output.path);
+    if (!arguments.picture.empty()) check_picture_format(arguments.picture);
+    const SignalGuard guard(outputs);
+
+    const CaseOptions& options = mesh_case.options;
+    const Geometry geometry = prepare_surfaces(read_geometry(mesh_case.inputs, options.geometry), options.surface, {});
+    const Flow flow = solve_flow(geometry, conditions);
+    print_warnings(flow.warnings);
+    if (!arguments.table.empty()) write_file(arguments.table, flow_table(flow));
+    if (!arguments.picture.empty()) {
+        const std::vector<ChartCurve> curves = pressure_curves(flow);
+        plot_chart(curves, arguments.picture,
+                   {.x_label = "x",
+                    .y_label = "pressure coefficient",
+                    .y_downwards = true,
+                    .y_range = pressures_shown(curves)});
+    }
+    print_summary(flow_summary(flow, conditions.reynolds.has_value()), outputs);
+}
+
+}  // namespace
+
+void add_flow_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("flow", "compute the flow round airfoils, without a mesh");
+    auto arguments = std::make_shared<FlowArguments>();
+    command->add_option(
+        "INPUT", arguments->inputs,
+        "airfoil files, naca:DIGITS[:POINTS][:blunt|:extended], - for standard input, or one case file (.toml)");
+    add_table_option(*command, flow_option_table(), "alpha", arguments->alpha);
+    add_table_option(*command, flow_option_table(), "reynolds", arguments->reynolds);
+    add_table_option(*command, flow_option_table(), "chord", arguments->chord);
+    command
+        ->add_option("-o,--output", arguments->table,
+                     "CSV file to write: speed, pressure and boundary layer along each side; - for standard output")
+        ->type_name("FILE");
+    command
+        ->add_option("--picture", arguments->picture,
+                     "picture of the pressure coefficients to write; its extension says the format: .png, .svg or .pdf")
+        ->type_name("FILE");
+    command->callback([arguments] { flow(*arguments); });
+}
+
+}  // namespace lamina::app
