@@ -1,5 +1,6 @@
 #include "core/reproducible_math.hpp"
 
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -72,6 +73,37 @@ double arctangent_kernel(double t) {
     return table[i].high + (u + (u * p + table[i].low));
 }
 
+/// ln 2 in two parts. The first holds 32 bits, so that its multiples below 2^20 are exact.
+constexpr double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;
+
+/// Returns log(1 + f) - f for |f| <= 0.42 by the series of the inverse hyperbolic tangent in t = f / (2 + f):
+/// log(1 + f) = 2 t + t R = f - (f^2 / 2 - t (f^2 / 2 + R)), which adds R to a term that is exactly known.
+/// It adds `low`, too.
+double logarithm_kernel(double f, double low) {
+    constexpr double c1 = 2.0 / 3, c2 = 2.0 / 5, c3 = 2.0 / 7, c4 = 2.0 / 9, c5 = 2.0 / 11, c6 = 2.0 / 13,
+                     c7 = 2.0 / 15, c8 = 2.0 / 17, c9 = 2.0 / 19, c10 = 2.0 / 21;
+    const double t = f / (2.0 + f);
+    const double z = t * t, z2 = z * z, z4 = z2 * z2;  // z <= 0.0295
+    const double p =
+        ((c1 + z * c2) + z2 * (c3 + z * c4)) + z4 * ((c5 + z * c6) + z2 * (c7 + z * c8)) + z4 * z4 * (c9 + z * c10);
+    const double half_square = 0.5 * f * f;
+    return (t * (half_square + z * p) + low) - half_square;
+}
+
+/// Returns e^(x + tail) - 1 by the Taylor polynomial, for |x| <= ln(2) / 2 and a tail below an ulp of x.
+double exponential_kernel(double x, double tail) {
+    constexpr double c3 = 1.0 / 6, c4 = 1.0 / 24, c5 = 1.0 / 120, c6 = 1.0 / 720, c7 = 1.0 / 5040, c8 = 1.0 / 40320,
+                     c9 = 1.0 / 362880, c10 = 1.0 / 3628800, c11 = 1.0 / 39916800, c12 = 1.0 / 479001600,
+                     c13 = 1.0 / 6227020800;
+    const double z = x * x, z2 = z * z, z4 = z2 * z2;
+    const double p = ((c3 + x * c4) + z * (c5 + x * c6)) + z2 * ((c7 + x * c8) + z * (c9 + x * c10)) +
+                     z4 * ((c11 + x * c12) + z * c13);
+    return x + (tail + (0.5 * z + z * x * p));
+}
+
+/// Returns 2^exponent for -1022 <= exponent <= 1023.
+double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
+
 }  // namespace
 
 double sin_reproducible(double angle) {
@@ -112,6 +144,31 @@ double pow_reproducible(double base, double exponent) {
     for (double square = base; whole > 0; whole >>= 1, square *= square)
         if (whole & 1) power *= square;
     return power;
+}
+
+double log_reproducible(double value) {
+    assert(value > 0 && value < HUGE_VAL);
+    constexpr std::uint64_t sqrt_half = 0x3fe6a09e00000000;  // the bits of sqrt(1/2), nearly
+    const bool subnormal = value < 0x1p-1022;
+    const auto bits = std::bit_cast<std::uint64_t>(subnormal ? value * 0x1p54 : value);
+    // value = 2^exponent m with m from sqrt(1/2) to sqrt(2)
+    const auto exponent = static_cast<std::int64_t>(bits - sqrt_half) >> 52;
+    const double f = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(exponent) << 52)) - 1.0;
+    const auto k = static_cast<double>(subnormal ? exponent - 54 : exponent);
+    return k * ln2_high + (logarithm_kernel(f, k * ln2_low) + f);
+}
+
+double exp_reproducible(double exponent) {
+    if (exponent > 710.0) return HUGE_VAL;
+    if (exponent < -746.0) return 0;
+    const double n = std::floor(exponent * (1 / (ln2_high + ln2_low)) + 0.5);
+    const double difference = exponent - n * ln2_high;
+    const double second = n * ln2_low;
+    const double x = difference - second;
+    const double tail = (difference - x) - second;
+    // Two factors reach 2^1024 and the subnormal numbers, which one cannot.
+    const int whole = static_cast<int>(n), half = whole / 2;
+    return ((1.0 + exponential_kernel(x, tail)) * power_of_two(half)) * power_of_two(whole - half);
 }
 
 }  // namespace lamina::core

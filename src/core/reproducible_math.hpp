@@ -30,6 +30,12 @@ LAMINA_EXPORT double atan2_reproducible(double y, double x);
 /// one square root.
 LAMINA_EXPORT double pow_reproducible(double base, double exponent);
 
+/// Returns the natural logarithm of a finite value > 0, subnormal ones included.
+LAMINA_EXPORT double log_reproducible(double value);
+
+/// Returns e^exponent for a finite exponent: 0 below -745.2, infinity above 709.8, as std::exp does.
+LAMINA_EXPORT double exp_reproducible(double exponent);
+
 /// Returns the angle of the vector (x, y) to 2e-15 radians, for x >= 0 and y >= 0 that are not both 0. It is inline and
 /// has no branches, for statistics of many angles. Turned by -pi/8 or -3 pi/8 the vector is within pi/8 of the x axis,
 /// where arctan(u) / u is a polynomial in u^2 (Chebyshev nodes, degree 9, relative error 1e-15).

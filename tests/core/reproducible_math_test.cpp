@@ -85,5 +85,38 @@ TEST(ReproducibleMath, PowersAgreeWithTheLibrary) {
     }
 }
 
+TEST(ReproducibleMath, LogarithmsAgreeWithTheLibrary) {
+    std::mt19937_64 random(5);
+    const auto check = [](double value) {
+        const auto expected = static_cast<double>(std::log(static_cast<long double>(value)));
+        ASSERT_NEAR(core::log_reproducible(value), expected, 2.3e-16 * std::abs(expected)) << value;
+    };
+    for (double range : {1e-14, 1e-7, 1e-3, 0.5, 2.0, 30.0, 700.0}) {
+        std::uniform_real_distribution<double> exponent(-range, range);
+        for (int i = 0; i < 100000; ++i) check(std::exp(exponent(random)));
+    }
+    for (double value : {5e-324, 1e-310, 2.2250738585072014e-308, 0.70710678, 0.7071068, 1.41421356, 1.7e308})
+        check(value);
+    EXPECT_EQ(core::log_reproducible(1.0), 0.0);
+}
+
+TEST(ReproducibleMath, ExponentialsAgreeWithTheLibrary) {
+    std::mt19937_64 random(6);
+    for (double range : {1e-14, 1e-3, 0.34, 1.0, 30.0, 708.0}) {
+        std::uniform_real_distribution<double> exponent(-range, range);
+        for (int i = 0; i < 100000; ++i) {
+            const double x = exponent(random);
+            const auto expected = static_cast<double>(std::exp(static_cast<long double>(x)));
+            ASSERT_NEAR(core::exp_reproducible(x), expected, 2.3e-16 * expected) << x;
+        }
+    }
+    EXPECT_EQ(core::exp_reproducible(0.0), 1.0);
+    EXPECT_EQ(core::exp_reproducible(-1000.0), 0.0);
+    EXPECT_EQ(core::exp_reproducible(1000.0), HUGE_VAL);
+    EXPECT_EQ(core::exp_reproducible(709.9), HUGE_VAL);
+    EXPECT_NEAR(core::exp_reproducible(-740.0), std::exp(-740.0), 1e-323);
+    EXPECT_NEAR(core::exp_reproducible(709.78) / std::exp(709.78), 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace lamina
