@@ -99,7 +99,8 @@ struct Flow {
 /// Precondition: check_simple(). Throws OptionError for conditions out of range.
 /// Source: J. Katz, A. Plotkin, Low-Speed Aerodynamics, 2nd ed. (2001), chapter 11; M. Drela, XFOIL: an analysis and
 /// design system for low Reynolds number airfoils, in Low Reynolds Number Aerodynamics (1989), for the stream function,
-/// the extrapolation at sharp trailing edges and the panel on the base.
+/// the extrapolation at sharp trailing edges and the panel on the base; boundary layers: B. Thwaites, Aeronaut. Q. 1
+/// (1949), while laminar; M. R. Head, ARC R&M 3152 (1958), when turbulent, which they are as soon as they can be.
 LAMINA_EXPORT Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions = {});
 
 /// Faster flow, as a multiple of the free stream's speed, is taken for a failure of the panel method.
@@ -120,7 +121,7 @@ struct StreamlineOptions {
 };
 
 /// Returns the points of the streamline that begins at a point, in the direction of the flow, over this length in units
-/// of the input. It ends early at a stagnation point and where it would enter a body. One that begins at the trailing
+/// of the input. It ends early near a stagnation point, where the speed is a thousandth of the free stream's, and where it would enter a body. One that begins at the trailing
 /// edge of an element, or at the middle of its base, leaves along the bisector of the sides. Precondition: `from` lies
 /// outside of the bodies or is a trailing edge. Source: J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980).
 LAMINA_EXPORT std::vector<Point> streamline(const Flow& flow, Point from, double length,

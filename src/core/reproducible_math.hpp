@@ -5,9 +5,6 @@
 // in the last place (tests/core/reproducible_math_test.cpp).
 #pragma once
 
-#include <bit>
-#include <cstdint>
-
 #include <lamina/export.hpp>
 
 namespace lamina::core {
@@ -53,22 +50,6 @@ inline double first_quadrant_angle(double y, double x) {
     const double p89 = 0x1.9ba0e636ba92ep-5 - 0x1.9ec902f46e221p-6 * z;
     const double p = (p01 + z2 * p23) + z4 * ((p45 + z2 * p67) + z4 * p89);
     return (steep ? 0.375 * pi : 0.125 * pi) + u * p;
-}
-
-/// Returns the natural logarithm of a normal number x > 0 to 2e-15, absolutely or relatively. It is inline and has no
-/// branches, for sums over many points. With x = 2^e m and m within a factor of sqrt 2 of 1, ln m = 2 artanh(s) where
-/// s = (m - 1) / (m + 1); the series of artanh is cut where its terms fall below 3e-17 of the first one.
-inline double log_normal(double x) {
-    // Adding the distance from sqrt(1/2) to 1 in bits makes the exponent step at sqrt(1/2) instead of at 1.
-    constexpr std::uint64_t one = 0x3ff0000000000000, root_half = 0x3fe6a09e667f3bcd;
-    const std::uint64_t shifted = std::bit_cast<std::uint64_t>(x) + (one - root_half);
-    const double exponent = static_cast<double>(static_cast<int>(shifted >> 52) - 1023);
-    const double m = std::bit_cast<double>((shifted & 0x000fffffffffffff) + root_half);
-    const double s = (m - 1) / (m + 1), z = s * s, z2 = z * z, z4 = z2 * z2;
-    const double p01 = 1.0 / 3 + (1.0 / 5) * z, p23 = 1.0 / 7 + (1.0 / 9) * z;
-    const double p45 = 1.0 / 11 + (1.0 / 13) * z, p67 = 1.0 / 15 + (1.0 / 17) * z;
-    const double p = (p01 + z2 * p23) + z4 * ((p45 + z2 * p67) + z4 * (1.0 / 19));
-    return exponent * 0x1.62e42fefa39efp-1 + (2 * s + 2 * s * z * p);
 }
 
 }  // namespace lamina::core

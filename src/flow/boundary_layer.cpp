@@ -164,7 +164,7 @@ struct Closure {
 
 /// A laminar, turbulent or separated layer at one place.
 struct Layer {
-    LayerState state = LayerState::laminar;
+    BoundaryLayerState state = BoundaryLayerState::laminar;
     double squared_momentum = 0;  ///< laminar: momentum thickness^2
     double momentum = 0;          ///< turbulent: momentum thickness
     double flux = 0;              ///< turbulent: edge speed x (thickness - displacement thickness), the flux inside
@@ -197,7 +197,7 @@ Closure close_turbulent(double momentum, double flux, double speed, double visco
 
 /// Starts a turbulent layer of the given thickness and shape.
 void start_turbulent(Layer& layer, double momentum, double shape, double speed, double viscosity) {
-    layer.state = LayerState::turbulent;
+    layer.state = BoundaryLayerState::turbulent;
     layer.momentum = momentum;
     layer.flux = speed * momentum * entrainment_shape(shape);
     layer.closure = close_turbulent(momentum, layer.flux, speed, viscosity);
@@ -236,12 +236,12 @@ void separate(Layer& layer, double momentum, double shape, const Interval& inter
     const double change = shape - layer.closure.shape;
     const double part = change > 0 ? std::max(separation_shape - layer.closure.shape, 0.0) / change : 0.0;
     const double at = layer.momentum + part * (momentum - layer.momentum), h1 = entrainment_shape(separation_shape);
-    layer.separation = {at, separation_shape * at, (h1 + separation_shape) * at, separation_shape,
-                        0,  LayerState::separated};
+    layer.separation = {at, separation_shape * at,        (h1 + separation_shape) * at, separation_shape,
+                        0,  BoundaryLayerState::separated};
     const double place = begin + part * (end - begin);
     layer.separated_at = interval.s + place * interval.length;
     layer.separation_speed = interval.speed(place);
-    layer.state = LayerState::separated;
+    layer.state = BoundaryLayerState::separated;
 }
 
 /// Leads a turbulent layer through the rest of the interval, from t on, or up to where it separates, by von Karman's
@@ -319,20 +319,21 @@ LayerPoint laminar_point(double squared_momentum, double speed, double gradient,
     const double lambda = clamp_parameter(squared_momentum * gradient / viscosity);
     const double momentum = std::sqrt(squared_momentum), shape = laminar_shape(lambda);
     const double friction = momentum > 0 ? 2 * viscosity * speed * laminar_shear(lambda) / momentum : 0.0;
-    return {momentum, shape * momentum, laminar_thickness(lambda) * momentum, shape, friction, LayerState::laminar};
+    return {momentum, shape * momentum, laminar_thickness(lambda) * momentum,
+            shape,    friction,         BoundaryLayerState::laminar};
 }
 
 /// Returns the layer at the end of an interval.
 LayerPoint point_at_end(const Layer& layer, const Interval& interval, double viscosity) {
     const double speed = interval.speed1;
-    if (layer.state == LayerState::laminar)
+    if (layer.state == BoundaryLayerState::laminar)
         return laminar_point(layer.squared_momentum, speed, interval.gradient1, viscosity);
-    if (layer.state == LayerState::turbulent) {
+    if (layer.state == BoundaryLayerState::turbulent) {
         const Closure& c = layer.closure;
         // A layer too thin for turbulence, behind an early laminar separation, rubs no less than the laminar plate.
         const double friction = std::max(c.friction, 0.441 * viscosity / (speed * layer.momentum));
         return {layer.momentum, c.shape * layer.momentum, (c.entrainment_shape + c.shape) * layer.momentum,
-                c.shape,        friction * speed * speed, LayerState::turbulent};
+                c.shape,        friction * speed * speed, BoundaryLayerState::turbulent};
     }
     return separated_point(layer, interval.s + interval.length);
 }
@@ -361,9 +362,9 @@ std::vector<LayerPoint> boundary_layer(std::span<const EdgePoint> points, const 
             continue;
         }
         double t = 0;
-        if (layer.state == LayerState::laminar) t = march_laminar(layer, interval, options);
-        if (layer.state == LayerState::separated) t = march_separated(layer, interval, options.viscosity);
-        if (layer.state == LayerState::turbulent) march_turbulent(layer, interval, t, options.viscosity);
+        if (layer.state == BoundaryLayerState::laminar) t = march_laminar(layer, interval, options);
+        if (layer.state == BoundaryLayerState::separated) t = march_separated(layer, interval, options.viscosity);
+        if (layer.state == BoundaryLayerState::turbulent) march_turbulent(layer, interval, t, options.viscosity);
         result.push_back(point_at_end(layer, interval, options.viscosity));
     }
     if (points[0].speed > least_speed && points.size() > 1 && points[1].s > points[0].s) {
@@ -376,13 +377,13 @@ std::vector<LayerPoint> boundary_layer(std::span<const EdgePoint> points, const 
 
 LayerPoint flat_plate(double s, double viscosity, bool turbulent) {
     assert(s >= 0 && viscosity > 0);
-    if (!(s > 0)) return {0, 0, 0, 2.591, 0, LayerState::laminar};
+    if (!(s > 0)) return {0, 0, 0, 2.591, 0, BoundaryLayerState::laminar};
     const double reynolds = s / viscosity, root = std::sqrt(reynolds);
     if (!turbulent || 0.664 * root < sustaining_reynolds)
-        return {0.664 * s / root, 1.7208 * s / root, 4.91 * s / root, 2.591, 0.664 / root, LayerState::laminar};
+        return {0.664 * s / root, 1.7208 * s / root, 4.91 * s / root, 2.591, 0.664 / root, BoundaryLayerState::laminar};
     const double seventh = power(reynolds, 1.0 / 7);
     const double thickness = 0.16 * s / seventh;
-    return {7.0 / 72 * thickness, thickness / 8, thickness, 9.0 / 7, 0.027 / seventh, LayerState::turbulent};
+    return {7.0 / 72 * thickness, thickness / 8, thickness, 9.0 / 7, 0.027 / seventh, BoundaryLayerState::turbulent};
 }
 
 double wake_thickness(double thickness_upper, double thickness_lower, double momentum_total, double distance) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lamina/export.hpp>
+#include <lamina/flow.hpp>
 
 namespace lamina::flow {
 
@@ -17,16 +18,14 @@ struct EdgePoint {
     double speed;  ///< speed at the edge over that of the free stream, >= 0
 };
 
-enum class LayerState { laminar, turbulent, separated };
-
 /// The boundary layer at one point. Lengths have the unit of EdgePoint::s.
 struct LayerPoint {
-    double momentum = 0;                     ///< momentum thickness
-    double displacement = 0;                 ///< displacement thickness
-    double thickness = 0;                    ///< distance from the wall at which 0.99 of the edge speed is reached
-    double shape = 0;                        ///< shape factor: displacement thickness over momentum thickness
-    double skin_friction = 0;                ///< shear stress at the wall over the dynamic pressure of the free stream
-    LayerState state = LayerState::laminar;  ///< as it is at the point
+    double momentum = 0;       ///< momentum thickness
+    double displacement = 0;   ///< displacement thickness
+    double thickness = 0;      ///< distance from the wall at which 0.99 of the edge speed is reached
+    double shape = 0;          ///< shape factor: displacement thickness over momentum thickness
+    double skin_friction = 0;  ///< shear stress at the wall over the dynamic pressure of the free stream
+    BoundaryLayerState state = BoundaryLayerState::laminar;  ///< as it is at the point
 };
 
 struct BoundaryLayerOptions {

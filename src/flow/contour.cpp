@@ -89,9 +89,16 @@ RearEnd find_rear_end(std::span<const Point> points, const OutlineFeatures& feat
         has_corner = has_corner || turning(i) > min_base_corner_deg;
     }
     if (has_corner && width < max_base * extent) return end;
-    std::size_t middle = end.first;
-    for (double s = 0; s < 0.5 * width; middle = (middle + 1) % n)
-        s += distance(points[middle], points[(middle + 1) % n]);
+    // The vertex nearest to the middle of the stretch.
+    std::size_t middle = end.first, at = end.first;
+    double nearest = HUGE_VAL;
+    for (double s = 0; at != end.last; at = (at + 1) % n) {
+        if (std::abs(s - 0.5 * width) < nearest * (1 - 1e-9)) {
+            nearest = std::abs(s - 0.5 * width);
+            middle = at;
+        }
+        s += distance(points[at], points[(at + 1) % n]);
+    }
     return {middle, middle, true};
 }
 

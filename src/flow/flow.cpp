@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/text.hpp"
+#include "flow/boundary_layer.hpp"
 #include "flow/contour.hpp"
 #include "flow/panel_system.hpp"
 #include "flow/sides.hpp"
@@ -88,6 +89,20 @@ void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& ge
                                           "; the flow along all walls is taken for that along flat plates")});
 }
 
+void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity) {
+    std::vector<EdgePoint> edge;
+    for (const FlowPoint& p : side) edge.push_back({p.s, p.speed});
+    const std::vector<LayerPoint> layer = boundary_layer(edge, {.viscosity = viscosity});
+    for (std::size_t i = 0; i < side.size(); ++i) {
+        side[i].momentum = layer[i].momentum;
+        side[i].displacement = layer[i].displacement;
+        side[i].thickness = layer[i].thickness;
+        side[i].shape = layer[i].shape;
+        side[i].skin_friction = layer[i].skin_friction;
+        side[i].state = layer[i].state;
+    }
+}
+
 }  // namespace
 
 }  // namespace lamina::flow
@@ -110,7 +125,13 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
     double total = 0;
     for (const PanelSheet& sheet : flow.sheets) total += circulation(sheet);
     flow.lift = -2 * total / flow.chord;
-    for (std::size_t e = 0; e < flow.elements.size(); ++e) flow.elements[e].name = geometry.elements[e].name;
+    for (std::size_t e = 0; e < flow.elements.size(); ++e) {
+        ElementFlow& element = flow.elements[e];
+        element.name = geometry.elements[e].name;
+        if (!conditions.reynolds) continue;
+        add_boundary_layer(element.upper, flow.chord / *conditions.reynolds);
+        add_boundary_layer(element.lower, flow.chord / *conditions.reynolds);
+    }
     return flow;
 }
 

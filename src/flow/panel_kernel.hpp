@@ -24,7 +24,7 @@ struct SeenNode {
 inline SeenNode see(Point node, Point from) {
     const Point to = node - from;
     const double r2 = std::max(squared_length(to), 1e-300);
-    return {to, r2, core::log_normal(r2)};
+    return {to, r2, core::log_reproducible(r2)};
 }
 
 /// A panel as seen from a point, in its own coordinates: xi along the panel from its first node, eta to its left.

@@ -52,7 +52,7 @@ struct Step {
 
 /// Returns the step of this length, or nothing where the fluid is at rest on the way.
 std::optional<Step> try_step(const Flow& flow, Point from, double h) {
-    constexpr double nearly_at_rest = 1e-8;
+    constexpr double nearly_at_rest = 1e-3;
     constexpr double a[6][6] = {{1.0 / 5},
                                 {3.0 / 40, 9.0 / 40},
                                 {44.0 / 45, -56.0 / 15, 32.0 / 9},

@@ -21,7 +21,6 @@ namespace {
 
 using flow::EdgePoint;
 using flow::LayerPoint;
-using flow::LayerState;
 
 constexpr double never = 1e30;  // a transition beyond every point
 
@@ -90,7 +89,7 @@ TEST(BoundaryLayer, LaminarPlateIsThatOfBlasius) {
     const auto points = plate_speeds(1, 40);
     for (std::size_t i = 1; i < layer.size(); ++i) {
         const LayerPoint exact = flow::flat_plate(points[i].s, viscosity, false);
-        EXPECT_EQ(layer[i].state, LayerState::laminar);
+        EXPECT_EQ(layer[i].state, BoundaryLayerState::laminar);
         EXPECT_NEAR(layer[i].momentum, std::sqrt(0.45 * viscosity * points[i].s), 1e-12);  // Thwaites, exactly
         EXPECT_NEAR(layer[i].momentum / exact.momentum, 1, 0.011);
         EXPECT_NEAR(layer[i].displacement / exact.displacement, 1, 0.02);
@@ -146,7 +145,7 @@ TEST(BoundaryLayer, LinearlyRetardedFlowSeparatesWhereThwaitesSays) {
         const auto points = sample_speeds([](double s) { return 1 - s; }, 0.2, intervals);
         const auto layer = flow::boundary_layer(points, {1e-6, never});
         std::size_t i = 0;
-        while (layer[i].state == LayerState::laminar) ++i;
+        while (layer[i].state == BoundaryLayerState::laminar) ++i;
         EXPECT_GT(points[i].s, 0.1225) << intervals;
         EXPECT_LT(points[i - 1].s, 0.1237) << intervals;
     }
@@ -169,7 +168,7 @@ TEST(BoundaryLayer, TurbulentPlateFollowsTheCorrelations) {
     for (double reynolds : {1e6, 1e7, 1e8, 1e9}) {
         const auto layer = flow::boundary_layer(plate_speeds(1, 200), {1 / reynolds, {}});
         const LayerPoint& end = layer.back();
-        EXPECT_EQ(end.state, LayerState::turbulent);
+        EXPECT_EQ(end.state, BoundaryLayerState::turbulent);
         EXPECT_NEAR(end.skin_friction / white_friction(reynolds), 0.95, 0.05) << reynolds;
         EXPECT_NEAR(end.skin_friction / coles_fernholz_friction(end.momentum * reynolds), 1, 0.03) << reynolds;
         const double drag = 0.455 / std::pow(std::log10(reynolds), 2.58);  // Prandtl, Schlichting
@@ -192,7 +191,7 @@ TEST(BoundaryLayer, LayerIsTurbulentAsSoonAsItCanBeOrWhereItIsTripped) {
     const auto first_turbulent = [&](std::optional<double> transition) {
         const auto layer = flow::boundary_layer(points, {viscosity, transition});
         std::size_t i = 0;
-        while (i < layer.size() && layer[i].state == LayerState::laminar) ++i;
+        while (i < layer.size() && layer[i].state == BoundaryLayerState::laminar) ++i;
         return i < layer.size() ? points[i].s : 2.0;
     };
     const double sustained = viscosity * flow::sustaining_reynolds * flow::sustaining_reynolds / 0.45;
@@ -215,7 +214,7 @@ TEST(BoundaryLayer, LayerIsTurbulentAsSoonAsItCanBeOrWhereItIsTripped) {
 /// The first point at which the layer is separated, or the number of points.
 std::size_t first_separated(const std::vector<LayerPoint>& layer) {
     std::size_t i = 0;
-    while (i < layer.size() && layer[i].state != LayerState::separated) ++i;
+    while (i < layer.size() && layer[i].state != BoundaryLayerState::separated) ++i;
     return i;
 }
 
@@ -230,7 +229,7 @@ TEST(BoundaryLayer, OnlyEnoughRetardationSeparatesATurbulentLayer) {
     EXPECT_GT(retarded[i].s, 0.40);
     EXPECT_LT(retarded[i].s, 0.52);
     for (std::size_t k = i; k < layer.size(); ++k) {
-        EXPECT_EQ(layer[k].state, LayerState::separated);
+        EXPECT_EQ(layer[k].state, BoundaryLayerState::separated);
         EXPECT_EQ(layer[k].skin_friction, 0);
         EXPECT_EQ(layer[k].momentum, layer[i].momentum);
         const double way = retarded[k].s - retarded[i].s;
@@ -262,7 +261,8 @@ TEST(BoundaryLayer, LayerReattachesWhereThePressureFallsBelowThatOfSeparation) {
     const auto layer = flow::boundary_layer(points, {1e-7, {}});
     double separated_at = 0, speed_of_separation = 0, reattached_at = 0, thickest = 0;
     for (std::size_t i = 1; i < layer.size(); ++i) {
-        const bool before = layer[i - 1].state == LayerState::separated, now = layer[i].state == LayerState::separated;
+        const bool before = layer[i - 1].state == BoundaryLayerState::separated,
+                   now = layer[i].state == BoundaryLayerState::separated;
         if (now && !before) separated_at = points[i].s, speed_of_separation = points[i - 1].speed;
         if (before && !now) reattached_at = points[i].s, thickest = layer[i - 1].thickness;
     }
@@ -272,7 +272,7 @@ TEST(BoundaryLayer, LayerReattachesWhereThePressureFallsBelowThatOfSeparation) {
     EXPECT_GT(thickest, 0.11 * (reattached_at - separated_at) - 1e-3);
     EXPECT_LT(layer.back().thickness, thickest);  // by acceleration
     EXPECT_GT(layer.back().skin_friction, layer[300].skin_friction / 2);
-    EXPECT_EQ(layer.back().state, LayerState::turbulent);
+    EXPECT_EQ(layer.back().state, BoundaryLayerState::turbulent);
 }
 
 /// The speeds along the upper or lower side of a symmetric Joukowski section of chord 1 and some 12 % thickness, from
@@ -316,7 +316,7 @@ TEST(BoundaryLayer, ADentNearTheNoseDoesNotLast) {
         auto dented = points;
         dented[dent].speed *= 0.4;
         const auto layer = flow::boundary_layer(dented, {1 / 6e6, {}});
-        EXPECT_EQ(layer.back().state, LayerState::turbulent);
+        EXPECT_EQ(layer.back().state, BoundaryLayerState::turbulent);
         EXPECT_NEAR(layer.back().thickness / smooth.back().thickness, 1, 0.15) << dent;
         double most = 0, most_smooth = 0;
         for (const LayerPoint& p : layer) most = std::max(most, p.skin_friction);
@@ -406,7 +406,7 @@ TEST(BoundaryLayer, LengthsScaleByPowersOfTwoExactly) {
 }
 
 void expect_sound(const std::vector<LayerPoint>& layer, const std::string& what) {
-    LayerState state = LayerState::laminar;
+    BoundaryLayerState state = BoundaryLayerState::laminar;
     for (std::size_t i = 0; i < layer.size(); ++i) {
         const LayerPoint& p = layer[i];
         for (double number : {p.momentum, p.displacement, p.thickness, p.shape, p.skin_friction}) {
@@ -415,8 +415,8 @@ void expect_sound(const std::vector<LayerPoint>& layer, const std::string& what)
         }
         ASSERT_GE(p.thickness, p.displacement) << what << " at " << i;
         ASSERT_GE(p.displacement, p.momentum) << what << " at " << i;
-        if (state != LayerState::laminar) {
-            ASSERT_NE(p.state, LayerState::laminar) << what << " at " << i;
+        if (state != BoundaryLayerState::laminar) {
+            ASSERT_NE(p.state, BoundaryLayerState::laminar) << what << " at " << i;
         }
         state = p.state;
     }
@@ -479,8 +479,8 @@ TEST(FlatPlate, LawsAreThoseOfTheBooks) {
     EXPECT_NEAR(turbulent.skin_friction, 0.0027, 1e-12);
     EXPECT_NEAR(turbulent.thickness, 0.032, 1e-12);
     EXPECT_NEAR(turbulent.displacement / turbulent.momentum, turbulent.shape, 1e-12);
-    EXPECT_EQ(turbulent.state, LayerState::turbulent);
-    EXPECT_EQ(flow::flat_plate(1e-3, 1e-5, true).state, LayerState::laminar);  // too short for turbulence
+    EXPECT_EQ(turbulent.state, BoundaryLayerState::turbulent);
+    EXPECT_EQ(flow::flat_plate(1e-3, 1e-5, true).state, BoundaryLayerState::laminar);  // too short for turbulence
     EXPECT_EQ(flow::flat_plate(0, 1e-5, true).thickness, 0);
     EXPECT_EQ(flow::flat_plate(0, 1e-5, true).skin_friction, 0);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <lamina/plot.hpp>
 
@@ -59,6 +60,28 @@ TEST(Plot, KeepsTheAspectOfTheWindow) {
     EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{0, NAN, 0, 1}}}), UsageError);
     EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.width_px = 0}), UsageError);
     EXPECT_NO_THROW(plot_mesh(Mesh{}, folder / "empty.png", {.width_px = 20}));
+}
+
+TEST(Chart, WritesEveryFormat) {
+    const TemporaryFolder folder;
+    const std::vector<ChartCurve> curves{{"one", {{0, 1}, {0.5, -3}, {1, 0.25}}}, {"two", {{0.2, 0}, {0.9, -50}}}};
+    plot_chart(curves, folder / "c.png", {.x_label = "x", .y_label = "y", .width_px = 300});
+    EXPECT_EQ(png_size(folder.read("c.png")), std::pair(300u, 200u));
+    plot_chart(curves, folder / "d.png", {.y_downwards = true, .y_range = {{-4, 1}}, .width_px = 300});
+    EXPECT_NE(folder.read("c.png"), folder.read("d.png"));
+    plot_chart(curves, folder / "c.svg");
+    EXPECT_EQ(folder.read("c.svg").substr(0, 5), "<?xml");
+    plot_chart(curves, folder / "c.any", {.format = "pdf"});
+    EXPECT_EQ(folder.read("c.any").substr(0, 5), "%PDF-");
+    EXPECT_THROW(plot_chart(curves, folder / "c.gif"), UsageError);
+}
+
+TEST(Chart, OnePointAndLevelCurvesHaveAxes) {
+    const TemporaryFolder folder;
+    for (const double value : {0.0, 1.0, -3e-12, 1e9}) {
+        const std::vector<ChartCurve> curves{{"level", {{0, value}, {1, value}}}, {"point", {{0.5, value}}}};
+        EXPECT_NO_THROW(plot_chart(curves, folder / "c.png", {.width_px = 100}));
+    }
 }
 
 TEST(Plot, RefusesFilesItCannotWrite) {

@@ -1,0 +1,66 @@
+// lamina flow: its table, its picture, its summary.
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/program.hpp"
+#include "support/geometry_fixtures.hpp"
+
+namespace lamina::test {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+TEST(FlowCommand, PrintsAndWritesTheFlow) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(
+        folder, {"flow", "naca:0012", "--alpha", "10", "--reynolds", "3e6", "-o", "a.csv", "--picture", "a.png"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_NE(run.out.find("flow at 10 degrees: lift coefficient 1.201"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("upper "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("largest skin friction"), std::string::npos) << run.out;
+    const std::vector<std::string> rows = lines_of(folder.read("a.csv"));
+    ASSERT_GT(rows.size(), 100u);
+    EXPECT_EQ(rows[0], "element,side,x,y,s,speed,cp,momentum,displacement,thickness,shape,skin_friction,state");
+    EXPECT_TRUE(rows[1].starts_with("airfoil,upper,0.0267")) << rows[1];
+    EXPECT_TRUE(rows.back().starts_with("airfoil,lower,1,0,")) << rows.back();
+    EXPECT_EQ(folder.read("a.png").substr(1, 3), "PNG");
+    // Without a Reynolds number there are no boundary layers to report.
+    const ProgramRun inviscid = run_lamina(folder, {"flow", "naca:0012", "-o", "-"});
+    ASSERT_EQ(inviscid.exit_code, 0) << inviscid.err;
+    EXPECT_TRUE(inviscid.out.starts_with("element,side,"));
+    EXPECT_NE(inviscid.err.find("lift coefficient"), std::string::npos);
+    EXPECT_EQ(inviscid.err.find("friction"), std::string::npos);
+}
+
+TEST(FlowCommand, TakesCaseFilesAndSeveralElements) {
+    const TemporaryFolder folder;
+    folder.write("two.dat", fixtures::two_999);
+    folder.write("case.toml", "input = [\"two.dat\"]\nnames = [\"main\", \"flap\"]\n");
+    const ProgramRun run = run_lamina(folder, {"flow", "case.toml", "--picture", "a.svg"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_NE(run.out.find("main: lift coefficient"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("flap: lift coefficient"), std::string::npos) << run.out;
+    EXPECT_EQ(folder.read("a.svg").substr(0, 5), "<?xml");
+}
+
+TEST(FlowCommand, RefusesBeforeItWrites) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"flow"}, usage, "no INPUT");
+    expect_refused(folder, {"flow", "naca:0012", "--alpha", "100"}, usage, "--alpha");
+    expect_refused(folder, {"flow", "naca:0012", "--reynolds", "-1"}, usage, "--reynolds");
+    expect_refused(folder, {"flow", "naca:0012", "--picture", "a.bmp", "-o", "a.csv"}, usage, ".bmp");
+    expect_refused(folder, {"flow", "naca:0012", "--picture", "a.png", "-o", "a.png"}, usage, "a.png");
+    expect_refused(folder, {"flow", "missing.dat", "-o", "a.csv"}, io_failed, "missing.dat");
+}
+
+}  // namespace
+}  // namespace lamina::test
