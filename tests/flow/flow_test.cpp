@@ -193,6 +193,37 @@ TEST(Flow, AnyBodyIsSolvedOrEstimated) {
     }
 }
 
+TEST(Flow, SidesCarryTheirBoundaryLayers) {
+    const double reynolds = 3e6;
+    const Geometry given = three_elements();
+    const Flow without = solve_flow(given, {.alpha_deg = 4});
+    const Flow flow = solve_flow(given, {.alpha_deg = 4, .reynolds = reynolds});
+    EXPECT_EQ(flow.lift, without.lift);
+    for (const FlowPoint& p : without.elements[1].upper) EXPECT_EQ(p.thickness, 0);
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (const FlowPoint& p : *side) {
+                EXPECT_GT(p.momentum, 0);
+                EXPECT_GT(p.displacement, p.momentum);
+                EXPECT_GT(p.thickness, p.displacement);
+                EXPECT_LT(p.thickness, 0.5 * flow.chord);
+                EXPECT_GE(p.skin_friction, 0);
+            }
+    // Where the flow hardly accelerates the layer of a thin section is that of a plate, whose momentum thickness is
+    // between a laminar and a turbulent one.
+    const Flow thin = solve_flow(geometry({naca_airfoil("0003", 100).points}), {.alpha_deg = 0, .reynolds = reynolds});
+    const FlowPoint& end = thin.elements[0].upper.back();
+    EXPECT_NEAR(end.momentum, 0.037 / std::pow(reynolds, 0.2), 0.25 * end.momentum);
+    EXPECT_EQ(end.state, BoundaryLayerState::turbulent);
+    EXPECT_EQ(thin.elements[0].upper[1].state, BoundaryLayerState::laminar);
+    // Lengths scale with the units, numbers do not.
+    const Flow scaled = solve_flow(moved(given, 0.25, {}), {.alpha_deg = 4, .reynolds = reynolds});
+    for (std::size_t i = 0; i < flow.elements[1].upper.size(); ++i) {
+        EXPECT_EQ(scaled.elements[1].upper[i].thickness, 0.25 * flow.elements[1].upper[i].thickness);
+        EXPECT_EQ(scaled.elements[1].upper[i].skin_friction, flow.elements[1].upper[i].skin_friction);
+    }
+}
+
 TEST(Flow, ConditionsOutOfRangeAreRefused) {
     const Geometry given = geometry({naca_airfoil("0012", 60).points});
     EXPECT_THROW(solve_flow(given, {.alpha_deg = 91}), OptionError);
