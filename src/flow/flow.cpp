@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/text.hpp"
+#include <fmt/format.h>
+
 #include "flow/boundary_layer.hpp"
 #include "flow/contour.hpp"
 #include "flow/panel_system.hpp"
@@ -40,9 +41,8 @@ std::optional<Defect> find_wild_speed(std::span<const PanelSheet> sheets) {
             at = i;
         }
         if (fastest > max_flow_speed)
-            return Defect{
-                e, sheet.nodes[at], fastest,
-                core::concat("the panel method gives ", std::round(fastest), " times the free stream's speed")};
+            return Defect{e, sheet.nodes[at], fastest,
+                          fmt::format("the panel method gives {:.0f} times the free stream's speed", fastest)};
     }
     return std::nullopt;
 }
@@ -84,9 +84,10 @@ void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& ge
     flow.elements.clear();
     for (const Contour& contour : contours) flow.elements.push_back(make_flat_plates(contour.nodes));
     const std::string& name = geometry.elements[defect.element].name;
-    flow.warnings.push_back({WarningCode::flow_estimated, name, defect.at, defect.number, "",
-                             core::concat(defect.text, " at (", defect.at.x, ", ", defect.at.y, ") of ", name,
-                                          "; the flow along all walls is taken for that along flat plates")});
+    flow.warnings.push_back(
+        {WarningCode::flow_estimated, name, defect.at, defect.number, "",
+         fmt::format("{} at ({:.6g}, {:.6g}) of {}; the flow along all walls is taken for that along flat plates",
+                     defect.text, defect.at.x, defect.at.y, name)});
 }
 
 void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity) {
