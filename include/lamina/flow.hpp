@@ -1,5 +1,5 @@
-// The flow round the bodies before there is a mesh: incompressible potential flow by a panel method, and boundary layers
-// along the walls. Free functions that can be called by themselves (`lamina flow`, docs/guide.md).
+// The flow round the bodies before there is a mesh: incompressible potential flow by a panel method, and boundary
+// layers along the walls. Free functions that can be called by themselves (`lamina flow`, docs/guide.md).
 #pragma once
 
 #include <optional>
@@ -90,11 +90,11 @@ struct Flow {
 /// bit for bit. Does not depend on the number of threads.
 ///
 /// Each element carries a vortex sheet of linear strength on some 200 straight panels. The stream function is constant
-/// along each body, and the flow leaves each trailing edge smoothly (Kutta). Bases of blunt trailing edges get a panel of
-/// sources and vortices that sends the flow off along the bisector of the sides; a trailing edge without a corner gets
-/// a stagnation point. Flow that separates from the wall is not modelled: pressures in coves and behind thick bases are
-/// those of attached flow. Where the solution is not finite, faster than max_flow_speed, or where it does not follow
-/// the walls, a flat-plate estimate takes its place, and Flow::warnings says so.
+/// along each body, and the flow leaves each trailing edge smoothly (Kutta). Bases of blunt trailing edges get a panel
+/// of sources and vortices that sends the flow off along the bisector of the sides; a trailing edge without a corner
+/// gets a stagnation point. Flow that separates from the wall is not modelled: pressures in coves and behind thick
+/// bases are those of attached flow. Where the solution is not finite, faster than max_flow_speed, or where it does not
+/// follow the walls, a flat-plate estimate takes its place, and Flow::warnings says so.
 ///
 /// Precondition: check_simple(). Throws OptionError for conditions out of range.
 /// Source: J. Katz, A. Plotkin, Low-Speed Aerodynamics, 2nd ed. (2001), chapter 11; M. Drela, XFOIL: an analysis and
@@ -110,8 +110,8 @@ inline constexpr double max_flow_speed = 100;
 /// free stream's speed.
 inline constexpr double max_flow_leak = 0.02;
 
-/// Returns the velocity at a point outside of the bodies as a multiple of the free stream's speed. It is rounded off
-/// at the ends of panels nearer than their length; on a wall, ElementFlow has better values.
+/// Returns the velocity at a point outside of the bodies as a multiple of the free stream's speed. Nearer to a wall than
+/// its panels are long one sees that they are straight: along the wall itself, ElementFlow has better values.
 LAMINA_EXPORT Point flow_velocity(const Flow& flow, Point p);
 
 /// Options of streamline(). Lengths are multiples of Flow::chord.
@@ -121,9 +121,10 @@ struct StreamlineOptions {
 };
 
 /// Returns the points of the streamline that begins at a point, in the direction of the flow, over this length in units
-/// of the input. It ends early near a stagnation point, where the speed is a thousandth of the free stream's, and where it would enter a body. One that begins at the trailing
-/// edge of an element, or at the middle of its base, leaves along the bisector of the sides. Precondition: `from` lies
-/// outside of the bodies or is a trailing edge. Source: J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980).
+/// of the input. It ends early near a stagnation point, where the speed is a thousandth of the free stream's, and where
+/// it would enter a body. One that begins at the trailing edge of an element, or at the middle of its base, leaves along
+/// the bisector of the sides. Precondition: `from` lies outside of the bodies or is a trailing edge. Source: J. R.
+/// Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980).
 LAMINA_EXPORT std::vector<Point> streamline(const Flow& flow, Point from, double length,
                                             const StreamlineOptions& options = {});
 

@@ -1,6 +1,7 @@
 // lamina flow: the flow round airfoils before there is a mesh.
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -84,9 +85,9 @@ std::vector<ChartCurve> pressure_curves(const Flow& flow) {
     std::vector<ChartCurve> curves;
     for (const ElementFlow& element : flow.elements) {
         ChartCurve& curve = curves.emplace_back(ChartCurve{element.name, {}});
-        for (auto p = element.upper.rbegin(); p != element.upper.rend(); ++p)
-            curve.points.push_back({p->at.x, p->pressure_coefficient});
-        for (const FlowPoint& p : element.lower) curve.points.push_back({p.at.x, p.pressure_coefficient});
+        const auto pressure = [](const FlowPoint& p) { return Point{p.at.x, p.pressure_coefficient}; };
+        std::transform(element.upper.rbegin(), element.upper.rend(), std::back_inserter(curve.points), pressure);
+        std::transform(element.lower.begin(), element.lower.end(), std::back_inserter(curve.points), pressure);
     }
     return curves;
 }

@@ -92,6 +92,7 @@ void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& ge
 
 void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity) {
     std::vector<EdgePoint> edge;
+    edge.reserve(side.size());
     for (const FlowPoint& p : side) edge.push_back({p.s, p.speed});
     const std::vector<LayerPoint> layer = boundary_layer(edge, {.viscosity = viscosity});
     for (std::size_t i = 0; i < side.size(); ++i) {

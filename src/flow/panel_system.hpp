@@ -23,7 +23,7 @@ Point leaving_direction(std::span<const Point> nodes);
 /// Returns whether a base joins the last node to the first one.
 inline bool has_base(const PanelSheet& sheet) { return !(sheet.nodes.front() == sheet.nodes.back()); }
 
-/// Returns the velocity at a point. A point on a panel sees the side inside of the body where `inside` is set.
+/// Returns the velocity at a point. On a panel, where the velocity along it jumps, that of either side may be returned.
 Point sheet_velocity(std::span<const PanelSheet> sheets, double alpha_deg, Point p);
 
 }  // namespace lamina::flow

@@ -103,8 +103,9 @@ double capacity(const std::vector<Point>& outline) {
 }
 
 TEST(ExactFlow, LiftOfSymmetricSectionsFollowsFromTheirCapacity) {
-    // The trailing edge of a symmetric section is the image of the rearmost point of the circle, so that the circulation
-    // is 4 pi radius sin(alpha). The capacity is extrapolated from two numbers of edges, as its error is of second order.
+    // The trailing edge of a symmetric section is the image of the rearmost point of the circle, so that the
+    // circulation is 4 pi radius sin(alpha). The capacity is extrapolated from two numbers of edges, as its error is of
+    // second order.
     for (const auto& [name, alpha_deg] : {std::pair("0012", 10.0), {"0006", 4.0}, {"0024", 8.0}}) {
         const auto outline = [name = std::string(name)](std::size_t n) { return naca_airfoil(name, n).points; };
         const double coarse = capacity(outline(150)), fine = capacity(outline(300));
