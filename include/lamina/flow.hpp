@@ -110,8 +110,8 @@ inline constexpr double max_flow_speed = 100;
 /// free stream's speed.
 inline constexpr double max_flow_leak = 0.02;
 
-/// Returns the velocity at a point outside of the bodies as a multiple of the free stream's speed. Nearer to a wall than
-/// its panels are long one sees that they are straight: along the wall itself, ElementFlow has better values.
+/// Returns the velocity at a point outside of the bodies as a multiple of the free stream's speed. Nearer to a wall
+/// than its panels are long one sees that they are straight: along the wall itself, ElementFlow has better values.
 LAMINA_EXPORT Point flow_velocity(const Flow& flow, Point p);
 
 /// Options of streamline(). Lengths are multiples of Flow::chord.
@@ -122,9 +122,9 @@ struct StreamlineOptions {
 
 /// Returns the points of the streamline that begins at a point, in the direction of the flow, over this length in units
 /// of the input. It ends early near a stagnation point, where the speed is a thousandth of the free stream's, and where
-/// it would enter a body. One that begins at the trailing edge of an element, or at the middle of its base, leaves along
-/// the bisector of the sides. Precondition: `from` lies outside of the bodies or is a trailing edge. Source: J. R.
-/// Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980).
+/// it would enter a body. One that begins at the trailing edge of an element, or at the middle of its base, leaves
+/// along the bisector of the sides. Precondition: `from` lies outside of the bodies or is a trailing edge. Source:
+/// J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980).
 LAMINA_EXPORT std::vector<Point> streamline(const Flow& flow, Point from, double length,
                                             const StreamlineOptions& options = {});
 
