@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/angles.hpp"
 #include "flow/boundary_layer.hpp"
 #include "flow/contour.hpp"
 #include "flow/panel_system.hpp"
@@ -90,11 +91,29 @@ void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& ge
                      defect.text, defect.at.x, defect.at.y, name)});
 }
 
-void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity) {
+/// Returns the speeds along a side as its boundary layer meets them. At a sharp corner before the trailing edge, as the
+/// lip of a slat, potential flow is infinitely fast. Real flow leaves the wall there instead: within 1 % of the side
+/// from the corner, the speed counts as no more than the larger one at the ends of that stretch.
+std::vector<EdgePoint> edge_speeds(const std::vector<FlowPoint>& side) {
+    constexpr double reach_share = 0.01;
+    const double reach = reach_share * side.back().s;
     std::vector<EdgePoint> edge;
     edge.reserve(side.size());
     for (const FlowPoint& p : side) edge.push_back({p.s, p.speed});
-    const std::vector<LayerPoint> layer = boundary_layer(edge, {.viscosity = viscosity});
+    for (std::size_t i = 1; i + 1 < side.size(); ++i) {
+        const double turning = core::angle_between(side[i].at - side[i - 1].at, side[i + 1].at - side[i].at);
+        if (std::abs(core::degrees(turning)) < sharp_corner_deg) continue;
+        std::size_t first = i, last = i;
+        while (first > 0 && side[i].s - side[first].s < reach) --first;
+        while (last + 1 < side.size() && side[last].s - side[i].s < reach) ++last;
+        const double most = std::max(side[first].speed, side[last].speed);
+        for (std::size_t k = first; k <= last; ++k) edge[k].speed = std::min(edge[k].speed, most);
+    }
+    return edge;
+}
+
+void add_boundary_layer(std::vector<FlowPoint>& side, double viscosity) {
+    const std::vector<LayerPoint> layer = boundary_layer(edge_speeds(side), {.viscosity = viscosity});
     for (std::size_t i = 0; i < side.size(); ++i) {
         side[i].momentum = layer[i].momentum;
         side[i].displacement = layer[i].displacement;

@@ -6,6 +6,7 @@
 #include <complex>
 #include <cstdlib>
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,11 @@ double largest_pressure_error(const Flow& flow, const MappedSection& section, do
 struct MappedCase {
     double thickness, camber, trailing_edge_deg, alpha_deg;
 };
+
+void PrintTo(const MappedCase& c, std::ostream* out) {
+    *out << "thickness " << c.thickness << " camber " << c.camber << " tail " << c.trailing_edge_deg << " alpha "
+         << c.alpha_deg;
+}
 
 class MappedFlow : public testing::TestWithParam<MappedCase> {};
 
