@@ -19,7 +19,7 @@ CaseOptions naca0012_options(double gradation) {
     options.layer.layers = 30;
     options.layer.max_ray_angle_deg = 4;
     options.far_field.size = 50;
-    options.sizing.field.gradation = gradation;
+    options.sizing.gradation = gradation;
     options.threads = 1;
     return options;
 }
@@ -41,11 +41,11 @@ BENCHMARK(naca0012)->ArgName("threads")->Arg(1)->Arg(2)->Arg(4)->Unit(benchmark:
 /// divides them.
 Work triangle_outside_the_layer(const CaseOptions& options) {
     const std::vector<std::string> input{"naca:0012"};
-    const LayerGrowth growth = layer_growth(options.layer, 1);
+    const LayerGrowth growth = layer_growth(options.layer, {});
     const Geometry geometry = prepare_surfaces(read_geometry(input), options.surface, spacing_limits(options, growth));
-    const FarField far_field = place_far_field(bounding_box(geometry), options.far_field);
-    const Layer layer = close_border(grow_rays(geometry, options.layer, growth), border_options(options, {}));
-    const SizeField field = make_size_field(border_loops(layer), {}, options.sizing, far_field.box());
+    const FarField far_field = place_far_field(bounding_box(geometry), 1, options.far_field);
+    const Layer layer = close_border(grow_rays(geometry, options.layer, growth), border_options(options, 1, {}));
+    const SizeField field = make_size_field(border_loops(layer), {}, options.sizing, 1, far_field.box());
     const Decoupling outer = decouple(layer.points, layer.borders, field, far_field);
 
     std::vector<Point> points;

@@ -195,7 +195,7 @@ CaseOptions random_options(Random& random) {
     }
     layer.topology = std::array{LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads}[random.below(3)];
     options.far_field.size = random.uniform(2, 6);
-    options.sizing.field.gradation = random.uniform(0.2, 0.5);
+    options.sizing.gradation = random.uniform(0.2, 0.5);
     options.threads = 1;
     return options;
 }
@@ -218,7 +218,7 @@ Configuration make_configuration(std::uint64_t seed, std::uint64_t number) {
         c.geometry.elements.push_back(std::move(element));
     }
     c.options = random_options(random);
-    c.options.layer.first_height = test::first_height(c.options.layer) * scale;
+    c.options.layer.first_height = input_units(test::first_height(c.options.layer) * scale);
     const LayerOptions& layer = c.options.layer;
     c.description += fmt::format(" first height {:.3g}, growth {:.3f}, {} layers, rays {:.2f} deg, {}, scale {:.3g}",
                                  test::first_height(layer), layer.growth, layer.enabled ? layer.layers.value_or(0) : 0,

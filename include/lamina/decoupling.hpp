@@ -10,6 +10,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
+#include <lamina/length.hpp>
 #include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
@@ -26,7 +27,7 @@ enum class FarFieldShape {
 /// Options of the far field.
 struct FarFieldOptions {
     FarFieldShape shape = FarFieldShape::box;  ///< which of the other members count
-    double size = 100;                         ///< half-width of the box or radius of the circle, in chords
+    Length size = 100;                         ///< half-width of the box or radius of the circle
     std::vector<Point> outline{};              ///< corners of the polygon, counter-clockwise, in units of the input
 };
 
@@ -52,9 +53,9 @@ struct FarField {
     LAMINA_EXPORT Box box() const;
 };
 
-/// Places the far field round the box of all bodies. Throws OptionError where an option is out of range, and where an
+/// Places the far field round the box of all bodies; `chord` is the reference chord. Throws OptionError where an option is out of range, and where an
 /// outline does not enclose the middle of that box.
-LAMINA_EXPORT FarField place_far_field(const Box& bodies, const FarFieldOptions& options = {});
+LAMINA_EXPORT FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions& options = {});
 
 /// How separators between subdomains are divided into segments.
 enum class SeparatorRule {

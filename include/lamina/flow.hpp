@@ -6,27 +6,13 @@
 #include <string>
 #include <vector>
 
+#include <lamina/conditions.hpp>
 #include <lamina/export.hpp>
 #include <lamina/geometry.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/warning.hpp>
 
 namespace lamina {
-
-/// The oncoming flow.
-struct FlowConditions {
-    double alpha_deg = 0;  ///< direction of the free stream above the x axis, in degrees, from -90 to 90
-    /// Reynolds number based on the chord. Empty: the boundary layers are left out.
-    std::optional<double> reynolds{};
-    std::optional<double> chord{};  ///< in units of the input; empty: the extent in x of the configuration
-};
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<FlowConditions>& flow_option_table();
-
-/// Throws OptionError where an option is out of range.
-LAMINA_EXPORT void validate(const FlowConditions& conditions);
 
 /// The state of a boundary layer.
 enum class BoundaryLayerState {

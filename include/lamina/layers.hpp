@@ -10,10 +10,12 @@
 #include <variant>
 #include <vector>
 
+#include <lamina/conditions.hpp>
 #include <lamina/delaunay.hpp>
 #include <lamina/export.hpp>
 #include <lamina/geometry.hpp>
 #include <lamina/ids.hpp>
+#include <lamina/length.hpp>
 #include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
@@ -46,25 +48,24 @@ enum class LayerTopology {
     quads,     ///< the grid with whole cells; triangles in fans, where the number of layers changes, and on the border
 };
 
-/// A first height that follows from the flow: the top of the first layer lies at this y+ on a flat plate.
+/// A first height that follows from the flow (conditions.hpp): the top of the first layer lies at this y+ on a flat
+/// plate.
 struct YPlus {
-    double y_plus = 1;              ///< height of the first layer in units of the viscous length
-    double reynolds = 0;            ///< Reynolds number of the free stream, based on the chord
-    std::optional<double> chord{};  ///< in units of the input; empty: the extent in x of the whole configuration
+    double y_plus = 1;  ///< height of the first layer in units of the viscous length
 };
 
 /// Options of the layer.
 struct LayerOptions {
     bool enabled = true;  ///< false: the outer region begins at the walls
-    /// Height of the first layer above the wall in units of the input, or the flow that it follows from.
-    std::variant<double, YPlus> first_height = 1e-5;
+    /// Height of the first layer above the wall, or the y+ that it follows from.
+    std::variant<Length, YPlus> first_height = Length{1e-5};
     /// Ratio of the heights of successive layers, or the power of the polynomial law. The other laws do not use it.
     double growth = 1.2;
     GrowthLaw growth_law = GrowthLaw::geometric;  ///< the law by which heights grow
     /// Number of layers on each ray. Empty: each ray gets layers up to isotropy, where the spacing reaches the distance
     /// to the neighbouring rays.
     std::optional<std::uint32_t> layers = 30;
-    std::optional<double> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
+    std::optional<Length> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
     double max_ray_angle_deg = 5;       ///< largest angle between neighbouring rays
     CornerRays corners = CornerRays::fan;             ///< the rays at sharp convex corners
     LayerTopology topology = LayerTopology::layered;  ///< how points are joined to cells
@@ -83,12 +84,13 @@ struct LayerGrowth {
     double first_height = 0;                ///< in units of the input
     double growth = 1.2;                    ///< LayerOptions::growth
     std::optional<std::uint32_t> layers{};  ///< LayerOptions::layers
-    std::optional<double> thickness{};      ///< LayerOptions::thickness
+    std::optional<double> thickness{};      ///< LayerOptions::thickness, in units of the input
 };
 
-/// Returns the growth that the options request round a configuration of this chord. Throws OptionError where the
-/// heights contradict each other: a thickness below the first height, or too small for the exponential law.
-LAMINA_EXPORT LayerGrowth layer_growth(const LayerOptions& options, double chord);
+/// Returns the growth that the options request in these conditions. Throws OptionError where a y+ is given without a
+/// Reynolds number, and where the heights contradict each other: a thickness below the first height, or too small for
+/// the exponential law.
+LAMINA_EXPORT LayerGrowth layer_growth(const LayerOptions& options, const ReferenceConditions& conditions);
 
 /// Returns the first height whose top lies at this y+ on a flat plate of length `chord` in turbulent flow:
 ///   y+ chord / (Re sqrt(cf / 2)),  cf = 0.026 / Re^(1/7),  Re = reynolds, based on the chord.
@@ -179,7 +181,7 @@ struct Rays {
 /// coordinates and for layers absurdly thicker than the input is wide.
 LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth);
 
-/// Grows rays with the growth that the options request round this geometry.
+/// Grows rays with the growth that the options request round this geometry; its extent in x is the chord.
 LAMINA_EXPORT Rays grow_rays(const Geometry& geometry, const LayerOptions& options = {});
 
 /// A circle.

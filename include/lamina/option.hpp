@@ -22,6 +22,7 @@ using OptionValue = std::variant<bool, std::int64_t, double, std::string, std::v
 /// The kinds of values that options take.
 enum class OptionKind {
     number,         ///< one number
+    length,         ///< one length: a number of chords, or a word such as "0.003u" for units of the input
     count,          ///< one whole number
     count_or_auto,  ///< one whole number, or the word "auto"
     flag,           ///< nothing on the command line; true or false in a case file

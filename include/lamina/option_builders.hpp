@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <lamina/length.hpp>
 #include <lamina/option.hpp>
 
 namespace lamina {
@@ -24,6 +25,8 @@ using Choices = std::vector<std::pair<std::string, Choice>>;
 
 /// Returns a number, which may have been written as a whole number.
 LAMINA_EXPORT double as_number(const OptionValue& value, const std::string& option);
+/// Returns a length: a number counts chords, and a word is read by parse_length().
+LAMINA_EXPORT Length as_length(const OptionValue& value, const std::string& option);
 /// Returns the value as a whole number.
 LAMINA_EXPORT std::int64_t as_count(const OptionValue& value, const std::string& option);
 /// Returns the value as true or false.
@@ -34,6 +37,9 @@ LAMINA_EXPORT std::string as_word(const OptionValue& value, const std::string& o
 LAMINA_EXPORT std::string as_word_or_number(const OptionValue& value, const std::string& option);
 /// Returns several words; a single word counts as a list of one.
 LAMINA_EXPORT std::vector<std::string> as_words(const OptionValue& value, const std::string& option);
+
+/// Returns the value that as_length() reads back: a number of chords, or a word.
+LAMINA_EXPORT OptionValue option_value(Length length);
 
 /// Throws OptionError where the range does not contain the value.
 LAMINA_EXPORT void require_in_range(const OptionRange& range, double value, const std::string& option);
@@ -60,6 +66,23 @@ public:
         };
         const auto get = [=](const Options& o) { return value_of<double>(member(o)); };
         return add({name, OptionKind::number, std::move(metavar), std::move(help), range.text(), set, get});
+    }
+
+    /// Adds an option that takes a length; member(options) is a Length or an optional of one.
+    template <class Member>
+    Option<Options>& length(const std::string& name, std::string metavar, std::string help, OptionRange range,
+                            Member member) {
+        const std::string key = option_key(name);
+        const auto set = [=](Options& o, const OptionValue& value) {
+            const Length length = as_length(value, key);
+            require_in_range(range, length.value, key);
+            member(o) = length;
+        };
+        const auto get = [=](const Options& o) -> std::optional<OptionValue> {
+            const std::optional<Length> length = member(o);
+            return length ? std::optional<OptionValue>(option_value(*length)) : std::nullopt;
+        };
+        return add({name, OptionKind::length, std::move(metavar), std::move(help), range.text(), set, get});
     }
 
     /// Adds an option that takes a whole number; member(options) is an integer or an optional of one.

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include <lamina/conditions.hpp>
 #include <lamina/decoupling.hpp>
 #include <lamina/export.hpp>
 #include <lamina/geometry.hpp>
@@ -42,6 +43,7 @@ struct AssembleOptions {
 /// The options of all stages. Together with the inputs they determine the mesh.
 struct CaseOptions {
     GeometryOptions geometry{};            ///< read_geometry()
+    FlowConditions conditions{};           ///< reference_conditions(): the chord that lengths count, and y+
     SurfaceOptions surface{};              ///< prepare_surfaces()
     LayerOptions layer{};                  ///< grow_rays(), fill_layer()
     SizingOptions sizing{};                ///< gather_size_requests(), make_size_field()
@@ -58,22 +60,24 @@ struct CaseOptions {
 /// of the command line.
 LAMINA_EXPORT const OptionTable<CaseOptions>& case_option_table();
 
-/// Throws OptionError where an option of any stage is out of range.
+/// Throws OptionError where an option of any stage is out of range, and where a y+ lacks its Reynolds number.
 LAMINA_EXPORT void validate(const CaseOptions& options);
 
 /// Returns the limits that the layer over the walls sets on their spacing: an argument of prepare_surfaces().
 LAMINA_EXPORT SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth);
 
 /// Returns the options by which the outer border of the layer is divided to suit sizes and refinement: an argument of
-/// close_border().
-LAMINA_EXPORT BorderOptions border_options(const CaseOptions& options, std::span<const SizeSource> sources);
+/// close_border(). `chord` is the reference chord.
+LAMINA_EXPORT BorderOptions border_options(const CaseOptions& options, double chord,
+                                           std::span<const SizeSource> sources);
 
 /// Returns the same for spacings of the walls below that border, which grow no more slowly than sizes near bodies
 /// should: an argument of wall_spacings().
-LAMINA_EXPORT BorderOptions wall_border_options(const CaseOptions& options, std::span<const SizeSource> sources);
+LAMINA_EXPORT BorderOptions wall_border_options(const CaseOptions& options, double chord,
+                                                std::span<const SizeSource> sources);
 
 /// Returns the bodies in the form that the sizing stage takes.
-LAMINA_EXPORT SizedBodies sized_bodies(const Geometry& geometry);
+LAMINA_EXPORT SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions);
 
 /// Joins the layer and the refined subdomains to one mesh, without any search by coordinates. Vertices keep the numbers
 /// of the decoupling (walls, layer, separators); Steiner points follow, subdomain by subdomain. The triangles of the
@@ -121,7 +125,8 @@ struct MeshResult {
     double estimates_within_15_percent = 1;     ///< share of the subdomains whose estimate was within 15 % of the truth
     std::size_t surface_vertices = 0;           ///< vertices of the walls
     double first_height = 0;                    ///< of the layers; 0 without layers
-    std::optional<YPlus> y_plus;                ///< the flow that the first height follows from, with its chord
+    std::optional<YPlus> y_plus;                ///< what the first height follows from; empty: it was given
+    ReferenceConditions conditions;             ///< the chord that lengths count, and the flow
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     BorderSteps border_steps;                     ///< of the layer's outer border
     std::size_t thinned_rays = 0;                 ///< rays shortened so that triangles beyond keep the bound on angles

@@ -12,6 +12,7 @@
 
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
+#include <lamina/length.hpp>
 #include <lamina/option.hpp>
 #include <lamina/point.hpp>
 
@@ -128,21 +129,22 @@ private:
 /// A line of small triangles from each trailing edge, up to the first wall in its way. Sizes grow by a tenth of the
 /// gradation along the line and by the gradation beside it.
 struct WakeOptions {
-    double angle_deg = 0;          ///< to the x axis
-    double length = 2;             ///< in chords: extents in x of the whole configuration
-    std::optional<double> size{};  ///< at the trailing edge; empty: the size there without a wake
+    std::optional<double> angle_deg{};  ///< to the x axis; empty: the angle of attack
+    Length length = 2;                  ///< along the line
+    std::optional<Length> size{};       ///< at the trailing edge; empty: the size there without a wake
 };
 
-/// Reads "ANGLE[:LENGTH[:SIZE]]". Throws UsageError with the bare reason.
+/// Reads "ANGLE[:LENGTH[:SIZE]]", where ANGLE may be "auto". Throws UsageError with the bare reason.
 LAMINA_EXPORT WakeOptions parse_wake(const std::string& text);
 /// Returns the text that parse_wake() reads back.
 LAMINA_EXPORT std::string wake_text(const WakeOptions& wake);
 
 /// Options of the stage "size".
 struct SizingOptions {
-    SizeFieldOptions field;  ///< gradation and largest size
+    double gradation = 0.1;            ///< growth of h per unit of distance from walls and sources
+    std::optional<Length> far_size{};  ///< largest h; empty: unbounded
     /// Largest h at the outer border of the layers; empty: the border's own edges decide.
-    std::optional<double> wall_size{};
+    std::optional<Length> wall_size{};
     std::vector<SizeSource> sources{};  ///< boxes, discs and lines of the user
     std::optional<WakeOptions> wake{};  ///< empty: no wakes
     /// Sizes of the user at the points of a mesh. Inside its triangles h exceeds the linear interpolation nowhere by
@@ -158,7 +160,7 @@ LAMINA_EXPORT void validate(const SizingOptions& options);
 
 /// Returns the growth of the edges of a frozen border per unit of distance that suits a field of this gradation. It is
 /// less than the gradation, since edges are divided into whole numbers of pieces.
-LAMINA_EXPORT double border_gradation(const SizeFieldOptions& field);
+LAMINA_EXPORT double border_gradation(double gradation);
 
 /// Closed loops of points. The first point of a loop is not repeated at its end.
 using Loops = std::span<const std::vector<Point>>;
@@ -167,7 +169,8 @@ using Loops = std::span<const std::vector<Point>>;
 struct SizedBodies {
     std::vector<std::vector<Point>> walls;  ///< outlines, counter-clockwise
     std::vector<Point> trailing_edges;      ///< where wakes begin
-    double chord = 1;                       ///< extent in x of the whole configuration
+    double chord = 1;                       ///< reference chord, which lengths of the options count
+    double alpha_deg = 0;                   ///< angle of attack: the direction of wakes that have none of their own
 };
 
 /// Throws LimitError where an option by itself requests far more triangles in `domain` than the limits allow, or than
@@ -190,8 +193,8 @@ LAMINA_EXPORT SizeRequests gather_size_requests(const SizingOptions& options, co
 
 /// Makes h(x) from the outer borders of the layers and from further sources. An edge of a border requests its length
 /// divided by frozen_share, or more beside an edge that would otherwise be too long for the field; never more than
-/// wall_size.
+/// wall_size. `chord` is the reference chord.
 LAMINA_EXPORT SizeField make_size_field(Loops borders, std::span<const SizeSource> sources,
-                                        const SizingOptions& options, const Box& domain);
+                                        const SizingOptions& options, double chord, const Box& domain);
 
 }  // namespace lamina

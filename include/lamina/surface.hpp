@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <lamina/geometry.hpp>
+#include <lamina/length.hpp>
 
 namespace lamina {
 
@@ -24,8 +25,8 @@ struct SurfaceOptions {
     SurfaceTreatment treatment = SurfaceTreatment::automatic;  ///< whether points are kept or replaced
     /// Wall vertices per element, about; all spacings below keep their proportions. Makes `automatic` resample.
     std::optional<std::size_t> points{};
-    /// The points are smoothed first; each moves by at most this many units of the input. Empty: no smoothing.
-    std::optional<double> smooth{};
+    /// The points are smoothed first; each moves by at most this length. Empty: no smoothing.
+    std::optional<Length> smooth{};
     double max_turning_deg = 10;  ///< largest turning at a vertex between two corners
     double max_ratio = 1.2;       ///< largest ratio of neighbouring spacings, where none is below min_spacing
     double gradation = 0.18;      ///< growth of the spacing per unit of arc length, within max_ratio
@@ -65,11 +66,12 @@ struct SpacingLimits {
 /// of the integral of ds / spacing; corners stay vertices exactly. Where the resampled outline would cross itself or
 /// another one, the given points stay vertices, and the straight edges between them are divided instead of the spline;
 /// an element that still crosses is kept as given. Mirrored or reversed input gives mirrored points, up to rounding.
-/// Precondition: check_simple(); the result passes it, too. Throws OptionError for options out of range.
+/// `chord` is the reference chord; empty: the extent in x of the geometry. Precondition: check_simple(); the result
+/// passes it, too. Throws OptionError for options out of range.
 /// Source: J. F. Thompson, B. K. Soni, N. P. Weatherill, Handbook of Grid Generation (1999), chapters 3 and 30; C. de
 /// Boor, A Practical Guide to Splines (1978), chapter 4.
 LAMINA_EXPORT Geometry prepare_surfaces(Geometry geometry, const SurfaceOptions& options = {},
-                                        const SpacingLimits& limits = {});
+                                        const SpacingLimits& limits = {}, std::optional<double> chord = {});
 
 /// Facts about one element for a person to read (`lamina info`).
 struct ElementSummary {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -30,7 +31,7 @@ namespace {
 
 struct FlowArguments {
     std::vector<std::string> inputs;
-    std::string alpha, reynolds, chord;
+    std::map<std::string, std::string> conditions;  ///< values by the names of conditions_option_table()
     std::string table, picture;
 };
 
@@ -112,12 +113,12 @@ std::vector<RunFile> files_written(const FlowArguments& arguments) {
 }
 
 void flow(const FlowArguments& arguments) {
-    FlowConditions conditions;
-    set_by_name(flow_option_table(), "alpha", arguments.alpha, conditions);
-    set_by_name(flow_option_table(), "reynolds", arguments.reynolds, conditions);
-    set_by_name(flow_option_table(), "chord", arguments.chord, conditions);
     const MeshCase mesh_case = case_of_inputs(arguments.inputs);
     require_consistent(mesh_case);
+    FlowConditions conditions = mesh_case.options.conditions;
+    for (const auto& [name, value] : arguments.conditions)
+        set_by_name(conditions_option_table(), name, value, conditions);
+    validate(conditions);
     const std::vector<RunFile> outputs = files_written(arguments);
     std::vector<RunFile> inputs;
     for (const std::string& input : mesh_case.inputs) inputs.push_back({input, "INPUT"});
@@ -127,7 +128,9 @@ void flow(const FlowArguments& arguments) {
     const SignalGuard guard(outputs);
 
     const CaseOptions& options = mesh_case.options;
-    const Geometry geometry = prepare_surfaces(read_geometry(mesh_case.inputs, options.geometry), options.surface, {});
+    Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
+    const ReferenceConditions reference = reference_conditions(conditions, bounding_box(geometry));
+    geometry = prepare_surfaces(std::move(geometry), options.surface, {}, reference.chord);
     const Flow flow = solve_flow(geometry, conditions);
     print_warnings(flow.warnings);
     if (!arguments.table.empty()) write_file(arguments.table, flow_table(flow));
@@ -139,7 +142,7 @@ void flow(const FlowArguments& arguments) {
                     .y_downwards = true,
                     .y_range = pressures_shown(curves)});
     }
-    print_summary(flow_summary(flow, conditions.reynolds.has_value()), outputs);
+    print_summary(flow_summary(flow, reference.reynolds.has_value()), outputs);
 }
 
 }  // namespace
@@ -150,9 +153,8 @@ void add_flow_command(CLI::App& app) {
     command->add_option(
         "INPUT", arguments->inputs,
         "airfoil files, naca:DIGITS[:POINTS][:blunt|:extended], - for standard input, or one case file (.toml)");
-    add_table_option(*command, flow_option_table(), "alpha", arguments->alpha);
-    add_table_option(*command, flow_option_table(), "reynolds", arguments->reynolds);
-    add_table_option(*command, flow_option_table(), "chord", arguments->chord);
+    for (const char* name : {"alpha", "reynolds", "velocity", "viscosity", "chord"})
+        add_table_option(*command, conditions_option_table(), name, arguments->conditions[name]);
     command
         ->add_option("-o,--output", arguments->table,
                      "CSV file to write: speed, pressure and boundary layer along each side; - for standard output")

@@ -24,9 +24,10 @@ void add_info_command(CLI::App& app) {
         require_consistent(mesh_case);
         const CaseOptions& options = mesh_case.options;
         Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
-        const LayerGrowth growth = layer_growth(options.layer, bounding_box(geometry).width());
+        const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(geometry));
+        const LayerGrowth growth = layer_growth(options.layer, conditions);
         const SpacingLimits limits = spacing_limits(options, growth);
-        print_result(describe(prepare_surfaces(std::move(geometry), options.surface, limits)));
+        print_result(describe(prepare_surfaces(std::move(geometry), options.surface, limits, conditions.chord)));
     });
 }
 

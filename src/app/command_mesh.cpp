@@ -137,8 +137,8 @@ void mesh(const MeshCase& mesh_case) {
     if (!mesh_case.wall_data.empty()) write_wall_data(result.mesh, mesh_case.wall_data);
     const double write_seconds = watch.lap();
 
-    if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(mesh_report(result, write_seconds)));
-    if (!mesh_case.quiet) print_summary(mesh_summary(result, mesh_case.outputs, write_seconds), outputs);
+    if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(mesh_report(mesh_case, result, write_seconds)));
+    if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, result, write_seconds), outputs);
     require_no_warnings(result.warnings, mesh_case.strict);
 }
 

@@ -20,7 +20,7 @@ namespace lamina::app {
 namespace {
 
 /// The headings of the help, in their order.
-constexpr std::array<std::string_view, 5> groups{"Files", "Geometry", "Layer", "Outer region", "Run"};
+constexpr std::array<std::string_view, 6> groups{"Files", "Geometry", "Flow", "Layer", "Outer region", "Run"};
 
 OptionTable<MeshCase> file_options() {
     OptionTableBuilder<MeshCase> table("Files");
@@ -146,6 +146,7 @@ void require_consistent(const MeshCase& mesh_case) {
             if (!is_given(mesh_case, other))
                 throw UsageError(fmt::format("{} needs {}, which is not given", option.name, other));
     }
+    validate(mesh_case.options);
 }
 
 double parse_real(const std::string& text, const std::string& origin) { return parse<double>(text, origin, "number"); }
@@ -182,7 +183,8 @@ std::string options_as_markdown() {
     std::string text =
         "# Options of `lamina mesh`\n\n"
         "`lamina mesh --options-as-markdown` prints this page. Case files use the same names with underscores for "
-        "hyphens. Lengths are in the units of the input unless an option says otherwise; angles are in degrees.\n";
+        "hyphens. Lengths are numbers of chords (`--chord`), or of units of the input with the suffix `u`: `0.003u`. "
+        "Positions are in units of the input, and angles in degrees.\n";
     std::string_view group;
     const auto escaped = [](std::string cell) {
         for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) cell.replace(at, 1, "\\|");

@@ -29,7 +29,7 @@ std::string help_text(const Option<MeshCase>& option);
 /// Sets the option and notes that it was given. `origin` says where, for errors. Throws UsageError "origin: reason".
 void assign(const Option<MeshCase>& option, MeshCase& mesh_case, const OptionValue& value, const std::string& origin);
 
-/// Throws UsageError where options were given that exclude or need each other.
+/// Throws UsageError where options were given that exclude or need each other, or whose values do not go together.
 void require_consistent(const MeshCase& mesh_case);
 
 /// Returns the value of an option of this kind that arguments of the command line stand for. Throws UsageError "origin:

@@ -4,6 +4,7 @@
 
 #include <lamina/version.hpp>
 
+#include "app/conditions_block.hpp"
 #include "app/coverage_share.hpp"
 
 namespace lamina::app {
@@ -100,17 +101,6 @@ Json border_report(const BorderSteps& steps) {
             {"max_step_at", {steps.max_step_at.x, steps.max_step_at.y}}};
 }
 
-/// Returns the first height and, where it follows from a y+, the flow that it was computed for.
-Json first_height_report(const MeshResult& result) {
-    Json report = {{"height", result.first_height}};
-    if (const auto& flow = result.y_plus; flow) {
-        report["y_plus"] = flow->y_plus;
-        report["reynolds"] = flow->reynolds;
-        report["chord"] = *flow->chord;
-    }
-    return report;
-}
-
 }  // namespace
 
 Json decomposition_report(const DecompositionStats& stats) {
@@ -170,7 +160,7 @@ Json quality_report(const MeshCheck& check) {
             {"delaunay", {{"interior_edges", check.interior_edges}, {"violations", check.delaunay_violations}}}};
 }
 
-Json mesh_report(const MeshResult& result, double write_seconds) {
+Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, double write_seconds) {
     Json quality = quality_report(result.check);
     quality["layer"]["border"] = border_report(result.border_steps);
     quality["layer"]["incomplete_rays"] = total_coverage(result).all.incomplete_rays;
@@ -180,6 +170,7 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
     return {{"version", LAMINA_VERSION},
             {"threads", result.threads},
             {"input", input_report(result.geometry)},
+            {"conditions", conditions_report(mesh_case, result)},
             {"vertices", result.mesh.points.size()},
             {"triangles", result.mesh.triangles.size()},
             {"quads", result.mesh.quads.size()},
@@ -192,7 +183,6 @@ Json mesh_report(const MeshResult& result, double write_seconds) {
               {"inviscid", result.inviscid_pieces},
               {"largest_inviscid", result.largest_inviscid_piece},
               {"estimates_within_15_percent", result.estimates_within_15_percent}}},
-            {"first_layer", first_height_report(result)},
             {"layer_cells", layer_cells_report(result)},
             {"warnings", warnings_report(result.warnings)},
             {"estimate", estimate_report(result.estimate)},

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/conditions_block.hpp"
 #include "app/coverage_share.hpp"
 
 namespace lamina::app {
@@ -101,23 +102,22 @@ std::string quality_summary(const MeshCheck& check) {
                                            check.delaunay_violations, check.interior_edges));
 }
 
-std::string mesh_summary(const MeshResult& result, const std::vector<std::string>& outputs, double write_seconds) {
+std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, double write_seconds) {
     std::string text;
     for (const Element& element : result.geometry.elements) text += element_lines(element);
+    text += conditions_summary(mesh_case, result);
     const std::size_t quads = result.mesh.quads.size();
     text += fmt::format("mesh: {} vertices, {} triangles, {}made in {} pieces\n", result.mesh.points.size(),
                         result.mesh.triangles.size(), quads > 0 ? fmt::format("{} quads, ", quads) : "",
                         result.layer_pieces + result.inviscid_pieces);
     text += quality_summary(result.check);
-    if (const auto& flow = result.y_plus; flow)
-        text += summary_line("y+", fmt::format("{} at Reynolds number {} based on the chord {}: first height {:.4g}",
-                                               flow->y_plus, flow->reynolds, *flow->chord, result.first_height));
     if (const ElementCoverage coverage = total_coverage(result); coverage.all.requested_cells > 0)
         text += coverage_line(coverage) + border_line(result.border_steps);
     text += summary_line(
         "time", fmt::format("{:.3f} s to make and check the mesh, {:.3f} s to write it, on {} thread{}",
                             result.seconds.total, write_seconds, result.threads, result.threads == 1 ? "" : "s"));
-    for (const std::string& output : outputs) text += summary_line("wrote", output == "-" ? "standard output" : output);
+    for (const std::string& output : mesh_case.outputs)
+        text += summary_line("wrote", output == "-" ? "standard output" : output);
     return text;
 }
 

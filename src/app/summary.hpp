@@ -2,10 +2,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <lamina/mesh.hpp>
 #include <lamina/pipeline.hpp>
+
+#include "app/case.hpp"
 
 namespace lamina::app {
 
@@ -16,6 +17,6 @@ std::string summary_line(const std::string& label, const std::string& text);
 std::string quality_summary(const MeshCheck& check);
 
 /// Returns the summary of `lamina mesh`.
-std::string mesh_summary(const MeshResult& result, const std::vector<std::string>& outputs, double write_seconds);
+std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, double write_seconds);
 
 }  // namespace lamina::app

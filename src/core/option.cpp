@@ -31,6 +31,21 @@ double as_number(const OptionValue& value, const std::string& option) {
     throw OptionError(option, "must be a number");
 }
 
+Length as_length(const OptionValue& value, const std::string& option) {
+    const auto* word = std::get_if<std::string>(&value);
+    if (!word) return as_number(value, option);
+    try {
+        return parse_length(*word);
+    } catch (const UsageError& error) {
+        throw OptionError(option, error.what());
+    }
+}
+
+OptionValue option_value(Length length) {
+    if (length.unit == LengthUnit::chord) return length.value;
+    return length_text(length);
+}
+
 std::int64_t as_count(const OptionValue& value, const std::string& option) {
     if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
     throw OptionError(option, "must be a whole number");

@@ -82,9 +82,9 @@ Box FarField::box() const {
     return box;
 }
 
-FarField place_far_field(const Box& bodies, const FarFieldOptions& options) {
+FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions& options) {
     validate(options);
-    FarField far_field{options.shape, bodies.center(), options.size * bodies.width()};
+    FarField far_field{options.shape, bodies.center(), in_units(options.size, chord)};
     if (options.shape != FarFieldShape::outline) return far_field;
     far_field.outline = options.outline;
     for_each_edge(far_field.outline, [&](Point a, Point along) {

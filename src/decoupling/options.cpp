@@ -14,10 +14,8 @@ namespace {
 
 OptionTable<FarFieldOptions> make_far_field_table() {
     OptionTableBuilder<FarFieldOptions> table("Outer region");
-    table.number("far-field", "CHORDS",
-                 "half-width of the far-field box or radius of the circle, in chords (extents in x of the "
-                 "configuration)",
-                 positive_numbers, member_at(&FarFieldOptions::size));
+    table.length("far-field", "L", "half-width of the far-field box or radius of the circle", positive_numbers,
+                 member_at(&FarFieldOptions::size));
     table
         .choice("far-field-shape", "shape of the far field round the middle of the configuration",
                 Choices<FarFieldShape>{{"box", FarFieldShape::box}, {"circle", FarFieldShape::circle}},

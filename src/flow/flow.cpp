@@ -133,10 +133,10 @@ namespace lamina {
 using namespace flow;
 
 Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
-    validate(conditions);
+    const ReferenceConditions reference = reference_conditions(conditions, bounding_box(geometry));
     Flow flow;
-    flow.alpha_deg = conditions.alpha_deg;
-    flow.chord = conditions.chord.value_or(bounding_box(geometry).width());
+    flow.alpha_deg = reference.alpha_deg;
+    flow.chord = reference.chord;
     const std::vector<Contour> contours = make_contours(geometry);
     flow.sheets = solve_panels(contours, flow.alpha_deg);
     std::optional<Defect> defect = find_wild_speed(flow.sheets);
@@ -149,9 +149,9 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
     for (std::size_t e = 0; e < flow.elements.size(); ++e) {
         ElementFlow& element = flow.elements[e];
         element.name = geometry.elements[e].name;
-        if (!conditions.reynolds) continue;
-        add_boundary_layer(element.upper, flow.chord / *conditions.reynolds);
-        add_boundary_layer(element.lower, flow.chord / *conditions.reynolds);
+        if (!reference.reynolds) continue;
+        add_boundary_layer(element.upper, flow.chord / *reference.reynolds);
+        add_boundary_layer(element.lower, flow.chord / *reference.reynolds);
     }
     return flow;
 }

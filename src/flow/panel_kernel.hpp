@@ -17,14 +17,22 @@ namespace lamina::flow {
 /// A node as seen from a point.
 struct SeenNode {
     Point to;                 ///< the vector to it
-    double squared_distance;  ///< at least 1e-300, so that the logarithm is finite
-    double log_distance2;     ///< logarithm of it
+    double squared_distance;  ///< at least 1e-300, so that logarithms are finite
 };
 
 inline SeenNode see(Point node, Point from) {
     const Point to = node - from;
-    const double r2 = std::max(squared_length(to), 1e-300);
-    return {to, r2, core::log_reproducible(r2)};
+    return {to, std::max(squared_length(to), 1e-300)};
+}
+
+/// The same with the logarithm of the squared distance.
+struct LoggedNode : SeenNode {
+    double log_distance2;
+};
+
+inline LoggedNode see_with_log(Point node, Point from) {
+    const SeenNode seen = see(node, from);
+    return {seen, core::log_reproducible(seen.squared_distance)};
 }
 
 /// A panel as seen from a point, in its own coordinates: xi along the panel from its first node, eta to its left.
@@ -53,7 +61,7 @@ struct PanelIntegrals {
     double constant, linear;
 };
 
-inline PanelIntegrals integrate_log(const SeenPanel& panel, const SeenNode& a, const SeenNode& b) {
+inline PanelIntegrals integrate_log(const SeenPanel& panel, const LoggedNode& a, const LoggedNode& b) {
     const double constant = 0.5 * ((panel.length - panel.xi) * b.log_distance2 + panel.xi * a.log_distance2) -
                             panel.length + std::abs(panel.eta) * panel.angle;
     const double about_foot =
@@ -61,9 +69,15 @@ inline PanelIntegrals integrate_log(const SeenPanel& panel, const SeenNode& a, c
     return {constant, (about_foot + panel.xi * constant) / panel.length};
 }
 
+/// Returns the logarithm of the ratio of the distances of two nodes. It does not depend on the unit of lengths, as a
+/// difference of logarithms would by its rounding.
+inline double log_of_ratio(const SeenNode& b, const SeenNode& a) {
+    return 0.5 * core::log_reproducible(b.squared_distance / a.squared_distance);
+}
+
 /// Returns the velocity that a sheet of vortices induces, whose strength is linear from `first` to `last`.
 inline Point vortex_velocity(const SeenPanel& panel, const SeenNode& a, const SeenNode& b, double first, double last) {
-    const double log_ratio = 0.5 * (b.log_distance2 - a.log_distance2), angle = panel.signed_angle();
+    const double log_ratio = log_of_ratio(b, a), angle = panel.signed_angle();
     const double slope = (last - first) / panel.length, here = first + slope * panel.xi;
     const double along = -(here * angle + slope * panel.eta * log_ratio);
     const double across = -(here * log_ratio + slope * (panel.length - panel.eta * angle));
@@ -72,7 +86,7 @@ inline Point vortex_velocity(const SeenPanel& panel, const SeenNode& a, const Se
 
 /// Returns the velocity that a sheet of sources of constant strength induces.
 inline Point source_velocity(const SeenPanel& panel, const SeenNode& a, const SeenNode& b, double strength) {
-    const double log_ratio = 0.5 * (b.log_distance2 - a.log_distance2);
+    const double log_ratio = log_of_ratio(b, a);
     return (strength / (2 * core::pi)) *
            ((-log_ratio) * panel.along + panel.signed_angle() * perpendicular(panel.along));
 }

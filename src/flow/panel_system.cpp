@@ -51,9 +51,9 @@ Body make_body(const Contour& contour, std::size_t column, Point origin, double 
 }
 
 /// Adds to a row of the system what unit strengths at the nodes of a body give to the stream function at a point.
-void add_sheet(std::span<double> row, const Body& body, Point p, std::span<SeenNode> seen) {
+void add_sheet(std::span<double> row, const Body& body, Point p, std::span<LoggedNode> seen) {
     const std::size_t n = body.nodes.size();
-    for (std::size_t j = 0; j < n; ++j) seen[j] = see(body.nodes[j], p);
+    for (std::size_t j = 0; j < n; ++j) seen[j] = see_with_log(body.nodes[j], p);
     constexpr double factor = 1 / (2 * core::pi);
     for (std::size_t j = 0; j + 1 < n; ++j) {
         const SeenPanel panel = see_panel(seen[j], seen[j + 1], body.lengths[j], body.along[j]);
@@ -67,10 +67,10 @@ void add_sheet(std::span<double> row, const Body& body, Point p, std::span<SeenN
 /// needs the angle of the direction from the base's first end to the point, measured from the base, which must not
 /// jump along a body. `is_at_start` marks that end, where there is no such angle.
 double base_stream_function(const Body& body, Point p, double direction_angle, bool is_at_start) {
-    const SeenNode a = see(body.nodes.back(), p), b = see(body.nodes.front(), p);
+    const LoggedNode a = see_with_log(body.nodes.back(), p), b = see_with_log(body.nodes.front(), p);
     const SeenPanel panel = see_panel(a, b, body.base_length, body.base_along);
     const double vortices = -body.base_strength * integrate_log(panel, a, b).constant;
-    const double log_ratio = 0.5 * (b.log_distance2 - a.log_distance2);
+    const double log_ratio = log_of_ratio(b, a);
     const double angles = is_at_start ? core::pi * panel.length
                                       : panel.length * direction_angle +
                                             (panel.length - panel.xi) * panel.signed_angle() - panel.eta * log_ratio;
@@ -147,7 +147,7 @@ std::vector<double> solve_strengths(std::span<const Body> bodies, Point stream) 
     for (const Body& at : bodies) {
         constexpr std::size_t grain = 16;
         core::parallel_for(at.nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
-            std::vector<SeenNode> seen(size);
+            std::vector<LoggedNode> seen(size);
             for (std::size_t i = begin; i < end; ++i) {
                 const std::span<double> row = std::span(matrix).subspan((at.column + i) * size, size);
                 for (const Body& of : bodies) add_sheet(row, of, at.nodes[i], seen);

@@ -95,7 +95,7 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
 
 Rays grow_rays(const Geometry& geometry, const LayerOptions& options) {
     validate(options);
-    return grow_rays(geometry, options, layer_growth(options, bounding_box(geometry).width()));
+    return grow_rays(geometry, options, layer_growth(options, {.chord = bounding_box(geometry).width()}));
 }
 
 }  // namespace lamina

@@ -22,14 +22,17 @@ double first_height_for(double y_plus, double reynolds, double chord) {
     return y_plus * chord / (reynolds * std::sqrt(0.5 * friction));
 }
 
-LayerGrowth layer_growth(const LayerOptions& options, double chord) {
+LayerGrowth layer_growth(const LayerOptions& options, const ReferenceConditions& conditions) {
     if (!options.enabled) return {};
-    LayerGrowth growth{options.growth_law, 0, options.growth, options.layers, options.thickness};
-    if (const auto* height = std::get_if<double>(&options.first_height)) {
-        growth.first_height = *height;
+    const double chord = conditions.chord;
+    LayerGrowth growth{options.growth_law, 0, options.growth, options.layers, {}};
+    if (options.thickness) growth.thickness = in_units(*options.thickness, chord);
+    if (const auto* height = std::get_if<Length>(&options.first_height)) {
+        growth.first_height = in_units(*height, chord);
     } else {
-        const YPlus& flow = std::get<YPlus>(options.first_height);
-        growth.first_height = first_height_for(flow.y_plus, flow.reynolds, flow.chord.value_or(chord));
+        if (!conditions.reynolds) throw OptionError("y_plus", "needs reynolds, or velocity and viscosity");
+        growth.first_height =
+            first_height_for(std::get<YPlus>(options.first_height).y_plus, *conditions.reynolds, chord);
     }
     if (growth.thickness && !(*growth.thickness >= growth.first_height))
         throw OptionError("thickness",

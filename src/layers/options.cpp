@@ -12,51 +12,33 @@ namespace lamina::layers {
 
 namespace {
 
-/// Adds an option that sets a number of YPlus. Setting one of them replaces a first height given as a length.
-template <class Member>
-Option<LayerOptions>& add_flow_number(OptionTableBuilder<LayerOptions>& table, const char* name, const char* metavar,
-                                      const char* help, Member member) {
-    const auto flow_member = [member](LayerOptions & options) -> auto& {
-        if (!std::holds_alternative<YPlus>(options.first_height)) options.first_height = YPlus{};
-        return std::get<YPlus>(options.first_height).*member;
-    };
-    const auto set = [flow_member, key = option_key(name)](LayerOptions& options, const OptionValue& value) {
-        const double number = as_number(value, key);
-        require_in_range(positive_numbers, number, key);
-        flow_member(options) = number;
-    };
-    const auto get = [member](const LayerOptions& options) -> std::optional<OptionValue> {
-        const auto* flow = std::get_if<YPlus>(&options.first_height);
-        if (!flow) return std::nullopt;
-        const std::optional<double> number = flow->*member;
-        return number ? std::optional<OptionValue>(*number) : std::nullopt;
-    };
-    return table.add({name, OptionKind::number, metavar, help, positive_numbers.text(), set, get});
-}
-
-/// Adds the options of the first height: a length, or the flow that it follows from.
+/// Adds the options of the first height: a length, or the y+ that it follows from. Each replaces the other.
 void add_first_height(OptionTableBuilder<LayerOptions>& table) {
     const auto set_first_height = [](LayerOptions& options, const OptionValue& value) {
-        const double height = as_number(value, "first_height");
-        require_in_range(positive_numbers, height, "first_height");
+        const Length height = as_length(value, "first_height");
+        require_in_range(positive_numbers, height.value, "first_height");
         options.first_height = height;
     };
     const auto get_first_height = [](const LayerOptions& options) -> std::optional<OptionValue> {
-        const auto* height = std::get_if<double>(&options.first_height);
-        return height ? std::optional<OptionValue>(*height) : std::nullopt;
+        const auto* height = std::get_if<Length>(&options.first_height);
+        return height ? std::optional<OptionValue>(option_value(*height)) : std::nullopt;
     };
     table
-        .add({"first-height", OptionKind::number, "H",
-              "height of the first layer above the wall, in units of the input", positive_numbers.text(),
-              set_first_height, get_first_height})
+        .add({"first-height", OptionKind::length, "H", "height of the first layer above the wall",
+              positive_numbers.text(), set_first_height, get_first_height})
         .excludes = {"y-plus"};
-    add_flow_number(table, "y-plus", "Y", "instead: y+ of the top of the first layer, on a flat plate", &YPlus::y_plus)
-        .needs = {"reynolds"};
-    add_flow_number(table, "reynolds", "RE", "Reynolds number for y-plus, based on the chord", &YPlus::reynolds)
-        .needs = {"y-plus"};
-    add_flow_number(table, "chord", "C",
-                    "chord for y-plus, in units of the input; else the extent in x of the configuration", &YPlus::chord)
-        .needs = {"y-plus"};
+    const auto set_y_plus = [](LayerOptions& options, const OptionValue& value) {
+        const double y_plus = as_number(value, "y_plus");
+        require_in_range(positive_numbers, y_plus, "y_plus");
+        options.first_height = YPlus{y_plus};
+    };
+    const auto get_y_plus = [](const LayerOptions& options) -> std::optional<OptionValue> {
+        const auto* flow = std::get_if<YPlus>(&options.first_height);
+        return flow ? std::optional<OptionValue>(flow->y_plus) : std::nullopt;
+    };
+    table.add({"y-plus", OptionKind::number, "Y",
+               "instead: y+ of the top of the first layer, on a flat plate; needs reynolds, or velocity and viscosity",
+               positive_numbers.text(), set_y_plus, get_y_plus});
 }
 
 /// Adds the option of the growth law, whose help lists the formulas.
@@ -80,7 +62,7 @@ OptionTable<LayerOptions> make_table() {
     // Layer::layer_of_point has 16 bits.
     table.count_or_auto("layers", "N", "number of layers; auto: on each ray up to cells as high as wide",
                         numbers_from_to(1, std::numeric_limits<std::uint16_t>::max()), at(&LayerOptions::layers));
-    table.number("thickness", "T", "total height beyond which no layer goes, in units of the input", positive_numbers,
+    table.length("thickness", "T", "total height beyond which no layer goes", positive_numbers,
                  at(&LayerOptions::thickness));
     table.flag("no-layers", "isotropic triangles up to the wall", false, at(&LayerOptions::enabled));
     table.number("max-ray-angle", "DEG", "largest angle between neighbouring rays, in degrees",

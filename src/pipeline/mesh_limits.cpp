@@ -60,7 +60,7 @@ RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& laye
                        fmt::format("the mesh, with {:.2g} triangles in the layer,", in_layer));
     require_within(
         options.limits, estimate, "gradation",
-        fmt::format("{}, with these sizes at walls and sources and this far field,", options.sizing.field.gradation));
+        fmt::format("{}, with these sizes at walls and sources and this far field,", options.sizing.gradation));
     return estimate;
 }
 

@@ -66,6 +66,7 @@ OptionTable<CaseOptions> make_table() {
     OptionTable<CaseOptions> table;
     add_stage(surface_option_table(), &CaseOptions::surface, table);
     add_stage(geometry_option_table(), &CaseOptions::geometry, table);
+    add_stage(conditions_option_table(), &CaseOptions::conditions, table);
     add_stage(layer_option_table(), &CaseOptions::layer, table);
     add_stage(far_field_option_table(), &CaseOptions::far_field, table);
     add_stage(sizing_option_table(), &CaseOptions::sizing, table);
@@ -91,6 +92,7 @@ const OptionTable<CaseOptions>& case_option_table() {
 
 void validate(const CaseOptions& options) {
     validate(options.geometry);
+    validate(options.conditions);
     validate(options.surface);
     validate(options.layer);
     validate(options.sizing);
@@ -99,6 +101,9 @@ void validate(const CaseOptions& options) {
     validate(options.decomposition);
     validate(options.refine);
     require_in_range(pipeline_rows(), options);
+    const bool by_y_plus = options.layer.enabled && std::holds_alternative<YPlus>(options.layer.first_height);
+    if (by_y_plus && !options.conditions.reynolds && !options.conditions.velocity)
+        throw OptionError("y_plus", "needs reynolds, or velocity and viscosity");
 }
 
 SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth) {
@@ -108,7 +113,7 @@ SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& grow
     // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division
     // points.
     constexpr double margin = 0.9;
-    limits.gradation = std::max(margin * border_gradation(options.sizing.field), min_wall_gradation);
+    limits.gradation = std::max(margin * border_gradation(options.sizing.gradation), min_wall_gradation);
     if (!options.layer.enabled) return limits;
     // The height of automatic and adaptive layers follows from the spacing of the wall, so it sets no limit.
     const std::optional<double> height = requested_height(growth);
@@ -118,11 +123,11 @@ SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& grow
     return limits;
 }
 
-BorderOptions border_options(const CaseOptions& options, std::span<const SizeSource> sources) {
+BorderOptions border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
+    const auto largest = [&](const std::optional<Length>& size) { return size ? in_units(*size, chord) : HUGE_VAL; };
     BorderOptions border;
-    border.gradation = border_gradation(options.sizing.field);
-    border.max_edge =
-        frozen_share * std::min(options.sizing.wall_size.value_or(HUGE_VAL), options.sizing.field.max_size);
+    border.gradation = border_gradation(options.sizing.gradation);
+    border.max_edge = frozen_share * std::min(largest(options.sizing.wall_size), largest(options.sizing.far_size));
     // Neighbouring frozen edges may differ by sqrt 2 / (2 sin(bound)) before a quality-driven vertex can encroach
     // (docs/decisions/0003). A tenth more saves many splits, and has never made a vertex encroach.
     const double bound = core::radians(options.refine.min_angle_deg);
@@ -136,15 +141,16 @@ BorderOptions border_options(const CaseOptions& options, std::span<const SizeSou
     return border;
 }
 
-BorderOptions wall_border_options(const CaseOptions& options, std::span<const SizeSource> sources) {
-    BorderOptions border = border_options(options, sources);
+BorderOptions wall_border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
+    BorderOptions border = border_options(options, chord, sources);
     border.gradation = std::max(border.gradation, min_wall_gradation);
     return border;
 }
 
-SizedBodies sized_bodies(const Geometry& geometry) {
+SizedBodies sized_bodies(const Geometry& geometry, const ReferenceConditions& conditions) {
     SizedBodies bodies;
-    bodies.chord = bounding_box(geometry).width();
+    bodies.chord = conditions.chord;
+    bodies.alpha_deg = conditions.alpha_deg;
     for (const Element& element : geometry.elements) {
         bodies.walls.push_back(element.points);
         bodies.trailing_edges.push_back(element.features.trailing_edge);

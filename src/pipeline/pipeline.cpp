@@ -90,8 +90,7 @@ void summarize_refinement(std::span<const Subdomain> subdomains, std::span<const
             static_cast<double>(good_estimates) / static_cast<double>(refinements.size());
 }
 
-void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOptions& options, double chord,
-                     MeshResult& result) {
+void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOptions& options, MeshResult& result) {
     result.layer_pieces = cells.pieces();
     result.decomposition = cells.decomposition;
     result.layer_grid_refused = cells.grid_refused;
@@ -100,10 +99,7 @@ void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOpt
     if (!options.enabled) return;
     result.border_steps = border_steps(layer);
     result.first_height = layer.growth.first_height;
-    if (const auto* flow = std::get_if<YPlus>(&options.first_height)) {
-        result.y_plus = *flow;
-        result.y_plus->chord = flow->chord.value_or(chord);
-    }
+    if (const auto* y_plus = std::get_if<YPlus>(&options.first_height)) result.y_plus = *y_plus;
 }
 
 void require_valid(const MeshCheck& check) {
@@ -140,14 +136,16 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
                         bool announce_estimate) {
     MeshResult result;
     result.geometry = plan.geometry;
+    result.conditions = plan.conditions;
     result.thinned_rays = plan.thinned_rays;
     result.thinned_at = plan.thinned_at;
-    const Layer layer = close_border(plan.rays, border_options(options, plan.requests.at_borders));
+    const Layer layer =
+        close_border(plan.rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
     seconds.layers += clock.lap();
 
     clock.begin("sizing");
-    const SizeField size =
-        make_size_field(border_loops(layer), plan.requests.sources, options.sizing, plan.far_field.box());
+    const SizeField size = make_size_field(border_loops(layer), plan.requests.sources, options.sizing,
+                                           plan.conditions.chord, plan.far_field.box());
     result.estimate = estimate_within_limits(options, layer, size, plan.far_field);
     seconds.sizing += clock.lap();
 
@@ -168,7 +166,7 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
 
     clock.begin("assembly");
     result.threads = thread_count();
-    summarize_layer(layer, cells, options.layer, plan.chord, result);
+    summarize_layer(layer, cells, options.layer, result);
     summarize_refinement(decoupling.subdomains, refinements, result);
     result.mesh = assemble(plan.geometry, layer, std::move(cells), std::move(decoupling), std::move(refinements),
                            options.assemble);
@@ -181,7 +179,7 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
     result.check = check_mesh(result.mesh, check_options);
     require_valid(result.check);
     result.mean_edge_over_size = mean_edge_over_size(result.mesh, size);
-    result.warnings = find_warnings(result, options, plan.chord, size);
+    result.warnings = find_warnings(result, options, size);
     seconds.check += clock.lap();
     result.seconds = seconds;
     return result;
@@ -225,16 +223,16 @@ MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& cl
     clock.lap();
 
     clock.begin("surface");
-    const double chord = bounding_box(given).width();
-    const LayerGrowth growth = layer_growth(options.layer, chord);
+    const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(given));
+    const LayerGrowth growth = layer_growth(options.layer, conditions);
     const SpacingLimits limits = spacing_limits(options, growth);
-    Geometry prepared = prepare_surfaces(given, options.surface, limits);
-    require_options_within(options, growth, sized_bodies(prepared),
-                           place_far_field(bounding_box(prepared), options.far_field).box());
+    Geometry prepared = prepare_surfaces(given, options.surface, limits, conditions.chord);
+    require_options_within(options, growth, sized_bodies(prepared, conditions),
+                           place_far_field(bounding_box(prepared), conditions.chord, options.far_field).box());
     seconds.geometry = geometry_seconds + clock.lap();
 
     clock.begin("layers");
-    RayPlan plan = plan_rays(std::move(prepared), chord, options, growth);
+    RayPlan plan = plan_rays(std::move(prepared), conditions, options, growth);
     refine_walls_below_borders(given, options, limits, growth, plan);
     MeshResult result = mesh_on_rays(plan, options, clock, seconds, true);
     make_room(options, plan, clock, result);

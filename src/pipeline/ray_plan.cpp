@@ -72,15 +72,17 @@ void count_thinned(RayPlan& plan) {
 
 }  // namespace
 
-RayPlan plan_rays(Geometry geometry, double chord, const CaseOptions& options, const LayerGrowth& growth) {
-    FarField far_field = place_far_field(bounding_box(geometry), options.far_field);
+RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, const CaseOptions& options,
+                  const LayerGrowth& growth) {
+    FarField far_field = place_far_field(bounding_box(geometry), conditions.chord, options.far_field);
     Rays rays = grow_rays(geometry, options.layer, growth);
     const auto tips = fronts(rays);
     if (options.layer.enabled) require_room_for_layers(geometry, tips, far_field, options.layer, growth);
-    SizeRequests requests = gather_size_requests(options.sizing, sized_bodies(geometry), tips, far_field.box());
+    SizeRequests requests =
+        gather_size_requests(options.sizing, sized_bodies(geometry, conditions), tips, far_field.box());
     std::vector<double> limits = rays.limits;
     return {.geometry = std::move(geometry),
-            .chord = chord,
+            .conditions = conditions,
             .far_field = std::move(far_field),
             .rays = std::move(rays),
             .requests = std::move(requests),
@@ -93,12 +95,12 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
     if (!options.layer.enabled) return;
     for (int round = 0; round < max_rounds; ++round) {
         const std::vector<WallSpacing> finer =
-            wall_spacings(plan.rays, wall_border_options(options, plan.requests.at_borders));
+            wall_spacings(plan.rays, wall_border_options(options, plan.conditions.chord, plan.requests.at_borders));
         if (finer.empty()) return;
         limits.walls.insert(limits.walls.end(), finer.begin(), finer.end());
-        Geometry prepared = prepare_surfaces(given, options.surface, limits);
+        Geometry prepared = prepare_surfaces(given, options.surface, limits, plan.conditions.chord);
         if (same_points(prepared, plan.geometry)) return;  // the rest are stretches that keep their given points
-        plan = plan_rays(std::move(prepared), plan.chord, options, growth);
+        plan = plan_rays(std::move(prepared), plan.conditions, options, growth);
     }
 }
 
@@ -113,8 +115,8 @@ bool make_room_at_narrow_triangles(const MeshResult& result, const CaseOptions& 
         if (ends[k] == 0) plan.short_edges.push_back({.a = at, .b = at, .size = edge_share * places[k].radius});
     }
     count_thinned(plan);
-    plan.requests =
-        gather_size_requests(options.sizing, sized_bodies(plan.geometry), fronts(plan.rays), plan.far_field.box());
+    plan.requests = gather_size_requests(options.sizing, sized_bodies(plan.geometry, plan.conditions),
+                                         fronts(plan.rays), plan.far_field.box());
     plan.requests.at_borders.insert(plan.requests.at_borders.end(), plan.short_edges.begin(), plan.short_edges.end());
     return true;
 }

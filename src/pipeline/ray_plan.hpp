@@ -12,7 +12,7 @@ namespace lamina::pipeline {
 /// The walls, the far field round them, the rays on them, and the sizes that their fronts and the options request.
 struct RayPlan {
     Geometry geometry;
-    double chord;  ///< extent in x of the input
+    ReferenceConditions conditions;
     FarField far_field;
     Rays rays;
     SizeRequests requests;
@@ -23,7 +23,8 @@ struct RayPlan {
 };
 
 /// Makes rays on prepared walls. Throws OptionError where their layers do not fit into the far field.
-RayPlan plan_rays(Geometry geometry, double chord, const CaseOptions& options, const LayerGrowth& growth);
+RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, const CaseOptions& options,
+                  const LayerGrowth& growth);
 
 /// Prepares the walls anew, from the given geometry, with a finer spacing where the layer's border would be divided,
 /// and makes rays on them. Rows of cells would end in fans below division points (docs/decisions/0017).

@@ -141,18 +141,17 @@ void warn_of_transition(const MeshResult& result, std::vector<Warning>& warnings
                          median, median < 1 ? "more layers, or --layers auto," : "fewer layers, or --layers auto,")});
 }
 
-void warn_of_first_height(const MeshResult& result, const LayerOptions& options, double chord,
-                          std::vector<Warning>& warnings) {
+void warn_of_first_height(const MeshResult& result, const LayerOptions& options, std::vector<Warning>& warnings) {
     // A y+ of 1 asks for 1e-7 chords at a Reynolds number of 4e8, and a y+ of 300 for 1e-2 at 5e5.
     constexpr double min_share = 1e-7, max_share = 1e-2;
     if (!options.enabled || result.y_plus) return;
-    const double share = result.first_height / chord;
+    const double chord = result.conditions.chord, share = result.first_height / chord;
     if (share >= min_share && share <= max_share) return;
     warnings.push_back({.code = WarningCode::first_height_implausible,
                         .number = share,
                         .unit = "chords",
-                        .message = fmt::format("the first height {:.4g} is {:.2g} of the chord {:.6g}: is it in the "
-                                               "units of the input (--first-height, --y-plus)?",
+                        .message = fmt::format("the first height {:.4g} is {:.2g} of the chord {:.6g}: --first-height "
+                                               "counts chords, or units of the input with the suffix u",
                                                result.first_height, share, chord)});
 }
 
@@ -259,12 +258,11 @@ void add_reader_warnings(const Geometry& geometry, std::vector<Warning>& warning
 
 }  // namespace
 
-std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, double chord,
-                                   const SizeField& size) {
+std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, const SizeField& size) {
     std::vector<Warning> warnings;
     add_reader_warnings(result.geometry, warnings);
     warn_of_surfaces(result.geometry, options.surface, warnings);
-    warn_of_first_height(result, options.layer, chord, warnings);
+    warn_of_first_height(result, options.layer, warnings);
     warn_of_topology(result, warnings);
     warn_of_first_layer(result, warnings);
     warn_of_cut_rays(result, warnings);

@@ -7,9 +7,7 @@
 
 namespace lamina::pipeline {
 
-/// Returns the warnings about a result that is complete but for them. `chord` is that of the configuration, and `size`
-/// the size field of the isotropic region.
-std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, double chord,
-                                   const SizeField& size);
+/// Returns the warnings about a result that is complete but for them. `size` is the size field of the isotropic region.
+std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, const SizeField& size);
 
 }  // namespace lamina::pipeline

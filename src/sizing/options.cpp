@@ -10,21 +10,16 @@ namespace {
 OptionTable<SizingOptions> make_table() {
     OptionTableBuilder<SizingOptions> table("Outer region");
     table.number("gradation", "G", "growth of the edge length per unit of distance", numbers_above_up_to(0, 1),
-                 member_at(&SizingOptions::field, &SizeFieldOptions::gradation));
-    table.number("wall-size", "H",
-                 "largest edge length at the outer border of the layer, in units of the input; else the edges of the "
-                 "border decide",
+                 member_at(&SizingOptions::gradation));
+    table.length("wall-size", "H",
+                 "largest edge length at the outer border of the layer; else the edges of the border decide",
                  positive_numbers, member_at(&SizingOptions::wall_size));
-    // An infinite max_size stands for an option that is not given.
-    Option<SizingOptions>& far_size =
-        table.number("far-size", "H", "largest edge length, in units of the input; else unbounded", positive_numbers,
-                     member_at(&SizingOptions::field, &SizeFieldOptions::max_size));
-    far_size.get = [get = far_size.get](const SizingOptions& options) {
-        return options.field.max_size == HUGE_VAL ? std::nullopt : get(options);
-    };
+    table.length("far-size", "H", "largest edge length; else unbounded", positive_numbers,
+                 member_at(&SizingOptions::far_size));
     table.spec("wake", "ANGLE[:LENGTH[:SIZE]]",
-               "small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, LENGTH in chords "
-               "(2), SIZE at the trailing edge in units of the input (else the size there without a wake)",
+               "small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, or auto for that "
+               "of the flow (alpha); LENGTH of the line (2 chords); SIZE at the trailing edge (else the size there "
+               "without a wake)",
                parse_wake, wake_text, member_at(&SizingOptions::wake));
     table.specs("refine", "SHAPE",
                 "edge length H in and round a shape, box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H, in units "

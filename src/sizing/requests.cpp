@@ -50,16 +50,16 @@ std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradati
 /// Returns a source for each edge of closed borders. It requests the edge's length / frozen_share, raised by
 /// edge_sizes(), or wall_size where that is less. Larger sizes would put triangles many times as large beside frozen
 /// edges.
-std::vector<SizeSource> border_sources(Loops borders, const SizingOptions& options) {
+std::vector<SizeSource> border_sources(Loops borders, const SizingOptions& options, double chord) {
+    const double wall_size = options.wall_size ? in_units(*options.wall_size, chord) : HUGE_VAL;
     std::vector<SizeSource> sources;
     for (const std::vector<Point>& border : borders)
         for (std::size_t i = 0; i < border.size(); ++i) {
             const Point a = border[i], b = border[i + 1 < border.size() ? i + 1 : 0];
             sources.push_back({.a = a, .b = b, .size = distance(a, b) / frozen_share});
         }
-    const std::vector<double> sizes = edge_sizes(sources, options.field.gradation);
-    for (std::size_t i = 0; i < sources.size(); ++i)
-        sources[i].size = std::min(sizes[i], options.wall_size.value_or(HUGE_VAL));
+    const std::vector<double> sizes = edge_sizes(sources, options.gradation);
+    for (std::size_t i = 0; i < sources.size(); ++i) sources[i].size = std::min(sizes[i], wall_size);
     return sources;
 }
 
@@ -82,15 +82,15 @@ namespace lamina {
 
 using namespace sizing;
 
-double border_gradation(const SizeFieldOptions& field) {
+double border_gradation(double gradation) {
     // Edges are divided into whole numbers of parts. Graded as steeply as the field, some would be too long for it.
     constexpr double rounding_of_parts = 1.15;
-    return frozen_share * field.gradation / rounding_of_parts;
+    return frozen_share * gradation / rounding_of_parts;
 }
 
 SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodies& bodies, Loops fronts,
                                   const Box& domain) {
-    const double gradation = options.field.gradation;
+    const double gradation = options.gradation;
     SizeRequests requests;
     append(options.sources, requests.sources);
     append(given_wake_sources(options, bodies), requests.sources);
@@ -99,11 +99,11 @@ SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodie
         const std::vector<SizeSource> points = background_sources(*options.background, gradation, domain);
         append(points, requests.sources);
         // Only few points of a background mesh bind at the borders.
-        append(binding_sources(points, fronts, border_gradation(options.field), frozen_share), requests.at_borders);
+        append(binding_sources(points, fronts, border_gradation(gradation), frozen_share), requests.at_borders);
     }
     if (!options.wake || options.wake->size) return requests;
 
-    std::vector<SizeSource> without_wakes = border_sources(fronts, options);
+    std::vector<SizeSource> without_wakes = border_sources(fronts, options, bodies.chord);
     append(requests.sources, without_wakes);
     for (const Wake& wake : find_wakes(bodies, *options.wake)) {
         const double size = size_at(wake.from, without_wakes, gradation);
@@ -115,10 +115,12 @@ SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodie
 }
 
 SizeField make_size_field(Loops borders, std::span<const SizeSource> sources, const SizingOptions& options,
-                          const Box& domain) {
-    std::vector<SizeSource> all = border_sources(borders, options);
+                          double chord, const Box& domain) {
+    std::vector<SizeSource> all = border_sources(borders, options, chord);
     all.insert(all.end(), sources.begin(), sources.end());
-    return SizeField(all, options.field, domain);
+    SizeFieldOptions field{.gradation = options.gradation};
+    if (options.far_size) field.max_size = in_units(*options.far_size, chord);
+    return SizeField(all, field, domain);
 }
 
 }  // namespace lamina

@@ -12,7 +12,6 @@
 #include <lamina/threads.hpp>
 
 #include "core/reproducible_math.hpp"
-#include "core/text.hpp"
 #include "sizing/wake.hpp"
 
 namespace lamina::sizing {
@@ -86,16 +85,19 @@ using namespace sizing;
 
 void require_within_limits(const SizingOptions& options, const SizedBodies& bodies, const Box& domain,
                            const WorkLimits& limits) {
-    const double gradation = options.field.gradation, reach = 0.1 * std::min(domain.width(), domain.height());
-    if (const double size = options.field.max_size; size < HUGE_VAL)
-        require_within_limits(domain.width() * domain.height() / (size * size), "far_size", core::to_text(size),
-                              limits);
+    const double gradation = options.gradation, reach = 0.1 * std::min(domain.width(), domain.height());
+    if (options.far_size) {
+        const double size = in_units(*options.far_size, bodies.chord);
+        require_within_limits(domain.width() * domain.height() / (size * size), "far_size",
+                              length_text(*options.far_size), limits);
+    }
     for (const SizeSource& source : options.sources)
         require_within_limits(integral_round(source, gradation, reach, domain), "refine", size_source_text(source),
                               limits);
     if (const auto& size = options.wall_size)
-        require_within_limits(integral_beside(total_length(bodies.walls), *size, gradation, reach), "wall_size",
-                              core::to_text(*size), limits);
+        require_within_limits(
+            integral_beside(total_length(bodies.walls), in_units(*size, bodies.chord), gradation, reach), "wall_size",
+            length_text(*size), limits);
     if (options.wake && options.wake->size) {
         double integral = 0;
         for (const SizeSource& source : given_wake_sources(options, bodies))

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <lamina/option_builders.hpp>
+
 #include "core/text.hpp"
 
 namespace lamina {
@@ -13,21 +15,22 @@ namespace lamina {
 using core::require_text;
 
 WakeOptions parse_wake(const std::string& text) {
-    const std::vector<double> numbers = core::parse_numbers(text, ':');
-    require_text(numbers.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
+    const std::vector<std::string> parts = core::split(text, ':');
+    require_text(parts.size() <= 3, text, "a wake is ANGLE[:LENGTH[:SIZE]]");
     WakeOptions wake;
-    wake.angle_deg = numbers[0];
-    require_text(std::abs(wake.angle_deg) <= 360, text, "the angle must be from -360 to 360 degrees");
-    if (numbers.size() > 1) wake.length = numbers[1];
-    require_text(wake.length > 0, text, "the length must be > 0");
-    if (numbers.size() > 2) wake.size = numbers[2];
-    require_text(wake.size.value_or(1) > 0, text, "the size must be > 0");
+    if (parts[0] != auto_word) wake.angle_deg = core::parse_number(parts[0]);
+    require_text(std::abs(wake.angle_deg.value_or(0)) <= 360, text, "the angle must be from -360 to 360 degrees");
+    if (parts.size() > 1) wake.length = parse_length(parts[1]);
+    require_text(wake.length.value > 0, text, "the length must be > 0");
+    if (parts.size() > 2) wake.size = parse_length(parts[2]);
+    require_text(wake.size.value_or(1).value > 0, text, "the size must be > 0");
     return wake;
 }
 
 std::string wake_text(const WakeOptions& wake) {
-    const std::string text = core::concat(wake.angle_deg, ":", wake.length);
-    return wake.size ? core::concat(text, ":", *wake.size) : text;
+    const std::string angle = wake.angle_deg ? core::to_text(*wake.angle_deg) : auto_word;
+    const std::string text = core::concat(angle, ":", length_text(wake.length));
+    return wake.size ? core::concat(text, ":", length_text(*wake.size)) : text;
 }
 
 SizeSource parse_size_source(const std::string& text) {

@@ -33,7 +33,8 @@ double free_length(Loops walls, Point p, Point direction, double length) {
 }  // namespace
 
 std::vector<Wake> find_wakes(const SizedBodies& bodies, const WakeOptions& options) {
-    const double angle = core::radians(options.angle_deg), length = options.length * bodies.chord;
+    const double angle = core::radians(options.angle_deg.value_or(bodies.alpha_deg)),
+                 length = in_units(options.length, bodies.chord);
     const Point direction{core::cos_reproducible(angle), core::sin_reproducible(angle)};
     std::vector<Wake> wakes;
     wakes.reserve(bodies.trailing_edges.size());
@@ -57,8 +58,9 @@ std::vector<SizeSource> wake_sources(const Wake& wake, double size, double grada
 std::vector<SizeSource> given_wake_sources(const SizingOptions& options, const SizedBodies& bodies) {
     std::vector<SizeSource> sources;
     if (!options.wake || !options.wake->size) return sources;
+    const double size = in_units(*options.wake->size, bodies.chord);
     for (const Wake& wake : find_wakes(bodies, *options.wake)) {
-        const std::vector<SizeSource> one = wake_sources(wake, *options.wake->size, options.field.gradation);
+        const std::vector<SizeSource> one = wake_sources(wake, size, options.gradation);
         sources.insert(sources.end(), one.begin(), one.end());
     }
     return sources;

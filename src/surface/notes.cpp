@@ -14,7 +14,7 @@ void add_noise_note(Element& e) {
     if (noise.vertices < min_vertices) return;
     e.surface_notes.push_back(
         fmt::format("{} zigzag by up to {:.2g} degrees, about {:.1g} in the units of the input: smoothing would help "
-                    "(--smooth {:.1g})",
+                    "(--smooth {:.1g}u)",
                     counted(noise.vertices, "point"), core::degrees(noise.max_turning), noise.amplitude,
                     smoothing_factor * noise.amplitude));
 }

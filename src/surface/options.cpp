@@ -29,8 +29,8 @@ OptionTable<SurfaceOptions> make_table() {
                  positive_numbers, at(&SurfaceOptions::trailing_edge_spacing));
     table.number("spacing-max", "SHARE", "largest wall spacing, in lengths of the element", positive_numbers,
                  at(&SurfaceOptions::max_spacing));
-    table.number("smooth", "TOL", "smooth the points first; none moves by more than this, in units of the input",
-                 positive_numbers, at(&SurfaceOptions::smooth));
+    table.length("smooth", "TOL", "smooth the points first; none moves by more than this", positive_numbers,
+                 at(&SurfaceOptions::smooth));
 
     const auto library = [&](Option<SurfaceOptions>& option) { option.library_only = true; };
     library(table.number("max-turning", "DEG", "largest turning at a vertex between two corners",

@@ -168,12 +168,14 @@ namespace lamina {
 
 using namespace surface;
 
-Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const SpacingLimits& limits) {
+Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const SpacingLimits& limits,
+                          std::optional<double> chord) {
     validate(options);
     for (Element& e : given.elements) e.features.corners = find_corners(e);
     if (options.smooth) {
         Geometry smoothed = given;
-        for (Element& e : smoothed.elements) smooth(e, *options.smooth);
+        const double tolerance = in_units(*options.smooth, chord ? *chord : bounding_box(given).width());
+        for (Element& e : smoothed.elements) smooth(e, tolerance);
         restore_crossing(smoothed, given);
         given = std::move(smoothed);
     } else {

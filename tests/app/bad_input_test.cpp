@@ -107,8 +107,11 @@ TEST(BadInput, AFirstHeightGivenTwiceOrByHalf) {
     };
     refuse({"--first-height", "1e-5", "--y-plus", "1", "--reynolds", "1e6"}, "exclude each other");
     refuse({"--y-plus", "1"}, "needs reynolds");
-    refuse({"--reynolds", "1e6"}, "y-plus");
-    refuse({"--chord", "2"}, "y-plus");
+    refuse({"--y-plus", "1", "--velocity", "30"}, "velocity needs viscosity");
+    refuse({"--viscosity", "1.5e-5"}, "viscosity needs velocity");
+    refuse({"--velocity", "30", "--viscosity", "1.5e-5", "--reynolds", "1e6"}, "exclude each other");
+    refuse({"--first-height", "1e-5m"}, "is not a length, such as 0.003 (chords) or 0.003u (units of the input)");
+    refuse({"--first-height", "-1u"}, "first-height");
     refuse({"--y-plus", "0", "--reynolds", "1e6"}, "y-plus");
     refuse({"--y-plus", "1", "--reynolds", "-1"}, "reynolds");
     refuse({"--y-plus", "1", "--dump-config"}, "needs reynolds");

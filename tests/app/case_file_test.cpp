@@ -67,17 +67,17 @@ TEST(CaseFile, AFirstHeightFromTheFlowIsDumpedAndReported) {
 
     const ProgramRun run = run_lamina(folder, {"mesh", "case.toml"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(run.out.find("first height 1.697e-05"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("first layer 1.697e-05 chords"), std::string::npos) << run.out;
     const auto report = nlohmann::json::parse(folder.read("a.json"));
     const double height = 2 / (3e6 * std::sqrt(0.5 * 0.026 / std::pow(3e6, 1.0 / 7)));
-    EXPECT_NEAR(report["first_layer"]["height"].get<double>() / height, 1, 1e-9);
-    EXPECT_EQ(report["first_layer"]["chord"], 1);
+    EXPECT_NEAR(report["conditions"]["first_height"]["units"].get<double>() / height, 1, 1e-9);
+    EXPECT_EQ(report["conditions"]["chord"]["value"], 1);
     EXPECT_GT(report["quality"]["transition"]["edges"], 100);
 
     // The same height, given directly, makes the same mesh.
     const ProgramRun given =
         run_lamina(folder, {"mesh", "naca:0012", "-o", "b.su2", "--far-field", "5", "--first-height",
-                            report["first_layer"]["height"].dump(), "--layers", "auto", "--growth-law", "aflr"});
+                            report["conditions"]["first_height"]["units"].dump(), "--layers", "auto", "--growth-law", "aflr"});
     ASSERT_EQ(given.exit_code, 0) << given.err;
     EXPECT_EQ(folder.read("a.su2"), folder.read("b.su2"));
 }

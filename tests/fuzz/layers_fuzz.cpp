@@ -28,7 +28,7 @@ lamina::Element read_body(lamina::fuzz::Numbers& numbers, lamina::Point centre) 
 void lamina::fuzz::fuzz(std::span<const std::uint8_t> input) {
     Numbers numbers(input);
     LayerOptions options;
-    options.first_height = numbers.real(1e-6, 1e-2);
+    options.first_height = input_units(numbers.real(1e-6, 1e-2));
     options.growth = numbers.real(1, 1.6);
     options.layers = static_cast<std::uint32_t>(1 + numbers.below(20));
     options.max_ray_angle_deg = numbers.real(2, 60);

@@ -113,7 +113,7 @@ TEST(GrowthLaw, ExponentialMeetsFirstHeightAndThickness) {
             options.layers = layers;
             options.thickness = test::first_height(options) * layers * stretch;
             const auto height = [&](Real a, std::uint32_t n) {
-                return *options.thickness * std::expm1(a * n / layers) / std::expm1(a);
+                return options.thickness->value * std::expm1(a * n / layers) / std::expm1(a);
             };
             Real low = 1e-9L, high = 10000;  // H(1) falls as a grows
             for (int k = 0; k < 200; ++k) {
@@ -123,7 +123,7 @@ TEST(GrowthLaw, ExponentialMeetsFirstHeightAndThickness) {
             for (std::uint32_t n = 1; n <= layers; n += 1 + layers / 20)
                 EXPECT_NEAR(static_cast<double>(layer_height(test::growth_of(options), n) / height(low, n)), 1, 1e-8)
                     << n << " of " << layers;
-            EXPECT_NEAR(layer_height(test::growth_of(options), layers) / *options.thickness, 1, 1e-12);
+            EXPECT_NEAR(layer_height(test::growth_of(options), layers) / options.thickness->value, 1, 1e-12);
             EXPECT_EQ(layer_height(test::growth_of(options), 1), test::first_height(options));
         }
     }

@@ -25,7 +25,7 @@ using test::checked_layer;
 
 LayerOptions scaled(LayerOptions options, double scale) {
     options.first_height = test::first_height(options) * scale;
-    if (options.thickness) *options.thickness *= scale;
+    if (options.thickness) options.thickness->value *= scale;
     return options;
 }
 

@@ -177,10 +177,10 @@ TEST(Rays, AskForFinerResampledWallsBelowBordersThatWouldBeDivided) {
     const BorderOptions border;
     Geometry geometry = shapes::geometry({wall, fine});
     EXPECT_GT(division_points(test::make_layer(geometry, options, border), 0), 20u);
-    EXPECT_TRUE(wall_spacings(grow_rays(geometry, options), border).empty());  // no element is resampled
+    EXPECT_TRUE(wall_spacings(grow_rays(geometry, options, test::growth_of(options)), border).empty());  // no element is resampled
 
     for (Element& element : geometry.elements) element.resampled = true;
-    const std::vector<WallSpacing> spacings = wall_spacings(grow_rays(geometry, options), border);
+    const std::vector<WallSpacing> spacings = wall_spacings(grow_rays(geometry, options, test::growth_of(options)), border);
     ASSERT_FALSE(spacings.empty());
     for (const WallSpacing& spacing : spacings) {
         EXPECT_EQ(spacing.element, 0u);
@@ -224,7 +224,7 @@ TEST(Rays, AreShortenedInCirclesAndLeadOverToThoseBeside) {
     const Outline outline = shapes::circle(1, 200);
     const LayerOptions options = layers_as_high_as(0.2);
     const Geometry geometry = shapes::geometry({outline});
-    Rays rays = grow_rays(geometry, options);
+    Rays rays = grow_rays(geometry, options, test::growth_of(options));
     EXPECT_EQ(shorten_rays(std::vector<Circle>{{{3, 0}, 0.5}}, rays), std::vector<std::size_t>{0});
     const std::size_t shortened = shorten_rays(std::vector<Circle>{{{3, 0}, 0.5}, {{1.2, 0}, 0.1}}, rays)[1];
     EXPECT_GT(shortened, 2u);

@@ -144,10 +144,7 @@ TEST(MeasuredSections, SeveralElementsAreMeshedOrRefusedWithAReason) {
         try {
             CaseOptions options = options_with(30);
             const Geometry geometry = read_geometry(files);
-            Box box;
-            for (const Element& element : geometry.elements)
-                for (const Point p : element.points) box.include(p);
-            options.layer.first_height = 2.5e-5 * box.width();
+            options.layer.first_height = 2.5e-5;
             const MeshResult result = generate_mesh(geometry, options);
             expect_sound(result, options);
             expect_nothing_left_over(result);

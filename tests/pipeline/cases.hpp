@@ -102,7 +102,7 @@ inline void expect_sound(const MeshResult& result, const CaseOptions& options) {
     EXPECT_EQ(mesh.markers.back().kind, MarkerKind::far_field);
     expect_one_loop(mesh.markers.back());
 
-    const double side = 2 * options.far_field.size * box.width();
+    const double side = 2 * in_units(options.far_field.size, result.conditions.chord);
     double area = side * side;
     if (options.far_field.shape != FarFieldShape::box) {
         area = 0;

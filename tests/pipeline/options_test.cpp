@@ -64,6 +64,9 @@ TEST(CaseOptions, RowsRefuseWhatIsNoNumberOrHasAnotherType) {
         if (option.kind == OptionKind::number)
             wrong = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                      std::string("many"), true};
+        if (option.kind == OptionKind::length)
+            wrong = {std::numeric_limits<double>::quiet_NaN(), -1.0, std::string("many"), std::string("u"),
+                     std::string("-1u"), std::string("infu"), true};
         if (option.kind == OptionKind::count) wrong = {2.5, std::string("many"), true};
         if (option.kind == OptionKind::flag) wrong = {1.0, std::string("yes")};
         for (std::size_t i = 0; i < wrong.size(); ++i)
@@ -83,10 +86,16 @@ TEST(CaseOptions, ValidateFindsTheOptionOfAnyStage) {
     EXPECT_EQ(refused([](CaseOptions& o) { o.threads = 2000; }), "threads");
     EXPECT_EQ(refused([&](CaseOptions& o) { o.layer.growth = nan; }), "growth");
     EXPECT_EQ(refused([](CaseOptions& o) { o.layer.first_height = -1.0; }), "first_height");
-    EXPECT_EQ(refused([](CaseOptions& o) { o.layer.first_height = YPlus{.reynolds = 0}; }), "reynolds");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.layer.first_height = YPlus{1}; }), "y_plus");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.layer.first_height = input_units(0); }), "first_height");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.conditions.reynolds = 0; }), "reynolds");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.conditions.velocity = 30; }), "velocity");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.conditions.viscosity = 1e-5; }), "viscosity");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.conditions = {.reynolds = 1e6, .velocity = 30, .viscosity = 1e-5}; }),
+              "reynolds");
     EXPECT_EQ(refused([](CaseOptions& o) { o.layer.growth_law = GrowthLaw::exponential; }), "thickness");
     EXPECT_EQ(refused([](CaseOptions& o) { o.layer.max_ray_angle_deg = 0; }), "max_ray_angle");
-    EXPECT_EQ(refused([&](CaseOptions& o) { o.sizing.field.gradation = nan; }), "gradation");
+    EXPECT_EQ(refused([&](CaseOptions& o) { o.sizing.gradation = nan; }), "gradation");
     EXPECT_EQ(refused([](CaseOptions& o) { o.far_field.size = 0; }), "far_field");
     EXPECT_EQ(refused([](CaseOptions& o) { o.decoupling.pieces_target = 1; }), "pieces_target");
     EXPECT_EQ(refused([](CaseOptions& o) { o.decomposition.depth = 100; }), "decomposition_depth");

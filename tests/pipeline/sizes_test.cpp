@@ -72,7 +72,7 @@ TEST(SizeSources, AreHonouredNearWallsAndFarFromThem) {
         const MeshResult result = mesh_of({naca("2412")}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
-        expect_sizes(result, cases[i], options.sizing.field.gradation);
+        expect_sizes(result, cases[i], options.sizing.gradation);
         EXPECT_LT(result.check.isotropic.p999_neighbour_area_ratio, 3);
     }
 }
@@ -96,7 +96,7 @@ TEST(SizeSources, WithoutLayersTheWallIsDivided) {
     const MeshResult result = mesh_of({naca("0012")}, options);
     expect_sound(result, options);
     expect_nothing_left_over(result);
-    expect_sizes(result, options.sizing.sources, options.sizing.field.gradation);
+    expect_sizes(result, options.sizing.sources, options.sizing.gradation);
 }
 
 /// Expects that the options are refused at once with a message that contains `said`; a run would never end.
@@ -116,7 +116,7 @@ TEST(Sizes, TooSmallForAnyMeshAreRefusedByName) {
         set(options);
         return options;
     };
-    expect_refused(with([](CaseOptions& o) { o.sizing.field.max_size = 1e-5; }), "far_size: 1e-05");
+    expect_refused(with([](CaseOptions& o) { o.sizing.far_size = 1e-5; }), "far_size: 1e-05");
     expect_refused(with([](CaseOptions& o) { o.sizing.wall_size = 1e-10; }), "wall_size: 1e-10");
     expect_refused(with([](CaseOptions& o) {
                        o.sizing.sources = {circle({3, 0}, 1, 1e-6)};
@@ -128,12 +128,12 @@ TEST(Sizes, TooSmallForAnyMeshAreRefusedByName) {
                    }),
                    "refine");
     expect_refused(with([](CaseOptions& o) {
-                       o.sizing.field.gradation = 1e-6;
+                       o.sizing.gradation = 1e-6;
                        o.sizing.wake = WakeOptions{.angle_deg = 0, .length = 5, .size = 1e-9};
                    }),
                    "wake: 0:5:1e-09");
     expect_refused(with([](CaseOptions& o) {
-                       o.sizing.field.gradation = 1e-9;
+                       o.sizing.gradation = 1e-9;
                        o.far_field.size = 500;
                    }),
                    "gradation: 1e-09");
@@ -154,10 +154,10 @@ TEST(Wake, MakesSmallTrianglesAlongItsLine) {
         expect_nothing_left_over(result);
         std::vector<SizeSource> line;
         for (int i = 0; i < 300; ++i) {
-            const double at = 0.01 * i, size = 1.05 * (0.004 + 0.1 * options.sizing.field.gradation * (at + 0.01));
+            const double at = 0.01 * i, size = 1.05 * (0.004 + 0.1 * options.sizing.gradation * (at + 0.01));
             line.push_back({.a = Point{1, 0} + at * along, .b = Point{1, 0} + (at + 0.01) * along, .size = size});
         }
-        expect_sizes(result, line, options.sizing.field.gradation);
+        expect_sizes(result, line, options.sizing.gradation);
     }
 }
 

@@ -45,7 +45,8 @@ TEST(Warnings, GoodMeshesHaveNone) {
     CaseOptions automatic = quick_options();
     automatic.layer = {};
     automatic.layer.layers.reset();
-    automatic.layer.first_height = YPlus{1, 6e6, {}};
+    automatic.layer.first_height = YPlus{1};
+    automatic.conditions.reynolds = 6e6;
     for (const CaseOptions& options : {quick_options(), automatic})
         for (const char* digits : {"0012", "4412"})
             EXPECT_EQ(names_of(mesh_of({naca(digits, 200)}, options).warnings), std::vector<std::string>{}) << digits;
@@ -91,10 +92,15 @@ TEST(Warnings, FirstHeightsOutOfProportion) {
         const std::vector<std::string> names = names_of(mesh_of({scaled(naca("0012"), chord)}, options).warnings);
         return std::count(names.begin(), names.end(), "first_height_implausible") == 1;
     };
+    for (const double chord : {5e-4, 1.0, 300.0}) EXPECT_FALSE(warns(chord)) << "heights count chords";
+    options.layer.first_height = input_units(1e-5);
     EXPECT_TRUE(warns(300));
     EXPECT_FALSE(warns(1));
     EXPECT_TRUE(warns(5e-4));
-    options.layer.first_height = YPlus{1, 1e6, {}};
+    options.layer.first_height = 5e-8;
+    EXPECT_TRUE(warns(300));
+    options.layer.first_height = YPlus{1};
+    options.conditions.reynolds = 1e6;
     EXPECT_FALSE(warns(300)) << "a height that follows from the flow suits the chord";
 }
 
@@ -156,7 +162,7 @@ TEST(Limits, SpikesAcrossNineOrdersOfMagnitudeAreNotOverestimated) {
     options.layer.first_height = 0.05;
     options.layer.layers = 2;
     options.layer.max_ray_angle_deg = 40;
-    options.sizing.field.gradation = 0.9;
+    options.sizing.gradation = 0.9;
     const MeshResult result = mesh_of({spike}, options);
     EXPECT_LT(result.estimate.triangles, 10 * static_cast<double>(result.mesh.triangles.size()));
     expect_warning(result, WarningCode::first_height_implausible);
@@ -173,9 +179,9 @@ TEST(Limits, SingleOptionsAreRefusedByName) {
         }
         return std::string();
     };
-    options.sizing.field.max_size = 1e-3;
+    options.sizing.far_size = 1e-3;
     EXPECT_EQ(refused_option(), "far_size");
-    options.sizing.field.max_size = HUGE_VAL;
+    options.sizing.far_size.reset();
     options.limits = {};
     options.limits.max_triangles = 1000;
     EXPECT_EQ(refused_option(), "layers");

@@ -7,11 +7,6 @@
 
 namespace lamina::test {
 
-/// Grows rays and closes the border.
-inline Layer make_layer(const Geometry& geometry, const LayerOptions& options = {}, const BorderOptions& border = {}) {
-    return close_border(grow_rays(geometry, options), border);
-}
-
 /// Returns the options of the layers in the thesis: 30 layers on a chord of 1, each 15 % higher than the one below,
 /// with rays at most 4 degrees apart.
 inline LayerOptions thesis_layer(CornerRays corners = CornerRays::fan) {
@@ -25,9 +20,17 @@ inline LayerOptions thesis_layer(CornerRays corners = CornerRays::fan) {
 }
 
 /// Returns the first height of options that give it as a length.
-inline double first_height(const LayerOptions& options) { return std::get<double>(options.first_height); }
+inline double first_height(const LayerOptions& options) { return std::get<Length>(options.first_height).value; }
 
-/// Returns the growth of options that give the first height as a length.
-inline LayerGrowth growth_of(const LayerOptions& options) { return layer_growth(options, 1); }
+/// Returns the growth of options that give the first height as a length, round a chord of 1.
+inline LayerGrowth growth_of(const LayerOptions& options) {
+    validate(options);
+    return layer_growth(options, {});
+}
+
+/// Grows rays and closes the border. All lengths are in units of the shape, whatever its extent is.
+inline Layer make_layer(const Geometry& geometry, const LayerOptions& options = {}, const BorderOptions& border = {}) {
+    return close_border(grow_rays(geometry, options, growth_of(options)), border);
+}
 
 }  // namespace lamina::test

@@ -1,0 +1,41 @@
+// The conditions of the flow that a mesh is made for. They turn no body: the flow comes at the angle of attack.
+#pragma once
+
+#include <optional>
+
+#include <lamina/export.hpp>
+#include <lamina/option.hpp>
+#include <lamina/point.hpp>
+
+namespace lamina {
+
+/// The conditions as they are given. None of them changes the mesh by itself.
+struct FlowConditions {
+    double alpha_deg = 0;               ///< angle of attack: the flow comes from the left and rises at this angle
+    std::optional<double> reynolds{};   ///< Reynolds number of the free stream, based on the chord
+    std::optional<double> mach{};       ///< Mach number of the free stream
+    std::optional<double> chord{};      ///< reference chord in units of the input; empty: the extent in x
+    std::optional<double> velocity{};   ///< of the free stream, in units of the input per second
+    std::optional<double> viscosity{};  ///< kinematic viscosity, in squared units of the input per second
+};
+
+/// Returns the table of these options, with names, ranges and help.
+LAMINA_EXPORT const OptionTable<FlowConditions>& conditions_option_table();
+
+/// Throws OptionError where an option is out of range, where velocity and viscosity are not given together, and where
+/// both they and the Reynolds number are given.
+LAMINA_EXPORT void validate(const FlowConditions& conditions);
+
+/// The conditions that the stages use.
+struct ReferenceConditions {
+    double chord = 1;                  ///< reference chord in units of the input: what lengths in chords count
+    double alpha_deg = 0;              ///< FlowConditions::alpha_deg
+    std::optional<double> reynolds{};  ///< based on the chord
+    std::optional<double> mach{};      ///< FlowConditions::mach
+};
+
+/// Returns the conditions of the flow round bodies in this box. The chord is the extent of the box in x unless it is
+/// given. The Reynolds number is the given one, or velocity x chord / viscosity. Throws OptionError as validate() does.
+LAMINA_EXPORT ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies);
+
+}  // namespace lamina

@@ -1,0 +1,107 @@
+#include "app/conditions_block.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "app/options.hpp"
+#include "app/summary.hpp"
+#include "app/table_option.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+/// A number of the flow.
+struct FlowFact {
+    std::string key;    ///< in the report
+    std::string label;  ///< in the summary
+    double value;
+    std::string source;
+    bool is_default = false;  ///< whether the summary leaves it out
+};
+
+/// A length in force.
+struct LengthFact {
+    std::string key;    ///< in the report
+    std::string label;  ///< in the summary
+    Length length;
+    std::string source;
+};
+
+/// Returns where the value of an option comes from.
+std::string source_of(const MeshCase& mesh_case, const std::string& option) {
+    if (std::find(mesh_case.given.begin(), mesh_case.given.end(), option) != mesh_case.given.end()) return "given";
+    const Option<MeshCase>& row = find_row(mesh_options(), option);
+    return row.get(mesh_case) == row.get(MeshCase{}) ? "default" : "preset " + mesh_case.preset;
+}
+
+std::vector<FlowFact> flow_facts(const MeshCase& mesh_case, const MeshResult& result) {
+    const ReferenceConditions& flow = result.conditions;
+    const FlowConditions& options = mesh_case.options.conditions;
+    std::vector<FlowFact> facts{{"chord", "chord", flow.chord, options.chord ? "given" : "extent in x"},
+                                {"alpha_deg", "angle of attack in degrees", flow.alpha_deg,
+                                 source_of(mesh_case, "alpha"), flow.alpha_deg == 0}};
+    if (flow.reynolds)
+        facts.push_back({"reynolds", "Reynolds number", *flow.reynolds,
+                         options.reynolds ? "given" : "velocity x chord / viscosity"});
+    if (flow.mach) facts.push_back({"mach", "Mach number", *flow.mach, "given"});
+    if (result.y_plus) facts.push_back({"y_plus", "y+", result.y_plus->y_plus, source_of(mesh_case, "y-plus")});
+    return facts;
+}
+
+std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult& result) {
+    const CaseOptions& options = mesh_case.options;
+    std::vector<LengthFact> facts;
+    const auto add = [&](const char* option, const char* label, const std::optional<Length>& length) {
+        if (length) facts.push_back({option_key(option), label, *length, source_of(mesh_case, option)});
+    };
+    if (options.layer.enabled) {
+        if (result.y_plus)
+            facts.push_back({"first_height", "first layer", input_units(result.first_height),
+                             "from y+ on a flat plate: White, Fluid Mechanics"});
+        else
+            add("first-height", "first layer", std::get<Length>(options.layer.first_height));
+        add("thickness", "thickness", options.layer.thickness);
+    }
+    add("smooth", "smooth", options.surface.smooth);
+    add("wall-size", "wall size", options.sizing.wall_size);
+    add("far-size", "far size", options.sizing.far_size);
+    if (options.far_field.shape != FarFieldShape::outline) add("far-field", "far field", options.far_field.size);
+    if (const auto& wake = options.sizing.wake; wake) {
+        facts.push_back({"wake_length", "wake length", wake->length, source_of(mesh_case, "wake")});
+        if (wake->size) facts.push_back({"wake_size", "wake size", *wake->size, source_of(mesh_case, "wake")});
+    }
+    return facts;
+}
+
+}  // namespace
+
+std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& result) {
+    std::string flow, lengths;
+    for (const FlowFact& fact : flow_facts(mesh_case, result))
+        if (!fact.is_default)
+            flow += fmt::format("{}{} {:.6g} ({})", flow.empty() ? "" : ", ", fact.label, fact.value, fact.source);
+    const double chord = result.conditions.chord;
+    for (const LengthFact& fact : length_facts(mesh_case, result))
+        lengths += summary_line(
+            fact.label, fmt::format("{:.4g} chords, {:.4g} units of the input ({})", in_chords(fact.length, chord),
+                                    in_units(fact.length, chord), fact.source));
+    return "conditions: " + flow + "\n" + lengths;
+}
+
+Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
+    Json report;
+    for (const FlowFact& fact : flow_facts(mesh_case, result))
+        report[fact.key] = {{"value", fact.value}, {"source", fact.source}};
+    const double chord = result.conditions.chord;
+    for (const LengthFact& fact : length_facts(mesh_case, result))
+        report[fact.key] = {{"chords", in_chords(fact.length, chord)},
+                            {"units", in_units(fact.length, chord)},
+                            {"source", fact.source}};
+    return report;
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,63 @@
+// The table of the flow conditions, and what follows from them.
+#include <lamina/conditions.hpp>
+
+#include <lamina/error.hpp>
+#include <lamina/option_builders.hpp>
+
+namespace lamina {
+
+namespace {
+
+OptionTable<FlowConditions> make_table() {
+    OptionTableBuilder<FlowConditions> table("Flow");
+    table.number("chord", "C",
+                 "reference chord, in units of the input: what lengths in chords count; else the extent in x of the "
+                 "configuration",
+                 positive_numbers, member_at(&FlowConditions::chord));
+    table.number("alpha", "DEG",
+                 "angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned (--flip for flow from the right)",
+                 numbers_from_to(-90, 90), member_at(&FlowConditions::alpha_deg));
+    table
+        .number("reynolds", "RE", "Reynolds number of the free stream, based on the chord", positive_numbers,
+                member_at(&FlowConditions::reynolds))
+        .excludes = {"velocity", "viscosity"};
+    table
+        .number("velocity", "V",
+                "velocity of the free stream, in units of the input per second; with the viscosity it gives the "
+                "Reynolds number",
+                positive_numbers, member_at(&FlowConditions::velocity))
+        .needs = {"viscosity"};
+    table
+        .number("viscosity", "NU", "kinematic viscosity, in squared units of the input per second", positive_numbers,
+                member_at(&FlowConditions::viscosity))
+        .needs = {"velocity"};
+    table.number("mach", "M", "Mach number of the free stream", positive_numbers, member_at(&FlowConditions::mach));
+    return table.take();
+}
+
+}  // namespace
+
+const OptionTable<FlowConditions>& conditions_option_table() {
+    static const OptionTable<FlowConditions> table = make_table();
+    return table;
+}
+
+void validate(const FlowConditions& conditions) {
+    require_in_range(conditions_option_table(), conditions);
+    const auto& [alpha_deg, reynolds, mach, chord, velocity, viscosity] = conditions;
+    if (velocity && !viscosity) throw OptionError("velocity", "needs viscosity, which is not given");
+    if (viscosity && !velocity) throw OptionError("viscosity", "needs velocity, which is not given");
+    if (velocity && reynolds) throw OptionError("reynolds", "follows from velocity and viscosity, which are given");
+}
+
+ReferenceConditions reference_conditions(const FlowConditions& conditions, const Box& bodies) {
+    validate(conditions);
+    ReferenceConditions reference{.chord = conditions.chord.value_or(bodies.width()),
+                                  .alpha_deg = conditions.alpha_deg,
+                                  .reynolds = conditions.reynolds,
+                                  .mach = conditions.mach};
+    if (conditions.velocity) reference.reynolds = *conditions.velocity * reference.chord / *conditions.viscosity;
+    return reference;
+}
+
+}  // namespace lamina
