@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -147,6 +148,10 @@ struct RefineOptions {
     /// between them are refined. The guarantees are the same, refinement is several times faster, and triangles are
     /// more regular. It changes nothing where it does not pay.
     bool lattice = true;
+    /// A length that scales with the domain, such as the chord of a section. Sizes are held in single precision as
+    /// multiples of it, and short edges are sorted by them, so that domain, sizes and unit may be scaled together
+    /// without other roundings. Empty: the unit of the coordinates.
+    std::optional<double> unit_length{};
     /// Number of triangles that memory is reserved for; 0: an estimate. It never changes the result.
     std::size_t expected_triangles = 0;
 };

@@ -49,6 +49,9 @@ const OptionTable<RefineOptions>& refine_option_table() {
 }
 
 void validate(const DecompositionOptions& options) { require_in_range(decomposition_option_table(), options); }
-void validate(const RefineOptions& options) { require_in_range(refine_option_table(), options); }
+void validate(const RefineOptions& options) {
+    require_in_range(refine_option_table(), options);
+    if (options.unit_length) require_in_range(positive_numbers, *options.unit_length, "unit_length");
+}
 
 }  // namespace lamina

@@ -45,8 +45,9 @@ public:
         if (!border.empty()) scale_ = unit_scale(core::longer_side(core::bounding_box(border)));
         if (scale_ != 1)
             for (Point& p : points_) p = scale_ * p;
+        if (options.unit_length) set_unit(scale_ * *options.unit_length);
         sizes_.reserve(border.size());
-        for (Point p : border) sizes_.push_back(static_cast<float>(scale_ * size(p)));
+        for (Point p : border) sizes_.push_back(stored(scale_ * size(p)));
         reserve(static_cast<std::size_t>(std::min(expected, max_triangles)));
     }
 

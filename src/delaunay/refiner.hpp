@@ -89,12 +89,12 @@ protected:
         return static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]];
     }
 
-    /// Returns whether a triangle is too large for the sum of h at its vertices, given the product of its squared edges
+    /// Returns whether a triangle is too large for the sum of sizes_ at its vertices, given the product of its squared edges
     /// and twice its area: whether its circumcircle is larger than that of an equilateral triangle with edges of
     /// max_circle_ratio h, h being the mean, or its area is more than max_area_ratio times that of one with edges of h.
     /// The squared circumradius is product / (2 area2)^2.
     bool is_large(double product, double area2, double sum) const {
-        const double squared_sum = sum * sum;
+        const double squared_sum = squared_unit_ * (sum * sum);
         return product > squared_radius_per_squared_sum * squared_sum * (area2 * area2) ||
                area2 > area2_per_squared_sum_ * squared_sum;
     }
@@ -129,7 +129,11 @@ protected:
     void queue_if_narrow(Index t, const TriangleShape& s) {
         const double shortest = s.squared[s.shortest()];
         if (is_narrow(s.squared[0], s.squared[1], s.squared[2], shortest, s.area2) && derived().must_mend(t))
-            narrow_.push({t, tris_[t].v[0]}, shortest);
+            queue_narrow({t, tris_[t].v[0]}, shortest);
+    }
+
+    void queue_narrow(QueuedTriangle entry, double squared_shortest) {
+        narrow_.push(entry, squared_shortest / squared_unit_);
     }
 
     /// Returns whether a triangle is large and its base on the front.
@@ -165,13 +169,23 @@ protected:
     }
 
     /// Adds a vertex and its size. Throws MeshError where there are too many.
-    Index add_vertex(Point p, double size) {
+    Index add_vertex(Point p, float size) {
         if (points_.size() - input_count_ >= options_.max_points) fail_too_many_points(options_.max_points);
         points_.push_back(p);
-        sizes_.push_back(static_cast<float>(size));
+        sizes_.push_back(size);
         cavity_.max_triangles = tris_.size() + 2;
         return static_cast<Index>(points_.size() - 1);
     }
+
+    /// Sets the length that sizes_ are multiples of.
+    void set_unit(double unit) {
+        unit_ = unit;
+        squared_unit_ = unit * unit;
+    }
+    /// Returns a size as sizes_ holds it.
+    float stored(double size) const { return static_cast<float>(size / unit_); }
+    /// Returns h at a point of the triangulation.
+    double size_of(Index v) const { return unit_ * sizes_[v]; }
 
     void reserve(std::size_t triangles) {
         tris_.reserve(triangles + triangles / 8 + 16);
@@ -182,7 +196,7 @@ protected:
     const RefineOptions& options_;
     std::size_t input_count_;    ///< number of points that do not count as Steiner points
     std::vector<Point> points_;  ///< the points of the input first
-    std::vector<float> sizes_;   ///< h at each point
+    std::vector<float> sizes_;   ///< h at each point, in multiples of the unit
     Tris tris_;
     double squared_sine_ = 0;  ///< of the angle bound
     Cavity cavity_;
@@ -197,7 +211,7 @@ private:
     struct SmoothingRules {
         Refiner& refiner;
         bool may_be_narrow;  ///< whether narrow triangles will be mended later
-        double size_at(Point p, Index t) const { return refiner.derived().size_at(p, t); }
+        double size_at(Point p, Index t) const { return refiner.derived().size_at(p, t) / refiner.unit_; }
         bool is_allowed(double aa, double bb, double cc, double area2, double size_sum) const {
             return !refiner.is_large(aa * bb * cc, area2, size_sum) &&
                    (may_be_narrow || !refiner.is_narrow(aa, bb, cc, std::min({aa, bb, cc}), area2));
@@ -270,7 +284,7 @@ private:
         constexpr double min_change = 0.7, max_change = 1.4;
         const Link behind = tris_[t].n[front_.base(t)];
         if (behind.is_constrained()) return derived().size_at(p, t);
-        const double at_apex = sizes_[tris_[behind.triangle()].v[behind.edge()]];
+        const double at_apex = size_of(tris_[behind.triangle()].v[behind.edge()]);
         return std::clamp(2 * size_at_ends - at_apex, min_change * size_at_ends, max_change * size_at_ends);
     }
 
@@ -290,7 +304,7 @@ private:
         const Point base = v - u, wu = u - w, wv = v - w, up = perpendicular(base), middle = midpoint(u, v);
         const double to_centre = 0.5 * dot(wu, wv) / cross(wu, wv);
         const double squared_base = squared_length(base), inverse = 1 / squared_base;
-        const double hu = sizes_[u_vertex], hv = sizes_[v_vertex], at_ends = 0.5 * (hu + hv);
+        const double hu = size_of(u_vertex), hv = size_of(v_vertex), at_ends = 0.5 * (hu + hv);
         // Returns the height at which edges to both ends have the length l.
         const auto height_for = [&](double l) {
             const double squared = l * l * inverse - 0.25;
@@ -377,8 +391,9 @@ private:
         if (!in_circle(tris_[t], relative, p)) return false;
         find_cavity<false>(points_.data(), tris_.data(), t, relative, p, cavity_);
         if (!cavity_admits(p)) return false;
-        const double size = static_cast<float>(derived().size_at(p, t));
-        const Index vertex = add_vertex(p, size);
+        const float stored_size = stored(derived().size_at(p, t));
+        const double size = stored_size;
+        const Index vertex = add_vertex(p, stored_size);
         const std::size_t old_count = tris_.size();
         front_.resize(old_count + 2);
         double size_a = sizes_[cavity_.boundary[0].a];
@@ -436,11 +451,12 @@ private:
             if (front_.is_done_across(tris_[t].n[front_.base(t)])) front_.ready.push({t, vertex});
         }
         for (const auto& [t, shortest] : new_narrow_)
-            if (derived().must_mend(t)) narrow_.push({t, vertex}, shortest);
+            if (derived().must_mend(t)) queue_narrow({t, vertex}, shortest);
         new_narrow_.clear();
     }
 
     static constexpr double squared_radius_per_squared_sum = 4 * max_circle_ratio * max_circle_ratio / 27;
+    double unit_ = 1, squared_unit_ = 1;
     double area2_per_squared_sum_ = 0;  ///< twice the area bound of a triangle, over the squared sum of h
     double off_centre_ = 0;             ///< height of the off-centre over the shortest edge, in lengths of that edge
     AngleQueue narrow_;

@@ -33,7 +33,7 @@ namespace lamina::delaunay {
 /// edges and borders, stay where they are.
 struct SmoothedArrays {
     std::vector<Point>& points;
-    std::vector<float>& sizes;  ///< h at each point
+    std::vector<float>& sizes;  ///< h at each point, in the unit of Rules::size_at()
     Tris& tris;
     Index first_movable;
 };

@@ -47,6 +47,7 @@ SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, 
     if (!points_.empty()) scale_ = unit_scale(core::longer_side(core::bounding_box(points_)));
     if (scale_ != 1)
         for (Point& p : points_) p = scale_ * p;
+    if (options.refine.unit_length) set_unit(scale_ * *options.refine.unit_length);
     extent_ = core::bounding_box(points_);
     const double bound = core::radians(std::max(options.refine.min_angle_deg, min_lens_angle_deg));
     const double c = core::cos_reproducible(2 * bound);
@@ -61,7 +62,7 @@ void SplittingRefiner::give_sizes() {
     for (Index t = 0; t < tris_.size(); ++t) {
         for (const Index v : tris_[t].v) {
             if (fields_.empty() && sizes_[v] < HUGE_VALF) continue;
-            sizes_[v] = std::min(sizes_[v], static_cast<float>(size_at(points_[v], t)));
+            sizes_[v] = std::min(sizes_[v], stored(size_at(points_[v], t)));
         }
     }
 }
@@ -103,7 +104,7 @@ void SplittingRefiner::vertex_inserted(Index t, std::size_t) {
 /// Returns whether the edge a-b of a line is too long for the sizes on it.
 bool SplittingRefiner::is_too_long(Index t, Index a, Index b) const {
     const double length = distance(points_[a], points_[b]);
-    const double at_ends = std::min(sizes_[a], sizes_[b]);
+    const double at_ends = std::min(size_of(a), size_of(b));
     if (length > border_share * at_ends) return true;
     // The size at the middle cannot be smaller than the growth of sizes admits.
     if (sizes_of_fields_[field_of(t)]->is_uniform()) return false;
@@ -114,7 +115,7 @@ bool SplittingRefiner::is_too_long(Index t, Index a, Index b) const {
 Point SplittingRefiner::division_point(Index t, Index a, Index b) const {
     if (lines_.is_acute(a) == lines_.is_acute(b) && is_too_long(t, a, b)) {
         const Point m = midpoint(points_[a], points_[b]);
-        const double h = std::min<double>({sizes_[a], sizes_[b], size_at(m, t)});
+        const double h = std::min({size_of(a), size_of(b), size_at(m, t)});
         const double parts = std::ceil(distance(points_[a], points_[b]) / (border_share * h));
         if (parts < 0x1p20) return points_[a] + (std::floor(0.5 * parts) / parts) * (points_[b] - points_[a]);
     }
@@ -285,7 +286,7 @@ bool SplittingRefiner::split(Index t, unsigned e) {
     }
     const Index line = lines_.line_of_edge(a, b);
     const std::uint32_t left = field_of(t);
-    const Index vertex = add_vertex(p, size);
+    const Index vertex = add_vertex(p, stored(size));
     lines_.add_vertex(vertex, line);
     fill_and_queue(vertex, a, b, left, right);
     return true;

@@ -64,8 +64,9 @@ RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& laye
     return estimate;
 }
 
-RefineOptions limited(const CaseOptions& options) {
+RefineOptions refine_options(const CaseOptions& options, double chord) {
     RefineOptions refine = options.refine;
+    refine.unit_length = chord;
     refine.max_points = allowed_points(options.limits, mesh_cost, refine.max_points);
     return refine;
 }

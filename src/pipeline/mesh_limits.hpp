@@ -13,8 +13,9 @@ void require_options_within(const CaseOptions& options, const LayerGrowth& growt
 RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
                                    const FarField& far_field);
 
-/// Returns the options of refinement, with which no subdomain goes beyond the limits. Estimates may be wrong.
-RefineOptions limited(const CaseOptions& options);
+/// Returns the options of refinement round a configuration of this reference chord, with which no subdomain goes beyond
+/// the limits. Estimates may be wrong.
+RefineOptions refine_options(const CaseOptions& options, double chord);
 
 /// Throws LimitError where the mesh made has more triangles than allowed, since the estimate was too low.
 void require_made_within(const WorkLimits& limits, const Mesh& mesh);

@@ -150,8 +150,8 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
     seconds.sizing += clock.lap();
 
     clock.begin("decoupling", announce_estimate ? std::optional(result.estimate) : std::nullopt);
-    Decoupling decoupling =
-        decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, limited(options));
+    Decoupling decoupling = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling,
+                                     refine_options(options, plan.conditions.chord));
     seconds.decoupling += clock.lap();
 
     // Each of the first cuts of the layer occupies one thread, so the other threads refine meanwhile (thesis 6.6).
