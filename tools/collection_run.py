@@ -3,7 +3,6 @@
 import dataclasses
 import json
 import pathlib
-import re
 import signal
 import subprocess
 import sys
@@ -56,23 +55,13 @@ def run(command, deadline):
     return done.returncode, done.stdout.decode("utf-8", "replace"), errors[-1] if errors else ""
 
 
-def chord_of(program, files, deadline):
-    """Returns the extent in x of all elements, or None if lamina cannot read the input."""
-    code, text, _ = run([program, "info", *files], deadline)
-    spans = re.findall(r"^  box\s+x (\S+) to (\S+),", text, re.MULTILINE)
-    if code != 0 or not spans:
-        return None
-    return max(float(high) for _, high in spans) - min(float(low) for low, _ in spans)
-
-
-def options_of(case, files, settings, deadline):
+def options_of(case, settings):
     """Returns the options to mesh a case with."""
     if case.options:
         return list(case.options)
     if any(option.split("=")[0] in HEIGHT_OPTIONS for option in settings.options):
         return settings.options
-    chord = chord_of(settings.program, files, deadline)
-    return [*(["--first-height", repr(settings.first_height * chord)] if chord else []), *settings.options]
+    return ["--first-height", repr(settings.first_height), *settings.options]
 
 
 def name_of_end(code, reason, limit):
@@ -111,7 +100,7 @@ def mesh_and_check(case, settings, scratch, result):
     """Fills in the result of a case; may throw what reading a missing or broken report throws."""
     files = [str(f) for f in case.files]
     deadline = time.monotonic() + settings.limit
-    options = options_of(case, files, settings, deadline)
+    options = options_of(case, settings)
     mesh, report = f"{scratch}/mesh.vtu", pathlib.Path(scratch) / "report.json"
     second = f"{scratch}/mesh.su2"
     outputs = ["-o", mesh, "-o", second] if settings.exact else ["-o", mesh]

@@ -102,8 +102,9 @@ std::string man_page(const std::vector<CommandFacts>& commands) {
     text += ".SH DESCRIPTION\n";
     text += roff(
         "lamina makes meshes for viscous flow around airfoils: a boundary layer of thin cells along the walls, and "
-        "graded Delaunay triangles out to the far field. Lengths are in the units of the input, unless an option says "
-        "otherwise; angles are in degrees. The name - stands for standard input and for standard output.\n");
+        "graded Delaunay triangles out to the far field. Lengths are numbers of chords (--chord), or of units of the "
+        "input with the suffix u: 0.003u. Positions are in units of the input, and angles in degrees. The name - "
+        "stands for standard input and for standard output.\n");
     text += ".SH COMMANDS\n";
     for (const CommandFacts& command : commands) text += command_section(command);
     for (const CommandFacts& command : commands)

@@ -75,11 +75,58 @@ TEST(CaseFile, AFirstHeightFromTheFlowIsDumpedAndReported) {
     EXPECT_GT(report["quality"]["transition"]["edges"], 100);
 
     // The same height, given directly, makes the same mesh.
-    const ProgramRun given =
-        run_lamina(folder, {"mesh", "naca:0012", "-o", "b.su2", "--far-field", "5", "--first-height",
-                            report["conditions"]["first_height"]["units"].dump(), "--layers", "auto", "--growth-law", "aflr"});
+    const ProgramRun given = run_lamina(
+        folder, {"mesh", "naca:0012", "-o", "b.su2", "--far-field", "5", "--first-height",
+                 report["conditions"]["first_height"]["units"].dump(), "--layers", "auto", "--growth-law", "aflr"});
     ASSERT_EQ(given.exit_code, 0) << given.err;
     EXPECT_EQ(folder.read("a.su2"), folder.read("b.su2"));
+}
+
+TEST(CaseFile, LengthsCountChordsOrUnitsOfTheInput) {
+    const TemporaryFolder folder;
+    folder.write("case.toml",
+                 "input = 'naca:0012'\nfirst_height = '2e-5u'\nthickness = 0.25\nfar_size = 3\nwall_size = '0.5'\n"
+                 "wake = 'auto:3u:0.01'\n");
+    const ProgramRun dump =
+        run_lamina(folder, {"mesh", "case.toml", "-o", "a.su2", "--far-field", "20u", "--dump-config"});
+    ASSERT_EQ(dump.exit_code, 0) << dump.err;
+    for (const char* line : {"first_height = '2e-05u'\n", "thickness = 0.25\n", "far_size = 3\n", "wall_size = 0.5\n",
+                             "wake = 'auto:3u:0.01'\n", "far_field = '20u'\n"})
+        EXPECT_NE(dump.out.find(line), std::string::npos) << line << dump.out;
+    folder.write("dumped.toml", dump.out);
+    EXPECT_EQ(run_lamina(folder, {"mesh", "dumped.toml", "--dump-config"}).out, dump.out);
+}
+
+TEST(CaseFile, TheReportGivesEachConditionWithItsSource) {
+    const TemporaryFolder folder;
+    folder.write("plate.dat", "4 0\n2 0.3\n0 0\n2 -0.3\n");
+    const ProgramRun run = run_lamina(
+        folder, {"mesh",     "plate.dat", "-o",          "a.su2", "--report",    "a.json", "--preset", "thesis",
+                 "--y-plus", "30",        "--velocity",  "30",    "--viscosity", "1.5e-5", "--alpha",  "-2",
+                 "--mach",   "0.1",       "--thickness", "0.4u",  "--layers",    "10"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto report = nlohmann::json::parse(folder.read("a.json"))["conditions"];
+    const auto expect_number = [&](const char* key, double value, const char* source) {
+        EXPECT_EQ(report[key]["value"], value) << key;
+        EXPECT_EQ(report[key]["source"], source) << key;
+    };
+    const auto expect_length = [&](const char* key, double chords, const char* source) {
+        EXPECT_NEAR(report[key]["chords"].get<double>() / chords, 1, 1e-9) << key;
+        EXPECT_NEAR(report[key]["units"].get<double>() / (4 * chords), 1, 1e-9) << key;
+        EXPECT_EQ(report[key]["source"], source) << key;
+    };
+    expect_number("chord", 4, "extent in x");
+    expect_number("alpha_deg", -2, "given");
+    expect_number("reynolds", 30 * 4 / 1.5e-5, "velocity x chord / viscosity");
+    expect_number("mach", 0.1, "given");
+    expect_number("y_plus", 30, "given");
+    const double reynolds = 8e6;
+    expect_length("first_height", 30 / (reynolds * std::sqrt(0.5 * 0.026 / std::pow(reynolds, 1.0 / 7))),
+                  "from y+ on a flat plate: White, Fluid Mechanics");
+    expect_length("thickness", 0.1, "given");
+    expect_length("far_field", 50, "preset thesis");
+    EXPECT_FALSE(report.contains("far_size"));
+    EXPECT_NE(run.out.find("conditions: chord 4 (extent in x)"), std::string::npos) << run.out;
 }
 
 TEST(CaseFile, TheCommandLineGoesOverTheFile) {

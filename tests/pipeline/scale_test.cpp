@@ -1,0 +1,230 @@
+// The unit of the input has no influence: a section written with another chord gives the same mesh, scaled.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/cases.hpp"
+
+namespace lamina::test {
+namespace {
+
+using shapes::Outline;
+
+struct ScaleCase {
+    std::string name;
+    std::vector<Outline> bodies;
+    CaseOptions options;
+};
+
+CaseOptions with(CaseOptions options, const auto& change) {
+    change(options);
+    return options;
+}
+
+/// A main element, a flap below and behind it, and a slat in front of it.
+std::vector<Outline> three_bodies() {
+    return {naca("2412", 80), shapes::moved(naca("0012", 60), -0.4, 0.3, {0.98, -0.03}),
+            shapes::moved(naca("0010", 60), 0.5, 0.15, {-0.15, -0.1})};
+}
+
+/// Options that take every path on which a length has a say.
+std::vector<ScaleCase> scale_cases() {
+    const CaseOptions quick = [] {
+        CaseOptions options;
+        options.far_field.size = 10;
+        return options;
+    }();
+    const auto layers_from_flow = [](CaseOptions& o) {
+        o.layer.first_height = YPlus{1};
+        o.layer.layers.reset();
+        o.layer.growth_law = GrowthLaw::aflr;
+        o.conditions.reynolds = 5e6;
+    };
+    const auto sizes = [](CaseOptions& o) {
+        o.sizing.far_size = 2;
+        o.sizing.wall_size = 0.01;
+        o.sizing.wake = WakeOptions{.angle_deg = 5, .length = 3, .size = 0.01};
+        o.far_field.shape = FarFieldShape::circle;
+        o.surface.smooth = 1e-5;
+    };
+    const auto adaptive = [](CaseOptions& o) {
+        o.layer.growth_law = GrowthLaw::adaptive;
+        o.layer.layers = 20;
+        o.layer.corners = CornerRays::refine;
+        o.layer.topology = LayerTopology::quads;
+    };
+    const auto thin = [](CaseOptions& o) {
+        o.layer.growth_law = GrowthLaw::exponential;
+        o.layer.layers = 20;
+        o.layer.thickness = 0.01;
+    };
+    const auto wake_without_layers = [](CaseOptions& o) {
+        o.layer.enabled = false;
+        o.sizing.wake = WakeOptions{};
+        o.conditions.alpha_deg = 4;
+    };
+    return {{"default options", {naca("4412")}, quick},
+            {"given points, Delaunay layer", {naca("0012")}, quick_options()},
+            {"layers from the flow", {naca("2412", 80, TrailingEdge::blunt)}, with(quick, layers_from_flow)},
+            {"sizes and wakes", {naca("4412")}, with(quick, sizes)},
+            {"adaptive quadrilaterals", {naca("4412")}, with(quick, adaptive)},
+            {"exponential growth", {naca("4412")}, with(quick, thin)},
+            {"no layers", {naca("4412")}, with(quick, wake_without_layers)},
+            {"three elements", three_bodies(), quick}};
+}
+
+Mesh mesh_with_chord(const ScaleCase& scale_case, double factor) {
+    Geometry geometry;
+    for (const Outline& body : scale_case.bodies) {
+        Outline scaled = body;
+        for (Point& p : scaled) p = factor * p;
+        geometry.elements.push_back(shapes::geometry({scaled}).elements.front());
+        geometry.elements.back().name = "body" + std::to_string(geometry.elements.size());
+    }
+    return generate_mesh(geometry, scale_case.options).mesh;
+}
+
+std::vector<std::uint32_t> corners_of(const Mesh& mesh) {
+    std::vector<std::uint32_t> corners;
+    for (const auto& triangle : mesh.triangles)
+        for (const VertexId v : triangle.v) corners.push_back(v.index());
+    for (const auto& quad : mesh.quads)
+        for (const VertexId v : quad.v) corners.push_back(v.index());
+    return corners;
+}
+
+/// Returns the largest distance between vertices of the two meshes, in chords of the first one. Precondition: they have
+/// equally many.
+double max_deviation(const Mesh& mesh, const Mesh& image, double factor) {
+    double largest = 0;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        largest = std::max(largest, distance(factor * mesh.points[i], image.points[i]) / factor);
+    return largest;
+}
+
+TEST(UnitOfTheInput, PowersOfTwoScaleTheMeshExactly) {
+    for (const ScaleCase& scale_case : scale_cases()) {
+        SCOPED_TRACE(scale_case.name);
+        const Mesh mesh = mesh_with_chord(scale_case, 1);
+        for (const double factor : {256.0, 0.25, 0x1p-20}) {
+            SCOPED_TRACE(factor);
+            const Mesh image = mesh_with_chord(scale_case, factor);
+            ASSERT_EQ(corners_of(image), corners_of(mesh));
+            EXPECT_EQ(max_deviation(mesh, image, factor), 0);
+        }
+    }
+}
+
+/// Other factors round every coordinate. What the layer is made of must stay the same. Beyond it, cocircular points on
+/// the borders of subdomains may be joined otherwise, and fronts then meet at other places (docs/decisions/0035).
+TEST(UnitOfTheInput, OtherFactorsKeepTheLayer) {
+    for (const ScaleCase& scale_case : scale_cases()) {
+        SCOPED_TRACE(scale_case.name);
+        const Mesh mesh = mesh_with_chord(scale_case, 1);
+        for (const double factor : {300.0, 0.3048}) {
+            SCOPED_TRACE(factor);
+            const Mesh image = mesh_with_chord(scale_case, factor);
+            ASSERT_EQ(image.quads.size(), mesh.quads.size());
+            std::size_t cells = 0;
+            for (std::size_t t = 0; t < mesh.triangles.size() && mesh.region[t] == Region::layer; ++t, ++cells) {
+                ASSERT_EQ(image.region[t], Region::layer);
+                for (int i = 0; i < 3; ++i) {
+                    const VertexId v = mesh.triangles[t].v[i];
+                    ASSERT_EQ(image.triangles[t].v[i], v);
+                    ASSERT_LT(distance(factor * mesh.points[v.index()], image.points[v.index()]), 1e-10 * factor);
+                }
+            }
+            EXPECT_EQ(cells > 0, scale_case.options.layer.enabled);
+            EXPECT_EQ(image.region[cells], mesh.region[cells]);
+            const auto vertices = static_cast<double>(mesh.points.size());
+            EXPECT_NEAR(static_cast<double>(image.points.size()), vertices, 0.002 * vertices);
+        }
+    }
+}
+
+/// A region whose border has no four cocircular points, so that no tie depends on rounding.
+TEST(UnitOfTheInput, RefinementCountsItsUnitOfLength) {
+    constexpr std::size_t n = 61;
+    const auto refined = [](double factor, std::optional<double> unit) {
+        std::vector<Point> border;
+        std::vector<Segment> sides;
+        std::vector<SizeSource> sources;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double angle = 6.283185307179586 * (static_cast<double>(i) + 0.2 * std::sin(7.3 * double(i))) / n;
+            const double radius = factor * (1 + 0.03 * std::sin(3.7 * static_cast<double>(i)));
+            border.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+            sides.push_back({VertexId(i), VertexId((i + 1) % n)});
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const Point a = border[i], b = border[(i + 1) % n];
+            sources.push_back({.a = a, .b = b, .size = distance(a, b)});
+        }
+        const Point corner{1.1 * factor, 1.1 * factor};
+        const SizeField size(sources, {.gradation = 0.1}, {-1 * corner, corner});
+        return refine(border, sides, size, {.unit_length = unit});
+    };
+    const Refinement one = refined(1, {}), many = refined(300, 300);
+    ASSERT_EQ(many.triangles.size(), one.triangles.size());
+    for (std::size_t t = 0; t < one.triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i) ASSERT_EQ(many.triangles[t].v[i], one.triangles[t].v[i]);
+    double largest = 0, largest_without_unit = 0;
+    const Refinement without_unit = refined(300, {});
+    for (std::size_t i = 0; i < one.steiner_points.size(); ++i) {
+        largest = std::max(largest, distance(300 * one.steiner_points[i], many.steiner_points[i]) / 300);
+        if (i < without_unit.steiner_points.size())
+            largest_without_unit = std::max(
+                largest_without_unit, distance(300 * one.steiner_points[i], without_unit.steiner_points[i]) / 300);
+    }
+    EXPECT_LT(largest, 1e-12);
+    EXPECT_GT(largest_without_unit, 1e-10) << "sizes of single precision are rounded otherwise";
+}
+
+TEST(UnitOfTheInput, LengthsInUnitsAndAGivenChordMeanTheSame) {
+    CaseOptions chords;
+    chords.far_field.size = 10;
+    chords.layer.first_height = 1e-4;
+    chords.layer.thickness = 0.02;
+    chords.sizing.far_size = 3;
+    chords.sizing.wake = WakeOptions{.angle_deg = 2, .length = 2, .size = 0.02};
+    CaseOptions units = chords;
+    units.far_field.size = input_units(40);
+    units.layer.first_height = input_units(4e-4);
+    units.layer.thickness = input_units(0.08);
+    units.sizing.far_size = input_units(12);
+    units.sizing.wake = WakeOptions{.angle_deg = 2, .length = input_units(8), .size = input_units(0.08)};
+    CaseOptions halved = chords;  // a chord twice as long, and half the numbers
+    halved.conditions.chord = 8;
+    halved.far_field.size = 5;
+    halved.layer.first_height = 5e-5;
+    halved.layer.thickness = 0.01;
+    halved.sizing.far_size = 1.5;
+    halved.sizing.wake = WakeOptions{.angle_deg = 2, .length = 1, .size = 0.01};
+    const ScaleCase by_chords{"", {naca("2412")}, chords}, by_units{"", {naca("2412")}, units},
+        by_other_chord{"", {naca("2412")}, halved};
+    const std::string hash = mesh_hash(mesh_with_chord(by_chords, 4));
+    EXPECT_EQ(mesh_hash(mesh_with_chord(by_units, 4)), hash);
+    EXPECT_EQ(mesh_hash(mesh_with_chord(by_other_chord, 4)), hash);
+}
+
+TEST(UnitOfTheInput, TheFlowTurnsWithTheAngleOfAttackAndNotTheSection) {
+    CaseOptions options;
+    options.far_field.size = 10;
+    const ScaleCase level{"", {naca("2412")}, options};
+    ScaleCase raised = level;
+    raised.options.conditions.alpha_deg = 6;
+    EXPECT_EQ(mesh_hash(mesh_with_chord(raised, 1)), mesh_hash(mesh_with_chord(level, 1)));
+    // A wake without an angle follows the flow.
+    ScaleCase with_angle = level;
+    raised.options.sizing.wake = WakeOptions{};
+    with_angle.options.sizing.wake = WakeOptions{.angle_deg = 6};
+    EXPECT_EQ(mesh_hash(mesh_with_chord(raised, 1)), mesh_hash(mesh_with_chord(with_angle, 1)));
+}
+
+}  // namespace
+}  // namespace lamina::test
