@@ -25,6 +25,7 @@ struct Length {
     /// Makes a length in either unit.
     constexpr Length(double number, LengthUnit counted) : value(number), unit(counted) {}
 
+    /// Returns whether numbers and units are equal.
     friend constexpr bool operator==(const Length&, const Length&) = default;
 };
 

@@ -22,10 +22,7 @@ struct OtherWord {
     const char* advice = nullptr;  ///< a sentence in place of it
 };
 
-constexpr const char* no_angle_of_attack =
-    "a mesh has no angle of attack, which the flow solver sets; --wake ANGLE refines along the flow";
 constexpr const char* inputs_have_no_option = "inputs are named without an option, as in lamina mesh FILE";
-constexpr const char* solver_sets_it = "the flow solver sets it; --y-plus and --reynolds set the first height";
 
 constexpr OtherWord mesh_words[] = {
     {"boxsize", "far-field"},
@@ -139,11 +136,20 @@ constexpr OtherWord mesh_words[] = {
     {"v", "progress"},
     {"silent", "quiet"},
     {"config", "", "a case file is an input: lamina mesh case.toml"},
-    {"aoa", "", no_angle_of_attack},
-    {"alfa", "", no_angle_of_attack},
-    {"alpha", "", no_angle_of_attack},
-    {"angleofattack", "", no_angle_of_attack},
-    {"mach", "", solver_sets_it},
+    {"aoa", "alpha"},
+    {"alfa", "alpha"},
+    {"angleofattack", "alpha"},
+    {"incidence", "alpha"},
+    {"ma", "mach"},
+    {"machnumber", "mach"},
+    {"chordlength", "chord"},
+    {"reflength", "chord"},
+    {"refchord", "chord"},
+    {"nu", "viscosity"},
+    {"kinematicviscosity", "viscosity"},
+    {"speed", "velocity"},
+    {"freestreamvelocity", "velocity"},
+    {"uinf", "velocity"},
     {"naca", "", "a NACA section is an input: lamina mesh naca:0012"},
     {"airfoil", "", inputs_have_no_option},
     {"file", "", inputs_have_no_option},

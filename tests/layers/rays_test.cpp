@@ -177,10 +177,12 @@ TEST(Rays, AskForFinerResampledWallsBelowBordersThatWouldBeDivided) {
     const BorderOptions border;
     Geometry geometry = shapes::geometry({wall, fine});
     EXPECT_GT(division_points(test::make_layer(geometry, options, border), 0), 20u);
-    EXPECT_TRUE(wall_spacings(grow_rays(geometry, options, test::growth_of(options)), border).empty());  // no element is resampled
+    EXPECT_TRUE(wall_spacings(grow_rays(geometry, options, test::growth_of(options)), border)
+                    .empty());  // no element is resampled
 
     for (Element& element : geometry.elements) element.resampled = true;
-    const std::vector<WallSpacing> spacings = wall_spacings(grow_rays(geometry, options, test::growth_of(options)), border);
+    const std::vector<WallSpacing> spacings =
+        wall_spacings(grow_rays(geometry, options, test::growth_of(options)), border);
     ASSERT_FALSE(spacings.empty());
     for (const WallSpacing& spacing : spacings) {
         EXPECT_EQ(spacing.element, 0u);

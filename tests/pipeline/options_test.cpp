@@ -65,8 +65,13 @@ TEST(CaseOptions, RowsRefuseWhatIsNoNumberOrHasAnotherType) {
             wrong = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
                      std::string("many"), true};
         if (option.kind == OptionKind::length)
-            wrong = {std::numeric_limits<double>::quiet_NaN(), -1.0, std::string("many"), std::string("u"),
-                     std::string("-1u"), std::string("infu"), true};
+            wrong = {std::numeric_limits<double>::quiet_NaN(),
+                     -1.0,
+                     std::string("many"),
+                     std::string("u"),
+                     std::string("-1u"),
+                     std::string("infu"),
+                     true};
         if (option.kind == OptionKind::count) wrong = {2.5, std::string("many"), true};
         if (option.kind == OptionKind::flag) wrong = {1.0, std::string("yes")};
         for (std::size_t i = 0; i < wrong.size(); ++i)

@@ -146,8 +146,7 @@ TEST(Sizes, WallSizeBoundsTheEdgesAtTheBorder) {
         const MeshResult result = mesh_of({naca("0012", 200)}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
-        EXPECT_LT(longest_edge(result.mesh, {{0, -0.08}, {1, 0.08}}),
-                  1.8 * (size + options.sizing.gradation * 0.1));
+        EXPECT_LT(longest_edge(result.mesh, {{0, -0.08}, {1, 0.08}}), 1.8 * (size + options.sizing.gradation * 0.1));
         EXPECT_LT(result.check.isotropic.max_neighbour_area_ratio, 4.5);
     }
 }

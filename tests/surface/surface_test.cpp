@@ -394,7 +394,7 @@ TEST(Smoothing, RemovesNoiseWithinTheTolerance) {
         const Outline outline = noisy_section(noise, 200);
         SurfaceOptions options;
         options.treatment = SurfaceTreatment::keep;
-        options.smooth = noise;
+        options.smooth = input_units(noise);
         const Outline smooth = prepared(outline, options).points;
         ASSERT_EQ(smooth.size(), outline.size());
         double moved = 0;
@@ -447,7 +447,7 @@ TEST(Smoothing, LeavesNoSeamInAClosedCurve) {
     for (Point& p : rough) p = (1 + 1e-4 * (static_cast<double>(random()) / 2147483648.0 - 1)) * p;
     SurfaceOptions options;
     options.treatment = SurfaceTreatment::keep;
-    options.smooth = 2e-4;
+    options.smooth = input_units(2e-4);
     const Outline smooth = prepared(rough, options).points;
     EXPECT_EQ(count_inflections(smooth), 0u);
     expect_equal_loops(smooth, prepared(shapes::started_at(rough, 31), options).points);
