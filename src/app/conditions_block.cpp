@@ -19,6 +19,7 @@ struct FlowFact {
     std::string key;    ///< in the report
     std::string label;  ///< in the summary
     double value;
+    std::string unit;  ///< in the summary
     std::string source;
     bool is_default = false;  ///< whether the summary leaves it out
 };
@@ -41,14 +42,14 @@ std::string source_of(const MeshCase& mesh_case, const std::string& option) {
 std::vector<FlowFact> flow_facts(const MeshCase& mesh_case, const MeshResult& result) {
     const ReferenceConditions& flow = result.conditions;
     const FlowConditions& options = mesh_case.options.conditions;
-    std::vector<FlowFact> facts{{"chord", "chord", flow.chord, options.chord ? "given" : "extent in x"},
-                                {"alpha_deg", "angle of attack in degrees", flow.alpha_deg,
-                                 source_of(mesh_case, "alpha"), flow.alpha_deg == 0}};
+    std::vector<FlowFact> facts{
+        {"chord", "chord", flow.chord, "", options.chord ? "given" : "extent in x"},
+        {"alpha_deg", "angle of attack", flow.alpha_deg, " deg", source_of(mesh_case, "alpha"), flow.alpha_deg == 0}};
     if (flow.reynolds)
-        facts.push_back({"reynolds", "Reynolds number", *flow.reynolds,
+        facts.push_back({"reynolds", "Reynolds number", *flow.reynolds, "",
                          options.reynolds ? "given" : "velocity x chord / viscosity"});
-    if (flow.mach) facts.push_back({"mach", "Mach number", *flow.mach, "given"});
-    if (result.y_plus) facts.push_back({"y_plus", "y+", result.y_plus->y_plus, source_of(mesh_case, "y-plus")});
+    if (flow.mach) facts.push_back({"mach", "Mach number", *flow.mach, "", "given"});
+    if (result.y_plus) facts.push_back({"y_plus", "y+", result.y_plus->y_plus, "", source_of(mesh_case, "y-plus")});
     return facts;
 }
 
@@ -83,7 +84,8 @@ std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& resu
     std::string flow, lengths;
     for (const FlowFact& fact : flow_facts(mesh_case, result))
         if (!fact.is_default)
-            flow += fmt::format("{}{} {:.6g} ({})", flow.empty() ? "" : ", ", fact.label, fact.value, fact.source);
+            flow += fmt::format("{}{} {:.6g}{} ({})", flow.empty() ? "" : ", ", fact.label, fact.value, fact.unit,
+                                fact.source);
     const double chord = result.conditions.chord;
     for (const LengthFact& fact : length_facts(mesh_case, result))
         lengths += summary_line(
