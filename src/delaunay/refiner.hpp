@@ -89,8 +89,8 @@ protected:
         return static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]];
     }
 
-    /// Returns whether a triangle is too large for the sum of sizes_ at its vertices, given the product of its squared edges
-    /// and twice its area: whether its circumcircle is larger than that of an equilateral triangle with edges of
+    /// Returns whether a triangle is too large for the sum of sizes_ at its vertices, given the product of its squared
+    /// edges and twice its area: whether its circumcircle is larger than that of an equilateral triangle with edges of
     /// max_circle_ratio h, h being the mean, or its area is more than max_area_ratio times that of one with edges of h.
     /// The squared circumradius is product / (2 area2)^2.
     bool is_large(double product, double area2, double sum) const {
@@ -132,6 +132,7 @@ protected:
             queue_narrow({t, tris_[t].v[0]}, shortest);
     }
 
+    /// Queues a narrow triangle by its shortest edge in multiples of the unit.
     void queue_narrow(QueuedTriangle entry, double squared_shortest) {
         narrow_.push(entry, squared_shortest / squared_unit_);
     }
@@ -456,7 +457,8 @@ private:
     }
 
     static constexpr double squared_radius_per_squared_sum = 4 * max_circle_ratio * max_circle_ratio / 27;
-    double unit_ = 1, squared_unit_ = 1;
+    double unit_ = 1;                   ///< the length that sizes_ are multiples of
+    double squared_unit_ = 1;           ///< its square
     double area2_per_squared_sum_ = 0;  ///< twice the area bound of a triangle, over the squared sum of h
     double off_centre_ = 0;             ///< height of the off-centre over the shortest edge, in lengths of that edge
     AngleQueue narrow_;
