@@ -53,8 +53,8 @@ struct FarField {
     LAMINA_EXPORT Box box() const;
 };
 
-/// Places the far field round the box of all bodies; `chord` is the reference chord. Throws OptionError where an option is out of range, and where an
-/// outline does not enclose the middle of that box.
+/// Places the far field round the box of all bodies; `chord` is the reference chord. Throws OptionError where an option
+/// is out of range, and where an outline does not enclose the middle of that box.
 LAMINA_EXPORT FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions& options = {});
 
 /// How separators between subdomains are divided into segments.

@@ -27,7 +27,8 @@ Json decomposition_report(const DecompositionStats& stats);
 Json warnings_report(std::span<const Warning> warnings);
 Json estimate_report(const RunEstimate& estimate);
 
-/// Returns the report of a run of `lamina mesh`. `write_seconds` is the time for writing the mesh files; "total" includes it.
+/// Returns the report of a run of `lamina mesh`. `write_seconds` is the time for writing the mesh files; "total"
+/// includes it.
 Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, double write_seconds);
 
 /// Returns JSON as text that ends with a newline. Bytes that are not UTF-8 are replaced.
