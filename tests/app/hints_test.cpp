@@ -66,7 +66,9 @@ TEST(Hints, KeysOfCaseFiles) {
     folder.write("a.toml", "input = 'naca:0012'\ngrowth_rate = 1.2\n");
     expect_refused(folder, {"mesh", "a.toml"}, usage, "did you mean growth?");
     folder.write("a.toml", "input = 'naca:0012'\naoa = 2\n");
-    expect_refused(folder, {"mesh", "a.toml"}, usage, "the flow solver sets");
+    expect_refused(folder, {"mesh", "a.toml"}, usage, "did you mean alpha?");
+    folder.write("a.toml", "input = 'naca:0012'\nnaca = '0012'\n");
+    expect_refused(folder, {"mesh", "a.toml"}, usage, "a NACA section is an input");
 }
 
 TEST(Hints, Commands) {
