@@ -90,8 +90,8 @@ Mesh mesh_with_chord(const ScaleCase& scale_case, double factor) {
     return generate_mesh(geometry, scale_case.options).mesh;
 }
 
-std::vector<std::uint32_t> corners_of(const Mesh& mesh) {
-    std::vector<std::uint32_t> corners;
+std::vector<std::size_t> corners_of(const Mesh& mesh) {
+    std::vector<std::size_t> corners;
     for (const auto& triangle : mesh.triangles)
         for (const VertexId v : triangle.v) corners.push_back(v.index());
     for (const auto& quad : mesh.quads)
