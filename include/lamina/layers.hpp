@@ -3,6 +3,7 @@
 // Source: J. K. Pardue, thesis (2015), chapters 3 and 4.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -78,6 +79,13 @@ LAMINA_EXPORT const OptionTable<LayerOptions>& layer_option_table();
 /// (exponential: 2 layers or more and a thickness; adaptive: a number of layers).
 LAMINA_EXPORT void validate(const LayerOptions& options);
 
+/// A height at a point of a wall.
+struct WallHeight {
+    std::size_t element;  ///< index in Geometry::elements
+    Point at;             ///< on the wall, or near to it
+    double height;        ///< above the wall, in units of the input
+};
+
 /// The growth law and its numbers, with the first height as a length.
 struct LayerGrowth {
     GrowthLaw law = GrowthLaw::geometric;   ///< LayerOptions::growth_law
@@ -85,6 +93,9 @@ struct LayerGrowth {
     double growth = 1.2;                    ///< LayerOptions::growth
     std::optional<std::uint32_t> layers{};  ///< LayerOptions::layers
     std::optional<double> thickness{};      ///< LayerOptions::thickness, in units of the input
+    /// Heights that columns up to isotropy reach at least, where there is room: those of the flow's boundary layers.
+    /// Each element has none, or a closed chain of them in the order of its wall; they are linear in between.
+    std::vector<WallHeight> least_heights{};
 };
 
 /// Returns the growth that the options request in these conditions. Throws OptionError where a y+ is given without a
@@ -114,11 +125,12 @@ struct RayLine {
 
 /// The column of heights on one ray: a part of LayerHeights::table().
 struct HeightColumn {
-    std::size_t first = 0;     ///< index in the table where the column begins
-    std::uint32_t layers = 0;  ///< number of layers requested
-    double growth = 0;         ///< as Ray::growth
-    double stretch = 1;        ///< as Ray::stretch
-    double slant = 1;          ///< as Ray::slant
+    std::size_t first = 0;          ///< index in the table where the column begins
+    std::uint32_t layers = 0;       ///< number of layers requested
+    double growth = 0;              ///< as Ray::growth
+    double stretch = 1;             ///< as Ray::stretch
+    double slant = 1;               ///< as Ray::slant
+    double max_spacing = HUGE_VAL;  ///< as Ray::max_spacing
 };
 
 /// The heights of the requested layers, ray by ray. Rays with the same heights share a part of the table.
@@ -239,6 +251,9 @@ struct Ray {
     /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
     /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
     double slant = 1;
+    /// No layer is higher than this, before it is stretched, where the column goes on beyond isotropy
+    /// (LayerGrowth::least_heights); infinite elsewhere.
+    double max_spacing = HUGE_VAL;
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
     VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }

@@ -13,6 +13,7 @@
 #include "core/segments.hpp"
 #include "layers/fit_heights.hpp"
 #include "layers/growth_laws.hpp"
+#include "layers/least_heights.hpp"
 
 namespace lamina::layers {
 
@@ -181,6 +182,7 @@ private:
                            : ray.growth != law.ray_growth(layer_.growth))
             report("ray has not the growth of its law", origin);
         std::vector<double> heights = law.heights(layer_.growth.first_height, ray.growth, ray.layers);
+        limit_spacings(ray.max_spacing, heights);
         stretch_heights(ray.stretch, heights);
         for (double& height : heights) height *= ray.slant;
         if (!(ray.slant >= 1 && ray.slant <= max_slant))

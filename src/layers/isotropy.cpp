@@ -26,6 +26,10 @@ constexpr double transition_aspect = 1;
 /// Where rays spread, their distance counts up to this many times that at the wall: with slow growth, layers between
 /// spreading rays never become as high as wide.
 constexpr double max_spread = 2;
+/// Where columns go on beyond isotropy, cells are at most this many times as high as wide.
+constexpr double max_tallness = 2;
+/// No column gets many more layers than this beyond isotropy, however narrow it is.
+constexpr double max_layers_beyond_isotropy = 12;
 /// Largest rise of the front per unit of distance along it.
 constexpr double max_front_slope = 0.25;
 /// Slope with which the front falls from a fan on both sides.
@@ -95,6 +99,17 @@ void raise_over_fans(const RaySet& set, const RayDistances& rays, std::vector<do
     for (std::size_t i = 0; i < front.size(); ++i) front[i] = std::max(front[i], -least[i]);
 }
 
+/// Raises the front to the least heights, and beside them so far that it need not be lowered to be smooth.
+void raise_to(std::span<const double> least, const RaySet& set, const RayDistances& rays, std::vector<double>& front) {
+    constexpr double slope = 0.9 * max_front_slope;
+    std::vector<double> raised(least.begin(), least.end());  // negative, so that lowering them raises the front
+    for (double& height : raised) height = -height;
+    lower_to_neighbours(set, raised, [&](std::size_t from, std::size_t to) {
+        return raised[from] + slope * rays.between(from, to, -raised[from]);
+    });
+    for (std::size_t i = 0; i < raised.size(); ++i) front[i] = std::max(front[i], -raised[i]);
+}
+
 /// Replaces each value by the median of those of the five rays round it.
 void take_medians(const RayDistances& rays, std::vector<double>& values) {
     const std::vector<double> before = values;
@@ -154,7 +169,8 @@ double bisect(double low, double high, Below below) {
 
 }  // namespace
 
-std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights) {
+std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
+                                        std::span<const double> least) {
     const RayDistances rays(set);
     std::vector<double> front(set.lines.size());  // height of the front on each ray
     for (std::size_t i = 0; i < front.size(); ++i)
@@ -162,12 +178,29 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
     fill_fans(set, front);
     for (int round = 0; round < 2; ++round) take_medians(rays, front);
     raise_over_fans(set, rays, front);
+    if (!least.empty()) raise_to(least, set, rays, front);
     lower_to_neighbours(set, front, [&](std::size_t from, std::size_t to) {
         return front[from] + max_front_slope * rays.between(from, to, front[from]);
     });
     round_kinks(rays, front);
     for (double& height : front) height = std::clamp(height, heights[1], heights.back());
     return front;
+}
+
+std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front) {
+    const RayDistances rays(set);
+    std::vector<double> spacings(set.lines.size());
+    for (std::size_t i = 0; i < spacings.size(); ++i)
+        if (!rays.inside_fan(i))
+            spacings[i] = max_tallness * std::min(rays.to_neighbours(i, 0), rays.to_neighbours(i, front[i]));
+    fill_fans(set, spacings);
+    // A column has at most front / spacing layers, so that one in (1 + spacing / front) of them is one layer.
+    lower_to_neighbours(set, spacings, [&](std::size_t from, std::size_t to) {
+        return spacings[from] * (1 + spacings[from] / std::max(front[from], front[to]));
+    });
+    for (std::size_t i = 0; i < spacings.size(); ++i)
+        spacings[i] = std::max(spacings[i], front[i] / max_layers_beyond_isotropy);
+    return spacings;
 }
 
 std::vector<double> ratios_to_isotropy(const RaySet& set, double first_height, std::uint32_t layers) {

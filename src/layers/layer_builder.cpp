@@ -118,13 +118,13 @@ private:
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
                 const std::span<const double> heights = rays_.fitted.of(i);
-                const auto [first, requested, growth, stretch, slant] = rays_.fitted.column(i);
+                const auto [first, requested, growth, stretch, slant, max_spacing] = rays_.fitted.column(i);
                 const std::uint32_t count = rays_.counts[i];
                 // A ray that was lowered for its neighbours' sake ends below the layer that it did not get.
                 const double limit =
                     count < requested ? std::min(rays_.limits[i], heights[count + 1]) : rays_.limits[i];
                 layer_.rays[e].push_back({wall_of_ray_[i], set_.lines[i].direction, count, requested, growth,
-                                          first_point_[i], limit, stretch, slant});
+                                          first_point_[i], limit, stretch, slant, max_spacing});
             }
         }
     }
