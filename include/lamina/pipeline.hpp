@@ -24,6 +24,7 @@
 #include <lamina/conditions.hpp>
 #include <lamina/decoupling.hpp>
 #include <lamina/export.hpp>
+#include <lamina/flow.hpp>
 #include <lamina/geometry.hpp>
 #include <lamina/layers.hpp>
 #include <lamina/limits.hpp>
@@ -52,15 +53,19 @@ struct CaseOptions {
     DecompositionOptions decomposition{};  ///< fill_layer(): the pieces of the layer
     RefineOptions refine{};                ///< refine()
     AssembleOptions assemble{};            ///< assemble()
-    WorkLimits limits{};                   ///< generate_mesh() refuses what is beyond them, before the work
-    unsigned threads = 0;                  ///< number of threads; 0: one per core. Never changes the mesh
+    /// Whether the flow before the mesh decides: a first height given by y+, the least thickness of layers up to
+    /// isotropy, and wakes beside those of SizingOptions. Needs a Reynolds number.
+    bool use_flow = false;
+    WorkLimits limits{};   ///< generate_mesh() refuses what is beyond them, before the work
+    unsigned threads = 0;  ///< number of threads; 0: one per core. Never changes the mesh
 };
 
 /// Returns the table of the options of all stages, with names, ranges and help. The defaults of CaseOptions are those
 /// of the command line.
 LAMINA_EXPORT const OptionTable<CaseOptions>& case_option_table();
 
-/// Throws OptionError where an option of any stage is out of range, and where a y+ lacks its Reynolds number.
+/// Throws OptionError where an option of any stage is out of range, and where a y+ or the use of the flow lacks its
+/// Reynolds number.
 LAMINA_EXPORT void validate(const CaseOptions& options);
 
 /// Returns the limits that the layer over the walls sets on their spacing: an argument of prepare_surfaces().
@@ -89,6 +94,7 @@ LAMINA_EXPORT Mesh assemble(const Geometry& geometry, const Layer& layer, LayerC
 /// Wall-clock seconds of the stages. The decomposition and triangulation of the layer and the refinement run at the
 /// same time: their common time is divided among them in proportion to the time of the threads.
 struct StageSeconds {
+    double flow = 0;                 ///< the flow before the mesh
     double geometry = 0;             ///< read, prepare
     double layers = 0;               ///< grow rays, close the border
     double decomposition = 0;        ///< fill the layer: division into pieces
@@ -127,6 +133,7 @@ struct MeshResult {
     double first_height = 0;                    ///< of the layers; 0 without layers
     std::optional<YPlus> y_plus;                ///< what the first height follows from; empty: it was given
     ReferenceConditions conditions;             ///< the chord that lengths count, and the flow
+    std::optional<Flow> flow;                   ///< what decided with CaseOptions::use_flow
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     BorderSteps border_steps;                     ///< of the layer's outer border
     std::size_t thinned_rays = 0;                 ///< rays shortened so that triangles beyond keep the bound on angles

@@ -12,20 +12,20 @@ namespace lamina::app {
 /// When the names of the stages are printed on standard error. `automatic`: where it is a terminal.
 enum class ProgressShown { automatic, always, never };
 
-/// The word for no preset (presets.hpp).
-inline constexpr const char* no_preset = "none";
+/// The words for no preset, and for the one that suits the other options (presets.hpp).
+inline constexpr const char *no_preset = "none", *automatic_preset = "auto";
 
 struct MeshCase {
-    std::string preset = no_preset;    ///< the preset that its options began with
-    std::string case_file;             ///< the case file that it was read from; empty: none
-    std::vector<std::string> inputs;   ///< airfoil files and NACA names; never a case file
-    std::vector<std::string> outputs;  ///< mesh files
-    std::string format;                ///< of every mesh file; empty: by its extension
-    bool wall_distance = false;        ///< whether VTU files hold the distance to the nearest wall
-    std::string wall_data;             ///< CSV file of the wall vertices; empty: none
-    std::string report;                ///< JSON file; empty: none
-    std::string background;            ///< mesh file with sizes; empty: none
-    CaseOptions options;               ///< without the background mesh, which is read when the work begins
+    std::string preset = automatic_preset;  ///< the preset that its options began with
+    std::string case_file;                  ///< the case file that it was read from; empty: none
+    std::vector<std::string> inputs;        ///< airfoil files and NACA names; never a case file
+    std::vector<std::string> outputs;       ///< mesh files
+    std::string format;                     ///< of every mesh file; empty: by its extension
+    bool wall_distance = false;             ///< whether VTU files hold the distance to the nearest wall
+    std::string wall_data;                  ///< CSV file of the wall vertices; empty: none
+    std::string report;                     ///< JSON file; empty: none
+    std::string background;                 ///< mesh file with sizes; empty: none
+    CaseOptions options;                    ///< without the background mesh, which is read when the work begins
     ProgressShown progress = ProgressShown::automatic;
     bool quiet = false;              ///< whether the summary is left out
     bool strict = false;             ///< whether warnings make the run fail
@@ -36,6 +36,7 @@ struct MeshCase {
 /// Returns the case that the INPUT arguments of a command stand for: the contents of a case file, or the defaults with
 /// these inputs. The preset replaces that of the case file. Throws UsageError where a case file stands beside other
 /// inputs, and the errors of read_case_file().
-MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optional<std::string>& preset = {});
+MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optional<std::string>& preset = {},
+                        bool has_reynolds = false);
 
 }  // namespace lamina::app

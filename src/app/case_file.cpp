@@ -90,9 +90,12 @@ std::string toml_text(const OptionValue& value) {
 
 }  // namespace
 
-MeshCase read_case_file(const std::filesystem::path& file, const std::optional<std::string>& preset) {
+MeshCase read_case_file(const std::filesystem::path& file, const std::optional<std::string>& preset,
+                        bool has_reynolds) {
     const toml::table table = parse(file);
-    MeshCase mesh_case = case_of_preset(preset.value_or(table[preset_option].value_or<std::string>(no_preset)));
+    for (const char* option : reynolds_options) has_reynolds = has_reynolds || table.contains(option);
+    MeshCase mesh_case =
+        case_of_preset(preset.value_or(table[preset_option].value_or<std::string>(automatic_preset)), has_reynolds);
     for (const auto& [key, node] : table) {
         const std::string_view name = key.str();
         const std::string origin = fmt::format("{}:{}: {}", file.string(), key.source().begin.line, name);

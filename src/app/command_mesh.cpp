@@ -59,12 +59,21 @@ std::optional<std::string> preset_of_command_line(const GivenOptions& options) {
     return {};
 }
 
+/// Returns whether the command line says the Reynolds number.
+bool has_reynolds(const GivenOptions& options) {
+    return std::any_of(options.begin(), options.end(), [](const auto& entry) {
+        const auto& [option, given] = entry;
+        return given->count() > 0 && std::find(std::begin(reynolds_options), std::end(reynolds_options),
+                                               option->name) != std::end(reynolds_options);
+    });
+}
+
 /// Returns the case that the command line describes. Its options override those of the case file.
 MeshCase case_of_command_line(const GivenOptions& options) {
     MeshCase mesh_case;
     for (const auto& [option, given] : options) {
         if (given->get_positional()) {
-            mesh_case = case_of_inputs(given->results(), preset_of_command_line(options));
+            mesh_case = case_of_inputs(given->results(), preset_of_command_line(options), has_reynolds(options));
         } else if (given->count() > 0) {
             const std::string origin = "option --" + option->name;
             assign(*option, mesh_case, value_of_text(option->kind, given->results(), origin), origin);

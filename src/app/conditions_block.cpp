@@ -36,7 +36,8 @@ struct LengthFact {
 std::string source_of(const MeshCase& mesh_case, const std::string& option) {
     if (std::find(mesh_case.given.begin(), mesh_case.given.end(), option) != mesh_case.given.end()) return "given";
     const Option<MeshCase>& row = find_row(mesh_options(), option);
-    return row.get(mesh_case) == row.get(MeshCase{}) ? "default" : "preset " + mesh_case.preset;
+    if (row.get(mesh_case) == row.get(MeshCase{})) return "default";
+    return "preset " + (mesh_case.preset == automatic_preset ? "rans" : mesh_case.preset);
 }
 
 std::vector<FlowFact> flow_facts(const MeshCase& mesh_case, const MeshResult& result) {
@@ -53,6 +54,14 @@ std::vector<FlowFact> flow_facts(const MeshCase& mesh_case, const MeshResult& re
     return facts;
 }
 
+double largest_thickness(const Flow& flow) {
+    double thickness = 0;
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (const FlowPoint& point : *side) thickness = std::max(thickness, point.thickness);
+    return thickness;
+}
+
 std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult& result) {
     const CaseOptions& options = mesh_case.options;
     std::vector<LengthFact> facts;
@@ -62,11 +71,16 @@ std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult
     if (options.layer.enabled) {
         if (result.y_plus)
             facts.push_back({"first_height", "first layer", input_units(result.first_height),
-                             "from y+ on a flat plate: White, Fluid Mechanics"});
+                             result.flow && !result.flow->estimated
+                                 ? "from y+ and the largest skin friction of the flow: Thwaites, Head"
+                                 : "from y+ on a flat plate: White, Fluid Mechanics"});
         else
             add("first-height", "first layer", std::get<Length>(options.layer.first_height));
         add("thickness", "thickness", options.layer.thickness);
     }
+    if (result.flow)
+        facts.push_back({"boundary_layer", "boundary layer", input_units(largest_thickness(*result.flow)),
+                         result.flow->estimated ? "largest thickness on flat plates" : "largest thickness: Head"});
     add("smooth", "smooth", options.surface.smooth);
     add("wall-size", "wall size", options.sizing.wall_size);
     add("far-size", "far size", options.sizing.far_size);

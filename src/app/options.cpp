@@ -31,8 +31,10 @@ OptionTable<MeshCase> file_options() {
                "mesh file to write; may be given several times; - is standard output, with --format",
                member_at(&MeshCase::outputs));
     table.choice(preset_option,
-                 "options to begin with, which all others override; thesis: what the cases of J. K. Pardue's thesis "
-                 "have in common",
+                 "options to begin with, which all others override; rans: y+ 1, layers up to isotropy, and what the "
+                 "flow asks for; wall-function: likewise with y+ 60; euler: no layer; les2d: fine and slowly growing; "
+                 "thesis: what the cases of J. K. Pardue's thesis have in common; auto: rans where a Reynolds number "
+                 "is given, else none",
                  preset_choices(), member_at(&MeshCase::preset));
     table.text("format", OptionKind::word, format_names(),
                "format of every mesh file; else the extension of each says its format", member_at(&MeshCase::format));

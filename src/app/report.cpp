@@ -57,7 +57,8 @@ Json input_report(const Geometry& geometry) {
 }
 
 Json seconds_report(const StageSeconds& seconds, double write_seconds) {
-    return {{"geometry", seconds.geometry},
+    return {{"flow", seconds.flow},
+            {"geometry", seconds.geometry},
             {"layers", seconds.layers},
             {"decomposition", seconds.decomposition},
             {"layer_triangulation", seconds.layer_triangulation},

@@ -18,7 +18,11 @@ constexpr double min_wall_gradation = 0.05;
 
 /// Makes the rows that belong to no stage, or that are stricter here than in their stage.
 OptionTable<CaseOptions> make_pipeline_rows() {
-    OptionTableBuilder<CaseOptions> outer("Outer region"), files("Files"), run("Run");
+    OptionTableBuilder<CaseOptions> flow("Flow"), outer("Outer region"), files("Files"), run("Run");
+    flow.choice("use-flow",
+                "whether a panel method and boundary layers decide the first height for y+, the least thickness of "
+                "--layers auto, and wakes; needs a Reynolds number",
+                Choices<bool>{{"no", false}, {"yes", true}}, member_at(&CaseOptions::use_flow));
     // Without a bound there would be nothing to suit the edges of the layer's outer border to.
     outer.number("min-angle", "DEG", "smallest angle of isotropic triangles, in degrees",
                  numbers_above_up_to(0, max_min_angle_deg),
@@ -35,7 +39,7 @@ OptionTable<CaseOptions> make_pipeline_rows() {
              "the work; the program's default is 80 % of what is free",
              parse_memory, memory_text, member_at(&CaseOptions::limits, &WorkLimits::max_memory_bytes));
     OptionTable<CaseOptions> rows;
-    for (auto* builder : {&outer, &files, &run})
+    for (auto* builder : {&flow, &outer, &files, &run})
         for (Option<CaseOptions>& option : builder->take()) rows.push_back(std::move(option));
     return rows;
 }
@@ -104,6 +108,8 @@ void validate(const CaseOptions& options) {
     const bool by_y_plus = options.layer.enabled && std::holds_alternative<YPlus>(options.layer.first_height);
     if (by_y_plus && !options.conditions.reynolds && !options.conditions.velocity)
         throw OptionError("y_plus", "needs reynolds, or velocity and viscosity");
+    if (options.use_flow && !options.conditions.reynolds && !options.conditions.velocity)
+        throw OptionError("use_flow", "needs reynolds, or velocity and viscosity");
 }
 
 SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth) {

@@ -15,6 +15,7 @@
 #include "decoupling/refine_all.hpp"
 #include "layers/fill.hpp"
 #include "mesh/isotropic_cells.hpp"
+#include "pipeline/flow_guidance.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/ray_plan.hpp"
 #include "pipeline/warnings.hpp"
@@ -218,14 +219,35 @@ void make_room(const CaseOptions& options, RayPlan& plan, StageClock& clock, Mes
     }
 }
 
-MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& clock, double geometry_seconds) {
+/// Puts what the flow decides into the options and the growth of the layer.
+void guide_by_flow(const Flow& flow, const ReferenceConditions& conditions, CaseOptions& options, LayerGrowth& growth) {
+    if (options.layer.enabled) {
+        if (const auto* y_plus = std::get_if<YPlus>(&options.layer.first_height); y_plus && !flow.estimated)
+            growth.first_height = first_height_of_flow(flow, y_plus->y_plus, *conditions.reynolds);
+        growth.least_heights = heights_of_flow(flow);
+    }
+    if (flow.estimated) return;
+    const std::vector<SizeSource> wakes = wakes_of_flow(flow);
+    options.sizing.sources.insert(options.sizing.sources.end(), wakes.begin(), wakes.end());
+}
+
+MeshResult run(const Geometry& given, CaseOptions options, StageClock& clock, double geometry_seconds) {
     StageSeconds seconds;
     clock.lap();
 
-    clock.begin("surface");
     const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(given));
-    const LayerGrowth growth = layer_growth(options.layer, conditions);
-    const SpacingLimits limits = spacing_limits(options, growth);
+    LayerGrowth growth = layer_growth(options.layer, conditions);
+    std::optional<Flow> flow;
+    if (options.use_flow) {
+        clock.begin("flow");
+        flow = solve_flow(given, options.conditions);
+        guide_by_flow(*flow, conditions, options, growth);
+        seconds.flow = clock.lap();
+    }
+
+    clock.begin("surface");
+    SpacingLimits limits = spacing_limits(options, growth);
+    if (flow && !flow->estimated) limits.walls = spacings_of_flow(*flow);
     Geometry prepared = prepare_surfaces(given, options.surface, limits, conditions.chord);
     require_options_within(options, growth, sized_bodies(prepared, conditions),
                            place_far_field(bounding_box(prepared), conditions.chord, options.far_field).box());
@@ -236,6 +258,8 @@ MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& cl
     refine_walls_below_borders(given, options, limits, growth, plan);
     MeshResult result = mesh_on_rays(plan, options, clock, seconds, true);
     make_room(options, plan, clock, result);
+    if (flow) result.warnings.insert(result.warnings.begin(), flow->warnings.begin(), flow->warnings.end());
+    result.flow = std::move(flow);
     result.seconds.total = clock.total();
     return result;
 }

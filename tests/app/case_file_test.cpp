@@ -54,11 +54,11 @@ TEST(CaseFile, HoldsWakesAndSizeSources) {
     EXPECT_NE(dumped.find("refine = [ 'circle:1,2,3,4' ]\n"), std::string::npos) << dumped;
 }
 
-TEST(CaseFile, AFirstHeightFromTheFlowIsDumpedAndReported) {
+TEST(CaseFile, AFirstHeightFromAFlatPlateIsDumpedAndReported) {
     const TemporaryFolder folder;
-    const ProgramRun dump =
-        run_lamina(folder, {"mesh", "naca:0012", "-o", "a.su2", "--report", "a.json", "--far-field", "5", "--y-plus",
-                            "2", "--reynolds", "3e6", "--layers", "auto", "--growth-law", "aflr", "--dump-config"});
+    const ProgramRun dump = run_lamina(
+        folder, {"mesh", "naca:0012", "-o", "a.su2", "--report", "a.json", "--far-field", "5", "--y-plus", "2",
+                 "--reynolds", "3e6", "--preset", "none", "--layers", "auto", "--growth-law", "aflr", "--dump-config"});
     ASSERT_EQ(dump.exit_code, 0) << dump.err;
     EXPECT_NE(dump.out.find("# first_height is not set\n"), std::string::npos) << dump.out;
     EXPECT_NE(dump.out.find("layers = 'auto'\n"), std::string::npos) << dump.out;

@@ -59,6 +59,24 @@ TEST(Presets, AreOverriddenByTheFileAndTheCommandLine) {
     expect_line(beneath, "layer_topology = 'delaunay'");
 }
 
+TEST(Presets, AReynoldsNumberMeansRans) {
+    const TemporaryFolder folder;
+    folder.write("case.toml", "input = 'naca:0012'\nvelocity = 50\nviscosity = 1e-5\ngrowth = 1.15\n");
+    for (const std::string& guided :
+         {dumped(folder, {"naca:0012", "--reynolds", "1e6"}), dumped(folder, {"case.toml"}),
+          dumped(folder, {"naca:0012", "--velocity", "50", "--viscosity", "1e-5", "--growth", "1.15"})}) {
+        expect_line(guided, "use_flow = 'yes'");
+        expect_line(guided, "y_plus = 1");
+        expect_line(guided, "layers = 'auto'");
+    }
+    for (const std::string& plain : {dumped(folder, {"naca:0012"}), dumped(folder, {"case.toml", "--preset", "none"}),
+                                     dumped(folder, {"naca:0012", "--reynolds", "1e6", "--preset", "thesis"})})
+        expect_line(plain, "use_flow = 'no'");
+    const std::string given = dumped(folder, {"naca:0012", "--reynolds", "1e6", "--first-height", "1e-4"});
+    expect_line(given, "first_height = 0.0001");
+    expect_line(given, "use_flow = 'yes'");
+}
+
 TEST(Presets, AreDumpedWithAllThatFollows) {
     const TemporaryFolder folder;
     const std::string once =
@@ -71,7 +89,8 @@ TEST(Presets, AreDumpedWithAllThatFollows) {
 TEST(Presets, UnknownNamesAreRefused) {
     const TemporaryFolder folder;
     expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--preset", "thesys"}, usage,
-                   "option --preset: 'thesys' is not known: did you mean 'thesis'? (known: none, thesis)");
+                   "option --preset: 'thesys' is not known: did you mean 'thesis'? (known: auto, none, rans, "
+                   "wall-function, euler, les2d, thesis)");
     folder.write("a.toml", "input = 'naca:0012'\npreset = 'pardue'\n");
     expect_refused(folder, {"mesh", "a.toml"}, usage, "a.toml:2: preset: 'pardue' is not known");
     folder.write("a.toml", "input = 'naca:0012'\npreset = 4\n");

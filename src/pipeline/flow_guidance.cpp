@@ -1,0 +1,106 @@
+// The flow decides what an expert would guess (docs/decisions/0036).
+#include "pipeline/flow_guidance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/boundary_layer.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+/// Layers are this many times as thick as the boundary layer, which solvers find up to a fifth thicker. Some of it is
+/// lost where the front is smoothed.
+constexpr double room_above = 1.35;
+/// No layer is thicker than this for the boundary layer's sake, in chords of the configuration.
+constexpr double max_height = 0.08;
+/// The speed changes from one vertex of the wall to the next by at most this share of itself, or of the free stream's
+/// where that is faster.
+constexpr double max_change = 0.05;
+/// No spacing is smaller than this for the flow's sake, in chords of the configuration.
+constexpr double min_spacing = 2e-4;
+/// Length of the wakes, in chords of the configuration.
+constexpr double wake_length = 2;
+/// Number of triangles across a wake, at its trailing edge and at its end.
+constexpr double triangles_across = 10;
+/// At either edge of a wake, triangles may grow over this share of its width.
+constexpr double edge_share = 0.15;
+/// A wake is a chain of segments of one size each. This is the largest ratio of successive sizes, and the longest
+/// segment, in sizes.
+constexpr double size_ratio = 1.1, max_segment = 20;
+
+/// Adds the heights along a side, from its stagnation point to its trailing edge.
+void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double most, bool reversed,
+                 std::vector<WallHeight>& heights) {
+    const auto first = static_cast<std::ptrdiff_t>(heights.size());
+    double height = 0;
+    for (const FlowPoint& point : side) {
+        // Layers along the wall do not follow flow that has left it.
+        if (point.state != BoundaryLayerState::separated)
+            height = std::max(height, std::min(room_above * point.thickness, most));
+        heights.push_back({element, point.at, height});
+    }
+    if (reversed) std::reverse(heights.begin() + first, heights.end());
+}
+
+}  // namespace
+
+double first_height_of_flow(const Flow& flow, double y_plus, double reynolds) {
+    double friction = 0;
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (const FlowPoint& point : *side) friction = std::max(friction, point.skin_friction);
+    return y_plus * flow.chord / (reynolds * std::sqrt(0.5 * friction));
+}
+
+std::vector<WallHeight> heights_of_flow(const Flow& flow) {
+    std::vector<WallHeight> heights;
+    for (std::size_t e = 0; e < flow.elements.size(); ++e) {
+        add_heights(flow.elements[e].upper, e, max_height * flow.chord, true, heights);
+        add_heights(flow.elements[e].lower, e, max_height * flow.chord, false, heights);
+    }
+    return heights;
+}
+
+std::vector<WallSpacing> spacings_of_flow(const Flow& flow) {
+    std::vector<WallSpacing> spacings;
+    for (std::size_t e = 0; e < flow.elements.size(); ++e)
+        for (const auto* side : {&flow.elements[e].upper, &flow.elements[e].lower})
+            for (std::size_t i = 1; i < side->size(); ++i) {
+                const FlowPoint &a = (*side)[i - 1], &b = (*side)[i];
+                const double change = std::abs(b.pressure_coefficient - a.pressure_coefficient),
+                             allowed = max_change * std::max({a.speed, b.speed, 1.0});
+                const double spacing = std::max(allowed * (b.s - a.s) / change, min_spacing * flow.chord);
+                if (spacing < b.s) spacings.push_back({e, a.at, b.at, spacing});
+            }
+    return spacings;
+}
+
+std::vector<SizeSource> wakes_of_flow(const Flow& flow) {
+    std::vector<SizeSource> sources;
+    for (const ElementFlow& element : flow.elements) {
+        const FlowPoint &above = element.upper.back(), &below = element.lower.back();
+        const double momentum = above.momentum + below.momentum;
+        const std::vector<Point> line = streamline(flow, midpoint(above.at, below.at), wake_length * flow.chord);
+        double travelled = 0, begun = 0;
+        const auto size_here = [&] {
+            return flow::wake_thickness(above.thickness, below.thickness, momentum, travelled) / triangles_across;
+        };
+        double size = size_here();
+        std::size_t first = 0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            travelled += distance(line[i - 1], line[i]);
+            const bool is_last = i + 1 == line.size();
+            if (!is_last && size_here() < size_ratio * size && travelled - begun < max_segment * size) continue;
+            sources.push_back(
+                {.a = line[first], .b = line[i], .size = size, .radius = triangles_across * size * (0.5 - edge_share)});
+            first = i;
+            begun = travelled;
+            size = size_here();
+        }
+    }
+    return sources;
+}
+
+}  // namespace lamina::pipeline

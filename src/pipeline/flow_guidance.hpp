@@ -1,0 +1,27 @@
+// What a mesh takes from the flow before it: the first height, the thickness of the layer, and the wakes.
+#pragma once
+
+#include <vector>
+
+#include <lamina/flow.hpp>
+#include <lamina/pipeline.hpp>
+
+namespace lamina::pipeline {
+
+/// Returns the first height with which the largest skin friction has this y+. Precondition: the flow has boundary
+/// layers.
+double first_height_of_flow(const Flow& flow, double y_plus, double reynolds);
+
+/// Returns the heights that layers need along the walls: those of the boundary layers and some room above, never less
+/// than further upstream.
+std::vector<WallHeight> heights_of_flow(const Flow& flow);
+
+/// Returns spacings of the walls with which the speed of the flow changes little from one vertex to the next: at the
+/// stagnation point, and on both sides of a suction peak.
+std::vector<WallSpacing> spacings_of_flow(const Flow& flow);
+
+/// Returns sources of the size field along the wakes: along the streamline behind each trailing edge, as fine as the
+/// wake is wide there divided by a number of triangles. A wake ends where it would enter another body.
+std::vector<SizeSource> wakes_of_flow(const Flow& flow);
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,142 @@
+// Meshes for which the flow decides: the first height, the thickness of the layer, the walls' spacing and the wakes.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lamina/error.hpp>
+
+#include "pipeline/cases.hpp"
+#include "pipeline/flow_guidance.hpp"
+
+namespace lamina::test {
+namespace {
+
+using shapes::Outline;
+
+CaseOptions guided_options(double reynolds, double alpha_deg) {
+    CaseOptions options;
+    options.conditions = {.alpha_deg = alpha_deg, .reynolds = reynolds};
+    options.layer.first_height = YPlus{1};
+    options.layer.layers.reset();
+    options.far_field.size = 10;
+    options.use_flow = true;
+    return options;
+}
+
+Geometry two_elements() {
+    return shapes::geometry({naca("2412", 160), shapes::moved(naca("0012", 120), -0.4, 0.3, {0.98, -0.03})});
+}
+
+/// The thickness of the boundary layer at the point of the flow nearest to a point of the wall; 0 where it has left it.
+double thickness_near(const ElementFlow& element, Point p) {
+    double nearest = HUGE_VAL, thickness = 0;
+    for (const auto* side : {&element.upper, &element.lower})
+        for (const FlowPoint& point : *side)
+            if (const double away = distance(point.at, p); away < nearest) {
+                nearest = away;
+                thickness = point.state == BoundaryLayerState::separated ? 0 : point.thickness;
+            }
+    return thickness;
+}
+
+TEST(FlowGuidance, LayersAreThickerThanBoundaryLayersAtAnyReynoldsNumber) {
+    for (const double reynolds : {1e5, 1e6, 1e7, 1e8}) {
+        for (const double alpha_deg : {0.0, 5.0, 10.0}) {
+            SCOPED_TRACE(testing::Message() << "Re " << reynolds << ", alpha " << alpha_deg);
+            const CaseOptions options = guided_options(reynolds, alpha_deg);
+            const Geometry geometry = prepare_surfaces(shapes::geometry({naca("0012", 400)}));
+            const Flow flow = solve_flow(geometry, options.conditions);
+            ASSERT_FALSE(flow.estimated);
+            LayerGrowth growth =
+                layer_growth(options.layer, reference_conditions(options.conditions, {{0, 0}, {1, 0}}));
+            growth.least_heights = pipeline::heights_of_flow(flow);
+            const Rays rays = grow_rays(geometry, options.layer, growth);
+            for (std::size_t i = 0; i < rays.set.lines.size(); ++i) {
+                const Point origin = rays.set.lines[i].origin;
+                const double height = rays.fitted.of(i)[rays.counts[i]];
+                // Both sides meet at the trailing edge.
+                if (origin.x < 0.999)
+                    EXPECT_GE(height, std::min(1.3 * thickness_near(flow.elements[0], origin), 0.079)) << origin.x;
+            }
+            for (const std::string& finding : check_layer(close_border(rays), options.layer)) ADD_FAILURE() << finding;
+        }
+    }
+}
+
+TEST(FlowGuidance, TheFirstHeightHasTheYPlusOfTheLargestSkinFriction) {
+    const Flow flow = solve_flow(two_elements(), {.alpha_deg = 4, .reynolds = 3e6});
+    double friction = 0;
+    for (const ElementFlow& element : flow.elements)
+        for (const FlowPoint& point : element.upper) friction = std::max(friction, point.skin_friction);
+    const double height = pipeline::first_height_of_flow(flow, 2, 3e6), viscosity = flow.chord / 3e6;
+    EXPECT_LE(height * std::sqrt(friction / 2) / viscosity, 2 * (1 + 1e-12));
+    EXPECT_NEAR(pipeline::first_height_of_flow(flow, 1, 3e6) / height, 0.5, 1e-12);
+}
+
+TEST(FlowGuidance, WakesFollowStreamlinesFromTrailingEdges) {
+    const Geometry geometry = two_elements();
+    const Flow flow = solve_flow(geometry, {.alpha_deg = 6, .reynolds = 3e6});
+    const std::vector<SizeSource> sources = pipeline::wakes_of_flow(flow);
+    std::size_t wakes = 0;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const bool begins = i == 0 || sources[i].a != sources[i - 1].b;
+        if (begins) {
+            const ElementFlow& element = flow.elements.at(wakes++);
+            EXPECT_LT(distance(sources[i].a, midpoint(element.upper.back().at, element.lower.back().at)), 1e-12);
+        } else {
+            EXPECT_GE(sources[i].size, sources[i - 1].size);
+            // The chord of the streamline has the direction of the flow in its middle.
+            const Point along = unit(sources[i].b - sources[i].a);
+            const Point velocity = unit(flow_velocity(flow, midpoint(sources[i].a, sources[i].b)));
+            EXPECT_GT(dot(along, velocity), 0.999);
+        }
+    }
+    EXPECT_EQ(wakes, 2u);
+    EXPECT_GT(distance(sources.front().a, sources.back().b), flow.chord);
+}
+
+/// Walls are finer where the pressure changes quickly, and as fine as before elsewhere.
+TEST(FlowGuidance, WallsResolveSuctionPeaks) {
+    const Geometry given = read_geometry(std::vector<std::string>{"naca:0012"});
+    CaseOptions options = guided_options(6e6, 10);
+    const auto longest_edge = [&](const Box& box) {
+        double longest = 0;
+        for (const Element& element : generate_mesh(given, options).geometry.elements)
+            for (std::size_t i = 0; i < element.points.size(); ++i) {
+                const Point a = element.points[i], b = element.points[(i + 1) % element.points.size()];
+                if (box.contains(a)) longest = std::max(longest, distance(a, b));
+            }
+        return longest;
+    };
+    const Box peak{{-0.001, -0.01}, {0.01, 0.02}}, middle{{0.4, -0.1}, {0.6, 0.1}};
+    const double at_peak = longest_edge(peak), in_the_middle = longest_edge(middle);
+    options.use_flow = false;
+    EXPECT_LT(at_peak, 0.8 * longest_edge(peak));
+    EXPECT_NEAR(in_the_middle, longest_edge(middle), 0.05 * in_the_middle);
+}
+
+TEST(FlowGuidance, MeshesAreValidAndTheSameOnAnyNumberOfThreads) {
+    for (const Geometry& geometry : {shapes::geometry({naca("4412", 160, TrailingEdge::blunt)}), two_elements()}) {
+        CaseOptions options = guided_options(3e6, 6);
+        options.threads = 1;
+        const MeshResult one = generate_mesh(geometry, options);
+        options.threads = 8;
+        const MeshResult eight = generate_mesh(geometry, options);
+        EXPECT_EQ(mesh_hash(one.mesh), mesh_hash(eight.mesh));
+        EXPECT_EQ(one.check.isotropic.unexcused(), 0u);
+        ASSERT_TRUE(one.flow.has_value());
+        EXPECT_FALSE(one.flow->estimated);
+    }
+}
+
+TEST(FlowGuidance, NeedsAReynoldsNumber) {
+    CaseOptions options;
+    options.use_flow = true;
+    EXPECT_THROW(generate_mesh(shapes::geometry({naca("0012")}), options), OptionError);
+}
+
+}  // namespace
+}  // namespace lamina::test
