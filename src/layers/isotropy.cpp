@@ -102,8 +102,12 @@ void raise_over_fans(const RaySet& set, const RayDistances& rays, std::vector<do
 /// Raises the front to the least heights, and beside them so far that it need not be lowered to be smooth.
 void raise_to(std::span<const double> least, const RaySet& set, const RayDistances& rays, std::vector<double>& front) {
     constexpr double slope = 0.9 * max_front_slope;
-    std::vector<double> raised(least.begin(), least.end());  // negative, so that lowering them raises the front
-    for (double& height : raised) height = -height;
+    // A thick layer over a narrow base would end in edges far shorter than those over the fans beside it.
+    constexpr double most_widths = 60;
+    std::vector<double> raised(least.size());  // negative, so that lowering them raises the front
+    for (std::size_t i = 0; i < least.size(); ++i)
+        if (!rays.inside_fan(i)) raised[i] = -std::min(least[i], most_widths * rays.to_neighbours(i, 0));
+    fill_fans(set, raised);
     lower_to_neighbours(set, raised, [&](std::size_t from, std::size_t to) {
         return raised[from] + slope * rays.between(from, to, -raised[from]);
     });
