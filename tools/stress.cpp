@@ -223,6 +223,13 @@ Configuration make_configuration(std::uint64_t seed, std::uint64_t number) {
     c.description += fmt::format(" first height {:.3g}, growth {:.3f}, {} layers, rays {:.2f} deg, {}, scale {:.3g}",
                                  test::first_height(layer), layer.growth, layer.enabled ? layer.layers.value_or(0) : 0,
                                  layer.max_ray_angle_deg, layer.corners == CornerRays::fan ? "fan" : "refine", scale);
+    if (random.chance(0.3)) {
+        c.options.conditions = {.alpha_deg = random.uniform(-20, 20), .reynolds = random.log_uniform(1e5, 1e8)};
+        c.options.use_flow = true;
+        c.description += fmt::format(", flow at {:.3g} degrees, Reynolds number {:.3g}", c.options.conditions.alpha_deg,
+                                     *c.options.conditions.reynolds);
+        if (layer.growth_law == GrowthLaw::geometric && layer.growth >= 1.1) c.options.layer.layers.reset();
+    }
     return c;
 }
 
