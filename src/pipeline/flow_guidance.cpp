@@ -14,7 +14,7 @@ namespace {
 /// lost where the front is smoothed.
 constexpr double room_above = 1.35;
 /// No layer is thicker than this for the boundary layer's sake, in chords of the configuration.
-constexpr double max_height = 0.08;
+constexpr double thickest_layer = 0.08;
 /// The speed changes from one vertex of the wall to the next by at most this share of itself, or of the free stream's
 /// where that is faster.
 constexpr double max_change = 0.05;
@@ -57,8 +57,8 @@ double first_height_of_flow(const Flow& flow, double y_plus, double reynolds) {
 std::vector<WallHeight> heights_of_flow(const Flow& flow) {
     std::vector<WallHeight> heights;
     for (std::size_t e = 0; e < flow.elements.size(); ++e) {
-        add_heights(flow.elements[e].upper, e, max_height * flow.chord, true, heights);
-        add_heights(flow.elements[e].lower, e, max_height * flow.chord, false, heights);
+        add_heights(flow.elements[e].upper, e, thickest_layer * flow.chord, true, heights);
+        add_heights(flow.elements[e].lower, e, thickest_layer * flow.chord, false, heights);
     }
     return heights;
 }
