@@ -25,7 +25,7 @@ constexpr double wake_length = 2;
 /// Number of triangles across a wake, at its trailing edge and at its end.
 constexpr double triangles_across = 10;
 /// At either edge of a wake, triangles may grow over this share of its width.
-constexpr double edge_share = 0.15;
+constexpr double outer_share = 0.15;
 /// A wake is a chain of segments of one size each. This is the largest ratio of successive sizes, and the longest
 /// segment, in sizes.
 constexpr double size_ratio = 1.1, max_segment = 20;
@@ -93,8 +93,10 @@ std::vector<SizeSource> wakes_of_flow(const Flow& flow) {
             travelled += distance(line[i - 1], line[i]);
             const bool is_last = i + 1 == line.size();
             if (!is_last && size_here() < size_ratio * size && travelled - begun < max_segment * size) continue;
-            sources.push_back(
-                {.a = line[first], .b = line[i], .size = size, .radius = triangles_across * size * (0.5 - edge_share)});
+            sources.push_back({.a = line[first],
+                               .b = line[i],
+                               .size = size,
+                               .radius = triangles_across * size * (0.5 - outer_share)});
             first = i;
             begun = travelled;
             size = size_here();
