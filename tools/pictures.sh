@@ -64,6 +64,10 @@ done
 picture separators-equidistributed pieces -1.3,0.3,0.1,1.3
 picture separators-k-rule k-rule -1.3,0.3,0.1,1.3
 
+"$lamina" mesh naca:0012 --reynolds 6e6 --alpha 10 --quiet -o "$scratch/guided.vtu"
+picture flow-wake guided -0.2,1.9,-0.5,0.7
+picture flow-tail guided 0.8,1.2,-0.12,0.18
+
 [ -n "${2:-}" ] || exit 0
 # Sheets of places round sections, meshed with layers up to isotropy from y+ and nothing else.
 while IFS='|' read -r sheet name window input; do
@@ -88,6 +92,8 @@ high_lift() {
     "$lamina" mesh "${@/#/$multielement/}" --quiet -o "$scratch/$name.vtu"
 }
 high_lift 30p30n 30p30n_uiuc.dat
+"$lamina" mesh "$multielement"/crmhl2d_{slat,main,flap}.dat --reynolds 5e6 --alpha 16 --quiet -o "$scratch/crmhl.vtu"
+picture flow-high-lift crmhl -0.2,2.2,-0.6,0.6
 high_lift nlr7301 nlr7301_clean_main.dat nlr7301_clean_flap.dat
 picture high-lift-slat 30p30n -0.11,0.07,-0.135,0.02 --color layer
 picture high-lift-cove 30p30n 0.70,0.92,-0.045,0.065 --color layer
