@@ -1,7 +1,6 @@
 // lamina flow: its table, its picture, its summary.
 #include <gtest/gtest.h>
 
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,13 +9,6 @@
 
 namespace lamina::test {
 namespace {
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
 
 TEST(FlowCommand, PrintsAndWritesTheFlow) {
     const TemporaryFolder folder;

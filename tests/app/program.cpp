@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 extern char** environ;
@@ -84,6 +85,13 @@ ProgramRun ended(pid_t child, const TemporaryFolder& captured) {
 }
 
 }  // namespace
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
 
 ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                       const std::string& input) {

@@ -19,6 +19,9 @@ struct ProgramRun {
     std::string err;
 };
 
+/// Returns the lines of a text.
+std::vector<std::string> lines_of(const std::string& text);
+
 /// Runs `lamina ARGUMENTS...` with `folder` as its working directory and `input` as its standard input.
 ProgramRun run_lamina(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                       const std::string& input = "");

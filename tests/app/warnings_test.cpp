@@ -21,17 +21,6 @@ const std::vector<std::string> coarse_section{"mesh", "naca:4412:40", "--layer-t
                                               "10",   "--quiet",      "--report",         "r.json",   "-o",
                                               "m.su2"};
 
-/// Returns the lines of a text.
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = text.find('\n', at);
-        lines.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    return lines;
-}
-
 TEST(WarningsOfTheProgram, AreLinesAndDataAlsoUnderQuiet) {
     const TemporaryFolder folder;
     const ProgramRun run = run_lamina(folder, coarse_section);
