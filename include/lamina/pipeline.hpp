@@ -2,6 +2,7 @@
 // values to a value and can be called by itself.
 //
 //   read              geometry.hpp     read_geometry      files, NACA names            -> Geometry
+//   solve the flow    flow.hpp         solve_flow         if CaseOptions::use_flow     -> Flow
 //   prepare           surface.hpp      prepare_surfaces   kept, resampled or smoothed  -> Geometry
 //   grow rays         layers.hpp       grow_rays          normals, fans, heights       -> Rays
 //   close the border  layers.hpp       close_border       points, graded outer border  -> Layer

@@ -26,9 +26,9 @@ constexpr double transition_aspect = 1;
 /// Where rays spread, their distance counts up to this many times that at the wall: with slow growth, layers between
 /// spreading rays never become as high as wide.
 constexpr double max_spread = 2;
-/// Where columns go on beyond isotropy, cells are at most this many times as high as wide.
+/// Where columns go on beyond isotropy, cells are at most this many times as high as wide, unless the column is so
+/// narrow that it would get many more layers than the second number.
 constexpr double max_tallness = 2;
-/// No column gets many more layers than this beyond isotropy, however narrow it is.
 constexpr double max_layers_beyond_isotropy = 12;
 /// Largest rise of the front per unit of distance along it.
 constexpr double max_front_slope = 0.25;
