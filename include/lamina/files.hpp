@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <lamina/export.hpp>
 
@@ -30,5 +31,8 @@ LAMINA_EXPORT void check_folder_writable(const std::filesystem::path& file);
 /// Removes what this process leaves behind if it is ended while it writes these files or folders: temporary files. An
 /// old folder that was to be replaced gets its name back. Returns whether there was anything to remove. Never throws.
 LAMINA_EXPORT bool remove_temporaries(std::span<const std::filesystem::path> targets) noexcept;
+
+/// Returns the names of the temporary files that this process writes the new content of these files to.
+LAMINA_EXPORT std::vector<std::filesystem::path> temporaries_of(std::span<const std::filesystem::path> targets);
 
 }  // namespace lamina

@@ -1,8 +1,15 @@
 #include "app/run_files.hpp"
 
 #include <pthread.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
+#endif
 
 #include <algorithm>
+#include <chrono>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -126,6 +133,61 @@ SignalGuard::~SignalGuard() {
     pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
 }
 
+#ifdef __linux__
+namespace {
+
+/// Number of threads that stop_other_threads() has stopped. A handler of signals can reach nothing but globals.
+std::atomic<int> stopped_threads = 0;
+
+void stop_this_thread(int) {
+    ++stopped_threads;
+    for (;;) ::pause();
+}
+
+/// Makes all other threads stand still for good. They may hold locks then, so the caller must neither allocate memory
+/// afterwards nor do much else.
+void stop_other_threads() {
+    std::vector<long> others;
+    const long own = ::syscall(SYS_gettid);
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator("/proc/self/task", ignored))
+        if (const long thread = std::stol(entry.path().filename().string()); thread != own) others.push_back(thread);
+    struct sigaction action {};
+    action.sa_handler = stop_this_thread;
+    sigaction(SIGRTMIN + 1, &action, nullptr);
+    int signalled = 0;
+    for (const long thread : others)
+        if (::syscall(SYS_tgkill, ::getpid(), thread, SIGRTMIN + 1) == 0) ++signalled;
+    // A thread that waits for a disk takes notice later; it creates no file before.
+    for (int wait = 0; wait < 100 && stopped_threads < signalled; ++wait)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+/// Removes a file, or a folder of files, by system calls alone.
+void remove_without_memory(const char* path) {
+    const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
+    if (folder < 0) {
+        ::unlink(path);
+        return;
+    }
+    alignas(dirent64) char entries[4096];
+    for (long bytes; (bytes = ::syscall(SYS_getdents64, folder, entries, sizeof entries)) > 0;)
+        for (long at = 0; at < bytes;) {
+            const auto* entry = reinterpret_cast<const dirent64*>(entries + at);
+            ::unlinkat(folder, entry->d_name, 0);  // fails for the folder itself and the one above
+            at += entry->d_reclen;
+        }
+    ::close(folder);
+    ::rmdir(path);
+}
+
+}  // namespace
+#else
+// Elsewhere a file that is created in the last microseconds may stay.
+static void stop_other_threads() {}
+static void remove_without_memory(const char* path) { ::unlink(path); }
+#endif
+
 void SignalGuard::wait_for_signals() {
     constexpr int max_passes = 1000;
     int signal = 0;
@@ -138,6 +200,14 @@ void SignalGuard::wait_for_signals() {
     for (int more = max_passes; more > 0 && remove_temporaries(outputs_); --more) continue;
     std::error_code ignored;
     for (const fs::path& folder : missing_folders_) fs::remove(folder, ignored);  // fails unless it is empty
+    // A file that the run has created since the last pass would stay.
+    try {
+        const std::vector<fs::path> temporaries = temporaries_of(outputs_);
+        stop_other_threads();
+        for (const fs::path& temporary : temporaries) remove_without_memory(temporary.c_str());
+    } catch (...) {
+        // Where memory is lacking, the passes before have to do.
+    }
     // The process ends as if the signal had not been caught, so that shells and scripts see it.
     std::signal(signal, SIG_DFL);
     sigset_t this_signal;  // and no other, such as the one that ends the thread

@@ -194,6 +194,12 @@ bool remove_temporaries_of(const fs::path& target) {
 
 }  // namespace
 
+std::vector<fs::path> temporaries_of(std::span<const fs::path> targets) {
+    std::vector<fs::path> temporaries;
+    for (const fs::path& target : targets) temporaries.push_back(temporary_beside(behind_links(target)));
+    return temporaries;
+}
+
 bool remove_temporaries(std::span<const fs::path> targets) noexcept {
     bool found = false;
     for (const fs::path& target : targets) {
