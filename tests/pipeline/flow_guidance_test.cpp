@@ -58,8 +58,9 @@ TEST(FlowGuidance, LayersAreThickerThanBoundaryLayersAtAnyReynoldsNumber) {
                 const Point origin = rays.set.lines[i].origin;
                 const double height = rays.fitted.of(i)[rays.counts[i]];
                 // Both sides meet at the trailing edge.
-                if (origin.x < 0.999)
+                if (origin.x < 0.999) {
                     EXPECT_GE(height, std::min(1.3 * thickness_near(flow.elements[0], origin), 0.079)) << origin.x;
+                }
             }
             for (const std::string& finding : check_layer(close_border(rays), options.layer)) ADD_FAILURE() << finding;
         }
