@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-/// What a length is counted in.
+/// The units that a length may be counted in.
 enum class LengthUnit : std::uint8_t {
     chord,  ///< reference chords: reference_conditions() of conditions.hpp
     input,  ///< units of the input

@@ -54,14 +54,6 @@ std::vector<FlowFact> flow_facts(const MeshCase& mesh_case, const MeshResult& re
     return facts;
 }
 
-double largest_thickness(const Flow& flow) {
-    double thickness = 0;
-    for (const ElementFlow& element : flow.elements)
-        for (const auto* side : {&element.upper, &element.lower})
-            for (const FlowPoint& point : *side) thickness = std::max(thickness, point.thickness);
-    return thickness;
-}
-
 std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult& result) {
     const CaseOptions& options = mesh_case.options;
     std::vector<LengthFact> facts;
@@ -79,7 +71,8 @@ std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult
         add("thickness", "thickness", options.layer.thickness);
     }
     if (result.flow)
-        facts.push_back({"boundary_layer", "boundary layer", input_units(largest_thickness(*result.flow)),
+        facts.push_back({"boundary_layer", "boundary layer",
+                         input_units(largest_on_walls(*result.flow, &FlowPoint::thickness)),
                          result.flow->estimated ? "largest thickness on flat plates" : "largest thickness: Head"});
     add("smooth", "smooth", options.surface.smooth);
     add("wall-size", "wall size", options.sizing.wall_size);

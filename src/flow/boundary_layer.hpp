@@ -32,7 +32,7 @@ struct BoundaryLayerOptions {
     /// Kinematic viscosity over the speed of the free stream, a length in the unit of EdgePoint::s: the inverse of the
     /// Reynolds number of one unit. It is > 0.
     double viscosity = 1e-6;
-    /// Where a trip makes the layer turbulent, if it can sustain turbulence there (sustaining_reynolds). Without a
+    /// The place of a trip, which makes the layer turbulent if it can be there (sustaining_reynolds). Without a
     /// value the layer is turbulent as soon as it can be, as it is where a Reynolds-averaged computation has no model
     /// of transition. A value beyond the last point leaves the layer laminar until it separates.
     std::optional<double> transition{};

@@ -156,6 +156,14 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
     return flow;
 }
 
+double largest_on_walls(const Flow& flow, double FlowPoint::*number) {
+    double largest = 0;
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (const FlowPoint& point : *side) largest = std::max(largest, point.*number);
+    return largest;
+}
+
 Point flow_velocity(const Flow& flow, Point p) { return sheet_velocity(flow.sheets, flow.alpha_deg, p); }
 
 }  // namespace lamina

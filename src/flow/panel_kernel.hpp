@@ -1,4 +1,4 @@
-// What a straight panel of vortices or sources does at a point.
+// A straight panel of vortices or sources, and the stream function and velocity that it induces at a point.
 // Source: J. Katz, A. Plotkin, Low-Speed Aerodynamics, 2nd ed. (2001), section 10.3; M. Drela, XFOIL (1989).
 #pragma once
 
@@ -25,7 +25,7 @@ inline SeenNode see(Point node, Point from) {
     return {to, std::max(squared_length(to), 1e-300)};
 }
 
-/// The same with the logarithm of the squared distance.
+/// A node as seen from a point, with the logarithm of the squared distance.
 struct LoggedNode : SeenNode {
     double log_distance2;
 };

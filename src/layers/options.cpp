@@ -36,9 +36,11 @@ void add_first_height(OptionTableBuilder<LayerOptions>& table) {
         const auto* flow = std::get_if<YPlus>(&options.first_height);
         return flow ? std::optional<OptionValue>(flow->y_plus) : std::nullopt;
     };
-    table.add({"y-plus", OptionKind::number, "Y",
-               "instead: y+ of the top of the first layer, on a flat plate; needs reynolds, or velocity and viscosity",
-               positive_numbers.text(), set_y_plus, get_y_plus});
+    table.add(
+        {"y-plus", OptionKind::number, "Y",
+         "instead: y+ of the top of the first layer, on a flat plate or, with use-flow, where friction is largest; "
+         "needs reynolds, or velocity and viscosity",
+         positive_numbers.text(), set_y_plus, get_y_plus});
 }
 
 /// Adds the option of the growth law, whose help lists the formulas.

@@ -15,8 +15,8 @@ namespace {
 constexpr double room_above = 1.35;
 /// No layer is thicker than this for the boundary layer's sake, in chords of the configuration.
 constexpr double thickest_layer = 0.08;
-/// The speed changes from one vertex of the wall to the next by at most this share of itself, or of the free stream's
-/// where that is faster.
+/// The pressure coefficient changes from one vertex of the wall to the next by at most this, or by so many times the
+/// speed over the free stream's where that is above 1.
 constexpr double max_change = 0.05;
 /// No spacing is smaller than this for the flow's sake, in chords of the configuration.
 constexpr double min_spacing = 2e-4;
@@ -47,11 +47,7 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
 }  // namespace
 
 double first_height_of_flow(const Flow& flow, double y_plus, double reynolds) {
-    double friction = 0;
-    for (const ElementFlow& element : flow.elements)
-        for (const auto* side : {&element.upper, &element.lower})
-            for (const FlowPoint& point : *side) friction = std::max(friction, point.skin_friction);
-    return y_plus * flow.chord / (reynolds * std::sqrt(0.5 * friction));
+    return y_plus * flow.chord / (reynolds * std::sqrt(0.5 * largest_on_walls(flow, &FlowPoint::skin_friction)));
 }
 
 std::vector<WallHeight> heights_of_flow(const Flow& flow) {

@@ -1,4 +1,4 @@
-// What a mesh takes from the flow before it: the first height, the thickness of the layer, and the wakes.
+// The flow before the mesh decides the first height, the least thickness of layers, spacings of walls, and wakes.
 #pragma once
 
 #include <vector>
