@@ -99,6 +99,9 @@ inline constexpr double max_flow_leak = 0.02;
 /// Returns the largest value along all walls of a number of the flow there, such as &FlowPoint::thickness.
 LAMINA_EXPORT double largest_on_walls(const Flow& flow, double FlowPoint::*number);
 
+/// Returns the largest value along the wall of one element.
+LAMINA_EXPORT double largest_on_walls(const ElementFlow& element, double FlowPoint::*number);
+
 /// Returns the velocity at a point outside of the bodies as a multiple of the free stream's speed. Nearer to a wall
 /// than its panels are long one sees that they are straight: along the wall itself, ElementFlow has better values.
 LAMINA_EXPORT Point flow_velocity(const Flow& flow, Point p);

@@ -89,19 +89,33 @@ struct WallHeight {
 /// The growth law and its numbers, with the first height as a length.
 struct LayerGrowth {
     GrowthLaw law = GrowthLaw::geometric;   ///< LayerOptions::growth_law
-    double first_height = 0;                ///< in units of the input
+    double first_height = 0;                ///< in units of the input; on elements without one of their own
     double growth = 1.2;                    ///< LayerOptions::growth
     std::optional<std::uint32_t> layers{};  ///< LayerOptions::layers
     std::optional<double> thickness{};      ///< LayerOptions::thickness, in units of the input
+    std::vector<double> first_heights{};    ///< one per element, in units of the input; empty: no element has its own
     /// Heights that columns up to isotropy reach at least, where there is room: those of the flow's boundary layers.
     /// Each element has none, or a closed chain of them in the order of its wall; they are linear in between.
     std::vector<WallHeight> least_heights{};
+
+    /// Returns the first height on an element.
+    double first_height_on(std::size_t element) const {
+        return first_heights.empty() ? first_height : first_heights[element];
+    }
 };
 
-/// Returns the growth that the options request in these conditions. Throws OptionError where a y+ is given without a
-/// Reynolds number, and where the heights contradict each other: a thickness below the first height, or too small for
-/// the exponential law.
-LAMINA_EXPORT LayerGrowth layer_growth(const LayerOptions& options, const ReferenceConditions& conditions);
+/// Returns the growth that the options request in these conditions, with LayerGrowth::first_heights if there are any.
+/// Throws OptionError where a y+ is given without a Reynolds number, and where the heights contradict each other: a
+/// thickness below a first height, or too small for the exponential law.
+LAMINA_EXPORT LayerGrowth layer_growth(const LayerOptions& options, const ReferenceConditions& conditions,
+                                       std::vector<double> first_heights = {});
+
+/// Returns the largest first height on any element.
+LAMINA_EXPORT double largest_first_height(const LayerGrowth& growth);
+
+/// Returns the growth on one element as though it were alone: with its own first height and least heights, as element
+/// 0. Functions of a growth that know no elements take this one.
+LAMINA_EXPORT LayerGrowth growth_on_element(const LayerGrowth& growth, std::size_t element);
 
 /// Returns the first height whose top lies at this y+ on a flat plate of length `chord` in turbulent flow:
 ///   y+ chord / (Re sqrt(cf / 2)),  cf = 0.026 / Re^(1/7),  Re = reynolds, based on the chord.

@@ -103,6 +103,14 @@ inline constexpr double even_wall_ratio = 1.25;
 /// The height of a first cell is kept where it differs from the one wanted by at most this share.
 inline constexpr double first_height_tolerance = 0.01;
 
+/// The heights of the cells of the first layer on one marker, above the wall's edges.
+struct FirstHeights {
+    std::string marker;        ///< its name
+    std::size_t cells = 0;     ///< number of edges with such a cell
+    double median = 0;         ///< in units of the input
+    double share_of_kept = 1;  ///< share within first_height_tolerance of the height wanted on this marker
+};
+
 /// How evenly the walls are divided, and how high the cells on them are. A marker counts as a wall unless it is a far
 /// field or a symmetry.
 struct WallSummary {
@@ -112,10 +120,11 @@ struct WallSummary {
     std::size_t uneven_vertices = 0;  ///< number of vertices where this ratio exceeds even_wall_ratio
     std::size_t first_cells = 0;      ///< number of edges with a cell of the first layer; the rest is about these
     double median_first_height = 0;   ///< height over the wall's edge, in units of the input
-    /// Share of the heights within first_height_tolerance of MeshCheckOptions::first_height, or of the median.
+    /// Share of the heights within first_height_tolerance of the height wanted, or else of their marker's median.
     double share_of_kept_heights = 1;
-    double worst_first_height = 1;  ///< the height that differs most, over the height wanted
-    Point worst_first_height_at{};  ///< the wall vertex at its edge's start
+    double worst_first_height = 1;              ///< the height that differs most, over the height wanted
+    Point worst_first_height_at{};              ///< the wall vertex at its edge's start
+    std::vector<FirstHeights> first_heights{};  ///< one per marker that has such cells, in the order of the mesh
 };
 
 /// The result of check_mesh().
@@ -142,8 +151,9 @@ struct MeshCheck {
 /// Options of check_mesh().
 struct MeshCheckOptions {
     double min_angle_deg = proved_min_angle_deg;  ///< bound of QualitySummary::angles_below_bound
-    /// The height that first cells should have, in units of the input; empty: their median.
+    /// The height that first cells should have, in units of the input; empty: their median on each marker.
     std::optional<double> first_height{};
+    std::vector<double> first_heights{};  ///< one per marker, in place of first_height; empty: all have the same
 };
 
 /// Returns the table of these options, with names, ranges and help.

@@ -54,7 +54,7 @@ struct CaseOptions {
     DecompositionOptions decomposition{};  ///< fill_layer(): the pieces of the layer
     RefineOptions refine{};                ///< refine()
     AssembleOptions assemble{};            ///< assemble()
-    /// Whether the flow before the mesh decides: a first height given by y+, the least thickness of layers up to
+    /// Whether the flow before the mesh decides: first heights given by y+, the least thickness of layers up to
     /// isotropy, and wakes beside those of SizingOptions. Needs a Reynolds number.
     bool use_flow = false;
     WorkLimits limits{};   ///< generate_mesh() refuses what is beyond them, before the work
@@ -131,8 +131,8 @@ struct MeshResult {
     std::size_t largest_inviscid_piece = 0;     ///< triangles of the largest subdomain
     double estimates_within_15_percent = 1;     ///< share of the subdomains whose estimate was within 15 % of the truth
     std::size_t surface_vertices = 0;           ///< vertices of the walls
-    double first_height = 0;                    ///< of the layers; 0 without layers
-    std::optional<YPlus> y_plus;                ///< what the first height follows from; empty: it was given
+    std::vector<double> first_heights;          ///< of the layers, one per element; empty without layers
+    std::optional<YPlus> y_plus;                ///< what the first heights follow from; empty: they were given
     ReferenceConditions conditions;             ///< the chord that lengths count, and the flow
     std::optional<Flow> flow;                   ///< what decided with CaseOptions::use_flow
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers

@@ -57,6 +57,7 @@ struct SpacingLimits {
     /// Length, in units of the input, of the layer's border edges over the fan of rays at sharp corners. The spacing at
     /// sharp corners equals it, between a quarter of sharp_corner_spacing and corner_spacing.
     std::optional<double> fan_spacing{};
+    std::vector<double> fan_spacings{};  ///< one per element, in place of fan_spacing; empty: no element has its own
     std::vector<WallSpacing> walls{};  ///< spacings of stretches of resampled walls; they grow by the gradation beside
 };
 

@@ -30,6 +30,7 @@ struct LengthFact {
     std::string label;  ///< in the summary
     Length length;
     std::string source;
+    std::string element{};  ///< that it holds on; empty: on all
 };
 
 /// Returns where the value of an option comes from.
@@ -54,6 +55,27 @@ std::vector<FlowFact> flow_facts(const MeshCase& mesh_case, const MeshResult& re
     return facts;
 }
 
+/// Returns the first height of each element, or one for all where they have the same.
+std::vector<LengthFact> first_heights(const MeshCase& mesh_case, const MeshResult& result) {
+    const char *key = "first_height", *label = "first layer";
+    const LayerOptions& options = mesh_case.options.layer;
+    if (const auto* given = std::get_if<Length>(&options.first_height))
+        return {{key, label, *given, source_of(mesh_case, "first-height")}};
+    if (!result.flow || result.flow->estimated)
+        return {
+            {key, label, input_units(result.first_heights.front()), "from y+ on a flat plate: White, Fluid Mechanics"}};
+    std::vector<LengthFact> facts;
+    for (std::size_t e = 0; e < result.first_heights.size(); ++e) {
+        const ElementFlow& element = result.flow->elements[e];
+        const double friction = largest_on_walls(element, &FlowPoint::skin_friction);
+        facts.push_back({key, label, input_units(result.first_heights[e]),
+                         fmt::format("from y+ and the largest skin friction, {:.4g}: Thwaites, Head", friction),
+                         element.name});
+    }
+    if (facts.size() == 1) facts.front().element.clear();
+    return facts;
+}
+
 std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult& result) {
     const CaseOptions& options = mesh_case.options;
     std::vector<LengthFact> facts;
@@ -61,13 +83,7 @@ std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult
         if (length) facts.push_back({option_key(option), label, *length, source_of(mesh_case, option)});
     };
     if (options.layer.enabled) {
-        if (result.y_plus)
-            facts.push_back({"first_height", "first layer", input_units(result.first_height),
-                             result.flow && !result.flow->estimated
-                                 ? "from y+ and the largest skin friction of the flow: Thwaites, Head"
-                                 : "from y+ on a flat plate: White, Fluid Mechanics"});
-        else
-            add("first-height", "first layer", std::get<Length>(options.layer.first_height));
+        for (const LengthFact& height : first_heights(mesh_case, result)) facts.push_back(height);
         add("thickness", "thickness", options.layer.thickness);
     }
     if (result.flow)
@@ -95,9 +111,10 @@ std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& resu
                                 fact.source);
     const double chord = result.conditions.chord;
     for (const LengthFact& fact : length_facts(mesh_case, result))
-        lengths += summary_line(
-            fact.label, fmt::format("{:.4g} chords, {:.4g} units of the input ({})", in_chords(fact.length, chord),
-                                    in_units(fact.length, chord), fact.source));
+        lengths +=
+            summary_line(fact.label, fmt::format("{:.4g} chords, {:.4g} units of the input{} ({})",
+                                                 in_chords(fact.length, chord), in_units(fact.length, chord),
+                                                 fact.element.empty() ? "" : " on " + fact.element, fact.source));
     return "conditions: " + flow + "\n" + lengths;
 }
 
@@ -106,10 +123,17 @@ Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
     for (const FlowFact& fact : flow_facts(mesh_case, result))
         report[fact.key] = {{"value", fact.value}, {"source", fact.source}};
     const double chord = result.conditions.chord;
-    for (const LengthFact& fact : length_facts(mesh_case, result))
-        report[fact.key] = {{"chords", in_chords(fact.length, chord)},
-                            {"units", in_units(fact.length, chord)},
-                            {"source", fact.source}};
+    for (const LengthFact& fact : length_facts(mesh_case, result)) {
+        const Json length = {{"chords", in_chords(fact.length, chord)},
+                             {"units", in_units(fact.length, chord)},
+                             {"source", fact.source}};
+        if (fact.element.empty()) {
+            report[fact.key] = length;
+        } else {
+            report[fact.key]["elements"].push_back(length);
+            report[fact.key]["elements"].back()["element"] = fact.element;
+        }
+    }
     return report;
 }
 

@@ -82,12 +82,23 @@ Json threads_report(const std::vector<ThreadSeconds>& threads) {
     return report;
 }
 
+Json first_heights_report(std::span<const FirstHeights> heights) {
+    Json report = Json::array();
+    for (const FirstHeights& on_marker : heights)
+        report.push_back({{"marker", on_marker.marker},
+                          {"cells", on_marker.cells},
+                          {"median", on_marker.median},
+                          {"share_of_kept", on_marker.share_of_kept}});
+    return report;
+}
+
 Json walls_report(const WallSummary& walls) {
     return {{"edges", walls.edges},
             {"max_ratio", walls.max_ratio},
             {"max_ratio_at", {walls.max_ratio_at.x, walls.max_ratio_at.y}},
             {"uneven_vertices", walls.uneven_vertices},
             {"first_cells", walls.first_cells},
+            {"first_heights", first_heights_report(walls.first_heights)},
             {"median_first_height", walls.median_first_height},
             {"share_of_kept_heights", walls.share_of_kept_heights},
             {"worst_first_height", walls.worst_first_height},

@@ -41,16 +41,28 @@ std::string layer_lines(const MeshCheck& check) {
     return text;
 }
 
+/// Returns the median height of first cells, or those of each marker where they differ.
+std::string median_heights(const WallSummary& walls) {
+    const auto [least, most] =
+        std::minmax_element(walls.first_heights.begin(), walls.first_heights.end(),
+                            [](const FirstHeights& a, const FirstHeights& b) { return a.median < b.median; });
+    if (most->median <= (1 + first_height_tolerance) * least->median)
+        return fmt::format("{:.4g} high (median)", walls.median_first_height);
+    std::string text;
+    for (const FirstHeights& heights : walls.first_heights)
+        text += fmt::format("{}{:.4g} ({})", text.empty() ? "" : ", ", heights.median, heights.marker);
+    return text + " high (medians)";
+}
+
 std::string wall_lines(const WallSummary& walls) {
     std::string text = summary_line(
         "walls", fmt::format("{} edges: neighbours differ in length by a factor of at most {:.2f}, at ({:.6g}, {:.6g})",
                              walls.edges, walls.max_ratio, walls.max_ratio_at.x, walls.max_ratio_at.y));
     if (walls.first_cells == 0) return text;
-    return text +
-           summary_line("walls", fmt::format("first cells are {:.4g} high (median), {:.2f} % of them within {} % "
-                                             "of the height wanted; the worst has {:.3f} of it",
-                                             walls.median_first_height, 100 * walls.share_of_kept_heights,
-                                             100 * first_height_tolerance, walls.worst_first_height));
+    return text + summary_line("walls", fmt::format("first cells are {}, {:.2f} % of them within {} % "
+                                                    "of the height wanted; the worst has {:.3f} of it",
+                                                    median_heights(walls), 100 * walls.share_of_kept_heights,
+                                                    100 * first_height_tolerance, walls.worst_first_height));
 }
 
 std::string element_lines(const Element& element) {

@@ -158,9 +158,14 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
 
 double largest_on_walls(const Flow& flow, double FlowPoint::*number) {
     double largest = 0;
-    for (const ElementFlow& element : flow.elements)
-        for (const auto* side : {&element.upper, &element.lower})
-            for (const FlowPoint& point : *side) largest = std::max(largest, point.*number);
+    for (const ElementFlow& element : flow.elements) largest = std::max(largest, largest_on_walls(element, number));
+    return largest;
+}
+
+double largest_on_walls(const ElementFlow& element, double FlowPoint::*number) {
+    double largest = 0;
+    for (const auto* side : {&element.upper, &element.lower})
+        for (const FlowPoint& point : *side) largest = std::max(largest, point.*number);
     return largest;
 }
 

@@ -154,6 +154,7 @@ private:
         const double max_angle = core::radians(options_.max_ray_angle_deg) + 1e-9;
         for (std::size_t e = 0; e < layer_.rays.size(); ++e) {
             const std::vector<Ray>& rays = layer_.rays[e];
+            const LayerGrowth growth = growth_on_element(layer_.growth, e);
             std::size_t on_wall = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
@@ -167,27 +168,27 @@ private:
                 const double angle = core::angle_between(ray.direction, next.direction);
                 if (std::abs(angle) > max_angle)
                     report(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
-                check_heights(ray);
+                check_heights(ray, growth);
             }
         }
     }
 
     /// Checks that the points of a ray lie at the heights of its law, stretched by no more than max_stretch, and below
-    /// its limit.
-    void check_heights(const Ray& ray) {
+    /// its limit. `growth` is that on its element.
+    void check_heights(const Ray& ray, const LayerGrowth& growth) {
         const Point origin = at(ray.origin);
         const double rounding = 4e-16 * (std::abs(origin.x) + std::abs(origin.y));
         const GrowthLawEntry& law = growth_law_entry(options_.growth_law);
         if (law.by_spacing ? ray.growth < law.by_spacing->min_growth || ray.growth > law.by_spacing->max_growth
-                           : ray.growth != law.ray_growth(layer_.growth))
+                           : ray.growth != law.ray_growth(growth))
             report("ray has not the growth of its law", origin);
-        std::vector<double> heights = law.heights(layer_.growth.first_height, ray.growth, ray.layers);
+        std::vector<double> heights = law.heights(growth.first_height, ray.growth, ray.layers);
         limit_spacings(ray.max_spacing, heights);
         stretch_heights(ray.stretch, heights);
         for (double& height : heights) height *= ray.slant;
         if (!(ray.slant >= 1 && ray.slant <= max_slant))
             report(fmt::format("ray has a slant of {}", ray.slant), origin);
-        if (ray.stretch != 1 && std::isinf(ray.height_limit) && layer_.growth.layers)
+        if (ray.stretch != 1 && std::isinf(ray.height_limit) && growth.layers)
             report("ray is stretched without a limit", origin);
         if (!(ray.stretch <= max_stretch && ray.stretch * max_stretch >= 1 - 1e-12))
             report(fmt::format("ray is stretched by {}", ray.stretch), origin);

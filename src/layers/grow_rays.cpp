@@ -32,9 +32,12 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, const Lay
     const double extent = core::longer_side(box);
     const double max_coordinate =
         std::max({std::abs(box.lower.x), std::abs(box.lower.y), std::abs(box.upper.x), std::abs(box.upper.y)});
-    if (!(growth.first_height > min_roundings * std::numeric_limits<double>::epsilon() * max_coordinate))
-        throw OptionError("first_height", fmt::format("{} is below the resolution of coordinates as large as {}",
-                                                      growth.first_height, max_coordinate));
+    const double least = growth.first_heights.empty()
+                             ? growth.first_height
+                             : *std::min_element(growth.first_heights.begin(), growth.first_heights.end());
+    if (!(least > min_roundings * std::numeric_limits<double>::epsilon() * max_coordinate))
+        throw OptionError("first_height", fmt::format("{} is below the resolution of coordinates as large as {}", least,
+                                                      max_coordinate));
     const double thickness = heights.max_height();
     if (!(thickness <= max_relative_thickness * extent))
         throw OptionError("layers",
@@ -44,8 +47,10 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, const Lay
 
 RaySet rays_of(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth) {
     RaySet set;
-    for (const Element& element : geometry.elements) {
-        const std::vector<RayLine> rays = make_rays(element.points, element.smooth, options, growth);
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        const Element& element = geometry.elements[e];
+        const std::vector<RayLine> rays =
+            make_rays(element.points, element.smooth, options, growth_on_element(growth, e));
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }
@@ -82,6 +87,8 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
         rays.fitted = LayerHeights({0.0}, std::vector<HeightColumn>(rays.set.lines.size()));
         return rays;
     }
+    if (!growth.first_heights.empty() && growth.first_heights.size() != geometry.elements.size())
+        throw OptionError("first_height", "needs one entry per element where elements have their own");
     rays.growth = growth;
     rays.set = rays_of(geometry, options, rays.growth);
     rays.heights = make_heights(rays.set, rays.growth);

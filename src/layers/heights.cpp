@@ -155,7 +155,22 @@ double expected_height(const LayerGrowth& growth, double spacing) {
 }
 
 LayerHeights make_heights(const RaySet& set, const LayerGrowth& growth) {
-    return slanted(set, upright_heights(set, growth));
+    std::vector<double> table;
+    std::vector<HeightColumn> columns;
+    columns.reserve(set.lines.size());
+    for (std::size_t e = 0; e < set.elements(); ++e) {
+        const auto lines = set.lines.begin();
+        const RaySet own{
+            {lines + static_cast<std::ptrdiff_t>(set.begin[e]), lines + static_cast<std::ptrdiff_t>(set.begin[e + 1])},
+            {0, set.begin[e + 1] - set.begin[e]}};
+        const LayerHeights heights = slanted(own, upright_heights(own, growth_on_element(growth, e)));
+        for (std::size_t i = 0; i < own.lines.size(); ++i) {
+            columns.push_back(heights.column(i));
+            columns.back().first += table.size();
+        }
+        table.insert(table.end(), heights.table().begin(), heights.table().end());
+    }
+    return LayerHeights(std::move(table), std::move(columns));
 }
 
 }  // namespace lamina::layers

@@ -1,6 +1,7 @@
 // The growth of layers that follows from the options: the first height, and what growth laws make of their numbers.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,10 +23,14 @@ double first_height_for(double y_plus, double reynolds, double chord) {
     return y_plus * chord / (reynolds * std::sqrt(0.5 * friction));
 }
 
-LayerGrowth layer_growth(const LayerOptions& options, const ReferenceConditions& conditions) {
+LayerGrowth layer_growth(const LayerOptions& options, const ReferenceConditions& conditions,
+                         std::vector<double> first_heights) {
     if (!options.enabled) return {};
     const double chord = conditions.chord;
-    LayerGrowth growth{options.growth_law, 0, options.growth, options.layers, {}};
+    LayerGrowth growth{.law = options.growth_law,
+                       .growth = options.growth,
+                       .layers = options.layers,
+                       .first_heights = std::move(first_heights)};
     if (options.thickness) growth.thickness = in_units(*options.thickness, chord);
     if (const auto* height = std::get_if<Length>(&options.first_height)) {
         growth.first_height = in_units(*height, chord);
@@ -34,14 +39,30 @@ LayerGrowth layer_growth(const LayerOptions& options, const ReferenceConditions&
         growth.first_height =
             first_height_for(std::get<YPlus>(options.first_height).y_plus, *conditions.reynolds, chord);
     }
-    if (growth.thickness && !(*growth.thickness >= growth.first_height))
-        throw OptionError("thickness",
-                          fmt::format("{} is less than the first height {}", *growth.thickness, growth.first_height));
+    const double largest = largest_first_height(growth);
+    if (growth.thickness && !(*growth.thickness >= largest))
+        throw OptionError("thickness", fmt::format("{} is less than the first height {}", *growth.thickness, largest));
     const GrowthLawEntry& law = growth_law_entry(growth.law);
-    if (law.fills_thickness && !(*growth.thickness > *growth.layers * growth.first_height))
+    if (law.fills_thickness && !(*growth.thickness > *growth.layers * largest))
         throw OptionError("thickness", fmt::format("{} is no more than {} layers of {}: {} growth has nothing to grow",
-                                                   *growth.thickness, *growth.layers, growth.first_height, law.name));
+                                                   *growth.thickness, *growth.layers, largest, law.name));
     return growth;
+}
+
+double largest_first_height(const LayerGrowth& growth) {
+    if (growth.first_heights.empty()) return growth.first_height;
+    return *std::max_element(growth.first_heights.begin(), growth.first_heights.end());
+}
+
+LayerGrowth growth_on_element(const LayerGrowth& growth, std::size_t element) {
+    LayerGrowth own{.law = growth.law,
+                    .first_height = growth.first_height_on(element),
+                    .growth = growth.growth,
+                    .layers = growth.layers,
+                    .thickness = growth.thickness};
+    for (const WallHeight& height : growth.least_heights)
+        if (height.element == element) own.least_heights.push_back({0, height.at, height.height});
+    return own;
 }
 
 double layer_height(const LayerGrowth& growth, std::uint32_t n) {

@@ -83,6 +83,8 @@ using namespace mesh;
 
 MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     validate(options);
+    if (!options.first_heights.empty() && options.first_heights.size() != mesh.markers.size())
+        throw OptionError("first_heights", "need one entry per marker");
     MeshCheck check;
     DefectList defects;
     const auto finish = [&] {
@@ -109,7 +111,7 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     check.isotropic = cells.isotropic.summary();
     check.unexcused_cells = find_unexcused(mesh, adjacency, constraints, cells.narrow);
     check.isotropic.exempt = cells.narrow.size() - check.unexcused_cells.size();
-    check.walls = measure_walls(mesh, adjacency, options.first_height);
+    check.walls = measure_walls(mesh, adjacency, options);
     check.edges_without_first_layer = count_edges_without_first_layer(mesh, adjacency);
 
     const std::vector<Segment> edges = boundary_edges(mesh, adjacency);

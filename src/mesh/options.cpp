@@ -13,7 +13,8 @@ OptionTable<MeshCheckOptions> make_table() {
                  "require this smallest angle of isotropic triangles, in degrees, but in sharp corners",
                  numbers_from_to(0, 60), member_at(&MeshCheckOptions::min_angle_deg));
     table.number("first-height", "H",
-                 "compare the heights of first cells with this one, in units of the mesh, instead of with their median",
+                 "compare the heights of first cells with this one, in units of the mesh, instead of with their median "
+                 "on each wall",
                  positive_numbers, member_at(&MeshCheckOptions::first_height));
     return table.take();
 }
@@ -25,6 +26,9 @@ const OptionTable<MeshCheckOptions>& mesh_check_option_table() {
     return table;
 }
 
-void validate(const MeshCheckOptions& options) { require_in_range(mesh_check_option_table(), options); }
+void validate(const MeshCheckOptions& options) {
+    require_in_range(mesh_check_option_table(), options);
+    for (const double height : options.first_heights) require_in_range(positive_numbers, height, "first_heights");
+}
 
 }  // namespace lamina

@@ -14,15 +14,22 @@ namespace {
 struct WallEdge {
     VertexId from, to;
     std::uint32_t edge;  ///< as numbered by CellEdges
+    std::size_t marker;  ///< in Mesh::markers
 };
 
 /// Returns the edges of all walls, sorted by their first vertex.
 std::vector<WallEdge> wall_edges(const Mesh& mesh, const CellEdges& edges, const Adjacency& adjacency) {
-    const std::vector<Segment> segments = sorted_wall_edges(mesh);
+    std::vector<std::pair<Segment, std::size_t>> segments;  // and their markers
+    for (std::size_t m = 0; m < mesh.markers.size(); ++m)
+        if (may_be_wall(mesh.markers[m].kind))
+            for (const Segment& segment : mesh.markers[m].edges) segments.emplace_back(segment, m);
+    std::sort(segments.begin(), segments.end());
     std::vector<WallEdge> walls;
     for (const std::uint32_t edge : adjacency.boundary) {
-        const WallEdge wall{edges.origin(edge), edges.target(edge), edge};
-        if (std::binary_search(segments.begin(), segments.end(), Segment{wall.from, wall.to})) walls.push_back(wall);
+        const Segment segment{edges.origin(edge), edges.target(edge)};
+        const auto found = std::lower_bound(segments.begin(), segments.end(), std::pair{segment, std::size_t{0}});
+        if (found != segments.end() && found->first == segment)
+            walls.push_back({segment.a, segment.b, edge, found->second});
     }
     std::sort(walls.begin(), walls.end(), [](const WallEdge& a, const WallEdge& b) { return a.from < b.from; });
     return walls;
@@ -67,34 +74,64 @@ double height_over(const Mesh& mesh, const CellEdges& edges, std::uint32_t edge)
     return sum / (distance(a, b) * static_cast<double>(corners - 2));
 }
 
-void measure_first_heights(const Mesh& mesh, const CellEdges& edges, std::span<const WallEdge> walls,
-                           std::optional<double> wanted, WallSummary& summary) {
-    std::vector<std::pair<double, VertexId>> heights;  // and the vertex at which the edge begins
+/// The height of a cell of the first layer.
+struct FirstHeight {
+    double height;
+    VertexId at;  ///< the vertex at which the edge begins
+};
+
+/// Returns the heights of the cells of the first layer, marker by marker.
+std::vector<std::vector<FirstHeight>> first_heights_of_markers(const Mesh& mesh, const CellEdges& edges,
+                                                               std::span<const WallEdge> walls) {
+    std::vector<std::vector<FirstHeight>> heights(mesh.markers.size());
     for (const WallEdge& wall : walls) {
         const std::size_t cell = edges.cell_of(wall.edge);
         const bool of_first_layer =
             mesh.layer.empty() ? !mesh.region.empty() && mesh.region[cell] == Region::layer : mesh.layer[cell] == 1;
         if (of_first_layer && mesh.points[wall.from.index()] != mesh.points[wall.to.index()])
-            heights.emplace_back(height_over(mesh, edges, wall.edge), wall.from);
+            heights[wall.marker].push_back({height_over(mesh, edges, wall.edge), wall.from});
     }
-    if (heights.empty()) return;
-    summary.first_cells = heights.size();
-    std::vector<std::pair<double, VertexId>> sorted = heights;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    summary.median_first_height = middle->first;
-    const double reference = wanted.value_or(middle->first);
-    std::size_t kept = 0;
+    return heights;
+}
+
+/// Returns the median height. Precondition: there is one.
+double median_height(std::vector<FirstHeight> heights) {
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), middle, heights.end(),
+                     [](const FirstHeight& a, const FirstHeight& b) { return a.height < b.height; });
+    return middle->height;
+}
+
+void measure_first_heights(const Mesh& mesh, const CellEdges& edges, std::span<const WallEdge> walls,
+                           const MeshCheckOptions& options, WallSummary& summary) {
+    const std::vector<std::vector<FirstHeight>> by_marker = first_heights_of_markers(mesh, edges, walls);
+    std::vector<FirstHeight> all;
+    std::size_t all_kept = 0;
     double worst = 0;
-    for (const auto& [height, at] : heights) {
-        const double deviation = std::abs(height / reference - 1);
-        kept += deviation <= first_height_tolerance;
-        if (!(deviation > worst)) continue;
-        worst = deviation;
-        summary.worst_first_height = height / reference;
-        summary.worst_first_height_at = mesh.points[at.index()];
+    for (std::size_t m = 0; m < by_marker.size(); ++m) {
+        const std::vector<FirstHeight>& heights = by_marker[m];
+        if (heights.empty()) continue;
+        const double median = median_height(heights);
+        const double wanted =
+            options.first_heights.empty() ? options.first_height.value_or(median) : options.first_heights[m];
+        std::size_t kept = 0;
+        for (const FirstHeight& first : heights) {
+            const double deviation = std::abs(first.height / wanted - 1);
+            kept += deviation <= first_height_tolerance;
+            if (!(deviation > worst)) continue;
+            worst = deviation;
+            summary.worst_first_height = first.height / wanted;
+            summary.worst_first_height_at = mesh.points[first.at.index()];
+        }
+        summary.first_heights.push_back({mesh.markers[m].name, heights.size(), median,
+                                         static_cast<double>(kept) / static_cast<double>(heights.size())});
+        all_kept += kept;
+        all.insert(all.end(), heights.begin(), heights.end());
     }
-    summary.share_of_kept_heights = static_cast<double>(kept) / static_cast<double>(heights.size());
+    if (all.empty()) return;
+    summary.first_cells = all.size();
+    summary.share_of_kept_heights = static_cast<double>(all_kept) / static_cast<double>(all.size());
+    summary.median_first_height = median_height(std::move(all));
 }
 
 }  // namespace
@@ -107,13 +144,13 @@ std::vector<Segment> sorted_wall_edges(const Mesh& mesh) {
     return edges;
 }
 
-WallSummary measure_walls(const Mesh& mesh, const Adjacency& adjacency, std::optional<double> first_height) {
+WallSummary measure_walls(const Mesh& mesh, const Adjacency& adjacency, const MeshCheckOptions& options) {
     const CellEdges edges(mesh);
     const std::vector<WallEdge> walls = wall_edges(mesh, edges, adjacency);
     WallSummary summary;
     summary.edges = walls.size();
     measure_ratios(mesh, walls, summary);
-    measure_first_heights(mesh, edges, walls, first_height, summary);
+    measure_first_heights(mesh, edges, walls, options, summary);
     return summary;
 }
 

@@ -46,8 +46,12 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
 
 }  // namespace
 
-double first_height_of_flow(const Flow& flow, double y_plus, double reynolds) {
-    return y_plus * flow.chord / (reynolds * std::sqrt(0.5 * largest_on_walls(flow, &FlowPoint::skin_friction)));
+std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds) {
+    std::vector<double> heights;
+    for (const ElementFlow& element : flow.elements)
+        heights.push_back(y_plus * flow.chord /
+                          (reynolds * std::sqrt(0.5 * largest_on_walls(element, &FlowPoint::skin_friction))));
+    return heights;
 }
 
 std::vector<WallHeight> heights_of_flow(const Flow& flow) {

@@ -1,4 +1,4 @@
-// The flow before the mesh decides the first height, the least thickness of layers, spacings of walls, and wakes.
+// The flow before the mesh decides first heights, the least thickness of layers, spacings of walls, and wakes.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace lamina::pipeline {
 
-/// Returns the first height with which the largest skin friction has this y+. Precondition: the flow has boundary
-/// layers.
-double first_height_of_flow(const Flow& flow, double y_plus, double reynolds);
+/// Returns, for each element, the first height with which its largest skin friction has this y+. Precondition: the flow
+/// has boundary layers.
+std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds);
 
 /// Returns the heights that layers need along the walls: those of the boundary layers and some room above, never less
 /// than further upstream.

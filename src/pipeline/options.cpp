@@ -20,7 +20,7 @@ constexpr double min_wall_gradation = 0.05;
 OptionTable<CaseOptions> make_pipeline_rows() {
     OptionTableBuilder<CaseOptions> flow("Flow"), outer("Outer region"), files("Files"), run("Run");
     flow.choice("use-flow",
-                "whether a panel method and boundary layers decide the first height for y+, the least thickness of "
+                "whether a panel method and boundary layers decide first heights for y+, the least thickness of "
                 "--layers auto, and wakes; needs a Reynolds number",
                 Choices<bool>{{"no", false}, {"yes", true}}, member_at(&CaseOptions::use_flow));
     // Without a bound there would be nothing to suit the edges of the layer's outer border to.
@@ -122,10 +122,13 @@ SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& grow
     limits.gradation = std::max(margin * border_gradation(options.sizing.gradation), min_wall_gradation);
     if (!options.layer.enabled) return limits;
     // The height of automatic and adaptive layers follows from the spacing of the wall, so it sets no limit.
-    const std::optional<double> height = requested_height(growth);
-    if (!height) return limits;
-    const double fan_edge = *height * core::radians(options.layer.max_ray_angle_deg);
-    if (fan_edge > 0) limits.fan_spacing = fan_edge;
+    const auto fan_edge = [&](const LayerGrowth& on_element) {
+        return requested_height(on_element).value_or(0) * core::radians(options.layer.max_ray_angle_deg);
+    };
+    if (!(fan_edge(growth) > 0)) return limits;
+    limits.fan_spacing = fan_edge(growth);
+    for (std::size_t e = 0; e < growth.first_heights.size(); ++e)
+        limits.fan_spacings.push_back(fan_edge(growth_on_element(growth, e)));
     return limits;
 }
 

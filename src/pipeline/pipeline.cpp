@@ -99,7 +99,8 @@ void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOpt
     result.layer_coverage = layer.coverage;
     if (!options.enabled) return;
     result.border_steps = border_steps(layer);
-    result.first_height = layer.growth.first_height;
+    for (std::size_t e = 0; e < layer.walls.size(); ++e)
+        result.first_heights.push_back(layer.growth.first_height_on(e));
     if (const auto* y_plus = std::get_if<YPlus>(&options.first_height)) result.y_plus = *y_plus;
 }
 
@@ -110,6 +111,19 @@ void require_valid(const MeshCheck& check) {
         fmt::format("the mesh made is not valid: {} near ({}, {}){}", first.description, first.at.x, first.at.y,
                     check.defect_count > 1 ? fmt::format(", and {} more", check.defect_count - 1) : ""),
         first.at);
+}
+
+/// Returns the heights that first cells should have on each marker of the mesh. The marker of the base of an element
+/// follows that of the element.
+std::vector<double> first_heights_of_markers(const MeshResult& result) {
+    std::vector<double> heights;
+    if (result.first_heights.empty()) return heights;
+    std::size_t next = 0;
+    for (const Marker& marker : result.mesh.markers) {
+        if (next < result.geometry.elements.size() && marker.name == result.geometry.elements[next].name) ++next;
+        heights.push_back(result.first_heights[next - 1]);
+    }
+    return heights;
 }
 
 /// Returns the mean length of isotropic edges over h at their middles, of evenly chosen triangles: so many that the
@@ -176,7 +190,7 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
 
     clock.begin("check");
     MeshCheckOptions check_options{.min_angle_deg = options.refine.min_angle_deg};
-    if (options.layer.enabled) check_options.first_height = layer.growth.first_height;
+    check_options.first_heights = first_heights_of_markers(result);
     result.check = check_mesh(result.mesh, check_options);
     require_valid(result.check);
     result.mean_edge_over_size = mean_edge_over_size(result.mesh, size);
@@ -223,7 +237,8 @@ void make_room(const CaseOptions& options, RayPlan& plan, StageClock& clock, Mes
 void guide_by_flow(const Flow& flow, const ReferenceConditions& conditions, CaseOptions& options, LayerGrowth& growth) {
     if (options.layer.enabled) {
         if (const auto* y_plus = std::get_if<YPlus>(&options.layer.first_height); y_plus && !flow.estimated)
-            growth.first_height = first_height_of_flow(flow, y_plus->y_plus, *conditions.reynolds);
+            growth = layer_growth(options.layer, conditions,
+                                  first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds));
         growth.least_heights = heights_of_flow(flow);
     }
     if (flow.estimated) return;

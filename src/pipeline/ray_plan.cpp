@@ -32,7 +32,7 @@ void require_room_for_layers(const Geometry& geometry, const std::vector<std::ve
         by_y_plus ? "y_plus" : "first_height",
         fmt::format("a first height of {:.4g}{} {} a layer that is {:.4g} thick, but the far field is "
                     "only {:.4g} away: lower the first height, {}the growth ({:.4g}), or set a thickness",
-                    growth.first_height, growth.layers ? fmt::format(" and {} layers", *growth.layers) : "",
+                    largest_first_height(growth), growth.layers ? fmt::format(" and {} layers", *growth.layers) : "",
                     growth.layers ? "make" : "makes", thickness, distance,
                     growth.layers ? "the number of layers or " : "", growth.growth));
 }

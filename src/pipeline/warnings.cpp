@@ -144,15 +144,15 @@ void warn_of_transition(const MeshResult& result, std::vector<Warning>& warnings
 void warn_of_first_height(const MeshResult& result, const LayerOptions& options, std::vector<Warning>& warnings) {
     // A y+ of 1 asks for 1e-7 chords at a Reynolds number of 4e8, and a y+ of 300 for 1e-2 at 5e5.
     constexpr double min_share = 1e-7, max_share = 1e-2;
-    if (!options.enabled || result.y_plus) return;
-    const double chord = result.conditions.chord, share = result.first_height / chord;
+    if (!options.enabled || result.y_plus) return;  // so that all elements have the height that was given
+    const double chord = result.conditions.chord, height = result.first_heights.front(), share = height / chord;
     if (share >= min_share && share <= max_share) return;
     warnings.push_back({.code = WarningCode::first_height_implausible,
                         .number = share,
                         .unit = "chords",
                         .message = fmt::format("the first height {:.4g} is {:.2g} of the chord {:.6g}: --first-height "
                                                "counts chords, or units of the input with the suffix u",
-                                               result.first_height, share, chord)});
+                                               height, share, chord)});
 }
 
 void warn_of_large_angles(const MeshResult& result, std::vector<Warning>& warnings) {

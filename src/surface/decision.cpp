@@ -176,11 +176,11 @@ Decision decide_jagged(const Element& e, const ResamplingRequest& request) {
 
 /// Returns whether the points between two corners obey the rules of new ones, so that they can stay beside new ones. A
 /// straight side does not matter: new points lie on it as well.
-bool is_fine(const Sampling& s, EdgeRange range, const MeasuredOutline& outline, const Element& e,
+bool is_fine(const Sampling& s, EdgeRange range, const MeasuredOutline& outline, const Element& e, std::size_t index,
              const ResamplingRequest& request) {
     const auto fits_corner = [&](std::size_t vertex, double spacing) {
         const std::size_t corner = vertex % outline.n;
-        return spacing <= max_kept_ratio * request.corner_spacing(outline.turning[corner], outline.extent,
+        return spacing <= max_kept_ratio * request.corner_spacing(index, outline.turning[corner], outline.extent,
                                                                   is_given_corner(e, corner));
     };
     return s.max_turning > min_curve_turning && core::degrees(s.max_turning) <= request.max_turning_deg() &&
@@ -188,7 +188,7 @@ bool is_fine(const Sampling& s, EdgeRange range, const MeasuredOutline& outline,
            fits_corner(range.first, s.first_spacing) && fits_corner(range.first + range.count, s.last_spacing);
 }
 
-Decision decide_smooth(const Element& e, const ResamplingRequest& request) {
+Decision decide_smooth(const Element& e, std::size_t index, const ResamplingRequest& request) {
     const MeasuredOutline outline(e.points);
     const std::vector<EdgeRange> ranges = ranges_between(e.features.corners, outline.n);
     Sampling all;
@@ -211,7 +211,7 @@ Decision decide_smooth(const Element& e, const ResamplingRequest& request) {
         return decision;
     }
     for (std::size_t r = 0; r < ranges.size(); ++r)
-        if (ranges.size() == 1 || !is_fine(outline.sampling(ranges[r]), ranges[r], outline, e, request))
+        if (ranges.size() == 1 || !is_fine(outline.sampling(ranges[r]), ranges[r], outline, e, index, request))
             replace_range(decision, r);
     return decision;
 }
@@ -232,7 +232,7 @@ void Decision::replace_kept(std::size_t edge) {
 
 bool is_jagged(const Element& e) { return e.features.corners.size() > std::max<std::size_t>(8, e.points.size() / 25); }
 
-Decision decide(const Element& e, const ResamplingRequest& request) {
+Decision decide(const Element& e, std::size_t index, const ResamplingRequest& request) {
     const SurfaceOptions& options = request.options;
     const auto all = [&](EdgeTreatment treatment, std::string reason) {
         return Decision{std::vector(e.points.size(), treatment),
@@ -250,7 +250,7 @@ Decision decide(const Element& e, const ResamplingRequest& request) {
     if (e.format == "naca") return all(EdgeTreatment::keep, "generated points are exact");
     if (e.features.corners.size() == e.points.size())
         return all(EdgeTreatment::spline, "they are the corners of a polygon");
-    return is_jagged(e) ? decide_jagged(e, request) : decide_smooth(e, request);
+    return is_jagged(e) ? decide_jagged(e, request) : decide_smooth(e, index, request);
 }
 
 }  // namespace lamina::surface

@@ -29,11 +29,12 @@ struct Decision {
 /// Precondition: its corners are known (Element::features).
 bool is_jagged(const Element& element);
 
-/// Decides for each stretch of an outline between two corners. Where nothing else is asked for, the points of an
-/// element are kept if all of them are fine. Otherwise those stretches are replaced that do not obey the rules of new
-/// points. In an element that is jagged a stretch ends also where the outline begins to zigzag. Those that are smooth
-/// and coarse are replaced there, edges that are far longer than a neighbour are divided, and all others are kept.
-/// Precondition: the corners of the element are known (Element::features).
-Decision decide(const Element& element, const ResamplingRequest& request);
+/// Decides for each stretch of the outline of an element, whose number in its geometry is `index`, between two corners.
+/// Where nothing else is asked for, the points of an element are kept if all of them are fine. Otherwise those
+/// stretches are replaced that do not obey the rules of new points. In an element that is jagged a stretch ends also
+/// where the outline begins to zigzag. Those that are smooth and coarse are replaced there, edges that are far longer
+/// than a neighbour are divided, and all others are kept. Precondition: the corners of the element are known
+/// (Element::features).
+Decision decide(const Element& element, std::size_t index, const ResamplingRequest& request);
 
 }  // namespace lamina::surface

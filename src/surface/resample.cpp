@@ -211,7 +211,7 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds&
 }
 
 /// Sets the largest spacing at each corner. Beside a kept edge, that edge alone sets it.
-void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, const Element& given,
+void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, const Element& given, std::size_t index,
                       const ResamplingRequest& request, const ChordEnds& ends, double scale) {
     const std::vector<double> turning = turning_angles(outline.points);
     const std::optional<double>& trailing_edge_spacing = request.options.trailing_edge_spacing;
@@ -225,7 +225,7 @@ void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, con
         const bool is_given = is_given_corner(given, outline.origins[corner]);
         curves.curves[i].start_spacing = trailing_edge_spacing && is_trailing
                                              ? *trailing_edge_spacing * scale
-                                             : request.corner_spacing(turning[corner], scale, is_given);
+                                             : request.corner_spacing(index, turning[corner], scale, is_given);
     }
 }
 
@@ -263,12 +263,13 @@ std::vector<GivenEdges> origins_of(const OutlineCurves& outline, const DividedCu
 
 double ResamplingRequest::max_turning_deg() const { return std::min(options.max_turning_deg, limits.max_turning_deg); }
 
-double ResamplingRequest::corner_spacing(double turning, double extent, bool is_given) const {
+double ResamplingRequest::corner_spacing(std::size_t element, double turning, double extent, bool is_given) const {
     if (is_given && std::abs(core::degrees(turning)) <= max_turning_deg()) return HUGE_VAL;
     if (turning <= core::radians(sharp_corner_deg)) return options.corner_spacing * extent;
     const double by_options = options.sharp_corner_spacing * extent;
-    return limits.fan_spacing ? std::clamp(*limits.fan_spacing, 0.25 * by_options, options.corner_spacing * extent)
-                              : by_options;
+    const std::optional<double> by_fans =
+        limits.fan_spacings.empty() ? limits.fan_spacing : std::optional(limits.fan_spacings[element]);
+    return by_fans ? std::clamp(*by_fans, 0.25 * by_options, options.corner_spacing * extent) : by_options;
 }
 
 double extent(std::span<const Point> outline) { return core::longer_side(core::bounding_box(outline)); }
@@ -285,7 +286,7 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
         append_curves(stretch, treatment, outline_curves);
     }
     const ChordEnds ends = find_chord_ends(given.points);
-    limit_at_corners(outline_curves, outline, given, request, ends, scale);
+    limit_at_corners(outline_curves, outline, given, index, request, ends, scale);
     const SpacingRule rule = make_spacing_rule(request, ends, scale, index);
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;

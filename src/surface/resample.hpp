@@ -24,9 +24,9 @@ struct ResamplingRequest {
 
     /// Returns the largest turning at a vertex between two corners, in degrees.
     double max_turning_deg() const;
-    /// Returns the largest spacing at a corner that turns by this angle, in radians, of an element of this extent. One
-    /// that the element brings along sets none where it turns no more than other vertices may.
-    double corner_spacing(double turning, double extent, bool is_given) const;
+    /// Returns the largest spacing at a corner that turns by this angle, in radians, of an element with this number and
+    /// extent. One that the element brings along sets none where it turns no more than other vertices may.
+    double corner_spacing(std::size_t element, double turning, double extent, bool is_given) const;
 };
 
 /// The three ways to treat an edge between two neighbouring given points of an outline.

@@ -192,7 +192,7 @@ Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const S
     std::vector<Plan> plans;
     for (std::size_t i = 0; i < given.elements.size(); ++i) {
         Element& element = result.elements[i];
-        Plan& plan = plans.emplace_back(Plan{decide(element, request), {}});
+        Plan& plan = plans.emplace_back(Plan{decide(element, i, request), {}});
         if (plan.decision.keeps_all()) {
             element.surface_notes.push_back(
                 fmt::format("{} points kept: {}", element.points.size(), plan.decision.reason));

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "app/program.hpp"
 #include "support/geometry_fixtures.hpp"
 
@@ -42,6 +44,37 @@ TEST(FlowCommand, TakesCaseFilesAndSeveralElements) {
     EXPECT_NE(run.out.find("main: lift coefficient"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("flap: lift coefficient"), std::string::npos) << run.out;
     EXPECT_EQ(folder.read("a.svg").substr(0, 5), "<?xml");
+}
+
+/// A y+ gives each element a first height of its own, with its source; a first height holds for all.
+TEST(MeshCommand, ReportsTheFirstHeightOfEachElement) {
+    const TemporaryFolder folder;
+    folder.write("two.dat", fixtures::two_999);
+    folder.write("case.toml", "input = [\"two.dat\"]\nnames = [\"main\", \"flap\"]\nfar_field = 5\nreynolds = 3e6\n");
+    const ProgramRun run = run_lamina(folder, {"mesh", "case.toml", "-o", "a.su2", "--report", "a.json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto report = nlohmann::json::parse(folder.read("a.json"));
+    const auto& height = report["conditions"]["first_height"]["elements"];
+    const auto& measured = report["quality"]["walls"]["first_heights"];
+    ASSERT_EQ(height.size(), 2u);
+    ASSERT_EQ(measured.size(), 2u);
+    for (std::size_t e = 0; e < 2; ++e) {
+        const std::string name = e == 0 ? "main" : "flap";
+        EXPECT_EQ(height[e]["element"], name);
+        EXPECT_NE(height[e]["source"].get<std::string>().find("skin friction"), std::string::npos);
+        EXPECT_EQ(measured[e]["marker"], name);
+        EXPECT_NEAR(measured[e]["median"].get<double>() / height[e]["units"].get<double>(), 1, 0.01);
+        EXPECT_NE(run.out.find("units of the input on " + name + " (from y+"), std::string::npos) << run.out;
+    }
+    EXPECT_NE(height[0]["units"], height[1]["units"]);
+
+    const ProgramRun given =
+        run_lamina(folder, {"mesh", "case.toml", "--first-height", "2e-5", "-o", "a.su2", "--report", "b.json"});
+    ASSERT_EQ(given.exit_code, 0) << given.err;
+    const auto one = nlohmann::json::parse(folder.read("b.json"))["conditions"]["first_height"];
+    EXPECT_EQ(one["chords"], 2e-5);
+    EXPECT_EQ(one["source"], "given");
+    EXPECT_FALSE(one.contains("elements"));
 }
 
 TEST(FlowCommand, RefusesBeforeItWrites) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <lamina/error.hpp>
 #include <lamina/mesh.hpp>
 
 #include "support/sample_meshes.hpp"
@@ -55,6 +56,36 @@ TEST(Walls, CompareFirstHeightsWithTheOneAskedFor) {
     const WallSummary walls = check_mesh(ring, {.first_height = 2 * height}).walls;
     EXPECT_EQ(walls.share_of_kept_heights, 0);
     EXPECT_NEAR(walls.worst_first_height, 0.5, 1e-12);
+}
+
+/// Half of the inner circle belongs to another wall.
+TEST(Walls, CompareFirstHeightsWithThoseOfTheirMarkers) {
+    Mesh ring = annulus({.around = around, .quads_in_layer = true});
+    Marker& wall = ring.markers.front();
+    ASSERT_TRUE(may_be_wall(wall.kind));
+    Marker half{"half", wall.kind, {wall.edges.begin() + around / 2, wall.edges.end()}};
+    wall.edges.resize(around / 2);
+    ring.markers.push_back(half);
+    const std::size_t markers = ring.markers.size();
+    const double height = 0.2 * std::cos(step / 2);
+
+    const WallSummary with_medians = check_mesh(ring).walls;
+    ASSERT_EQ(with_medians.first_heights.size(), 2u);
+    EXPECT_EQ(with_medians.first_heights[1].marker, "half");
+    EXPECT_EQ(with_medians.first_heights[1].cells, around / 2);
+
+    std::vector<double> wanted(markers, height);
+    wanted.back() = 2 * height;
+    const WallSummary walls = check_mesh(ring, {.first_heights = wanted}).walls;
+    EXPECT_EQ(walls.first_heights[0].share_of_kept, 1);
+    EXPECT_EQ(walls.first_heights[1].share_of_kept, 0);
+    EXPECT_NEAR(walls.first_heights[1].median, height, 1e-12);
+    EXPECT_NEAR(walls.share_of_kept_heights, 0.5, 1e-12);
+    EXPECT_NEAR(walls.worst_first_height, 0.5, 1e-12);
+
+    wanted.pop_back();
+    EXPECT_THROW(check_mesh(ring, {.first_heights = wanted}), OptionError);
+    EXPECT_THROW(check_mesh(ring, {.first_heights = std::vector<double>(markers, 0.0)}), OptionError);
 }
 
 }  // namespace

@@ -67,14 +67,76 @@ TEST(FlowGuidance, LayersAreThickerThanBoundaryLayersAtAnyReynoldsNumber) {
     }
 }
 
-TEST(FlowGuidance, TheFirstHeightHasTheYPlusOfTheLargestSkinFriction) {
+TEST(FlowGuidance, FirstHeightsHaveTheYPlusOfTheLargestSkinFrictionOnTheirElement) {
     const Flow flow = solve_flow(two_elements(), {.alpha_deg = 4, .reynolds = 3e6});
-    double friction = 0;
-    for (const ElementFlow& element : flow.elements)
-        for (const FlowPoint& point : element.upper) friction = std::max(friction, point.skin_friction);
-    const double height = pipeline::first_height_of_flow(flow, 2, 3e6), viscosity = flow.chord / 3e6;
-    EXPECT_LE(height * std::sqrt(friction / 2) / viscosity, 2 * (1 + 1e-12));
-    EXPECT_NEAR(pipeline::first_height_of_flow(flow, 1, 3e6) / height, 0.5, 1e-12);
+    const std::vector<double> heights = pipeline::first_heights_of_flow(flow, 2, 3e6),
+                              halves = pipeline::first_heights_of_flow(flow, 1, 3e6);
+    ASSERT_EQ(heights.size(), 2u);
+    const double viscosity = flow.chord / 3e6;
+    for (std::size_t e = 0; e < 2; ++e) {
+        double friction = 0;
+        for (const auto* side : {&flow.elements[e].upper, &flow.elements[e].lower})
+            for (const FlowPoint& point : *side) friction = std::max(friction, point.skin_friction);
+        EXPECT_NEAR(heights[e] * std::sqrt(friction / 2) / viscosity, 2, 1e-12);
+        EXPECT_NEAR(halves[e] / heights[e], 0.5, 1e-12);
+    }
+    EXPECT_GT(std::abs(heights[1] / heights[0] - 1), 0.05);
+}
+
+/// The panels of a permuted geometry stand in another order in the system of equations, so that its solution differs in
+/// the last digits.
+TEST(FlowGuidance, FirstHeightsGoWithTheirElements) {
+    const Geometry geometry = two_elements();
+    Geometry permuted = geometry;
+    std::swap(permuted.elements[0], permuted.elements[1]);
+    const FlowConditions conditions{.alpha_deg = 4, .reynolds = 3e6};
+    const std::vector<double> heights = pipeline::first_heights_of_flow(solve_flow(geometry, conditions), 1, 3e6),
+                              others = pipeline::first_heights_of_flow(solve_flow(permuted, conditions), 1, 3e6);
+    EXPECT_NEAR(others[0] / heights[1], 1, 1e-9);
+    EXPECT_NEAR(others[1] / heights[0], 1, 1e-9);
+}
+
+/// Two sections of which each is the mirror image of the other have the same flow at zero incidence.
+TEST(FlowGuidance, IdenticalElementsHaveIdenticalFirstHeights) {
+    const Geometry geometry = shapes::geometry(
+        {shapes::moved(naca("0012", 120), 0, 1, {0, 0.3}), shapes::moved(naca("0012", 120), 0, 1, {})});
+    const Flow flow = solve_flow(geometry, {.reynolds = 3e6});
+    const std::vector<double> heights = pipeline::first_heights_of_flow(flow, 1, 3e6);
+    EXPECT_NEAR(heights[0] / heights[1], 1, 1e-9);
+}
+
+TEST(FlowGuidance, FirstCellsHaveTheHeightsOfTheirElements) {
+    const CaseOptions options = guided_options(3e6, 6);
+    const MeshResult result = generate_mesh(two_elements(), options);
+    ASSERT_EQ(result.first_heights.size(), 2u);
+    ASSERT_EQ(result.check.walls.first_heights.size(), 2u);
+    EXPECT_GT(std::abs(result.first_heights[1] / result.first_heights[0] - 1), 0.05);
+    for (std::size_t e = 0; e < 2; ++e) {
+        const FirstHeights& measured = result.check.walls.first_heights[e];
+        EXPECT_EQ(measured.marker, result.geometry.elements[e].name);
+        EXPECT_NEAR(measured.median / result.first_heights[e], 1, 1e-3);
+        EXPECT_GT(measured.share_of_kept, 0.98);
+    }
+}
+
+TEST(FlowGuidance, AGivenFirstHeightHoldsForAllElements) {
+    CaseOptions options = guided_options(3e6, 6);
+    options.layer.first_height = 2e-5;
+    const MeshResult result = generate_mesh(two_elements(), options);
+    EXPECT_EQ(result.first_heights, (std::vector<double>(2, 2e-5 * result.conditions.chord)));
+    for (const FirstHeights& measured : result.check.walls.first_heights)
+        EXPECT_NEAR(measured.median / result.first_heights[0], 1, 1e-3);
+}
+
+/// The thickness must exceed the first height on each element, not only on the one with the smallest.
+TEST(FlowGuidance, RefusesAThicknessBelowTheFirstHeightOfAnyElement) {
+    const Geometry geometry = two_elements();
+    CaseOptions options = guided_options(3e6, 6);
+    const std::vector<double> heights =
+        pipeline::first_heights_of_flow(solve_flow(geometry, options.conditions), 1, 3e6);
+    const auto [least, most] = std::minmax_element(heights.begin(), heights.end());
+    options.layer.thickness = input_units(0.5 * (*least + *most));
+    EXPECT_THROW(generate_mesh(geometry, options), OptionError);
 }
 
 TEST(FlowGuidance, WakesFollowStreamlinesFromTrailingEdges) {

@@ -1,0 +1,141 @@
+// Layers of which each element has its own first height.
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/layers.hpp>
+#include <lamina/threads.hpp>
+
+#include "layers/growth_laws.hpp"
+#include "support/layers.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+using shapes::Outline;
+
+/// Returns options under which a law gives layers of a few per cent of a chord.
+LayerOptions options_with_own_heights(GrowthLaw law) {
+    LayerOptions options;
+    options.growth_law = law;
+    options.layers = 20;
+    if (law == GrowthLaw::polynomial) options.growth = 2.2;
+    if (layers::growth_law_entry(law).fills_thickness) options.thickness = 0.02;
+    return options;
+}
+
+Layer layer_with(const Geometry& geometry, const LayerOptions& options, std::vector<double> first_heights) {
+    Layer layer = close_border(grow_rays(geometry, options, layer_growth(options, {}, std::move(first_heights))));
+    for (const std::string& finding : check_layer(layer, options)) ADD_FAILURE() << finding;
+    return layer;
+}
+
+/// Returns the points of all rays of an element, ray by ray from the wall.
+std::vector<Point> ray_points(const Layer& layer, std::size_t element) {
+    std::vector<Point> points;
+    for (const Ray& ray : layer.rays[element])
+        for (std::uint32_t n = 0; n <= ray.layers; ++n) points.push_back(layer.points[ray.vertex(n).index()]);
+    return points;
+}
+
+Outline second_section() { return shapes::moved(shapes::section(0.12, 0.01, 60), 0.2, 0.4, {0.2, 0.8}); }
+
+/// Elements that are far from each other have the layers that they would have alone.
+TEST(FirstHeights, EachElementHasTheLayersOfItsOwn) {
+    const Outline first = shapes::section(0.12, 0, 80), second = second_section();
+    std::vector<LayerOptions> cases;
+    for (const layers::GrowthLawEntry& law : layers::growth_law_table())
+        cases.push_back(options_with_own_heights(law.law));
+    cases.push_back(cases.front());
+    cases.back().layers.reset();
+    for (const LayerOptions& options : cases) {
+        SCOPED_TRACE(testing::Message() << "law " << static_cast<int>(options.growth_law));
+        const std::vector<double> heights{1e-5, 4e-5};
+        const Layer layer = layer_with(shapes::geometry({first, second}), options, heights);
+        for (std::size_t e = 0; e < 2; ++e) {
+            LayerOptions alone = options;
+            alone.first_height = heights[e];
+            EXPECT_EQ(ray_points(layer, e),
+                      ray_points(test::make_layer(shapes::geometry({e == 0 ? first : second}), alone), 0));
+        }
+    }
+}
+
+TEST(FirstHeights, GoWithTheirElements) {
+    const Outline first = shapes::section(0.12, 0, 80), second = second_section();
+    const LayerOptions options = options_with_own_heights(GrowthLaw::geometric);
+    const Layer layer = layer_with(shapes::geometry({first, second}), options, {1e-5, 4e-5}),
+                permuted = layer_with(shapes::geometry({second, first}), options, {4e-5, 1e-5});
+    EXPECT_EQ(ray_points(layer, 0), ray_points(permuted, 1));
+    EXPECT_EQ(ray_points(layer, 1), ray_points(permuted, 0));
+}
+
+TEST(FirstHeights, TheSameForAllIsNoOtherThanOne) {
+    const Geometry geometry = shapes::geometry({shapes::section(0.12, 0, 80), second_section()});
+    LayerOptions options = options_with_own_heights(GrowthLaw::geometric);
+    options.first_height = 3e-5;
+    EXPECT_EQ(layer_with(geometry, options, {3e-5, 3e-5}).points, test::make_layer(geometry, options).points);
+}
+
+/// The columns of both elements are cut short where they meet. Their first heights stay, and no cell is crossed.
+TEST(FirstHeights, LayersOfDifferentHeightsMeetInAGap) {
+    const Geometry geometry = shapes::geometry(
+        {shapes::refined(shapes::box(), 40), shapes::moved(shapes::refined(shapes::box(), 30), 0, 0.7, {0.1, 1.012})});
+    for (const bool automatic : {false, true}) {
+        LayerOptions options = options_with_own_heights(GrowthLaw::geometric);
+        options.layers = automatic ? std::nullopt : std::optional(std::uint32_t{30});
+        const std::vector<double> heights{2e-5, 1.1e-4};
+        const Layer layer = layer_with(geometry, options, heights);
+        std::size_t cut = 0;
+        for (std::size_t e = 0; e < 2; ++e) {
+            cut += layer.coverage[e].all.incomplete_rays;
+            for (const Ray& ray : layer.rays[e]) {
+                ASSERT_GT(ray.layers, 0u);
+                const Point origin = layer.points[ray.origin.index()], top = layer.points[ray.vertex(1).index()];
+                EXPECT_NEAR(distance(origin, top) / (ray.slant * heights[e]), 1, 1e-9);
+            }
+        }
+        EXPECT_GT(cut, 20u);
+        for (const LayerTopology topology : {LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads}) {
+            const LayerCells cells = fill_layer(layer, topology);
+            EXPECT_FALSE(cells.grid_refused);
+            for (const Triangle& t : cells.triangles)
+                EXPECT_GT(cross(layer.points[t.v[1].index()] - layer.points[t.v[0].index()],
+                                layer.points[t.v[2].index()] - layer.points[t.v[0].index()]),
+                          0);
+        }
+    }
+}
+
+TEST(FirstHeights, DoNotDependOnTheNumberOfThreads) {
+    const Geometry geometry = shapes::geometry({shapes::section(0.12, 0, 400), second_section()});
+    LayerOptions options = options_with_own_heights(GrowthLaw::geometric);
+    options.layers.reset();
+    Layer one, four;
+    with_threads(1, [&] { one = layer_with(geometry, options, {1e-5, 4e-5}); });
+    with_threads(4, [&] { four = layer_with(geometry, options, {1e-5, 4e-5}); });
+    EXPECT_EQ(one.points, four.points);
+}
+
+TEST(FirstHeights, OutOfRangeAreRefused) {
+    const Geometry geometry = shapes::geometry({shapes::section(0.12, 0, 80), second_section()});
+    LayerOptions options = options_with_own_heights(GrowthLaw::geometric);
+    const auto grow = [&](std::vector<double> heights) {
+        grow_rays(geometry, options, layer_growth(options, {}, std::move(heights)));
+    };
+    EXPECT_NO_THROW(grow({1e-5, 1e-4}));
+    EXPECT_THROW(grow({1e-5}), OptionError);
+    EXPECT_THROW(grow({1e-5, 1e-18}), OptionError);
+    options.thickness = 5e-5;
+    EXPECT_THROW(grow({1e-5, 1e-4}), OptionError);
+    options = options_with_own_heights(GrowthLaw::exponential);
+    EXPECT_THROW(grow({1e-5, 1e-3}), OptionError);
+}
+
+}  // namespace
+}  // namespace lamina
