@@ -116,6 +116,29 @@ struct ThreadSeconds {
     double idle = 0;                 ///< waiting
 };
 
+/// A wake that sizes follow for the flow's sake. Lengths are in units of the input.
+struct FlowWake {
+    std::string element;     ///< the one that it leaves
+    double length = 0;       ///< along the streamline; less than asked for where it ends at another element
+    double first_width = 0;  ///< at the trailing edge
+    double last_width = 0;   ///< at its end
+};
+
+/// The smallest spacing that the flow asks for on the wall of one element.
+struct FlowSpacing {
+    std::string element;  ///< its name
+    double smallest = 0;  ///< in units of the input
+    Point at{};           ///< where
+};
+
+/// What the flow before the mesh decided, beside first heights.
+struct FlowDecisions {
+    /// The largest of the heights that layers reach at least, in units of the input; 0 where the flow decides on none.
+    double least_thickness = 0;
+    std::vector<FlowWake> wakes;        ///< behind each element that has one
+    std::vector<FlowSpacing> spacings;  ///< of each element whose wall was resampled, if the flow asks for any there
+};
+
 /// A mesh, and the facts about it that the report of a run tells.
 struct MeshResult {
     Mesh mesh;                                  ///< always valid
@@ -135,6 +158,7 @@ struct MeshResult {
     std::optional<YPlus> y_plus;                ///< what the first heights follow from; empty: they were given
     ReferenceConditions conditions;             ///< the chord that lengths count, and the flow
     std::optional<Flow> flow;                   ///< what decided with CaseOptions::use_flow
+    FlowDecisions decisions;                    ///< what it decided
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     BorderSteps border_steps;                     ///< of the layer's outer border
     std::size_t thinned_rays = 0;                 ///< rays shortened so that triangles beyond keep the bound on angles

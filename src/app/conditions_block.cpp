@@ -24,6 +24,11 @@ struct FlowFact {
     bool is_default = false;  ///< whether the summary leaves it out
 };
 
+/// Statements about the wakes and spacings of the flow: where they come from.
+constexpr const char* wake_source =
+    "streamline of the panel method; as wide as the boundary layers, Head, spreading like a plane wake, Schlichting";
+constexpr const char* spacing_source = "change of the pressure coefficient of the panel method";
+
 /// A length in force.
 struct LengthFact {
     std::string key;    ///< in the report
@@ -90,6 +95,9 @@ std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult
         facts.push_back({"boundary_layer", "boundary layer",
                          input_units(largest_on_walls(*result.flow, &FlowPoint::thickness)),
                          result.flow->estimated ? "largest thickness on flat plates" : "largest thickness: Head"});
+    if (const double least = result.decisions.least_thickness; least > 0)
+        facts.push_back({"least_thickness", "layer up to", input_units(least),
+                         "largest of the heights that layers reach at least: from the boundary layer's thickness"});
     add("smooth", "smooth", options.surface.smooth);
     add("wall-size", "wall size", options.sizing.wall_size);
     add("far-size", "far size", options.sizing.far_size);
@@ -100,6 +108,31 @@ std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult
     }
     return facts;
 }
+
+std::string wakes_summary(const MeshResult& result) {
+    const double chord = result.conditions.chord;
+    const std::vector<FlowWake>& wakes = result.decisions.wakes;
+    std::string text;
+    for (std::size_t i = 0; i < wakes.size(); ++i)
+        text +=
+            summary_line("wake", fmt::format("{} of {}, behind {}: {:.4g} chords long, {:.3g} to {:.3g} chords "
+                                             "wide ({})",
+                                             i + 1, wakes.size(), wakes[i].element, wakes[i].length / chord,
+                                             wakes[i].first_width / chord, wakes[i].last_width / chord, wake_source));
+    return text;
+}
+
+std::string spacings_summary(const MeshResult& result) {
+    const double chord = result.conditions.chord;
+    std::string text;
+    for (const FlowSpacing& spacing : result.decisions.spacings)
+        text += summary_line(
+            "wall", fmt::format("spacings on {} down to {:.3g} chords, at ({:.6g}, {:.6g}) ({})", spacing.element,
+                                spacing.smallest / chord, spacing.at.x, spacing.at.y, spacing_source));
+    return text;
+}
+
+Json both_units(double length, double chord) { return {{"chords", length / chord}, {"units", length}}; }
 
 }  // namespace
 
@@ -115,7 +148,7 @@ std::string conditions_summary(const MeshCase& mesh_case, const MeshResult& resu
             summary_line(fact.label, fmt::format("{:.4g} chords, {:.4g} units of the input{} ({})",
                                                  in_chords(fact.length, chord), in_units(fact.length, chord),
                                                  fact.element.empty() ? "" : " on " + fact.element, fact.source));
-    return "conditions: " + flow + "\n" + lengths;
+    return "conditions: " + flow + "\n" + lengths + wakes_summary(result) + spacings_summary(result);
 }
 
 Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
@@ -134,6 +167,17 @@ Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
             report[fact.key]["elements"].back()["element"] = fact.element;
         }
     }
+    for (const FlowWake& wake : result.decisions.wakes)
+        report["wakes"].push_back({{"element", wake.element},
+                                   {"length", both_units(wake.length, chord)},
+                                   {"first_width", both_units(wake.first_width, chord)},
+                                   {"last_width", both_units(wake.last_width, chord)},
+                                   {"source", wake_source}});
+    for (const FlowSpacing& spacing : result.decisions.spacings)
+        report["wall_spacings"].push_back({{"element", spacing.element},
+                                           {"smallest", both_units(spacing.smallest, chord)},
+                                           {"at", {spacing.at.x, spacing.at.y}},
+                                           {"source", spacing_source}});
     return report;
 }
 

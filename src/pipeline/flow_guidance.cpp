@@ -77,9 +77,10 @@ std::vector<WallSpacing> spacings_of_flow(const Flow& flow) {
     return spacings;
 }
 
-std::vector<SizeSource> wakes_of_flow(const Flow& flow) {
-    std::vector<SizeSource> sources;
+std::vector<std::vector<SizeSource>> wakes_of_flow(const Flow& flow) {
+    std::vector<std::vector<SizeSource>> wakes;
     for (const ElementFlow& element : flow.elements) {
+        std::vector<SizeSource>& sources = wakes.emplace_back();
         const FlowPoint &above = element.upper.back(), &below = element.lower.back();
         const double momentum = above.momentum + below.momentum;
         const std::vector<Point> line = streamline(flow, midpoint(above.at, below.at), wake_length * flow.chord);
@@ -102,7 +103,33 @@ std::vector<SizeSource> wakes_of_flow(const Flow& flow) {
             size = size_here();
         }
     }
-    return sources;
+    return wakes;
+}
+
+std::vector<FlowWake> describe_wakes(const Flow& flow, std::span<const std::vector<SizeSource>> wakes) {
+    std::vector<FlowWake> facts;
+    for (std::size_t e = 0; e < wakes.size(); ++e) {
+        if (wakes[e].empty()) continue;
+        double length = 0;
+        for (const SizeSource& segment : wakes[e]) length += distance(segment.a, segment.b);
+        facts.push_back({flow.elements[e].name, length, triangles_across * wakes[e].front().size,
+                         triangles_across * wakes[e].back().size});
+    }
+    return facts;
+}
+
+std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings, const Geometry& geometry) {
+    std::vector<const WallSpacing*> smallest(geometry.elements.size(), nullptr);
+    for (const WallSpacing& spacing : spacings) {
+        const WallSpacing*& least = smallest[spacing.element];
+        if (least == nullptr || spacing.spacing < least->spacing) least = &spacing;
+    }
+    std::vector<FlowSpacing> facts;
+    for (std::size_t e = 0; e < smallest.size(); ++e)
+        if (smallest[e] != nullptr && geometry.elements[e].resampled)
+            facts.push_back(
+                {geometry.elements[e].name, smallest[e]->spacing, midpoint(smallest[e]->a, smallest[e]->b)});
+    return facts;
 }
 
 }  // namespace lamina::pipeline

@@ -1,6 +1,7 @@
 // The flow before the mesh decides first heights, the least thickness of layers, spacings of walls, and wakes.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <lamina/flow.hpp>
@@ -21,7 +22,14 @@ std::vector<WallHeight> heights_of_flow(const Flow& flow);
 std::vector<WallSpacing> spacings_of_flow(const Flow& flow);
 
 /// Returns sources of the size field along the wakes: along the streamline behind each trailing edge, as fine as the
-/// wake is wide there divided by a number of triangles. A wake ends where it would enter another body.
-std::vector<SizeSource> wakes_of_flow(const Flow& flow);
+/// wake is wide there divided by a number of triangles. A wake ends where it would enter another body. There is one
+/// list per element.
+std::vector<std::vector<SizeSource>> wakes_of_flow(const Flow& flow);
+
+/// Returns the facts about these wakes.
+std::vector<FlowWake> describe_wakes(const Flow& flow, std::span<const std::vector<SizeSource>> wakes);
+
+/// Returns the smallest of these spacings on each resampled element.
+std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings, const Geometry& geometry);
 
 }  // namespace lamina::pipeline

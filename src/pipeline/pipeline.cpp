@@ -233,17 +233,25 @@ void make_room(const CaseOptions& options, RayPlan& plan, StageClock& clock, Mes
     }
 }
 
-/// Puts what the flow decides into the options and the growth of the layer.
-void guide_by_flow(const Flow& flow, const ReferenceConditions& conditions, CaseOptions& options, LayerGrowth& growth) {
+/// Puts what the flow decides into the options and the growth of the layer, and returns it.
+FlowDecisions guide_by_flow(const Flow& flow, const ReferenceConditions& conditions, CaseOptions& options,
+                            LayerGrowth& growth) {
+    FlowDecisions decisions;
     if (options.layer.enabled) {
         if (const auto* y_plus = std::get_if<YPlus>(&options.layer.first_height); y_plus && !flow.estimated)
             growth = layer_growth(options.layer, conditions,
                                   first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds));
         growth.least_heights = heights_of_flow(flow);
+        if (!growth.layers)
+            for (const WallHeight& least : growth.least_heights)
+                decisions.least_thickness = std::max(decisions.least_thickness, least.height);
     }
-    if (flow.estimated) return;
-    const std::vector<SizeSource> wakes = wakes_of_flow(flow);
-    options.sizing.sources.insert(options.sizing.sources.end(), wakes.begin(), wakes.end());
+    if (flow.estimated) return decisions;
+    const std::vector<std::vector<SizeSource>> wakes = wakes_of_flow(flow);
+    for (const std::vector<SizeSource>& wake : wakes)
+        options.sizing.sources.insert(options.sizing.sources.end(), wake.begin(), wake.end());
+    decisions.wakes = describe_wakes(flow, wakes);
+    return decisions;
 }
 
 MeshResult run(const Geometry& given, CaseOptions options, StageClock& clock, double geometry_seconds) {
@@ -253,16 +261,19 @@ MeshResult run(const Geometry& given, CaseOptions options, StageClock& clock, do
     const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(given));
     LayerGrowth growth = layer_growth(options.layer, conditions);
     std::optional<Flow> flow;
+    FlowDecisions decisions;
     if (options.use_flow) {
         clock.begin("flow");
         flow = solve_flow(given, options.conditions);
-        guide_by_flow(*flow, conditions, options, growth);
+        decisions = guide_by_flow(*flow, conditions, options, growth);
         seconds.flow = clock.lap();
     }
 
     clock.begin("surface");
     SpacingLimits limits = spacing_limits(options, growth);
-    if (flow && !flow->estimated) limits.walls = spacings_of_flow(*flow);
+    std::vector<WallSpacing> spacings;
+    if (flow && !flow->estimated) spacings = spacings_of_flow(*flow);
+    limits.walls = spacings;
     Geometry prepared = prepare_surfaces(given, options.surface, limits, conditions.chord);
     require_options_within(options, growth, sized_bodies(prepared, conditions),
                            place_far_field(bounding_box(prepared), conditions.chord, options.far_field).box());
@@ -275,6 +286,8 @@ MeshResult run(const Geometry& given, CaseOptions options, StageClock& clock, do
     make_room(options, plan, clock, result);
     if (flow) result.warnings.insert(result.warnings.begin(), flow->warnings.begin(), flow->warnings.end());
     result.flow = std::move(flow);
+    decisions.spacings = smallest_spacings(spacings, result.geometry);
+    result.decisions = std::move(decisions);
     result.seconds.total = clock.total();
     return result;
 }

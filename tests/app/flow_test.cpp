@@ -68,6 +68,22 @@ TEST(MeshCommand, ReportsTheFirstHeightOfEachElement) {
     }
     EXPECT_NE(height[0]["units"], height[1]["units"]);
 
+    // The wakes and the spacings of the walls that follow from the flow stand beside them.
+    const auto& conditions = report["conditions"];
+    ASSERT_EQ(conditions["wakes"].size(), 2u);
+    EXPECT_EQ(conditions["wakes"][1]["element"], "flap");
+    const double chord = conditions["chord"]["value"].get<double>();
+    for (const char* key : {"length", "first_width", "last_width"}) {
+        const auto& length = conditions["wakes"][0][key];
+        EXPECT_NEAR(length["units"].get<double>() / (chord * length["chords"].get<double>()), 1, 1e-12);
+    }
+    ASSERT_GE(conditions["wall_spacings"].size(), 1u);
+    EXPECT_FALSE(conditions["wall_spacings"][0]["source"].get<std::string>().empty());
+    EXPECT_GT(conditions["least_thickness"]["chords"].get<double>(), 0);
+    EXPECT_NE(run.out.find("  wake        1 of 2, behind main: "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("  wake        2 of 2, behind flap: "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("  wall        spacings on main down to "), std::string::npos) << run.out;
+
     const ProgramRun given =
         run_lamina(folder, {"mesh", "case.toml", "--first-height", "2e-5", "-o", "a.su2", "--report", "b.json"});
     ASSERT_EQ(given.exit_code, 0) << given.err;
@@ -75,6 +91,13 @@ TEST(MeshCommand, ReportsTheFirstHeightOfEachElement) {
     EXPECT_EQ(one["chords"], 2e-5);
     EXPECT_EQ(one["source"], "given");
     EXPECT_FALSE(one.contains("elements"));
+
+    const ProgramRun without =
+        run_lamina(folder, {"mesh", "case.toml", "--use-flow", "no", "-o", "a.su2", "--report", "c.json"});
+    ASSERT_EQ(without.exit_code, 0) << without.err;
+    const auto block = nlohmann::json::parse(folder.read("c.json"))["conditions"];
+    for (const char* key : {"wakes", "wall_spacings", "least_thickness", "boundary_layer"})
+        EXPECT_FALSE(block.contains(key)) << key;
 }
 
 TEST(FlowCommand, RefusesBeforeItWrites) {

@@ -142,7 +142,10 @@ TEST(FlowGuidance, RefusesAThicknessBelowTheFirstHeightOfAnyElement) {
 TEST(FlowGuidance, WakesFollowStreamlinesFromTrailingEdges) {
     const Geometry geometry = two_elements();
     const Flow flow = solve_flow(geometry, {.alpha_deg = 6, .reynolds = 3e6});
-    const std::vector<SizeSource> sources = pipeline::wakes_of_flow(flow);
+    const std::vector<std::vector<SizeSource>> by_element = pipeline::wakes_of_flow(flow);
+    ASSERT_EQ(by_element.size(), 2u);
+    std::vector<SizeSource> sources = by_element[0];
+    sources.insert(sources.end(), by_element[1].begin(), by_element[1].end());
     std::size_t wakes = 0;
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const bool begins = i == 0 || sources[i].a != sources[i - 1].b;
@@ -159,6 +162,44 @@ TEST(FlowGuidance, WakesFollowStreamlinesFromTrailingEdges) {
     }
     EXPECT_EQ(wakes, 2u);
     EXPECT_GT(distance(sources.front().a, sources.back().b), flow.chord);
+}
+
+TEST(FlowGuidance, TheResultSaysWhatTheFlowDecided) {
+    const CaseOptions options = guided_options(3e6, 6);
+    const MeshResult result = generate_mesh(two_elements(), options);
+    ASSERT_TRUE(result.flow.has_value());
+    const auto wakes = pipeline::wakes_of_flow(*result.flow);
+    ASSERT_EQ(result.decisions.wakes.size(), 2u);
+    for (std::size_t e = 0; e < 2; ++e) {
+        const FlowWake& wake = result.decisions.wakes[e];
+        const ElementFlow& element = result.flow->elements[e];
+        EXPECT_EQ(wake.element, element.name);
+        // The streamline is a little longer than its chords, and the straight line between its ends shorter.
+        EXPECT_LE(wake.length, 2 * result.conditions.chord * (1 + 1e-9));
+        EXPECT_GE(wake.length, distance(wakes[e].front().a, wakes[e].back().b));
+        EXPECT_NEAR(wake.first_width, element.upper.back().thickness + element.lower.back().thickness,
+                    0.2 * wake.first_width);
+        EXPECT_GT(wake.last_width, wake.first_width);
+    }
+    double highest = 0;
+    for (const WallHeight& height : pipeline::heights_of_flow(*result.flow)) highest = std::max(highest, height.height);
+    EXPECT_EQ(result.decisions.least_thickness, highest);
+    for (const FlowSpacing& spacing : result.decisions.spacings) {
+        const auto e = std::find_if(result.geometry.elements.begin(), result.geometry.elements.end(),
+                                    [&](const Element& element) { return element.name == spacing.element; });
+        ASSERT_NE(e, result.geometry.elements.end());
+        double shortest = HUGE_VAL;
+        for (std::size_t i = 0; i < e->points.size(); ++i)
+            shortest = std::min(shortest, distance(e->points[i], e->points[(i + 1) % e->points.size()]));
+        EXPECT_LE(shortest, 1.01 * spacing.smallest);
+    }
+
+    CaseOptions kept = options;
+    kept.surface.treatment = SurfaceTreatment::keep;
+    kept.layer.layers = 20;
+    const FlowDecisions decisions = generate_mesh(two_elements(), kept).decisions;
+    EXPECT_TRUE(decisions.spacings.empty());
+    EXPECT_EQ(decisions.least_thickness, 0);
 }
 
 /// Walls are finer where the pressure changes quickly, and as fine as before elsewhere.
