@@ -1,4 +1,4 @@
-// lamina flow: its table, its picture, its summary.
+// lamina flow: its table, its picture, its summary; and what lamina mesh says of the flow.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -46,8 +46,8 @@ TEST(FlowCommand, TakesCaseFilesAndSeveralElements) {
     EXPECT_EQ(folder.read("a.svg").substr(0, 5), "<?xml");
 }
 
-/// A y+ gives each element a first height of its own, with its source; a first height holds for all.
-TEST(MeshCommand, ReportsTheFirstHeightOfEachElement) {
+/// A y+ gives each element a first height of its own, with its source. A first height holds for all.
+TEST(MeshFromTheFlow, ReportsFirstHeightsWakesAndSpacings) {
     const TemporaryFolder folder;
     folder.write("two.dat", fixtures::two_999);
     folder.write("case.toml", "input = [\"two.dat\"]\nnames = [\"main\", \"flap\"]\nfar_field = 5\nreynolds = 3e6\n");
