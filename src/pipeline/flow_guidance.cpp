@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "flow/boundary_layer.hpp"
-
 namespace lamina::pipeline {
 
 namespace {
@@ -20,15 +18,6 @@ constexpr double thickest_layer = 0.08;
 constexpr double max_change = 0.05;
 /// No spacing is smaller than this for the flow's sake, in chords of the configuration.
 constexpr double min_spacing = 2e-4;
-/// Length of the wakes, in chords of the configuration.
-constexpr double wake_length = 2;
-/// Number of triangles across a wake, at its trailing edge and at its end.
-constexpr double triangles_across = 10;
-/// At either edge of a wake, triangles may grow over this share of its width.
-constexpr double outer_share = 0.15;
-/// A wake is a chain of segments of one size each. This is the largest ratio of successive sizes, and the longest
-/// segment, in sizes.
-constexpr double size_ratio = 1.1, max_segment = 20;
 
 /// Adds the heights along a side, from its stagnation point to its trailing edge.
 void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double most, bool reversed,
@@ -75,47 +64,6 @@ std::vector<WallSpacing> spacings_of_flow(const Flow& flow) {
                 if (spacing < b.s) spacings.push_back({e, a.at, b.at, spacing});
             }
     return spacings;
-}
-
-std::vector<std::vector<SizeSource>> wakes_of_flow(const Flow& flow) {
-    std::vector<std::vector<SizeSource>> wakes;
-    for (const ElementFlow& element : flow.elements) {
-        std::vector<SizeSource>& sources = wakes.emplace_back();
-        const FlowPoint &above = element.upper.back(), &below = element.lower.back();
-        const double momentum = above.momentum + below.momentum;
-        const std::vector<Point> line = streamline(flow, midpoint(above.at, below.at), wake_length * flow.chord);
-        double travelled = 0, begun = 0;
-        const auto size_here = [&] {
-            return flow::wake_thickness(above.thickness, below.thickness, momentum, travelled) / triangles_across;
-        };
-        double size = size_here();
-        std::size_t first = 0;
-        for (std::size_t i = 1; i < line.size(); ++i) {
-            travelled += distance(line[i - 1], line[i]);
-            const bool is_last = i + 1 == line.size();
-            if (!is_last && size_here() < size_ratio * size && travelled - begun < max_segment * size) continue;
-            sources.push_back({.a = line[first],
-                               .b = line[i],
-                               .size = size,
-                               .radius = triangles_across * size * (0.5 - outer_share)});
-            first = i;
-            begun = travelled;
-            size = size_here();
-        }
-    }
-    return wakes;
-}
-
-std::vector<FlowWake> describe_wakes(const Flow& flow, std::span<const std::vector<SizeSource>> wakes) {
-    std::vector<FlowWake> facts;
-    for (std::size_t e = 0; e < wakes.size(); ++e) {
-        if (wakes[e].empty()) continue;
-        double length = 0;
-        for (const SizeSource& segment : wakes[e]) length += distance(segment.a, segment.b);
-        facts.push_back({flow.elements[e].name, length, triangles_across * wakes[e].front().size,
-                         triangles_across * wakes[e].back().size});
-    }
-    return facts;
 }
 
 std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings, const Geometry& geometry) {

@@ -21,15 +21,19 @@ std::vector<WallHeight> heights_of_flow(const Flow& flow);
 /// stagnation point, and on both sides of a suction peak.
 std::vector<WallSpacing> spacings_of_flow(const Flow& flow);
 
-/// Returns sources of the size field along the wakes: along the streamline behind each trailing edge, as fine as the
-/// wake is wide there divided by a number of triangles. A wake ends where it would enter another body. There is one
-/// list per element.
-std::vector<std::vector<SizeSource>> wakes_of_flow(const Flow& flow);
-
-/// Returns the facts about these wakes.
-std::vector<FlowWake> describe_wakes(const Flow& flow, std::span<const std::vector<SizeSource>> wakes);
-
 /// Returns the smallest of these spacings on each resampled element.
 std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings, const Geometry& geometry);
+
+/// A wake, and the sources of the size field along it.
+struct WakeSources {
+    FlowWake wake;
+    std::vector<SizeSource> outer;  ///< over the whole wake
+    std::vector<SizeSource> inner;  ///< over the thinner wake within it, next to the trailing edge
+};
+
+/// Returns the wakes of all elements: along the streamline behind each trailing edge, as fine as the wake is wide there
+/// divided by a number of triangles. Behind all bodies the streamline is that of a flow with less lift than potential
+/// flow has. A wake ends where it would enter another body.
+std::vector<WakeSources> wakes_of_flow(const Flow& flow);
 
 }  // namespace lamina::pipeline

@@ -247,10 +247,12 @@ FlowDecisions guide_by_flow(const Flow& flow, const ReferenceConditions& conditi
                 decisions.least_thickness = std::max(decisions.least_thickness, least.height);
     }
     if (flow.estimated) return decisions;
-    const std::vector<std::vector<SizeSource>> wakes = wakes_of_flow(flow);
-    for (const std::vector<SizeSource>& wake : wakes)
-        options.sizing.sources.insert(options.sizing.sources.end(), wake.begin(), wake.end());
-    decisions.wakes = describe_wakes(flow, wakes);
+    for (const WakeSources& wake : wakes_of_flow(flow)) {
+        if (wake.outer.empty()) continue;
+        decisions.wakes.push_back(wake.wake);
+        for (const auto* sources : {&wake.outer, &wake.inner})
+            options.sizing.sources.insert(options.sizing.sources.end(), sources->begin(), sources->end());
+    }
     return decisions;
 }
 
