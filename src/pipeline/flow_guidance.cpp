@@ -18,6 +18,9 @@ constexpr double thickest_layer = 0.08;
 constexpr double max_change = 0.05;
 /// No spacing is smaller than this for the flow's sake, in chords of the configuration.
 constexpr double min_spacing = 2e-4;
+/// Spacing at the corners of a base, in first heights. Where it was 113 behind a slat, the solution blew up in the cells
+/// beside the fan; 20 and less were well.
+constexpr double base_corner_heights = 30;
 
 /// Adds the heights along a side, from its stagnation point to its trailing edge.
 void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double most, bool reversed,
@@ -31,6 +34,16 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
         heights.push_back({element, point.at, height});
     }
     if (reversed) std::reverse(heights.begin() + first, heights.end());
+}
+
+/// Adds spacings at both corners of a base, which the flow passes at the speed of a slot. The cells of the fan there are
+/// as wide as the first layer is high times the angle between rays.
+void add_base_corners(const ElementFlow& flow, std::size_t element, const LayerGrowth& growth,
+                      std::vector<WallSpacing>& spacings) {
+    const Point above = flow.upper.back().at, below = flow.lower.back().at;
+    if (above == below) return;
+    const double spacing = base_corner_heights * growth.first_height_on(element);
+    for (const Point corner : {above, below}) spacings.push_back({element, corner, corner, spacing});
 }
 
 }  // namespace
@@ -52,8 +65,9 @@ std::vector<WallHeight> heights_of_flow(const Flow& flow) {
     return heights;
 }
 
-std::vector<WallSpacing> spacings_of_flow(const Flow& flow) {
+std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& growth) {
     std::vector<WallSpacing> spacings;
+    for (std::size_t e = 0; e < flow.elements.size(); ++e) add_base_corners(flow.elements[e], e, growth, spacings);
     for (std::size_t e = 0; e < flow.elements.size(); ++e)
         for (const auto* side : {&flow.elements[e].upper, &flow.elements[e].lower})
             for (std::size_t i = 1; i < side->size(); ++i) {

@@ -18,8 +18,8 @@ std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, doubl
 std::vector<WallHeight> heights_of_flow(const Flow& flow);
 
 /// Returns spacings of the walls with which the speed of the flow changes little from one vertex to the next: at the
-/// stagnation point, and on both sides of a suction peak.
-std::vector<WallSpacing> spacings_of_flow(const Flow& flow);
+/// stagnation point, and on both sides of a suction peak. Spacings at the corners of bases follow from the first heights.
+std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& growth);
 
 /// Returns the smallest of these spacings on each resampled element.
 std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings, const Geometry& geometry);

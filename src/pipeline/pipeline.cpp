@@ -274,7 +274,7 @@ MeshResult run(const Geometry& given, CaseOptions options, StageClock& clock, do
     clock.begin("surface");
     SpacingLimits limits = spacing_limits(options, growth);
     std::vector<WallSpacing> spacings;
-    if (flow && !flow->estimated) spacings = spacings_of_flow(*flow);
+    if (flow && !flow->estimated) spacings = spacings_of_flow(*flow, growth);
     limits.walls = spacings;
     Geometry prepared = prepare_surfaces(given, options.surface, limits, conditions.chord);
     require_options_within(options, growth, sized_bodies(prepared, conditions),

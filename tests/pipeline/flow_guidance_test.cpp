@@ -197,6 +197,25 @@ TEST(FlowGuidance, WakesHoldStreamlinesOfSeveralLifts) {
     }
 }
 
+/// Cells of fans are narrow, and cells beside them must not be too many times as wide.
+TEST(FlowGuidance, EdgesAtBasesAreShort) {
+    const Geometry given = shapes::geometry({naca("4412", 160, TrailingEdge::blunt)});
+    const auto longest_at_base = [&](const CaseOptions& options) {
+        const MeshResult result = generate_mesh(given, options);
+        const Element& element = result.geometry.elements.front();
+        const auto& points = element.points;
+        double longest = 0;
+        for (const std::size_t corner : {element.features.base->first, element.features.base->last})
+            for (const std::size_t next : {corner + 1, corner + points.size() - 1})
+                longest = std::max(longest, distance(points[corner], points[next % points.size()]));
+        return longest / result.first_heights.front();
+    };
+    CaseOptions options = guided_options(3e6, 6);
+    EXPECT_LE(longest_at_base(options), 1.1 * 30);
+    options.surface.treatment = SurfaceTreatment::keep;
+    EXPECT_GT(longest_at_base(options), 100);
+}
+
 TEST(FlowGuidance, TheResultSaysWhatTheFlowDecided) {
     const CaseOptions options = guided_options(3e6, 6);
     const MeshResult result = generate_mesh(two_elements(), options);
