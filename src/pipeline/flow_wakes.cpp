@@ -18,12 +18,14 @@ constexpr double wake_length = 2;
 constexpr double triangles_across = 10;
 /// At either edge of a wake, triangles may grow over this share of its width.
 constexpr double outer_share = 0.15;
+/// No triangle is smaller than this for the sake of wakes, in chords of the configuration.
+constexpr double smallest_size = 5e-5;
 /// A wake is a chain of segments of one size each. This is the largest ratio of successive sizes, and the longest
 /// segment, in sizes.
 constexpr double size_ratio = 1.1, max_segment = 20;
-/// The inner wake, where the flow from next to the wall gains speed, has this width at the trailing edge, in momentum
-/// thicknesses of both sides. It widens per length as a plane mixing layer beside fluid at rest does (S. B. Pope,
-/// Turbulent Flows (2000), section 5.4.2).
+/// The inner wake, where the fluid from next to the wall gains speed, has this width at the trailing edge, in momentum
+/// thicknesses of both sides. The growth per length is about half that of a mixing layer beside fluid at rest, 0.11
+/// (S. B. Pope, Turbulent Flows (2000), section 5.4.2), since the fluid is not at rest for long.
 constexpr double inner_start = 4, inner_growth = 0.06;
 /// Lift of viscous over that of potential flow, and how far it may be from this. It is 0.86 to 0.9 where the flow is
 /// attached and 0.8 where it separates on a flap, but wakes of little lift hardly bend.
@@ -63,20 +65,36 @@ double rear_along(const Flow& flow, Point stream) {
     return rear;
 }
 
-/// Follows potential flow, which keeps to the walls, past all bodies. Behind them the lift decides where the line goes,
-/// so that it follows the weaker flow there.
-MeasuredLine wake_line(const Flow& flow, const Flow& weaker, Point from) {
+/// Streamlines need be no more exact than sizes are, and those that only tell widths have longer steps.
+constexpr StreamlineOptions rough{.tolerance = 1e-5}, rougher{.tolerance = 1e-4, .max_step = 0.25};
+
+void append_streamline(const Flow& flow, double length, const StreamlineOptions& options, MeasuredLine& line) {
+    const std::vector<Point> more = streamline(flow, line.points.back(), length, options);
+    for (std::size_t i = 1; i < more.size(); ++i) line.add(more[i]);
+}
+
+/// Follows potential flow from a trailing edge past all bodies, since it keeps to their walls. The first step leaves the
+/// trailing edge.
+MeasuredLine line_past_bodies(const Flow& flow, Point from) {
+    constexpr double shortest = 1e-3;  // in chords
     const Point stream = flow::free_stream(flow.alpha_deg);
-    const double length = wake_length * flow.chord, rear = rear_along(flow, stream);
+    const double rear = rear_along(flow, stream);
     MeasuredLine line;
-    for (const Point p : streamline(flow, from, length)) {
-        line.add(p);
-        // The first step leaves the trailing edge.
-        if (line.points.size() > 1 && dot(p, stream) > rear) break;
-    }
-    if (line.s.back() >= length) return line;
-    const std::vector<Point> rest = streamline(weaker, line.points.back(), length - line.s.back());
-    for (std::size_t i = 1; i < rest.size(); ++i) line.add(rest[i]);
+    line.add(from);
+    do {
+        const std::size_t points = line.points.size();
+        const double left = std::max(rear - dot(line.points.back(), stream), shortest * flow.chord);
+        append_streamline(flow, std::min(left, wake_length * flow.chord - line.s.back()), rough, line);
+        if (line.points.size() == points) break;  // the line ends at a body
+    } while (dot(line.points.back(), stream) <= rear && line.s.back() < wake_length * flow.chord);
+    return line;
+}
+
+/// Continues a line that has passed all bodies, in this flow, up to the length of the wakes.
+MeasuredLine continued(MeasuredLine line, const Flow& flow, const StreamlineOptions& options) {
+    const Point stream = flow::free_stream(flow.alpha_deg);
+    if (dot(line.points.back(), stream) > rear_along(flow, stream))
+        append_streamline(flow, wake_length * flow.chord - line.s.back(), options, line);
     return line;
 }
 
@@ -86,16 +104,14 @@ std::vector<SizeSource> make_chain(const MeasuredLine& line, const std::function
                                    const std::function<double(double)>& radius_at,
                                    const std::function<bool(double)>& goes_on) {
     std::vector<SizeSource> chain;
-    std::size_t first = 0;
-    double size = size_at(0);
-    for (std::size_t i = 1; i < line.points.size() && goes_on(line.s[first]); ++i) {
-        const bool is_last = i + 1 == line.points.size();
-        const double next = size_at(line.s[i]);
-        if (!is_last && next < size_ratio * size && line.s[i] - line.s[first] < max_segment * size) continue;
-        chain.push_back(
-            {.a = line.points[first], .b = line.points[i], .size = size, .radius = radius_at(line.s[first])});
-        first = i;
-        size = next;
+    const double end = line.s.back();
+    for (double s = 0; s < end && goes_on(s);) {
+        const double size = size_at(s);
+        double next = s + size;
+        while (next < end && next - s < max_segment * size && size_at(next) < size_ratio * size) next += size;
+        next = std::min(next, end);
+        chain.push_back({.a = line.at(s), .b = line.at(next), .size = size, .radius = radius_at(s)});
+        s = next;
     }
     return chain;
 }
@@ -110,13 +126,15 @@ std::vector<WakeSources> wakes_of_flow(const Flow& flow) {
         const FlowPoint &above = element.upper.back(), &below = element.lower.back();
         const double momentum = above.momentum + below.momentum;
         const Point from = midpoint(above.at, below.at);
-        const MeasuredLine line = wake_line(flow, expected, from), other = wake_line(flow, least, from);
+        const MeasuredLine begun = line_past_bodies(flow, from), line = continued(begun, expected, rough),
+                           other = continued(begun, least, rougher);
         const auto width = [&](double s) {
             return flow::wake_thickness(above.thickness, below.thickness, momentum, s);
         };
-        const auto size = [&](double s) { return width(s) / triangles_across; };
+        const auto bounded = [&](double size) { return std::max(size, smallest_size * flow.chord); };
+        const auto size = [&](double s) { return bounded(width(s) / triangles_across); };
         const auto inner_size = [&](double s) {
-            return (inner_start * momentum + inner_growth * s) / triangles_across;
+            return bounded((inner_start * momentum + inner_growth * s) / triangles_across);
         };
         WakeSources& wake = wakes.emplace_back();
         wake.wake = {element.name, line.s.back(), width(0), width(line.s.back())};
