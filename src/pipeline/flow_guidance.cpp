@@ -36,12 +36,12 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
     if (reversed) std::reverse(heights.begin() + first, heights.end());
 }
 
-/// Adds spacings at both corners of a base, which the flow passes at the speed of a slot. The cells of the fan there are
-/// as wide as the first layer is high times the angle between rays.
+/// Adds spacings at both corners of a base that the flow passes faster than the free stream, as it does in front of
+/// another element. The cells of the fan there are as wide as the first layer is high times the angle between rays.
 void add_base_corners(const ElementFlow& flow, std::size_t element, const LayerGrowth& growth,
                       std::vector<WallSpacing>& spacings) {
     const Point above = flow.upper.back().at, below = flow.lower.back().at;
-    if (above == below) return;
+    if (above == below || flow.upper.back().speed <= 1) return;
     const double spacing = base_corner_heights * growth.first_height_on(element);
     for (const Point corner : {above, below}) spacings.push_back({element, corner, corner, spacing});
 }
