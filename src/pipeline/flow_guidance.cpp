@@ -18,8 +18,8 @@ constexpr double thickest_layer = 0.08;
 constexpr double max_change = 0.05;
 /// No spacing is smaller than this for the flow's sake, in chords of the configuration.
 constexpr double min_spacing = 2e-4;
-/// Spacing at the corners of a base, in first heights. Where it was 113 behind a slat, the solution blew up in the cells
-/// beside the fan; 20 and less were well.
+/// Spacing at the corners of a base, in first heights; less where the flow passes them faster than the free stream. With
+/// 100 and more, solutions blow up in the cells beside the fan; with 60, y+ is three times too large there.
 constexpr double base_corner_heights = 30;
 
 /// Adds the heights along a side, from its stagnation point to its trailing edge.
@@ -36,13 +36,14 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
     if (reversed) std::reverse(heights.begin() + first, heights.end());
 }
 
-/// Adds spacings at both corners of a base that the flow passes faster than the free stream, as it does in front of
-/// another element. The cells of the fan there are as wide as the first layer is high times the angle between rays.
+/// Adds spacings at both corners of a base. The cells of the fan there are as wide as the first layer is high times the
+/// angle between rays.
 void add_base_corners(const ElementFlow& flow, std::size_t element, const LayerGrowth& growth,
                       std::vector<WallSpacing>& spacings) {
     const Point above = flow.upper.back().at, below = flow.lower.back().at;
-    if (above == below || flow.upper.back().speed <= 1) return;
-    const double spacing = base_corner_heights * growth.first_height_on(element);
+    if (above == below) return;
+    const double heights = base_corner_heights / std::max(flow.upper.back().speed, 1.0);
+    const double spacing = heights * growth.first_height_on(element);
     for (const Point corner : {above, below}) spacings.push_back({element, corner, corner, spacing});
 }
 
