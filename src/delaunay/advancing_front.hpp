@@ -53,7 +53,7 @@ public:
     void reset(std::size_t triangles) { bases_.assign(triangles, Base::none); }
     /// Makes room for more triangles, which are not large.
     void resize(std::size_t triangles) {
-        while (bases_.size() < triangles) bases_.push_back(Base::none);
+        if (bases_.size() < triangles) bases_.resize(triangles + triangles / 2, Base::none);
     }
     void set_large(Index t, unsigned base) { bases_[t] = static_cast<Base>(large_bit | base); }
     void set_done(Index t) { bases_[t] = Base::none; }

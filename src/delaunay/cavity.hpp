@@ -88,12 +88,16 @@ struct Cavity {
 /// A triangle relative to a point p.
 struct RelativeTriangle {
     Point r[3];       ///< vertex i minus p
+    double rr[3];     ///< its squared length
     double area2[3];  ///< twice the signed area of the triangle that p makes with edge e
 };
 
 inline RelativeTriangle relative_to(const Point* points, const Tri& t, Point p) {
     RelativeTriangle relative;
-    for (unsigned i = 0; i < 3; ++i) relative.r[i] = points[t.v[i]] - p;
+    for (unsigned i = 0; i < 3; ++i) {
+        relative.r[i] = points[t.v[i]] - p;
+        relative.rr[i] = squared_length(relative.r[i]);
+    }
     for (unsigned e = 0; e < 3; ++e) relative.area2[e] = cross(relative.r[next(e)], relative.r[previous(e)]);
     return relative;
 }
@@ -147,18 +151,16 @@ void find_cavity(const Point* points, const Tri* tris, Index start, const Relati
     double least_area2 = HUGE_VAL, greatest_aa = 0;
 
     const Tri& first = tris[start];
-    double rr[3];
-    for (unsigned i = 0; i < 3; ++i) rr[i] = squared_length(relative.r[i]);
     const auto pending = [&](unsigned e) -> Cavity::PendingEdge {
         const unsigned b = previous(e);
-        return {first.n[e], first.v[b], relative.r[b].x, relative.r[b].y, rr[b], relative.area2[e]};
+        return {first.n[e], first.v[b], relative.r[b].x, relative.r[b].y, relative.rr[b], relative.area2[e]};
     };
     triangles[triangle_count++] = start;
     stack[stacked++] = pending(2);
     stack[stacked++] = pending(1);
     Cavity::PendingEdge edge = pending(0);
     Index a = first.v[1];
-    double ax = relative.r[1].x, ay = relative.r[1].y, aa = rr[1];
+    double ax = relative.r[1].x, ay = relative.r[1].y, aa = relative.rr[1];
     for (;;) {
         if (!edge.outer.is_constrained()) {
             // The neighbour is (b, a, w), entered through its edge k.

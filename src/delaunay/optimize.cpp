@@ -27,6 +27,11 @@ struct AngleRules {
     bool is_allowed(double aa, double bb, double cc, double area2, double) const {
         return !is_angle_below(squared_sine, aa, bb, cc, std::min({aa, bb, cc}), area2);
     }
+    /// No bound of refinement is as large as the angles of triangles that are not ill-shaped.
+    static constexpr bool is_surely_allowed(double, double, double) { return true; }
+    static constexpr double unit() { return 0; }
+    static constexpr double gradation() { return 0; }
+    static constexpr double size_error() { return 0; }
     static bool is_blocked(const CavityEdge&, const CavityEdge&) { return false; }
 };
 

@@ -43,6 +43,7 @@ public:
         const double expected = options.expected_triangles > 0 ? static_cast<double>(options.expected_triangles)
                                                                : estimate_loads(points_, tris_, size).total;
         if (!border.empty()) scale_ = unit_scale(core::longer_side(core::bounding_box(border)));
+        unscale_ = 1 / scale_;
         if (scale_ != 1)
             for (Point& p : points_) p = scale_ * p;
         if (options.unit_length) set_unit(scale_ * *options.unit_length);
@@ -56,9 +57,11 @@ public:
 
 private:
     friend class Refiner<FrozenRefiner>;
-    double size_at(Point p, Index) const { return scale_ * size_((1 / scale_) * p); }
+    double size_at(Point p, Index) const { return scale_ * size_(unscale_ * p); }
+    double gradation() const { return size_.gradation(); }
     /// Returns whether the new point lies in the diametral circle of the edge.
     static bool is_blocked(const CavityEdge& a, const CavityEdge& b) { return a.ax * b.ax + a.ay * b.ay <= 0; }
+    static constexpr bool always_counts = false;
     static constexpr bool must_mend(Index) { return true; }
     static void vertex_inserted(Index, std::size_t) {}
     void give_up(Index, Point) { ++refused_; }
@@ -68,7 +71,8 @@ private:
     std::vector<char> find_sharp_corners() const;
 
     const SizeField& size_;
-    double scale_ = 1;  ///< the coordinates of the refiner over those of the input
+    double scale_ = 1;    ///< the coordinates of the refiner over those of the input
+    double unscale_ = 1;  ///< its inverse, exactly
 };
 
 Refinement FrozenRefiner::refine() {
@@ -78,16 +82,17 @@ Refinement FrozenRefiner::refine() {
     sizes_ = {};
     points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(input_count_));
     if (scale_ != 1)
-        for (Point& p : points_) p = (1 / scale_) * p;
+        for (Point& p : points_) p = unscale_ * p;
     r.steiner_points = std::move(points_);
     r.triangles.reserve(tris_.size());
     // Each block gives its pages back once it is copied, so that memory does not peak here.
     constexpr std::size_t block = std::size_t{1} << 16;
     for (std::size_t from = 0; from < tris_.size(); from += block) {
         const std::size_t to = std::min(from + block, tris_.size());
+        r.triangles.resize(to);
         for (std::size_t i = from; i < to; ++i) {
             const auto& v = tris_[i].v;
-            r.triangles.push_back({VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}});
+            r.triangles[i] = {VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}};
         }
         core::give_back_pages(&tris_[from], (to - from) * sizeof(Tri));
     }

@@ -40,8 +40,11 @@ double unit_scale(double extent);
 /// Refines a triangulation whose borders are constrained edges or edges without a neighbour. The derived class knows
 /// the borders and the sizes; its members, all found at compile time, are
 ///     double size_at(Point p, Index t)        h at p, which lies in triangle t, in the scale of the refiner
+///     double gradation()                      bound of the growth of h per unit of distance
 ///     bool is_blocked(const CavityEdge& a, const CavityEdge& b)
 ///                                             whether a new point may not stand so near to the constrained edge a-b
+///     bool always_counts                      whether triangles beyond the bounds are counted even where no point was
+///                                             refused
 ///     bool must_mend(Index t)                 whether a triangle that is narrow has to be mended
 ///     void vertex_inserted(Index t, std::size_t old_count)
 ///                                             is called after a new vertex was inserted into the cavity round t
@@ -78,8 +81,9 @@ protected:
         for (Index t = 0; t < tris_.size(); ++t) classify(t);
         for (Index t = 0; t < tris_.size(); ++t)
             if (is_on_front(t)) front_.ready.push({t, tris_[t].v[0]});
-        while (derived().split_next() || mend_large_next() || queue_enclosed()) {
-        }
+        do {
+            mend_all_large();
+        } while (queue_enclosed());
         mend_narrow();
     }
 
@@ -171,11 +175,12 @@ protected:
 
     /// Adds a vertex and its size. Throws MeshError where there are too many.
     Index add_vertex(Point p, float size) {
-        if (points_.size() - input_count_ >= options_.max_points) fail_too_many_points(options_.max_points);
+        const std::size_t count = points_.size();
+        if (count - input_count_ >= options_.max_points) fail_too_many_points(options_.max_points);
         points_.push_back(p);
         sizes_.push_back(size);
-        cavity_.max_triangles = tris_.size() + 2;
-        return static_cast<Index>(points_.size() - 1);
+        cavity_.max_triangles = 2 * count + 2;  // n vertices have at most 2 n triangles
+        return static_cast<Index>(count);
     }
 
     /// Sets the length that sizes_ are multiples of.
@@ -208,6 +213,9 @@ private:
     Derived& derived() { return static_cast<Derived&>(*this); }
     const Derived& derived() const { return static_cast<const Derived&>(*this); }
 
+    /// The squared sine of 39 degrees. Triangles that are not ill-shaped have no angle below 39.8 degrees.
+    static constexpr double squared_sine_of_fat = 0.396;
+
     /// The sizes and bounds that smoothing has to respect.
     struct SmoothingRules {
         Refiner& refiner;
@@ -217,6 +225,16 @@ private:
             return !refiner.is_large(aa * bb * cc, area2, size_sum) &&
                    (may_be_narrow || !refiner.is_narrow(aa, bb, cc, std::min({aa, bb, cc}), area2));
         }
+        bool is_surely_allowed(double squared_sum, double area2, double size_sum) const {
+            // The product of three numbers is at most the cube of their mean.
+            const double mean = squared_sum * (1.0 / 3);
+            return !refiner.is_large(mean * mean * mean, area2, size_sum) &&
+                   (may_be_narrow || refiner.squared_sine_ <= squared_sine_of_fat);
+        }
+        double unit() const { return refiner.unit_; }
+        double gradation() const { return refiner.derived().gradation(); }
+        /// Returns twice the error of the field, and some more for rounding.
+        static constexpr double size_error() { return 2.1 * SizeField::relative_error; }
         bool is_blocked(const CavityEdge& a, const CavityEdge& b) const { return refiner.derived().is_blocked(a, b); }
     };
 
@@ -227,21 +245,32 @@ private:
     /// Smooths, mends the triangles that are narrow nevertheless, and smooths what that has made.
     void mend_narrow() {
         const bool smooths = options_.smoothing > 0, any = !narrow_.empty();
-        if (smooths) smoother(any).smooth(options_.smoothing);
+        if (smooths) {
+            auto first = smoother(any);
+            first.smooth(options_.smoothing);
+            if (any || refused_ > 0 || Derived::always_counts) first.update_sizes();
+        }
         if (!any) return;
         if (smooths) {
             narrow_.clear();  // flips have changed triangles
             for (Index t = 0; t < tris_.size(); ++t) queue_if_narrow(t, shape_of(tris_[t]));
         }
         const std::size_t before = points_.size();
-        while (derived().split_next() || mend_large_next() || mend_narrow_next() || queue_enclosed()) {
-        }
+        do {
+            mend_all_large();
+        } while (mend_narrow_next() || queue_enclosed());
         if (smooths && points_.size() > before) smoother(false).mend();
     }
 
     void queue_if_based_on(Link link) {
         if (link.is_constrained() || !front_.has_base(link.triangle(), link.edge())) return;
         front_.ready.push({link.triangle(), tris_[link.triangle()].v[0]});
+    }
+
+    /// Mends large triangles until none is queued, and splits borders that have to be split before.
+    void mend_all_large() {
+        while (derived().split_next() || mend_large_next()) {
+        }
     }
 
     /// Mends the next large triangle. Returns false if none is queued.
@@ -279,14 +308,11 @@ private:
         double squared_distance;  ///< that it should keep from the vertices of other fronts, squared
     };
 
-    /// Returns h near a point p over the base of a triangle. Where there is a triangle behind the base, its sizes are
-    /// continued linearly: p is about the mirror image of its apex. That costs less than the field.
-    double size_beyond_base(Index t, double size_at_ends, Point p) const {
+    /// Returns h over a base from the sizes at its ends and behind it, continued linearly: the new point is about the
+    /// mirror image of the apex behind. That costs less than the field.
+    static double continued_size(double size_at_ends, double size_at_apex) {
         constexpr double min_change = 0.7, max_change = 1.4;
-        const Link behind = tris_[t].n[front_.base(t)];
-        if (behind.is_constrained()) return derived().size_at(p, t);
-        const double at_apex = size_of(tris_[behind.triangle()].v[behind.edge()]);
-        return std::clamp(2 * size_at_ends - at_apex, min_change * size_at_ends, max_change * size_at_ends);
+        return std::clamp(2 * size_at_ends - size_at_apex, min_change * size_at_ends, max_change * size_at_ends);
     }
 
     /// Returns the point p over the base u-v of a large triangle from which both ends of the base are as far as the
@@ -297,7 +323,7 @@ private:
     ///           .'  x   '.         circumcentre x lies dot / (2 cross) lengths of the base above its
     ///         .'    p     '.       middle m; dot and cross are those of w -> u and w -> v.
     ///        u ----- m ---- v
-    FrontPoint front_point(Index t) const {
+    [[gnu::always_inline]] FrontPoint front_point(Index t) const {
         const Tri& tri = tris_[t];
         const unsigned e = front_.base(t);
         const Index u_vertex = tri.v[next(e)], v_vertex = tri.v[previous(e)];
@@ -306,23 +332,27 @@ private:
         const double to_centre = 0.5 * dot(wu, wv) / cross(wu, wv);
         const double squared_base = squared_length(base), inverse = 1 / squared_base;
         const double hu = size_of(u_vertex), hv = size_of(v_vertex), at_ends = 0.5 * (hu + hv);
-        // Returns the height at which edges to both ends have the length l.
-        const auto height_for = [&](double l) {
-            const double squared = l * l * inverse - 0.25;
-            constexpr double least = min_front_height * min_front_height;
+        // Edges to both ends have the length l at a height of the square root of this, in lengths of the base.
+        const auto squared_height = [inverse](double l) { return l * l * inverse - 0.25; };
+        constexpr double least = min_front_height * min_front_height, share = min_front_distance * min_front_distance;
+        const auto bounded = [this](double squared) {
             return std::min(squared > least ? std::sqrt(squared) : min_front_height, off_centre_);
         };
-        double height = height_for(at_ends), h = at_ends, shift = 0;
-        if (height < to_centre) {
-            h = size_beyond_base(t, at_ends, middle + height * up);
-            const double to_u = 0.5 * (hu + h), to_v = 0.5 * (hv + h);
-            height = height_for(0.5 * (to_u + to_v));
-            shift = std::clamp(0.5 * (to_u * to_u - to_v * to_v) * inverse, -max_front_shift, max_front_shift);
+        const double squared_at_ends = squared_height(at_ends);
+        if (to_centre <= off_centre_ && (to_centre <= min_front_height || to_centre * to_centre <= squared_at_ends)) {
+            const double edge = std::min(at_ends * at_ends, (0.25 + off_centre_ * off_centre_) * squared_base);
+            return {middle + to_centre * up, share * edge};
         }
+        const Link behind = tri.n[e];
+        const double h = behind.is_constrained()
+                             ? derived().size_at(middle + bounded(squared_at_ends) * up, t)
+                             : continued_size(at_ends, size_of(tris_[behind.triangle()].v[behind.edge()]));
+        const double to_u = 0.5 * (hu + h), to_v = 0.5 * (hv + h);
+        const double height = bounded(squared_height(0.5 * (to_u + to_v)));
         const double edge = std::min(h * h, (0.25 + height * height) * squared_base);
-        const double squared_distance = min_front_distance * min_front_distance * edge;
-        if (height >= to_centre) return {middle + to_centre * up, squared_distance};
-        return {middle + shift * base + height * up, squared_distance};
+        if (height >= to_centre) return {middle + to_centre * up, share * edge};
+        const double shift = std::clamp(0.5 * (to_u * to_u - to_v * to_v) * inverse, -max_front_shift, max_front_shift);
+        return {middle + shift * base + height * up, share * edge};
     }
 
     /// Returns whether the apex of the triangle or of a neighbour across another edge than the base is nearer to p than
@@ -397,9 +427,10 @@ private:
         const Index vertex = add_vertex(p, stored_size);
         const std::size_t old_count = tris_.size();
         front_.resize(old_count + 2);
-        double size_a = sizes_[cavity_.boundary[0].a];
+        const float* const sizes = sizes_.data();
+        double size_a = sizes[cavity_.boundary[0].a];
         fill_cavity(tris_, cavity_, vertex, [&](Index created, const CavityEdge& a, const CavityEdge& b) {
-            const double size_b = sizes_[b.a];
+            const double size_b = sizes[b.a];
             classify_new(created, a, b, size + size_a + size_b);
             size_a = size_b;
         });
@@ -412,9 +443,8 @@ private:
     bool in_circle(const Tri& t, const RelativeTriangle& relative, Point p) const {
         double det = 0, sum = 0;
         for (unsigned i = 0; i < 3; ++i) {
-            const double rr = squared_length(relative.r[i]);
-            det += rr * relative.area2[i];
-            sum += rr;
+            det += relative.rr[i] * relative.area2[i];
+            sum += relative.rr[i];
         }
         // The circumcentre of a triangle that is flat but for rounding may be infinitely far away.
         return det > incircle_error * (sum * sum) ||

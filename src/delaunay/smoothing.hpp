@@ -43,6 +43,12 @@ struct SmoothedArrays {
 ///     bool is_allowed(double aa, double bb, double cc, double area2, double size_sum)
 ///                                            whether a triangle of these squared edges, twice this area, and this sum
 ///                                            of h at its vertices keeps its bounds
+///     bool is_surely_allowed(double squared_sum, double area2, double size_sum)
+///                                            the same for any triangle that is not ill-shaped, given the sum of its
+///                                            squared edges; false where it depends on the edges themselves
+///     double unit()                          the unit of sizes
+///     double gradation(), size_error()       h at two points differs by at most this share of their distance, and this
+///                                            share of h
 ///     bool is_blocked(const CavityEdge& a, const CavityEdge& b)
 ///                                            whether a vertex may not stand so near to the constrained edge a-b
 template <class Rules>
@@ -59,11 +65,19 @@ public:
           rules_(rules) {}
 
     /// Moves all free vertices at once to the means of their neighbours, `rounds` times, then those of ill-shaped
-    /// triangles.
+    /// triangles. Vertices keep the sizes of their old places where that makes no difference to smoothing, until
+    /// update_sizes() is called.
     void smooth(unsigned rounds) {
-        for (unsigned left = rounds; left > 0; left -= std::min(left, rounds_at_once))
+        for (unsigned left = rounds; left > 0; left -= std::min(left, rounds_at_once)) {
+            update_sizes();
             move_together(std::min(left, rounds_at_once));
+        }
         mend_ill_shaped();
+    }
+
+    /// Gives all vertices the sizes at their places.
+    void update_sizes() {
+        for (Index v = 0; v < movers_.size(); ++v) update_size(v);
     }
 
     /// Moves the vertices of ill-shaped triangles one by one, a few times, where this makes the worst triangle round
@@ -99,12 +113,16 @@ private:
         Index t;  ///< one of its triangles
         unsigned degree = 0;
         State state = State::moved;
+        bool has_old_size = false;  ///< whether its size is the one at its old place
     };
 
     /// Twice the area of an equilateral triangle over the sum of its squared edges. The mean ratio of a triangle is its
     /// own ratio of this kind, divided by that of the equilateral one.
     static constexpr double equilateral_ratio = 0.28867513459481287;
     static constexpr double min_ratio = min_mean_ratio * equilateral_ratio;
+    static constexpr double clearly_fat_ratio = min_ratio * (1 + 1e-9);  // far beyond rounding
+    /// Moves up to this many h change sizes so little that most triangles need not know it.
+    static constexpr double max_move = 0.25;
     /// A move of one vertex has to improve the worst ratio by this factor, so that rounding moves nothing for ever.
     static constexpr double min_gain = 1.0001;
     /// Moved triangles are fatter than this; rounding cannot turn them over.
@@ -125,9 +143,7 @@ private:
         old_points_ = points_;
         old_sizes_ = sizes_;
         for (unsigned round = 0; round < rounds; ++round) move_to_neighbours();
-        for (Index v = first_movable_; v < points_.size(); ++v)
-            if (movers_[v].state == Mover::State::moved)
-                sizes_[v] = static_cast<float>(rules_.size_at(points_[v], movers_[v].t));
+        forget_sizes_of_moved();
         return_where_worse();
         // Flips may have taken a vertex out of the triangle that is known of it; it stays where it is then.
         for (const Index v : returned_)
@@ -136,17 +152,51 @@ private:
 
     void find_movers() {
         movers_.assign(points_.size(), {});
-        for (Index v = 0; v < first_movable_; ++v) movers_[v].state = Mover::State::fixed;
-        for (Index t = 0; t < tris_.size(); ++t) {
-            for (const Index v : tris_[t].v) {
-                movers_[v].t = t;
-                ++movers_[v].degree;
+        Mover* const movers = movers_.data();
+        for (Index v = 0; v < first_movable_; ++v) movers[v].state = Mover::State::fixed;
+        const auto count = static_cast<Index>(tris_.size());
+        const Tri* const tris = tris_.data();
+        for (Index t = 0; t < count; ++t) {
+            const Tri& tri = tris[t];
+            for (const Index v : tri.v) {
+                movers[v].t = t;
+                ++movers[v].degree;
             }
-            for (unsigned e = 0; e < 3; ++e) {
-                if (!tris_[t].n[e].is_constrained()) continue;
-                movers_[tris_[t].v[next(e)]].state = movers_[tris_[t].v[previous(e)]].state = Mover::State::fixed;
-            }
+            if (!has_constrained_edge(tri)) continue;
+            for (unsigned e = 0; e < 3; ++e)
+                if (tri.n[e].is_constrained())
+                    movers[tri.v[next(e)]].state = movers[tri.v[previous(e)]].state = Mover::State::fixed;
         }
+    }
+
+    static bool has_constrained_edge(const Tri& t) {
+        // All three are looked at without branches, since few triangles have any.
+        return (static_cast<unsigned>(t.n[0].is_constrained()) | static_cast<unsigned>(t.n[1].is_constrained()) |
+                static_cast<unsigned>(t.n[2].is_constrained())) != 0;
+    }
+
+    /// Notes that the vertices that have moved still have the sizes of their old places. Those that have moved far get
+    /// the sizes of their new ones.
+    void forget_sizes_of_moved() {
+        constexpr double squared_far = max_move * max_move;
+        for (Index v = first_movable_; v < points_.size(); ++v) {
+            if (movers_[v].state != Mover::State::moved) continue;
+            movers_[v].has_old_size = true;
+            const double h = rules_.unit() * sizes_[v];
+            if (squared_length(points_[v] - old_points_[v]) > squared_far * (h * h)) update_size(v);
+        }
+    }
+
+    void update_size(Index v) {
+        if (!movers_[v].has_old_size) return;
+        movers_[v].has_old_size = false;
+        sizes_[v] = static_cast<float>(rules_.size_at(points_[v], movers_[v].t));
+    }
+
+    /// Returns h at a vertex.
+    float size_of(Index v) {
+        if (!movers_.empty()) update_size(v);
+        return sizes_[v];
     }
 
     /// Returns the place of a vertex in the triangle that is known of it, or 3.
@@ -171,7 +221,10 @@ private:
     void return_where_worse() {
         returned_.clear();
         ill_shaped_.clear();
-        for (Index t = 0; t < tris_.size(); ++t) check_moved(t);
+        const double least_share = std::max(0.0, 1 - rules_.size_error() - max_move * rules_.gradation());
+        const auto count = static_cast<Index>(tris_.size());
+        for (Index t = 0; t < count; ++t)
+            if (!is_clearly_good(tris_[t], least_share)) check_moved(t);
         std::size_t looked_at = 0;
         while (looked_at < returned_.size()) {  // more may return meanwhile
             const Index v = returned_[looked_at++];
@@ -181,6 +234,18 @@ private:
                 if (const Link outer = tris_[s.t].n[s.corner]; !outer.is_constrained()) check_moved(outer.triangle());
             }
         }
+    }
+
+    /// Returns true only for triangles that need no closer look, given the least share that sizes at new places are of
+    /// those at old ones. A triangle that is not ill-shaped has only acute angles.
+    bool is_clearly_good(const Tri& tri, double least_share) const {
+        const Point* const points = points_.data();
+        const float* const sizes = sizes_.data();
+        const Point p = points[tri.v[0]], a = points[tri.v[1]] - p, b = points[tri.v[2]] - p;
+        const double sum = 2 * (squared_length(a) + squared_length(b) - dot(a, b)), area2 = cross(a, b);
+        const float size_sum = sizes[tri.v[0]] + sizes[tri.v[1]] + sizes[tri.v[2]];
+        return area2 >= clearly_fat_ratio * sum && !has_constrained_edge(tri) &&
+               rules_.is_surely_allowed(sum, area2, least_share * static_cast<double>(size_sum));
     }
 
     /// Sends the vertices of a triangle back if it is not as it should be. An edge between two acute angles is
@@ -209,6 +274,7 @@ private:
             movers_[v].state = Mover::State::returned;
             points_[v] = old_points_[v];
             sizes_[v] = old_sizes_[v];
+            movers_[v].has_old_size = false;
             returned_.push_back(v);
         }
     }
@@ -236,7 +302,7 @@ private:
         if (!find_star(t, corner)) return false;
         const Index v = tris_[t].v[corner];
         const Point old_place = points_[v];
-        const float old_size = sizes_[v];
+        const float old_size = size_of(v);
         const double worst = worst_ratio_of_star();
         Point to_mean{0, 0};
         for (const StarTriangle& s : star_) to_mean = to_mean + s.a;
@@ -262,7 +328,7 @@ private:
         do {
             const Tri& tri = tris_[t];
             const Index a = tri.v[next(corner)];
-            star_.push_back({t, corner, a, points_[a] - points_[v], sizes_[a]});
+            star_.push_back({t, corner, a, points_[a] - points_[v], size_of(a)});
             const Link across = tri.n[next(corner)];
             if (across.is_constrained()) return false;
             t = across.triangle();
@@ -344,18 +410,16 @@ private:
                0;
     }
 
-    double size_sum(const Tri& t) const {
-        return static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]];
-    }
+    double size_sum(const Tri& t) { return static_cast<double>(size_of(t.v[0])) + size_of(t.v[1]) + size_of(t.v[2]); }
 
     /// Returns whether a triangle that a flip has made is allowed and not worse than the bound.
-    bool is_good(const Tri& t, double ratio_bound) const {
+    bool is_good(const Tri& t, double ratio_bound) {
         const TriangleShape shape = shape_of(points_, t);
         return shape.area2 >= ratio_bound * shape.squared_sum() && is_allowed(t, shape);
     }
 
     /// Returns whether a triangle keeps its bounds, and none of its vertices is too near to a constrained edge.
-    bool is_allowed(const Tri& t, const TriangleShape& shape) const {
+    bool is_allowed(const Tri& t, const TriangleShape& shape) {
         return rules_.is_allowed(shape.squared[0], shape.squared[1], shape.squared[2], shape.area2, size_sum(t)) &&
                !is_blocked(t);
     }

@@ -79,6 +79,12 @@ std::vector<Point> SplittingRefiner::vertices() const {
     return vertices;
 }
 
+double SplittingRefiner::gradation() const {
+    double greatest = 0;
+    for (const SizeField* field : sizes_of_fields_) greatest = std::max(greatest, field->gradation());
+    return greatest;
+}
+
 /// Returns whether a vertex encroaches upon an edge whose ends are at a and b, seen from the vertex.
 bool SplittingRefiner::encroaches(Point a, Point b, double aa, double bb) const {
     const double d = dot(a, b);

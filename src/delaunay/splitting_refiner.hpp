@@ -62,7 +62,9 @@ private:
     };
 
     double size_at(Point p, Index t) const { return scale_ * (*sizes_of_fields_[field_of(t)])((1 / scale_) * p); }
+    double gradation() const;
     bool is_blocked(const CavityEdge& a, const CavityEdge& b) const;
+    static constexpr bool always_counts = true;
     bool must_mend(Index t) const;
     void vertex_inserted(Index t, std::size_t old_count);
     void give_up(Index t, Point p);
