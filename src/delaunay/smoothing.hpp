@@ -77,7 +77,7 @@ public:
 
     /// Gives all vertices the sizes at their places.
     void update_sizes() {
-        for (Index v = 0; v < movers_.size(); ++v) update_size(v);
+        for (Index v = 0; v < states_.size(); ++v) update_size(v);
     }
 
     /// Moves the vertices of ill-shaped triangles one by one, a few times, where this makes the worst triangle round
@@ -107,13 +107,12 @@ private:
         Index t, n;
         Tri old_t, old_n;
     };
-    /// A vertex where all vertices move together.
-    struct Mover {
-        enum class State : unsigned char { fixed, moved, returned };
-        Index t;  ///< one of its triangles
-        unsigned degree = 0;
-        State state = State::moved;
-        bool has_old_size = false;  ///< whether its size is the one at its old place
+    /// What is known of a vertex where all vertices move together.
+    enum class State : unsigned char {
+        fixed,
+        moved,
+        moved_with_old_size,  ///< its size is the one at its old place
+        returned,
     };
 
     /// Twice the area of an equilateral triangle over the sum of its squared edges. The mean ratio of a triangle is its
@@ -147,25 +146,27 @@ private:
         return_where_worse();
         // Flips may have taken a vertex out of the triangle that is known of it; it stays where it is then.
         for (const Index v : returned_)
-            if (const unsigned corner = corner_of(v); corner < 3) move(movers_[v].t, corner);
+            if (const unsigned corner = corner_of(v); corner < 3) move(triangle_of_[v], corner);
     }
 
     void find_movers() {
-        movers_.assign(points_.size(), {});
-        Mover* const movers = movers_.data();
-        for (Index v = 0; v < first_movable_; ++v) movers[v].state = Mover::State::fixed;
+        triangle_of_.resize(points_.size());
+        degrees_.assign(points_.size(), 0);
+        states_.assign(points_.size(), State::moved);
+        std::fill(states_.begin(), states_.begin() + first_movable_, State::fixed);
+        Index* const triangle_of = triangle_of_.data();
+        unsigned* const degrees = degrees_.data();
         const auto count = static_cast<Index>(tris_.size());
         const Tri* const tris = tris_.data();
         for (Index t = 0; t < count; ++t) {
             const Tri& tri = tris[t];
             for (const Index v : tri.v) {
-                movers[v].t = t;
-                ++movers[v].degree;
+                triangle_of[v] = t;
+                ++degrees[v];
             }
             if (!has_constrained_edge(tri)) continue;
             for (unsigned e = 0; e < 3; ++e)
-                if (tri.n[e].is_constrained())
-                    movers[tri.v[next(e)]].state = movers[tri.v[previous(e)]].state = Mover::State::fixed;
+                if (tri.n[e].is_constrained()) states_[tri.v[next(e)]] = states_[tri.v[previous(e)]] = State::fixed;
         }
     }
 
@@ -180,28 +181,28 @@ private:
     void forget_sizes_of_moved() {
         constexpr double squared_far = max_move * max_move;
         for (Index v = first_movable_; v < points_.size(); ++v) {
-            if (movers_[v].state != Mover::State::moved) continue;
-            movers_[v].has_old_size = true;
+            if (states_[v] != State::moved) continue;
+            states_[v] = State::moved_with_old_size;
             const double h = rules_.unit() * sizes_[v];
             if (squared_length(points_[v] - old_points_[v]) > squared_far * (h * h)) update_size(v);
         }
     }
 
     void update_size(Index v) {
-        if (!movers_[v].has_old_size) return;
-        movers_[v].has_old_size = false;
-        sizes_[v] = static_cast<float>(rules_.size_at(points_[v], movers_[v].t));
+        if (states_[v] != State::moved_with_old_size) return;
+        states_[v] = State::moved;
+        sizes_[v] = static_cast<float>(rules_.size_at(points_[v], triangle_of_[v]));
     }
 
     /// Returns h at a vertex.
     float size_of(Index v) {
-        if (!movers_.empty()) update_size(v);
+        if (!states_.empty()) update_size(v);
         return sizes_[v];
     }
 
     /// Returns the place of a vertex in the triangle that is known of it, or 3.
     unsigned corner_of(Index v) const {
-        const Tri& t = tris_[movers_[v].t];
+        const Tri& t = tris_[triangle_of_[v]];
         return static_cast<unsigned>(std::find(t.v, t.v + 3, v) - t.v);
     }
 
@@ -213,7 +214,7 @@ private:
         for (const Tri& t : tris_)
             for (unsigned i = 0; i < 3; ++i) sums[t.v[i]] = sums[t.v[i]] + points[t.v[next(i)]];
         for (Index v = first_movable_; v < points_.size(); ++v)
-            if (movers_[v].state == Mover::State::moved) points[v] = (1.0 / movers_[v].degree) * sums[v];
+            if (states_[v] == State::moved) points[v] = (1.0 / degrees_[v]) * sums[v];
     }
 
     /// Sends vertices back to where they were until all triangles of moved ones are allowed, Delaunay, and not
@@ -228,7 +229,7 @@ private:
         std::size_t looked_at = 0;
         while (looked_at < returned_.size()) {  // more may return meanwhile
             const Index v = returned_[looked_at++];
-            find_star(movers_[v].t, corner_of(v));
+            find_star(triangle_of_[v], corner_of(v));
             for (const StarTriangle& s : star_) {
                 check_moved(s.t);
                 if (const Link outer = tris_[s.t].n[s.corner]; !outer.is_constrained()) check_moved(outer.triangle());
@@ -270,11 +271,10 @@ private:
 
     void send_back(const Tri& t) {
         for (const Index v : t.v) {
-            if (movers_[v].state != Mover::State::moved) continue;
-            movers_[v].state = Mover::State::returned;
+            if (states_[v] != State::moved && states_[v] != State::moved_with_old_size) continue;
+            states_[v] = State::returned;
             points_[v] = old_points_[v];
             sizes_[v] = old_sizes_[v];
-            movers_[v].has_old_size = false;
             returned_.push_back(v);
         }
     }
@@ -442,7 +442,10 @@ private:
     Tris& tris_;
     Index first_movable_;
     Rules rules_;
-    std::vector<Mover> movers_;  ///< of each vertex
+    // Of each vertex, where all move together:
+    std::vector<Index> triangle_of_;  ///< one of its triangles
+    std::vector<unsigned> degrees_;   ///< the number of its triangles
+    std::vector<State> states_;
     std::vector<Point> sums_, old_points_;
     std::vector<float> old_sizes_;
     std::vector<Index> returned_;    ///< vertices
