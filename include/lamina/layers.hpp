@@ -70,6 +70,7 @@ struct LayerOptions {
     double max_ray_angle_deg = 5;       ///< largest angle between neighbouring rays
     CornerRays corners = CornerRays::fan;             ///< the rays at sharp convex corners
     LayerTopology topology = LayerTopology::layered;  ///< how points are joined to cells
+    bool wake_layers = false;                         ///< whether layers up to isotropy go on along LayerGrowth::wakes
 };
 
 /// Returns the table of these options, with names, ranges and help.
@@ -86,6 +87,20 @@ struct WallHeight {
     double height;        ///< above the wall, in units of the input
 };
 
+/// A point of a wake, and the heights that layers reach at least on both sides of it, in units of the input.
+struct WakePoint {
+    Point at;      ///< on the line of the wake
+    double left;   ///< height on the left of the direction in which the line runs
+    double right;  ///< height on its right
+};
+
+/// The line of a wake: points so close that it may be taken for straight between them, from the trailing edge of an
+/// element on.
+struct WakeLine {
+    std::size_t element;            ///< index in Geometry::elements
+    std::vector<WakePoint> points;  ///< two or more
+};
+
 /// The growth law and its numbers, with the first height as a length.
 struct LayerGrowth {
     GrowthLaw law = GrowthLaw::geometric;   ///< LayerOptions::growth_law
@@ -97,6 +112,9 @@ struct LayerGrowth {
     /// Heights that columns up to isotropy reach at least, where there is room: those of the flow's boundary layers.
     /// Each element has none, or a closed chain of them in the order of its wall; they are linear in between.
     std::vector<WallHeight> least_heights{};
+    /// Lines along which the layers of both sides go on behind a sharp trailing edge or a base, at most one per element
+    /// (LayerOptions::wake_layers).
+    std::vector<WakeLine> wakes{};
 
     /// Returns the first height on an element.
     double first_height_on(std::size_t element) const {
@@ -131,10 +149,20 @@ LAMINA_EXPORT double layer_height(const LayerGrowth& growth, std::uint32_t n);
 /// decides: for layers up to isotropy and for the adaptive law.
 LAMINA_EXPORT std::optional<double> requested_height(const LayerGrowth& growth);
 
+/// Where a ray stands.
+enum class RayPlace : std::uint8_t {
+    wall,      ///< on a wall
+    wake,      ///< on a wake behind a trailing edge
+    wake_end,  ///< at the end of a wake, where no layers are left
+};
+
 /// The origin and the direction of a ray.
 struct RayLine {
-    Point origin;     ///< a point of the wall
-    Point direction;  ///< unit vector
+    Point origin;                     ///< a point of the wall, or of a wake
+    Point direction;                  ///< unit vector
+    RayPlace place = RayPlace::wall;  ///< where it stands
+    double opening = 1;               ///< its first height over that on the wall
+    double least_height = 0;          ///< that of its column: LayerGrowth::least_heights or WakePoint
 };
 
 /// The column of heights on one ray: a part of LayerHeights::table().
@@ -145,6 +173,7 @@ struct HeightColumn {
     double stretch = 1;             ///< as Ray::stretch
     double slant = 1;               ///< as Ray::slant
     double max_spacing = HUGE_VAL;  ///< as Ray::max_spacing
+    double opening = 1;             ///< as Ray::opening
 };
 
 /// The heights of the requested layers, ray by ray. Rays with the same heights share a part of the table.
@@ -176,7 +205,9 @@ private:
 };
 
 /// The rays of all elements, one element after the other. Element e owns the rays [begin[e], begin[e + 1]) in
-/// counter-clockwise order; the first one follows the last.
+/// counter-clockwise order; the first one follows the last. An element with a wake begins at the left side of its
+/// trailing edge, and its last rays are those of the wake, out to its end and back. A sharp trailing edge then is the
+/// origin of a ray on either side; a base has no rays.
 struct LAMINA_EXPORT RaySet {
     std::vector<RayLine> lines;         ///< the rays
     std::vector<std::size_t> begin{0};  ///< the first ray of each element, then the number of rays
@@ -185,6 +216,16 @@ struct LAMINA_EXPORT RaySet {
     std::size_t elements() const { return begin.size() - 1; }
     /// Returns, for each ray, the index of the ray that follows counter-clockwise round its element.
     std::vector<std::size_t> following() const;
+};
+
+/// The space between a blunt base and the point behind it where both sides of a wake meet, cut into strips between
+/// chains of points that run from the right to the left of the flow.
+struct WakeCore {
+    std::size_t element = 0;                 ///< index of the element
+    std::vector<std::vector<Point>> chains;  ///< the first one is the base, the last one a point
+    /// Indices of the chains that end at stations, which are the origins of rays, ascending. The chains between have
+    /// the ends of the chain before.
+    std::vector<std::size_t> stations;
 };
 
 /// The rays and the number of layers on each. If the layer is disabled, each wall vertex has one ray without a
@@ -198,6 +239,8 @@ struct Rays {
     LayerHeights fitted;                ///< the same, but on rays that are cut short stretched to end at their limits
     std::vector<double> limits;         ///< height beyond which something is in a ray's way; empty if disabled
     std::vector<std::uint32_t> counts;  ///< number of layers on each ray
+    std::vector<double> wake_lengths;   ///< one per element: length of the wake with layers, 0 without
+    std::vector<WakeCore> cores;        ///< behind bases of elements whose layers go on along a wake
 };
 
 /// Grows rays from the walls: one along the normal of each vertex, fans at sharp corners and refining rays between
@@ -251,7 +294,7 @@ inline constexpr double max_stretch = 1.019;
 
 /// A line of layer points that leaves the wall.
 struct Ray {
-    VertexId origin;          ///< wall vertex
+    VertexId origin;          ///< wall vertex, or vertex of a wake
     Point direction;          ///< unit vector
     std::uint32_t layers;     ///< number of layers made; less than requested where the ray is cut short
     std::uint32_t requested;  ///< number of layers requested
@@ -268,6 +311,9 @@ struct Ray {
     /// No layer is higher than this, before it is stretched, where the column goes on beyond isotropy
     /// (LayerGrowth::least_heights); infinite elsewhere.
     double max_spacing = HUGE_VAL;
+    RayPlace place = RayPlace::wall;  ///< RayLine::place
+    /// The first height on this ray over that on the wall, and that of each layer above: they open along wakes.
+    double opening = 1;
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
     VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }
@@ -289,7 +335,7 @@ inline constexpr double open_space = 3;
 
 /// The coverage of one element.
 struct LAMINA_EXPORT ElementCoverage {
-    LayerCoverage all;  ///< the whole wall
+    LayerCoverage all;  ///< the whole wall, without its wake
     /// The part outside slots, coves and tight concave curvature. It consists of the rays at whose origin an empty
     /// circle touches the wall, open_space x (height of all layers requested) in diameter, and of the cells between two
     /// of these rays.
@@ -309,26 +355,35 @@ struct LayerEdges {
     std::vector<Segment> interfaces;
 };
 
+/// A WakeCore with the vertices of its points.
+struct LayerCore {
+    std::size_t element = 0;                    ///< as WakeCore::element
+    std::vector<std::vector<VertexId>> chains;  ///< as WakeCore::chains
+    std::vector<std::size_t> stations;          ///< as WakeCore::stations
+};
+
 /// The points of the layer and its outline.
 struct Layer {
     /// The wall vertices come first, element by element and in the order of the wall, those of refining rays included;
-    /// then come the ray points, then the division points of the outer border. All points are distinct. Ray points lie
-    /// strictly between wall and border.
+    /// then come the vertices of wakes, the ray points, and the division points of the outer border. All points are
+    /// distinct. Ray points lie strictly between wall and border.
     std::vector<Point> points;
     std::size_t wall_points = 0;  ///< number of wall vertices
     /// One list per element: the wall vertices, counter-clockwise.
     std::vector<std::vector<VertexId>> walls;
-    /// One list per element: the rays, in the order of the wall. The rays of a fan share one origin.
+    /// One list per element: the rays, in the order of the wall. The rays of a fan share one origin, and so do those on
+    /// both sides of a wake.
     std::vector<std::vector<Ray>> rays;
     /// One list per element: the closed outer border, counter-clockwise, simple and disjoint from the others. Where the
     /// rays have no layers, the border runs through wall vertices, and along wall edges between two of them. If such an
     /// edge is divided, its division points belong to the wall, too (without rays).
     std::vector<std::vector<VertexId>> borders;
-    /// One number per point: 0 on the wall, n at the top of layer n. Division points have that of the lower end of the
+    /// One number per point: 0 on the wall and on the line of a wake, n at the top of layer n. Division points have that of the lower end of the
     /// edge that they divide.
     std::vector<std::uint16_t> layer_of_point;
     std::vector<ElementCoverage> coverage;  ///< one per element; empty if the layer is disabled
     LayerGrowth growth;                     ///< the growth that was requested
+    std::vector<LayerCore> cores;           ///< the spaces behind bases, parts of the layer
     LayerEdges edges;                       ///< layer_edges() of this layer
 };
 

@@ -122,6 +122,7 @@ struct FlowWake {
     double length = 0;       ///< along the streamline; less than asked for where it ends at another element
     double first_width = 0;  ///< at the trailing edge
     double last_width = 0;   ///< at its end
+    double with_layers = 0;  ///< the length over which layers go on along it (LayerOptions::wake_layers)
 };
 
 /// The smallest spacing that the flow asks for on the wall of one element.

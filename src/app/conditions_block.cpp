@@ -115,12 +115,15 @@ std::string wakes_summary(const MeshResult& result) {
     const double chord = result.conditions.chord;
     const std::vector<FlowWake>& wakes = result.decisions.wakes;
     std::string text;
-    for (std::size_t i = 0; i < wakes.size(); ++i)
-        text +=
-            summary_line("wake", fmt::format("{} of {}, behind {}: {:.4g} chords long, {:.3g} to {:.3g} chords "
-                                             "wide ({})",
-                                             i + 1, wakes.size(), wakes[i].element, wakes[i].length / chord,
-                                             wakes[i].first_width / chord, wakes[i].last_width / chord, wake_source));
+    for (std::size_t i = 0; i < wakes.size(); ++i) {
+        const auto& [element, length, first_width, last_width, with_layers] = wakes[i];
+        const std::string layers =
+            with_layers > 0 ? fmt::format(", with layers over {:.4g} chords", with_layers / chord) : "";
+        text += summary_line(
+            "wake", fmt::format("{} of {}, behind {}: {:.4g} chords long{}, {:.3g} to {:.3g} chords wide ({})", i + 1,
+                                wakes.size(), element, length / chord, layers, first_width / chord, last_width / chord,
+                                wake_source));
+    }
     return text;
 }
 
@@ -174,6 +177,7 @@ Json conditions_report(const MeshCase& mesh_case, const MeshResult& result) {
                                    {"length", both_units(wake.length, chord)},
                                    {"first_width", both_units(wake.first_width, chord)},
                                    {"last_width", both_units(wake.last_width, chord)},
+                                   {"with_layers", both_units(wake.with_layers, chord)},
                                    {"source", wake_source}});
     for (const FlowSpacing& spacing : result.decisions.spacings)
         report["wall_spacings"].push_back({{"element", spacing.element},

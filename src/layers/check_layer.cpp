@@ -159,14 +159,18 @@ private:
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
                 const Point origin = at(ray.origin);
-                while (on_wall < layer_.walls[e].size() && layer_.walls[e][on_wall] != ray.origin) ++on_wall;
+                // The last ray before the wake of a sharp trailing edge stands where the wall begins.
+                const bool closes = next.place == RayPlace::wake && ray.origin == layer_.walls[e].front();
+                if (ray.place == RayPlace::wall && !closes)
+                    while (on_wall < layer_.walls[e].size() && layer_.walls[e][on_wall] != ray.origin) ++on_wall;
                 if (on_wall == layer_.walls[e].size()) report("rays are not in the order of the wall", origin);
                 if (std::abs(length(ray.direction) - 1) > 1e-12) report("direction is no unit vector", origin);
                 if (ray.layers > ray.requested) report("ray has more layers than requested", origin);
                 if (ray.layers > next.layers + 1 || next.layers > ray.layers + 1)
                     report("neighbouring rays differ by more than one layer", origin);
                 const double angle = core::angle_between(ray.direction, next.direction);
-                if (std::abs(angle) > max_angle)
+                const bool ends_wake = ray.place == RayPlace::wake_end || next.place == RayPlace::wake_end;
+                if (std::abs(angle) > max_angle && !ends_wake)
                     report(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
                 check_heights(ray, growth);
             }
@@ -183,6 +187,7 @@ private:
                            : ray.growth != law.ray_growth(growth))
             report("ray has not the growth of its law", origin);
         std::vector<double> heights = law.heights(growth.first_height, ray.growth, ray.layers);
+        open_heights(ray.opening, heights);
         limit_spacings(ray.max_spacing, heights);
         stretch_heights(ray.stretch, heights);
         for (double& height : heights) height *= ray.slant;
@@ -250,7 +255,10 @@ private:
         std::vector<std::size_t> element(layer_.points.size(), 0);
         for (std::size_t e = 0; e < layer_.rays.size(); ++e)
             for (const Ray& ray : layer_.rays[e])
-                for (std::uint32_t n = 1; n <= ray.layers; ++n) element[ray.vertex(n).index()] = e;
+                for (std::uint32_t n = 0; n <= ray.layers; ++n) element[ray.vertex(n).index()] = e;
+        for (const LayerCore& core : layer_.cores)
+            for (const auto& chain : core.chains)
+                for (const VertexId v : chain) element[v.index()] = core.element;
         for (const Loops* loops : {&walls_, &borders_})
             for (const ElementEdge& edge : loops->edges) element[edge.a.index()] = edge.element;
         return element;

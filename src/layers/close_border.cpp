@@ -35,6 +35,12 @@ std::pair<Point, Point> wall_below(const Rays& rays, const std::vector<FrontCorn
     return {rays.set.lines[corners[k].ray].origin, rays.set.lines[corners[(k + 1) % corners.size()].ray].origin};
 }
 
+/// Returns whether an edge of a front lies above an edge of the wall, rather than of a wake.
+bool is_above_wall(const Rays& rays, const std::vector<FrontCorner>& corners, std::size_t k) {
+    const auto place = [&](std::size_t corner) { return rays.set.lines[corners[corner % corners.size()].ray].place; };
+    return place(k) == RayPlace::wall && place(k + 1) == RayPlace::wall;
+}
+
 }  // namespace
 
 }  // namespace lamina::layers
@@ -62,6 +68,7 @@ std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& op
         if (!rays.resampled[e]) continue;
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
             const auto [a, b] = wall_below(rays, corners[e], k);
+            if (!is_above_wall(rays, corners[e], k)) continue;
             const double excess = division.excess[e][k] / target_slack;
             if (a != b && excess > 1) spacings.push_back({e, a, b, margin * distance(a, b) / excess});
         }

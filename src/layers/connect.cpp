@@ -70,6 +70,26 @@ public:
         }
     }
 
+    /// Adds the cells of the space behind a base: strips between successive chains.
+    void add(const LayerCore& core) {
+        first_leads_ = true;
+        for (std::size_t c = 1; c < core.chains.size(); ++c) {
+            const std::vector<VertexId>&lower = core.chains[c - 1], &upper = core.chains[c];
+            const auto layer = static_cast<std::uint16_t>(c);
+            const std::size_t n = lower.size();
+            if (n != upper.size()) {
+                add_strip(lower, upper);
+            } else if (lower.front() != upper.front()) {
+                add_cells_between(lower, upper, layer);
+            } else {
+                cells_.triangles.push_back({{lower[0], upper[1], lower[1]}});
+                add_cells_between(std::span(lower).subspan(1, n - 2), std::span(upper).subspan(1, n - 2), layer);
+                cells_.triangles.push_back({{lower[n - 2], upper[n - 2], lower[n - 1]}});
+            }
+            cells_.triangle_layer.resize(cells_.triangles.size(), layer);
+        }
+    }
+
     LayerCells take() { return std::move(cells_); }
 
 private:
@@ -96,6 +116,11 @@ private:
             const auto& [a, b, c] = cells_.triangles[t].v;
             cells_.triangle_layer.push_back(static_cast<std::uint16_t>(std::min({n, above(a), above(b), above(c)})));
         }
+    }
+
+    /// Adds the cells of layer n between two chains of equal length.
+    void add_cells_between(std::span<const VertexId> lower, std::span<const VertexId> upper, std::uint16_t n) {
+        for (std::size_t i = 0; i + 1 < lower.size(); ++i) add_cell({lower[i], lower[i + 1]}, upper.subspan(i, 2), n);
     }
 
     /// Adds the cell of layer n between two rays that both have it.
@@ -206,6 +231,11 @@ LayerCells connect_layer(const Layer& layer, GridCells form) {
         };
         for (LayerCells& block : core::parallel_blocks(columns.size(), columns_per_block, connect))
             blocks.push_back(std::move(block));
+    }
+    for (const LayerCore& core : layer.cores) {
+        Connector connector(layer, form);
+        connector.add(core);
+        blocks.push_back(connector.take());
     }
     LayerCells cells;
     cells.triangles = joined(blocks, &LayerCells::triangles);

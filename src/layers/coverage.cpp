@@ -2,6 +2,7 @@
 #include "layers/coverage.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
@@ -19,10 +20,14 @@ constexpr double inner_share = 0.95;
 /// full heights in diameter, holds no wall. An empty circle measures free space in slots, at corners and along tight
 /// curvature alike.
 std::vector<char> open_rays(const RaySet& set, const LayerHeights& heights, std::span<const std::size_t> next) {
+    std::vector<std::pair<Point, Point>> edges;
     std::vector<Box> boxes;
-    boxes.reserve(set.lines.size());
-    for (std::size_t i = 0; i < set.lines.size(); ++i)
-        boxes.push_back(core::bounding_box(set.lines[i].origin, set.lines[next[i]].origin));
+    for (std::size_t i = 0; i < set.lines.size(); ++i) {
+        const RayLine &ray = set.lines[i], &after = set.lines[next[i]];
+        if (ray.place != RayPlace::wall || after.place != RayPlace::wall) continue;
+        edges.emplace_back(ray.origin, after.origin);
+        boxes.push_back(core::bounding_box(ray.origin, after.origin));
+    }
     const core::BoxTree walls(std::move(boxes));
     std::vector<char> open(set.lines.size());
     core::parallel_for(set.lines.size(), 512, [&](std::size_t begin, std::size_t end) {
@@ -31,7 +36,7 @@ std::vector<char> open_rays(const RaySet& set, const LayerHeights& heights, std:
             const double radius = 0.5 * open_space * height, inner = inner_share * radius;
             const Point middle = set.lines[i].origin + radius * set.lines[i].direction;
             const double nearest = walls.min_distance(middle, inner, [&](std::size_t j) {
-                return core::distance_to_segment(middle, set.lines[j].origin, set.lines[next[j]].origin);
+                return core::distance_to_segment(middle, edges[j].first, edges[j].second);
             });
             open[i] = nearest >= inner;
         }
@@ -60,6 +65,7 @@ std::vector<ElementCoverage> layer_coverage(const RaySet& set, const LayerHeight
         auto& [all, in_the_open, worst] = coverage[e];
         double most_missing = 0;
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
+            if (set.lines[i].place != RayPlace::wall) continue;
             const std::uint32_t requested = heights.column(i).layers;
             const std::uint32_t requested_cells = std::min(requested, heights.column(next[i]).layers),
                                 made_cells = std::min(counts[i], counts[next[i]]);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,8 +12,10 @@
 #include "layers/heights.hpp"
 #include "layers/insert_rays.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/least_heights.hpp"
 #include "layers/rays.hpp"
 #include "layers/truncation.hpp"
+#include "layers/wake_outline.hpp"
 
 namespace lamina::layers {
 
@@ -45,16 +48,59 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, const Lay
                                       thickness, thickness / extent));
 }
 
-RaySet rays_of(const Geometry& geometry, const LayerOptions& options, const LayerGrowth& growth) {
+RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options,
+               const LayerGrowth& growth) {
     RaySet set;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         const Element& element = geometry.elements[e];
-        const std::vector<RayLine> rays =
-            make_rays(element.points, element.smooth, options, growth_on_element(growth, e));
+        const auto wake =
+            std::find_if(wakes.begin(), wakes.end(), [&](const DividedWake& w) { return w.element == e; });
+        std::vector<RayVertex> outline = outline_with_wake(element.points, wake == wakes.end() ? nullptr : &*wake);
+        const LayerGrowth own = growth_on_element(growth, e);
+        if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
+        const std::vector<RayLine> rays = make_rays(outline, element.smooth, options, own);
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }
     return set;
+}
+
+/// Grows the rays of these walls and wakes.
+void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options, Rays& rays) {
+    rays.set = rays_of(geometry, wakes, options, rays.growth);
+    rays.heights = make_heights(rays.set, rays.growth);
+    require_sensible_scale(bounding_box(geometry), rays.growth, rays.heights);
+    rays.limits = height_limits(rays.set, rays.heights);
+    for (int insertion = 0; insertion < max_insertions; ++insertion)
+        if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.heights, rays.limits), rays)) break;
+    fit_and_count_layers(rays);
+}
+
+/// Returns the heights that rays without wakes need: the least heights, or all that they have.
+std::vector<double> needed_heights(const Rays& walls) {
+    const bool all = walls.growth.least_heights.empty();
+    std::vector<double> needed = least_heights(walls.set);
+    for (std::size_t i = 0; i < needed.size(); ++i)
+        needed[i] = std::min({all ? HUGE_VAL : needed[i], walls.limits[i], walls.heights.full_height(i)});
+    return needed;
+}
+
+/// Grows the rays anew with wakes where there is room for them.
+void add_wakes(const Geometry& geometry, const LayerOptions& options, Rays& rays) {
+    constexpr int max_rounds = 8;
+    std::vector<double> ends(rays.growth.wakes.size(), HUGE_VAL);
+    keep_wakes_clear(rays.set, needed_heights(rays), divide_wakes(geometry, rays.growth, ends), ends);
+    std::vector<DividedWake> wakes;
+    for (int round = 0;; ++round) {
+        if (round == max_rounds) std::fill(ends.begin(), ends.end(), 0.0);
+        wakes = divide_wakes(geometry, rays.growth, ends);
+        grow_from(geometry, wakes, options, rays);
+        if (!shorten_bare_wakes(rays.set, rays.counts, wakes, ends)) break;
+    }
+    for (const DividedWake& wake : wakes) {
+        rays.wake_lengths[wake.element] = wake.distances.back();
+        if (!wake.core.chains.empty()) rays.cores.push_back(wake.core);
+    }
 }
 
 /// Returns one ray without a direction for each wall vertex: the rays where the layer is disabled.
@@ -79,6 +125,7 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     validate(options);
     Rays rays;
     rays.enabled = options.enabled;
+    rays.wake_lengths.assign(geometry.elements.size(), 0.0);
     rays.resampled.reserve(geometry.elements.size());
     for (const Element& element : geometry.elements) rays.resampled.push_back(element.resampled);
     if (!options.enabled) {
@@ -90,13 +137,8 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     if (!growth.first_heights.empty() && growth.first_heights.size() != geometry.elements.size())
         throw OptionError("first_height", "needs one entry per element where elements have their own");
     rays.growth = growth;
-    rays.set = rays_of(geometry, options, rays.growth);
-    rays.heights = make_heights(rays.set, rays.growth);
-    require_sensible_scale(bounding_box(geometry), rays.growth, rays.heights);
-    rays.limits = height_limits(rays.set, rays.heights);
-    for (int insertion = 0; insertion < max_insertions; ++insertion)
-        if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.heights, rays.limits), rays)) break;
-    fit_and_count_layers(rays);
+    grow_from(geometry, {}, options, rays);
+    if (options.wake_layers && !growth.layers && !growth.wakes.empty()) add_wakes(geometry, options, rays);
     return rays;
 }
 

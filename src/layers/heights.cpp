@@ -29,28 +29,33 @@ void cut_at_thickness(double thickness, std::vector<double>& heights) {
 
 std::uint32_t layer_count(const std::vector<double>& heights) { return static_cast<std::uint32_t>(heights.size() - 1); }
 
-/// Returns the heights up to the first one above the front, with spacings of at most max_spacing.
-std::vector<double> heights_up_to(double front, double max_spacing, const std::vector<double>& unstretched) {
+/// Returns the heights up to the first one above the front: those of the law times the opening, with spacings of at
+/// most max_spacing.
+std::vector<double> heights_up_to(double front, double opening, double max_spacing, std::span<const double> of_law) {
     std::size_t n = 1;
-    for (double height = 0; n < unstretched.size() && height <= front; ++n)
-        height += std::min(unstretched[n] - unstretched[n - 1], max_spacing);
-    std::vector<double> heights(unstretched.begin(), unstretched.begin() + static_cast<std::ptrdiff_t>(n));
+    for (double height = 0; n < of_law.size() && height <= front; ++n)
+        height += std::min(opening * (of_law[n] - of_law[n - 1]), max_spacing);
+    std::vector<double> heights(of_law.begin(), of_law.begin() + static_cast<std::ptrdiff_t>(n));
+    open_heights(opening, heights);
     limit_spacings(max_spacing, heights);
     return heights;
 }
 
-/// Returns columns that end where their ray reaches isotropy, or at the least heights. Whole layers would make the
+/// Returns columns that end where their ray reaches isotropy, or, where there are any, at the least heights. Whole layers would make the
 /// front a staircase, so columns are stretched to end at its height.
 LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const std::vector<double>& unstretched,
-                                    std::span<const WallHeight> at_least) {
-    const std::vector<double> least = least_heights(set, at_least);
+                                    bool at_least) {
+    const std::vector<double> least = at_least ? least_heights(set) : std::vector<double>();
     const std::vector<double> front = heights_of_isotropy(set, unstretched, least);
     const std::vector<double> max_spacings =
         least.empty() ? std::vector<double>(front.size(), HUGE_VAL) : largest_spacings(set, front);
+    const auto heights_on = [&](std::size_t i) {
+        return heights_up_to(front[i], set.lines[i].opening, max_spacings[i], unstretched);
+    };
     std::vector<std::uint32_t> layers;
     layers.reserve(front.size());
     for (std::size_t i = 0; i < front.size(); ++i)
-        layers.push_back(layers_up_to(front[i], heights_up_to(front[i], max_spacings[i], unstretched)).layers);
+        layers.push_back(set.lines[i].place == RayPlace::wake_end ? 0 : layers_up_to(front[i], heights_on(i)).layers);
     if (std::any_of(layers.begin(), layers.end(), [](auto n) { return n >= max_automatic_layers; }))
         throw OptionError("layers", fmt::format("more than {} layers up to isotropy: give a larger growth, a thickness "
                                                 "or their number",
@@ -60,9 +65,9 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
     std::vector<HeightColumn> columns;
     columns.reserve(layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const std::vector<double> heights = heights_up_to(front[i], max_spacings[i], unstretched);
+        const std::vector<double> heights = heights_on(i);
         const double stretch = stretch_of_layers(front[i], heights, layers[i]);
-        columns.push_back({table.size(), layers[i], ray_growth, stretch, 1, max_spacings[i]});
+        columns.push_back({table.size(), layers[i], ray_growth, stretch, 1, max_spacings[i], set.lines[i].opening});
         table.insert(table.end(), heights.begin(), heights.begin() + layers[i] + 1);
         stretch_heights(stretch, std::span(table).subspan(columns.back().first));
     }
@@ -136,7 +141,7 @@ LayerHeights upright_heights(const RaySet& set, const LayerGrowth& growth) {
     std::vector<double> table =
         law.heights(growth.first_height, ray_growth, growth.layers.value_or(max_automatic_layers));
     if (growth.thickness && !law.fills_thickness) cut_at_thickness(*growth.thickness, table);
-    if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, table, growth.least_heights);
+    if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, table, !growth.least_heights.empty());
     const HeightColumn all{0, layer_count(table), ray_growth};
     return LayerHeights(std::move(table), std::vector<HeightColumn>(set.lines.size(), all));
 }

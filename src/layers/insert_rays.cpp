@@ -40,6 +40,8 @@ RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& sh
             const RayLine &ray = set.lines[i], &after = set.lines[next[i]];
             result.lines.push_back(ray);
             if (shares[i].empty() || ray.origin == after.origin) continue;
+            // Both sides of a wake have the same vertices.
+            if (ray.place != RayPlace::wall || after.place != RayPlace::wall) continue;
             const IntermediateRays between(ray, after);
             for (const double share : shares[i]) between.add(share, 1, result.lines);
         }

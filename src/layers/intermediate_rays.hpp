@@ -8,7 +8,7 @@
 namespace lamina::layers {
 
 /// Makes rays between two neighbours. Their origins divide the edge between the origins of the two; their directions
-/// turn evenly from the one to the other. Precondition: the two have different origins.
+/// turn evenly from the one to the other. Precondition: the two stand on a wall and have different origins.
 class IntermediateRays {
 public:
     IntermediateRays(const RayLine& first, const RayLine& last);
@@ -22,6 +22,7 @@ public:
 
 private:
     Point from_, to_, normal_;
+    double first_least_height_, last_least_height_;
     double first_angle_ = 0, last_angle_ = 0;  ///< from the normal of the edge
 };
 

@@ -140,16 +140,15 @@ void round_kinks(const RayDistances& rays, std::vector<double>& front) {
 
 /// Returns the height at which the spacing would equal the distance of the rays. It lies between the last layer that is
 /// lower than wide and the first that is not; where all are lower it is the height of the last one.
-double isotropic_height(const RayDistances& rays, std::size_t ray, std::span<const double> heights) {
+double isotropic_height(const RayDistances& rays, std::size_t ray, std::span<const double> heights, double opening) {
     double lacking_below = 0;  // distance of the rays minus spacing, in the layer below
     for (std::size_t n = 1; n < heights.size(); ++n) {
-        const double spacing = heights[n] - heights[n - 1];
-        const double lacking = transition_aspect * rays.to_neighbours(ray, heights[n]) - spacing;
-        if (lacking <= 0)
-            return n == 1 ? heights[1] : heights[n - 1] + spacing * (lacking_below / (lacking_below - lacking));
+        const double below = opening * heights[n - 1], height = opening * heights[n], spacing = height - below;
+        const double lacking = transition_aspect * rays.to_neighbours(ray, height) - spacing;
+        if (lacking <= 0) return n == 1 ? height : below + spacing * (lacking_below / (lacking_below - lacking));
         lacking_below = lacking;
     }
-    return heights.back();
+    return opening * heights.back();
 }
 
 /// Returns base^exponent, by squaring.
@@ -177,17 +176,25 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
                                         std::span<const double> least) {
     const RayDistances rays(set);
     std::vector<double> front(set.lines.size());  // height of the front on each ray
+    const auto opening = [&](std::size_t i) { return set.lines[i].opening; };
+    const auto end_wakes = [&] {
+        for (std::size_t i = 0; i < front.size(); ++i)
+            if (set.lines[i].place == RayPlace::wake_end) front[i] = 0;
+    };
     for (std::size_t i = 0; i < front.size(); ++i)
-        if (!rays.inside_fan(i)) front[i] = isotropic_height(rays, i, heights);
+        if (!rays.inside_fan(i)) front[i] = isotropic_height(rays, i, heights, opening(i));
     fill_fans(set, front);
     for (int round = 0; round < 2; ++round) take_medians(rays, front);
     raise_over_fans(set, rays, front);
     if (!least.empty()) raise_to(least, set, rays, front);
+    end_wakes();
     lower_to_neighbours(set, front, [&](std::size_t from, std::size_t to) {
         return front[from] + max_front_slope * rays.between(from, to, front[from]);
     });
     round_kinks(rays, front);
-    for (double& height : front) height = std::clamp(height, heights[1], heights.back());
+    for (std::size_t i = 0; i < front.size(); ++i)
+        front[i] = std::clamp(front[i], opening(i) * heights[1], opening(i) * heights.back());
+    end_wakes();
     return front;
 }
 

@@ -17,12 +17,15 @@ public:
           set_(rays.set),
           corners_(corners),
           division_(division),
-          wall_of_ray_(set_.lines.size()),
+          origin_of_ray_(set_.lines.size()),
           first_point_(set_.lines.size()),
+          base_of_element_(set_.elements()),
           wall_divisions_(set_.lines.size()) {}
 
     Layer build() && {
         place_walls();
+        place_wakes();
+        place_cores();
         place_ray_points();
         place_borders();
         if (rays_.enabled) {
@@ -38,8 +41,9 @@ private:
     const RaySet& set_;
     const std::vector<std::vector<FrontCorner>>& corners_;
     const BorderDivision& division_;
-    std::vector<VertexId> wall_of_ray_;     ///< the origin of each ray
-    std::vector<std::size_t> first_point_;  ///< Ray::first_point of each ray
+    std::vector<VertexId> origin_of_ray_;                 ///< the origin of each ray
+    std::vector<std::size_t> first_point_;                ///< Ray::first_point of each ray
+    std::vector<std::vector<VertexId>> base_of_element_;  ///< with its corners; empty without a wake behind it
     /// For each ray, the division points of the wall edge behind it.
     std::vector<std::vector<VertexId>> wall_divisions_;
     Layer layer_;
@@ -54,6 +58,20 @@ private:
         return corners_[element][(k + 1) % corners_[element].size()];
     }
 
+    /// Adds the vertices of a base before a wake, where no rays stand, to the end of the wall that begins and ends at its
+    /// corners.
+    void place_base(const WakeCore& core) {
+        std::vector<VertexId>& wall = layer_.walls[core.element];
+        const std::vector<Point>& base = core.chains.front();
+        std::vector<VertexId>& placed = base_of_element_[core.element];
+        placed.push_back(wall.back());
+        for (std::size_t i = 1; i + 1 < base.size(); ++i) {
+            wall.push_back(add_point(base[i], 0));
+            placed.push_back(wall.back());
+        }
+        placed.push_back(wall.front());
+    }
+
     /// Places the walls. Division points of the border divide the wall, too, where the border runs along it.
     void place_walls() {
         layer_.walls.resize(set_.elements());
@@ -62,8 +80,15 @@ private:
             std::size_t k = 0;  // the next corner of the front
             for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
                 const Point origin = set_.lines[i].origin;
-                if (i == set_.begin[e] || origin != set_.lines[i - 1].origin) wall.push_back(add_point(origin, 0));
-                wall_of_ray_[i] = wall.back();
+                const bool on_wall = set_.lines[i].place == RayPlace::wall;
+                if (on_wall && (wall.empty() || origin != layer_.points[wall.back().index()])) {
+                    // A wall with a wake ends at the sharp trailing edge that it begins at.
+                    const bool closed = !wall.empty() && origin == layer_.points[wall.front().index()];
+                    origin_of_ray_[i] = closed ? wall.front() : add_point(origin, 0);
+                    if (!closed) wall.push_back(origin_of_ray_[i]);
+                } else if (on_wall) {
+                    origin_of_ray_[i] = wall.back();
+                }
                 if (k == corners_[e].size() || corners_[e][k].ray != i) continue;
                 if (rays_.counts[i] == 0 && corner_after(e, k).layers == 0) {
                     for (Point p : division_.points[e][k]) wall_divisions_[i].push_back(add_point(p, 0));
@@ -71,8 +96,59 @@ private:
                 }
                 ++k;
             }
+            for (const WakeCore& core : rays_.cores)
+                if (core.element == e) place_base(core);
         }
         layer_.wall_points = layer_.points.size();
+    }
+
+    /// Places the vertices of wakes. Where both sides have one vertex, that on the way back is that of the way out.
+    void place_wakes() {
+        for (std::size_t e = 0; e < set_.elements(); ++e) {
+            std::vector<VertexId> way_out;
+            bool ended = false;
+            for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
+                const RayLine& ray = set_.lines[i];
+                if (ray.place == RayPlace::wall) continue;
+                const bool shared = ended && ray.origin == layer_.points[way_out.back().index()];
+                origin_of_ray_[i] = shared ? way_out.back() : add_point(ray.origin, 0);
+                if (ended) {
+                    way_out.pop_back();
+                } else {
+                    ended = ray.place == RayPlace::wake_end;
+                    if (!ended) way_out.push_back(origin_of_ray_[i]);
+                }
+            }
+        }
+    }
+
+    /// Places the inner points of cores, and gathers those that have vertices already: on the base and at stations.
+    void place_cores() {
+        for (const WakeCore& core : rays_.cores) {
+            LayerCore& placed =
+                layer_.cores.emplace_back(LayerCore{core.element, {base_of_element_[core.element]}, core.stations});
+            placed.chains.resize(core.chains.size());
+            // Vertex k of the wake is the origin of ray out + k and of ray back - k.
+            const std::size_t back = set_.begin[core.element + 1] - 1;
+            std::size_t out = back;
+            while (set_.lines[out - 1].place != RayPlace::wall) --out;
+            std::size_t k = 0;
+            for (std::size_t c = 1; c < core.chains.size(); ++c) {
+                const bool station = core.stations[k] == c;
+                std::vector<VertexId>& chain = placed.chains[c];
+                for (std::size_t i = 0; i < core.chains[c].size(); ++i) {
+                    const bool first = i == 0, last = i + 1 == core.chains[c].size();
+                    const std::vector<VertexId>& before = placed.chains[c - 1];
+                    if (!first && !last)
+                        chain.push_back(add_point(core.chains[c][i], c));
+                    else if (station)
+                        chain.push_back(origin_of_ray_[first ? out + k : back - k]);
+                    else
+                        chain.push_back(first ? before.front() : before.back());
+                }
+                k += station;
+            }
+        }
     }
 
     void place_ray_points() {
@@ -102,7 +178,7 @@ private:
             for (std::size_t k = 0; k < corners_[e].size(); ++k) {
                 const auto [ray, layers] = corners_[e][k];
                 const std::uint32_t layers_after = corner_after(e, k).layers;
-                border.push_back(layers == 0 ? wall_of_ray_[ray] : VertexId(first_point_[ray] + layers - 1));
+                border.push_back(layers == 0 ? origin_of_ray_[ray] : VertexId(first_point_[ray] + layers - 1));
                 if (layers == 0 && layers_after == 0) {
                     border.insert(border.end(), wall_divisions_[ray].begin(), wall_divisions_[ray].end());
                 } else {
@@ -118,13 +194,23 @@ private:
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
                 const std::span<const double> heights = rays_.fitted.of(i);
-                const auto [first, requested, growth, stretch, slant, max_spacing] = rays_.fitted.column(i);
+                const HeightColumn& column = rays_.fitted.column(i);
                 const std::uint32_t count = rays_.counts[i];
                 // A ray that was lowered for its neighbours' sake ends below the layer that it did not get.
                 const double limit =
-                    count < requested ? std::min(rays_.limits[i], heights[count + 1]) : rays_.limits[i];
-                layer_.rays[e].push_back({wall_of_ray_[i], set_.lines[i].direction, count, requested, growth,
-                                          first_point_[i], limit, stretch, slant, max_spacing});
+                    count < column.layers ? std::min(rays_.limits[i], heights[count + 1]) : rays_.limits[i];
+                layer_.rays[e].push_back({.origin = origin_of_ray_[i],
+                                          .direction = set_.lines[i].direction,
+                                          .layers = count,
+                                          .requested = column.layers,
+                                          .growth = column.growth,
+                                          .first_point = first_point_[i],
+                                          .height_limit = limit,
+                                          .stretch = column.stretch,
+                                          .slant = column.slant,
+                                          .max_spacing = column.max_spacing,
+                                          .place = set_.lines[i].place,
+                                          .opening = column.opening});
             }
         }
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "core/parallel.hpp"
 #include "layers/neighbours.hpp"
@@ -29,20 +28,24 @@ double height_at(Point p, std::span<const WallHeight> chain) {
 
 }  // namespace
 
-std::vector<double> least_heights(const RaySet& set, std::span<const WallHeight> heights) {
-    if (heights.empty()) return {};
-    std::vector<double> least(set.lines.size(), 0.0);
-    for (std::size_t e = 0; e < set.elements(); ++e) {
-        std::vector<WallHeight> chain;
-        std::copy_if(heights.begin(), heights.end(), std::back_inserter(chain),
-                     [&](const WallHeight& height) { return height.element == e; });
-        core::parallel_for(set.begin[e + 1] - set.begin[e], 64, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = set.begin[e] + begin; i < set.begin[e] + end; ++i)
-                least[i] = height_at(set.lines[i].origin, chain);
-        });
+void set_least_heights(std::span<const WallHeight> chain, std::span<RayVertex> outline) {
+    const std::size_t n = outline.size();
+    core::parallel_for(n, 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (outline[i].place == RayPlace::wall) outline[i].least_height = height_at(outline[i].at, chain);
+    });
+    // At a trailing edge heights of both sides stand at one point. Before a wake it has a vertex for either side.
+    for (std::size_t i = 0; i < n; ++i) {
+        const RayVertex &before = outline[(i + n - 1) % n], &after = outline[(i + 1) % n];
+        if (outline[i].place != RayPlace::wall) continue;
+        if (after.place != RayPlace::wall) outline[i].least_height = before.least_height;
+        if (before.place != RayPlace::wall) outline[i].least_height = after.least_height;
     }
-    // Where the chain begins, at a trailing edge, heights of both sides stand at one point. The ends of a fan there have
-    // those of the rays beside it.
+}
+
+std::vector<double> least_heights(const RaySet& set) {
+    std::vector<double> least(set.lines.size());
+    for (std::size_t i = 0; i < least.size(); ++i) least[i] = set.lines[i].least_height;
     const RayNeighbours neighbours(set);
     const auto same_origin = [&](std::size_t a, std::size_t b) { return set.lines[a].origin == set.lines[b].origin; };
     std::vector<double> with_fans = least;
@@ -54,6 +57,11 @@ std::vector<double> least_heights(const RaySet& set, std::span<const WallHeight>
     }
     fill_fans(set, with_fans);
     return with_fans;
+}
+
+void open_heights(double opening, std::span<double> heights) {
+    if (opening == 1) return;
+    for (double& height : heights) height *= opening;
 }
 
 void limit_spacings(double max_spacing, std::span<double> heights) {

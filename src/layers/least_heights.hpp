@@ -6,11 +6,20 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/wake_outline.hpp"
+
 namespace lamina::layers {
 
-/// Returns, for each ray, the height at its origin, linear along the chain of its element: that of the nearest point of
-/// the chain; 0 on elements without one. Returns nothing for no heights.
-std::vector<double> least_heights(const RaySet& set, std::span<const WallHeight> heights);
+/// Sets the least heights of the vertices on the wall of an element: that of the nearest point of this closed chain,
+/// linear along it. Those of wakes stay as they are.
+void set_least_heights(std::span<const WallHeight> chain, std::span<RayVertex> outline);
+
+/// Returns the least heights of all rays. The ends of a fan have those of the rays beside it, so that both sides of a
+/// trailing edge keep their own.
+std::vector<double> least_heights(const RaySet& set);
+
+/// Multiplies the heights of a column by the opening of its ray.
+void open_heights(double opening, std::span<double> heights);
 
 /// Lowers the spacings of a column to at most max_spacing. heights[0] = 0 is the wall.
 void limit_spacings(double max_spacing, std::span<double> heights);

@@ -1,7 +1,7 @@
 // Rays along the bisectors of a concave corner, or of a noisy stretch of wall, would meet close to the wall. They may
 // turn towards each other by no more than 1 in (clearance x height of the layers) along the wall, which counts less the
-// more they lean (upright_distance()). The turning beyond
-// that is spread over the rays on both sides, which are tilted out of the corner (docs/decisions/0011).
+// more they lean (upright_distance()). The turning beyond that is spread over the rays on both sides, which are tilted
+// out of the corner (docs/decisions/0011). On outlines with a wake, narrow columns are spread in the same way (0037).
 #include "layers/normal_smoothing.hpp"
 
 #include <algorithm>
@@ -17,6 +17,10 @@ namespace {
 /// Rays may meet no nearer to the wall than at this many heights of the layers. A ray ends at 0.45 of the way to a ray
 /// that it meets (ray_fraction in truncation.cpp), so that all layers fit below.
 constexpr double clearance = 2.25;
+/// On outlines with a wake columns should keep more of their width: they count this many times their least height.
+constexpr double wide_clearance = 5;
+/// There columns spread until they are at least this share of their least height wide.
+constexpr double min_width = 1.0 / 50;
 /// Layers thicker than this share of the outline's perimeter do not tilt its rays any further.
 constexpr double max_thickness_share = 0.05;
 /// Largest tilt of a ray to either side of the bisector, in degrees.
@@ -30,11 +34,15 @@ constexpr double max_height_difference = 0.009;
 constexpr double max_smooth_turning_deg = 6;
 
 /// Returns the height below which the rays of an outline should not meet.
-double height_to_keep_clear(std::span<const Point> outline, const LayerGrowth& growth) {
-    double perimeter = 0;
-    for (std::size_t i = 0; i < outline.size(); ++i)
-        perimeter += distance(outline[i], outline[(i + 1) % outline.size()]);
-    const double spacing = perimeter / static_cast<double>(outline.size());
+double height_to_keep_clear(std::span<const RayVertex> outline, const LayerGrowth& growth) {
+    double perimeter = 0, edges = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const RayVertex &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        if (a.place != RayPlace::wall || b.place != RayPlace::wall) continue;
+        perimeter += distance(a.at, b.at);
+        ++edges;
+    }
+    const double spacing = perimeter / edges;
     return std::min(expected_height(growth, spacing), max_thickness_share * perimeter);
 }
 
@@ -44,6 +52,8 @@ struct TiltableRay {
     double max_tilt;    ///< to either side, in radians
     double turning;     ///< angle to the next ray, in radians
     double distance;    ///< to the origin of the next ray, along the wall
+    double clear;       ///< height below which it should not meet the next ray
+    double least;       ///< least height of the column up to the next ray, where it is to spread; 0 elsewhere
     double to_normals;  ///< angle from the ray, not tilted, to the normals of the edges on both sides, in radians
 };
 
@@ -59,17 +69,24 @@ double max_tilt_of_bisector(const WallVertex& vertex) {
     return std::max(tilt, 0.0);
 }
 
-std::vector<TiltableRay> tiltable_rays(std::span<const Point> outline, std::vector<WallVertex>& vertices) {
+std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, double clear,
+                                       std::vector<WallVertex>& vertices) {
+    // Fans round bases without a wake spread by themselves.
+    const bool has_wake =
+        std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; });
     std::vector<TiltableRay> rays;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
         WallVertex &vertex = vertices[i], &after = vertices[next];
         const double max_tilt = vertex.fan ? std::clamp(0.25 * vertex.turning, 0.0, core::radians(max_tilt_deg))
                                            : max_tilt_of_bisector(vertex);
-        if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, vertex.turning, 0, 0});
+        if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, vertex.turning, 0, clear, 0, 0});
         const double to_normals = vertex.fan ? 0 : 0.5 * vertex.turning;
         const double turning = to_normals + (after.fan ? 0 : 0.5 * after.turning);
-        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, turning, distance(outline[i], outline[next]), to_normals});
+        const RayVertex &a = outline[i], &b = outline[next];
+        const double least = has_wake ? std::max(a.least_height, b.least_height) : 0;
+        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, turning, distance(a.at, b.at),
+                        std::max(clear, wide_clearance * least), least, to_normals});
     }
     return rays;
 }
@@ -83,16 +100,21 @@ double upright_distance(const TiltableRay& ray, const TiltableRay& next) {
     return c * c * ray.distance;
 }
 
-/// Tilts the rays so that none falls faster than max_fall, in radians per unit of length. Let a(s) be the angle of the
+/// Tilts the rays so that from one to the next none falls by more than is allowed, or rises by less than makes their
+/// column wide enough. Let a(s) be the angle of the
 /// bisectors along the wall. `upper_offset` is how far the least function above a that falls no faster than allowed
 /// lies above a, `lower_offset` how far the greatest such function below a lies below it. The mean of the two functions
 /// falls no faster either, equals a where a itself is admissible, and treats both directions of the wall alike. The
 /// tilt is the difference between this mean and a.
-void tilt(std::span<const TiltableRay> rays, double max_fall) {
+void tilt(std::span<const TiltableRay> rays) {
     const std::size_t n = rays.size();
     std::vector<double> rise(n), upper_offset(n, 0.0), lower_offset(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i)
-        rise[i] = rays[i].turning + max_fall * upright_distance(rays[i], rays[(i + 1) % n]);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double apart = upright_distance(rays[i], rays[(i + 1) % n]);
+        double min_rise = -(1 / (clearance * rays[i].clear)) * apart;
+        if (rays[i].least > 0 && apart > 0) min_rise = std::max(min_rise, min_width - apart / rays[i].least);
+        rise[i] = rays[i].turning - min_rise;
+    }
     // Each loop goes round twice, since the first round must carry its end over to its start.
     for (std::size_t k = 0; k < 2 * n; ++k) {
         const std::size_t i = k % n, j = n - 1 - i;
@@ -105,12 +127,13 @@ void tilt(std::span<const TiltableRay> rays, double max_fall) {
 
 }  // namespace
 
-void smooth_normals(std::span<const Point> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
+void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
     constexpr int rounds = 3;  // the tilts of one decide the distances of the next
-    if (std::none_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; })) return;
-    const std::vector<TiltableRay> rays = tiltable_rays(outline, vertices);
-    const double max_fall = 1 / (clearance * height_to_keep_clear(outline, growth));
-    for (int round = 0; round < rounds; ++round) tilt(rays, max_fall);
+    const bool concave =
+        std::any_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; });
+    if (!concave && growth.least_heights.empty()) return;
+    const std::vector<TiltableRay> rays = tiltable_rays(outline, height_to_keep_clear(outline, growth), vertices);
+    for (int round = 0; round < rounds; ++round) tilt(rays);
     for (WallVertex& vertex : vertices)
         if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];
 }

@@ -6,6 +6,8 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/wake_outline.hpp"
+
 namespace lamina::layers {
 
 /// A vertex of an outline with the outward normals round it.
@@ -19,6 +21,6 @@ struct WallVertex {
 };
 
 /// Sets the tilts of the vertices. Convex and gently turning walls get none.
-void smooth_normals(std::span<const Point> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices);
+void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices);
 
 }  // namespace lamina::layers

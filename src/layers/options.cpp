@@ -78,6 +78,10 @@ OptionTable<LayerOptions> make_table() {
                                         {"layered", LayerTopology::layered},
                                         {"quads", LayerTopology::quads}},
                  at(&LayerOptions::topology));
+    table.choice("wake-layers",
+                 "whether layers up to isotropy go on behind trailing edges, along the wakes that the flow finds; "
+                 "needs use-flow",
+                 Choices<bool>{{"no", false}, {"yes", true}}, at(&LayerOptions::wake_layers));
     return table.take();
 }
 

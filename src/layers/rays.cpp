@@ -28,15 +28,16 @@ Point bisector(Point tangent_before, Point tangent_after, double turning) {
 }
 
 /// Returns the vertices of the outline with their normals, not smoothed yet.
-std::vector<WallVertex> wall_vertices(std::span<const Point> outline, const LayerOptions& options,
+std::vector<WallVertex> wall_vertices(std::span<const RayVertex> outline, const LayerOptions& options,
                                       double min_fan_turning_deg) {
     const std::size_t n = outline.size();
     std::vector<WallVertex> vertices(n);
-    Point before = unit(outline[0] - outline[n - 1]);
+    Point before = unit(outline[0].at - outline[n - 1].at);
     for (std::size_t i = 0; i < n; ++i) {
-        const Point after = unit(outline[(i + 1) % n] - outline[i]);
-        const double turning = core::angle_between(before, after);
-        const bool fan = options.corners == CornerRays::fan && turning > core::radians(min_fan_turning_deg);
+        const Point after = unit(outline[(i + 1) % n].at - outline[i].at);
+        const bool wall = outline[i].place == RayPlace::wall, end = outline[i].place == RayPlace::wake_end;
+        const double turning = end ? core::pi : core::angle_between(before, after);
+        const bool fan = wall && options.corners == CornerRays::fan && turning > core::radians(min_fan_turning_deg);
         vertices[i] = {turning, -perpendicular(before), -perpendicular(after), bisector(before, after, turning), fan};
         before = after;
     }
@@ -50,17 +51,20 @@ Point last_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_after
 
 /// Adds the ray or the fan of a vertex. The angles of a fan are counted from the bisector, not from one side to the
 /// other, so that mirrored input gives mirrored rays.
-void add_vertex_rays(Point origin, const WallVertex& vertex, double max_angle, std::vector<RayLine>& rays) {
-    rays.push_back({origin, first_direction(vertex)});
+void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_angle, std::vector<RayLine>& rays) {
+    const auto add = [&](Point direction) {
+        rays.push_back({at.at, direction, at.place, at.opening, at.least_height});
+    };
+    add(first_direction(vertex));
     if (!vertex.fan) return;
     const double half = 0.5 * (vertex.turning + vertex.tilt[1] - vertex.tilt[0]);
     const double middle = 0.5 * (vertex.tilt[0] + vertex.tilt[1]);
     const std::size_t parts = angle_parts(2 * half, max_angle);
     for (std::size_t k = 1; k < parts; ++k) {
         const double share = (2.0 * static_cast<double>(k) - static_cast<double>(parts)) / static_cast<double>(parts);
-        rays.push_back({origin, unit(core::rotated(vertex.bisector, middle + share * half))});
+        add(unit(core::rotated(vertex.bisector, middle + share * half)));
     }
-    rays.push_back({origin, last_direction(vertex)});
+    add(last_direction(vertex));
 }
 
 /// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the edge.
@@ -72,7 +76,7 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 
 }  // namespace
 
-std::vector<RayLine> make_rays(std::span<const Point> outline, bool smooth, const LayerOptions& options,
+std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, const LayerOptions& options,
                                const LayerGrowth& growth) {
     const double min_fan_turning_deg =
         smooth ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
@@ -84,7 +88,11 @@ std::vector<RayLine> make_rays(std::span<const Point> outline, bool smooth, cons
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
         add_vertex_rays(outline[i], vertices[i], max_angle, rays);
-        add_refining_rays(RayLine(rays.back()), {outline[next], first_direction(vertices[next])}, max_angle, rays);
+        if (outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
+        const RayLine after{.origin = outline[next].at,
+                            .direction = first_direction(vertices[next]),
+                            .least_height = outline[next].least_height};
+        add_refining_rays(RayLine(rays.back()), after, max_angle, rays);
     }
     return rays;
 }

@@ -6,14 +6,17 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/wake_outline.hpp"
+
 namespace lamina::layers {
 
 /// Returns the rays of one counter-clockwise outline in the order of the wall: the bisector at each vertex, or a fan at
 /// a sharp corner, both smoothed in concavities, and refining rays on the edges between, so that neighbours differ by
 /// at most options.max_ray_angle_deg. The vertices of the outline are origins exactly; the rays of a fan have one
 /// origin. On an outline that is smooth but at its corners (Element::smooth), blunter corners have fans, too: refining
-/// rays would divide the edges beside them into far shorter ones. Source: thesis 3 and 3.1.
-std::vector<RayLine> make_rays(std::span<const Point> outline, bool smooth, const LayerOptions& options,
+/// rays would divide the edges beside them into far shorter ones. Vertices of a wake have one ray on either side, and
+/// its edges no refining rays, so that both sides keep the same vertices. Source: thesis 3 and 3.1.
+std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, const LayerOptions& options,
                                const LayerGrowth& growth);
 
 }  // namespace lamina::layers

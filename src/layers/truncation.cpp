@@ -23,8 +23,6 @@ namespace lamina::layers {
 
 namespace {
 
-/// A ray may go up to this share of the way to a wall, so that opposing fronts leave a quarter of the gap free.
-constexpr double wall_fraction = 0.375;
 /// A ray may go up to this share of the height at which it crosses another ray, so that neighbours keep more than half
 /// of their distance.
 constexpr double ray_fraction = 0.45;

@@ -7,6 +7,9 @@
 
 namespace lamina::layers {
 
+/// A ray may go up to this share of the way to a wall, so that opposing fronts leave a quarter of the gap free.
+inline constexpr double wall_fraction = 0.375;
+
 /// Returns the limit of each ray: the height up to which it is free, infinite where nothing is in its way up to the
 /// height of all its layers. A limit is a fraction of the way to what the ray would meet, small enough that opposing
 /// fronts leave space between them; limits vary smoothly along the walls.

@@ -8,9 +8,6 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// Layers are this many times as thick as the boundary layer, which solvers find up to a fifth thicker. Some of it is
-/// lost where the front is smoothed.
-constexpr double room_above = 1.35;
 /// No layer is thicker than this for the boundary layer's sake, in chords of the configuration.
 constexpr double thickest_layer = 0.08;
 /// The pressure coefficient changes from one vertex of the wall to the next by at most this, or by so many times the
@@ -68,7 +65,9 @@ std::vector<WallHeight> heights_of_flow(const Flow& flow) {
 
 std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& growth) {
     std::vector<WallSpacing> spacings;
-    for (std::size_t e = 0; e < flow.elements.size(); ++e) add_base_corners(flow.elements[e], e, growth, spacings);
+    // Layers that go on along the wake need no fans at the base.
+    if (growth.wakes.empty())
+        for (std::size_t e = 0; e < flow.elements.size(); ++e) add_base_corners(flow.elements[e], e, growth, spacings);
     for (std::size_t e = 0; e < flow.elements.size(); ++e)
         for (const auto* side : {&flow.elements[e].upper, &flow.elements[e].lower})
             for (std::size_t i = 1; i < side->size(); ++i) {

@@ -13,6 +13,10 @@ namespace lamina::pipeline {
 /// has boundary layers.
 std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds);
 
+/// Layers are this many times as thick as the boundary layer, which solvers find up to a fifth thicker. Some of it is
+/// lost where the front is smoothed.
+inline constexpr double room_above = 1.35;
+
 /// Returns the heights that layers need along the walls: those of the boundary layers and some room above, never less
 /// than further upstream.
 std::vector<WallHeight> heights_of_flow(const Flow& flow);
@@ -24,16 +28,28 @@ std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& g
 /// Returns the smallest of these spacings on each resampled element.
 std::vector<FlowSpacing> smallest_spacings(std::span<const WallSpacing> spacings, const Geometry& geometry);
 
+/// A source of the size field on a part of a wake.
+struct WakeSource {
+    double begins;  ///< distance of its beginning from the trailing edge, along the wake
+    SizeSource source;
+};
+
 /// A wake, and the sources of the size field along it.
-struct WakeSources {
+struct ElementWake {
     FlowWake wake;
-    std::vector<SizeSource> outer;  ///< over the whole wake
-    std::vector<SizeSource> inner;  ///< over the thinner wake within it, next to the trailing edge
+    std::vector<Point> line;        ///< the streamline, from the trailing edge or the middle of its base on
+    std::vector<WakeSource> outer;  ///< over the whole wake
+    std::vector<WakeSource> inner;  ///< over the thinner wake within it, next to the trailing edge
 };
 
 /// Returns the wakes of all elements: along the streamline behind each trailing edge, as fine as the wake is wide there
 /// divided by a number of triangles. Behind all bodies the streamline is that of a flow with less lift than potential
 /// flow has. A wake ends where it would enter another body.
-std::vector<WakeSources> wakes_of_flow(const Flow& flow);
+std::vector<ElementWake> wakes_of_flow(const Flow& flow);
+
+/// Returns the lines for layers that go on along these wakes, with heights that hold half of the wake and the boundary
+/// layers of the trailing edges. `heights` are those of heights_of_flow().
+std::vector<WakeLine> wake_lines(const Flow& flow, std::span<const ElementWake> wakes,
+                                 std::span<const WallHeight> heights);
 
 }  // namespace lamina::pipeline

@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "flow/boundary_layer.hpp"
 #include "flow/panel_system.hpp"
 #include "pipeline/flow_guidance.hpp"
+#include "surface/spline.hpp"
 
 namespace lamina::pipeline {
 
@@ -30,13 +33,21 @@ constexpr double inner_start = 4, inner_growth = 0.06;
 /// Lift of viscous over that of potential flow, and how far it may be from this. It is 0.86 to 0.9 where the flow is
 /// attached and 0.8 where it separates on a flap, but wakes of little lift hardly bend.
 constexpr double lift_share = 0.8, lift_share_range = 0.05;
+/// Behind the bodies the lift falls to that in so many steps, over this length in chords: a flow with less lift turns
+/// round the trailing edge.
+constexpr int lift_steps = 6;
+constexpr double lift_fall_length = 0.15;
+/// A spline through the points of a streamline is taken for straight between this many points of each piece.
+constexpr int parts_of_a_step = 16;
 
 /// A line with the arc length at each of its points.
 struct MeasuredLine {
     std::vector<Point> points;
     std::vector<double> s;
 
+    /// Adds a point, unless it is the last one again.
     void add(Point p) {
+        if (!points.empty() && p == points.back()) return;
         s.push_back(points.empty() ? 0 : s.back() + distance(points.back(), p));
         points.push_back(p);
     }
@@ -90,54 +101,62 @@ MeasuredLine line_past_bodies(const Flow& flow, Point from) {
     return line;
 }
 
-/// Continues a line that has passed all bodies, in this flow, up to the length of the wakes.
-MeasuredLine continued(MeasuredLine line, const Flow& flow, const StreamlineOptions& options) {
+/// Continues a line that has passed all bodies, up to the length of the wakes. The lift falls to this share.
+MeasuredLine continued(MeasuredLine line, const Flow& flow, double share, const StreamlineOptions& options) {
     const Point stream = flow::free_stream(flow.alpha_deg);
-    if (dot(line.points.back(), stream) > rear_along(flow, stream))
-        append_streamline(flow, wake_length * flow.chord - line.s.back(), options, line);
+    const double all = wake_length * flow.chord, step = lift_fall_length / lift_steps * flow.chord;
+    if (dot(line.points.back(), stream) <= rear_along(flow, stream)) return line;
+    for (int k = 1; k <= lift_steps; ++k) {
+        const Flow weaker = weakened(flow, 1 - (1 - share) * k / lift_steps);
+        const double left = all - line.s.back();
+        append_streamline(weaker, k < lift_steps ? std::min(step, left) : left, options, line);
+    }
     return line;
 }
 
 /// Returns a chain of capsules along the line. Their size and radius are functions of the arc length; the chain ends
 /// where `goes_on` does not hold.
-std::vector<SizeSource> make_chain(const MeasuredLine& line, const std::function<double(double)>& size_at,
+std::vector<WakeSource> make_chain(const MeasuredLine& line, const std::function<double(double)>& size_at,
                                    const std::function<double(double)>& radius_at,
                                    const std::function<bool(double)>& goes_on) {
-    std::vector<SizeSource> chain;
+    std::vector<WakeSource> chain;
     const double end = line.s.back();
     for (double s = 0; s < end && goes_on(s);) {
         const double size = size_at(s);
         double next = s + size;
         while (next < end && next - s < max_segment * size && size_at(next) < size_ratio * size) next += size;
         next = std::min(next, end);
-        chain.push_back({.a = line.at(s), .b = line.at(next), .size = size, .radius = radius_at(s)});
+        chain.push_back({s, {.a = line.at(s), .b = line.at(next), .size = size, .radius = radius_at(s)}});
         s = next;
     }
     return chain;
 }
 
+double wake_width(const ElementFlow& element, double behind) {
+    const FlowPoint &above = element.upper.back(), &below = element.lower.back();
+    return flow::wake_thickness(above.thickness, below.thickness, above.momentum + below.momentum, behind);
+}
+
 }  // namespace
 
-std::vector<WakeSources> wakes_of_flow(const Flow& flow) {
+std::vector<ElementWake> wakes_of_flow(const Flow& flow) {
     constexpr double radius_over_size = triangles_across * (0.5 - outer_share);
-    const Flow expected = weakened(flow, lift_share), least = weakened(flow, lift_share - lift_share_range);
-    std::vector<WakeSources> wakes;
+    std::vector<ElementWake> wakes;
     for (const ElementFlow& element : flow.elements) {
         const FlowPoint &above = element.upper.back(), &below = element.lower.back();
         const double momentum = above.momentum + below.momentum;
         const Point from = midpoint(above.at, below.at);
-        const MeasuredLine begun = line_past_bodies(flow, from), line = continued(begun, expected, rough),
-                           other = continued(begun, least, rougher);
-        const auto width = [&](double s) {
-            return flow::wake_thickness(above.thickness, below.thickness, momentum, s);
-        };
+        const MeasuredLine begun = line_past_bodies(flow, from), line = continued(begun, flow, lift_share, rough),
+                           other = continued(begun, flow, lift_share - lift_share_range, rougher);
+        const auto width = [&](double s) { return wake_width(element, s); };
         const auto bounded = [&](double size) { return std::max(size, smallest_size * flow.chord); };
         const auto size = [&](double s) { return bounded(width(s) / triangles_across); };
         const auto inner_size = [&](double s) {
             return bounded((inner_start * momentum + inner_growth * s) / triangles_across);
         };
-        WakeSources& wake = wakes.emplace_back();
+        ElementWake& wake = wakes.emplace_back();
         wake.wake = {element.name, line.s.back(), width(0), width(line.s.back())};
+        wake.line = line.points;
         wake.outer = make_chain(
             line, size, [&](double s) { return radius_over_size * size(s) + distance(line.at(s), other.at(s)); },
             [](double) { return true; });
@@ -146,6 +165,30 @@ std::vector<WakeSources> wakes_of_flow(const Flow& flow) {
             [&](double s) { return size_ratio * inner_size(s) < size(s); });
     }
     return wakes;
+}
+
+std::vector<WakeLine> wake_lines(const Flow& flow, std::span<const ElementWake> wakes,
+                                 std::span<const WallHeight> heights) {
+    std::vector<WakeLine> lines;
+    for (std::size_t e = 0; e < wakes.size(); ++e) {
+        if (wakes[e].line.size() < 2) continue;
+        // The chain of heights round an element begins and ends at its trailing edge.
+        const auto is_own = [&](const WallHeight& height) { return height.element == e; };
+        const auto above = std::find_if(heights.begin(), heights.end(), is_own);
+        const auto below = std::find_if(heights.rbegin(), heights.rend(), is_own);
+        const surface::SplineCurve curve({wakes[e].line, false});
+        double behind = 0;
+        WakeLine line{e, {{wakes[e].line.front(), above->height, below->height}}};
+        for (std::size_t piece = 0; piece < curve.pieces(); ++piece)
+            for (int k = 1; k <= parts_of_a_step; ++k) {
+                const Point to = curve.at(piece, static_cast<double>(k) / parts_of_a_step);
+                behind += distance(line.points.back().at, to);
+                const double half = 0.5 * room_above * wake_width(flow.elements[e], behind);
+                line.points.push_back({to, std::max(above->height, half), std::max(below->height, half)});
+            }
+        lines.push_back(std::move(line));
+    }
+    return lines;
 }
 
 }  // namespace lamina::pipeline

@@ -233,41 +233,44 @@ void make_room(const CaseOptions& options, RayPlan& plan, StageClock& clock, Mes
     }
 }
 
-/// Puts what the flow decides into the options and the growth of the layer, and returns it.
-FlowDecisions guide_by_flow(const Flow& flow, const ReferenceConditions& conditions, CaseOptions& options,
-                            LayerGrowth& growth) {
+/// Puts what the flow decides into the growth of the layer.
+void guide_growth(const Flow& flow, std::span<const ElementWake> wakes, const LayerOptions& options,
+                  const ReferenceConditions& conditions, LayerGrowth& growth) {
+    if (!options.enabled) return;
+    if (const auto* y_plus = std::get_if<YPlus>(&options.first_height); y_plus && !flow.estimated)
+        growth = layer_growth(options, conditions, first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds));
+    growth.least_heights = heights_of_flow(flow);
+    if (options.wake_layers) growth.wakes = wake_lines(flow, wakes, growth.least_heights);
+}
+
+/// Returns what the flow decided for a mesh on these rays.
+FlowDecisions flow_decisions(const LayerGrowth& growth, std::span<const WallSpacing> spacings, const RayPlan& plan) {
     FlowDecisions decisions;
-    if (options.layer.enabled) {
-        if (const auto* y_plus = std::get_if<YPlus>(&options.layer.first_height); y_plus && !flow.estimated)
-            growth = layer_growth(options.layer, conditions,
-                                  first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds));
-        growth.least_heights = heights_of_flow(flow);
-        if (!growth.layers)
-            for (const WallHeight& least : growth.least_heights)
-                decisions.least_thickness = std::max(decisions.least_thickness, least.height);
+    if (!growth.layers)
+        for (const WallHeight& least : growth.least_heights)
+            decisions.least_thickness = std::max(decisions.least_thickness, least.height);
+    for (std::size_t e = 0; e < plan.wakes.size(); ++e) {
+        if (plan.wakes[e].outer.empty()) continue;
+        decisions.wakes.push_back(plan.wakes[e].wake);
+        decisions.wakes.back().with_layers = plan.rays.wake_lengths[e];
     }
-    if (flow.estimated) return decisions;
-    for (const WakeSources& wake : wakes_of_flow(flow)) {
-        if (wake.outer.empty()) continue;
-        decisions.wakes.push_back(wake.wake);
-        for (const auto* sources : {&wake.outer, &wake.inner})
-            options.sizing.sources.insert(options.sizing.sources.end(), sources->begin(), sources->end());
-    }
+    decisions.spacings = smallest_spacings(spacings, plan.geometry);
     return decisions;
 }
 
-MeshResult run(const Geometry& given, CaseOptions options, StageClock& clock, double geometry_seconds) {
+MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& clock, double geometry_seconds) {
     StageSeconds seconds;
     clock.lap();
 
     const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(given));
     LayerGrowth growth = layer_growth(options.layer, conditions);
     std::optional<Flow> flow;
-    FlowDecisions decisions;
+    std::vector<ElementWake> wakes;
     if (options.use_flow) {
         clock.begin("flow");
         flow = solve_flow(given, options.conditions);
-        decisions = guide_by_flow(*flow, conditions, options, growth);
+        if (!flow->estimated) wakes = wakes_of_flow(*flow);
+        guide_growth(*flow, wakes, options.layer, conditions, growth);
         seconds.flow = clock.lap();
     }
 
@@ -282,14 +285,13 @@ MeshResult run(const Geometry& given, CaseOptions options, StageClock& clock, do
     seconds.geometry = geometry_seconds + clock.lap();
 
     clock.begin("layers");
-    RayPlan plan = plan_rays(std::move(prepared), conditions, options, growth);
+    RayPlan plan = plan_rays(std::move(prepared), conditions, options, growth, std::move(wakes));
     refine_walls_below_borders(given, options, limits, growth, plan);
     MeshResult result = mesh_on_rays(plan, options, clock, seconds, true);
     make_room(options, plan, clock, result);
     if (flow) result.warnings.insert(result.warnings.begin(), flow->warnings.begin(), flow->warnings.end());
     result.flow = std::move(flow);
-    decisions.spacings = smallest_spacings(spacings, result.geometry);
-    result.decisions = std::move(decisions);
+    result.decisions = flow_decisions(growth, spacings, plan);
     result.seconds.total = clock.total();
     return result;
 }

@@ -56,6 +56,16 @@ bool same_points(const Geometry& a, const Geometry& b) {
                       [](const Element& first, const Element& second) { return first.points == second.points; });
 }
 
+/// Returns the sizes that the options, the fronts of these rays and the wakes behind their layers request.
+SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, const Rays& rays,
+                           std::span<const ElementWake> wakes, const Box& domain) {
+    for (std::size_t e = 0; e < wakes.size(); ++e)
+        for (const auto* sources : {&wakes[e].outer, &wakes[e].inner})
+            for (const WakeSource& wake : *sources)
+                if (wake.begins >= rays.wake_lengths[e]) options.sources.push_back(wake.source);
+    return gather_size_requests(options, bodies, fronts(rays), domain);
+}
+
 /// Counts the rays whose limits are lower than they were at first, and finds the one that lost most of its height.
 void count_thinned(RayPlan& plan) {
     plan.thinned_rays = 0;
@@ -73,19 +83,19 @@ void count_thinned(RayPlan& plan) {
 }  // namespace
 
 RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, const CaseOptions& options,
-                  const LayerGrowth& growth) {
+                  const LayerGrowth& growth, std::vector<ElementWake> wakes) {
     FarField far_field = place_far_field(bounding_box(geometry), conditions.chord, options.far_field);
     Rays rays = grow_rays(geometry, options.layer, growth);
-    const auto tips = fronts(rays);
-    if (options.layer.enabled) require_room_for_layers(geometry, tips, far_field, options.layer, growth);
+    if (options.layer.enabled) require_room_for_layers(geometry, fronts(rays), far_field, options.layer, growth);
     SizeRequests requests =
-        gather_size_requests(options.sizing, sized_bodies(geometry, conditions), tips, far_field.box());
+        request_sizes(options.sizing, sized_bodies(geometry, conditions), rays, wakes, far_field.box());
     std::vector<double> limits = rays.limits;
     return {.geometry = std::move(geometry),
             .conditions = conditions,
             .far_field = std::move(far_field),
             .rays = std::move(rays),
             .requests = std::move(requests),
+            .wakes = std::move(wakes),
             .first_limits = std::move(limits)};
 }
 
@@ -100,7 +110,7 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
         limits.walls.insert(limits.walls.end(), finer.begin(), finer.end());
         Geometry prepared = prepare_surfaces(given, options.surface, limits, plan.conditions.chord);
         if (same_points(prepared, plan.geometry)) return;  // the rest are stretches that keep their given points
-        plan = plan_rays(std::move(prepared), plan.conditions, options, growth);
+        plan = plan_rays(std::move(prepared), plan.conditions, options, growth, std::move(plan.wakes));
     }
 }
 
@@ -115,8 +125,8 @@ bool make_room_at_narrow_triangles(const MeshResult& result, const CaseOptions& 
         if (ends[k] == 0) plan.short_edges.push_back({.a = at, .b = at, .size = edge_share * places[k].radius});
     }
     count_thinned(plan);
-    plan.requests = gather_size_requests(options.sizing, sized_bodies(plan.geometry, plan.conditions),
-                                         fronts(plan.rays), plan.far_field.box());
+    plan.requests = request_sizes(options.sizing, sized_bodies(plan.geometry, plan.conditions), plan.rays, plan.wakes,
+                                  plan.far_field.box());
     plan.requests.at_borders.insert(plan.requests.at_borders.end(), plan.short_edges.begin(), plan.short_edges.end());
     return true;
 }

@@ -7,6 +7,8 @@
 
 #include <lamina/pipeline.hpp>
 
+#include "pipeline/flow_guidance.hpp"
+
 namespace lamina::pipeline {
 
 /// The walls, the far field round them, the rays on them, and the sizes that their fronts and the options request.
@@ -16,15 +18,16 @@ struct RayPlan {
     FarField far_field;
     Rays rays;
     SizeRequests requests;
+    std::vector<ElementWake> wakes{};       ///< of the flow, one per element or none
     std::vector<double> first_limits{};     ///< of the rays, before any was shortened
     std::size_t thinned_rays = 0;           ///< MeshResult::thinned_rays
     Point thinned_at{};                     ///< MeshResult::thinned_at
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
 };
 
-/// Makes rays on prepared walls. Throws OptionError where their layers do not fit into the far field.
+/// Makes rays on prepared walls. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError where their layers do not fit into the far field.
 RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, const CaseOptions& options,
-                  const LayerGrowth& growth);
+                  const LayerGrowth& growth, std::vector<ElementWake> wakes = {});
 
 /// Prepares the walls anew, from the given geometry, with a finer spacing where the layer's border would be divided,
 /// and makes rays on them. Rows of cells would end in fans below division points (docs/decisions/0017).

@@ -42,7 +42,7 @@ Outline noisy(Outline outline, double noise) {
 }
 
 std::vector<RayLine> rays_of(const Outline& outline, const LayerOptions& options) {
-    return layers::make_rays(outline, false, options, test::growth_of(options));
+    return layers::make_rays(layers::outline_with_wake(outline), false, options, test::growth_of(options));
 }
 
 TEST(Rays, AreBisectorsWhereTheWallIsConvexOrTurnsGently) {
@@ -196,7 +196,8 @@ TEST(Rays, LeaveBluntCornersOfSmoothOutlinesInFans) {
     const Outline hexagon = shapes::refined(shapes::polygon({{0, 0}, {2, -0.5}, {4, 0}, {4, 2}, {2, 2.5}, {0, 2}}), 20);
     const LayerOptions options = layers_as_high_as(0.05);
     const auto origins = [&](bool smooth) {
-        const std::vector<RayLine> rays = layers::make_rays(hexagon, smooth, options, test::growth_of(options));
+        const std::vector<RayLine> rays =
+            layers::make_rays(layers::outline_with_wake(hexagon), smooth, options, test::growth_of(options));
         std::set<std::pair<double, double>> points;
         for (const RayLine& ray : rays) points.emplace(ray.origin.x, ray.origin.y);
         return points.size();
@@ -237,8 +238,12 @@ TEST(Rays, AreShortenedInCirclesAndLeadOverToThoseBeside) {
     for (const Ray& ray : layer.rays[0]) {
         cut += ray.layers < ray.requested;
         const Point origin = layer.points[ray.origin.index()], tip = layer.points[ray.tip().index()];
-        if (distance(origin, {1, 0}) < 0.05) EXPECT_LT(distance(origin, tip), 0.15);
-        if (origin.x < 0.5) EXPECT_EQ(ray.layers, ray.requested);
+        if (distance(origin, {1, 0}) < 0.05) {
+            EXPECT_LT(distance(origin, tip), 0.15);
+        }
+        if (origin.x < 0.5) {
+            EXPECT_EQ(ray.layers, ray.requested);
+        }
     }
     EXPECT_GT(cut, shortened);
 }
