@@ -378,8 +378,8 @@ struct Layer {
     /// rays have no layers, the border runs through wall vertices, and along wall edges between two of them. If such an
     /// edge is divided, its division points belong to the wall, too (without rays).
     std::vector<std::vector<VertexId>> borders;
-    /// One number per point: 0 on the wall and on the line of a wake, n at the top of layer n. Division points have that of the lower end of the
-    /// edge that they divide.
+    /// One number per point: 0 on the wall and on the line of a wake, n at the top of layer n. Division points have that
+    /// of the lower end of the edge that they divide.
     std::vector<std::uint16_t> layer_of_point;
     std::vector<ElementCoverage> coverage;  ///< one per element; empty if the layer is disabled
     LayerGrowth growth;                     ///< the growth that was requested

@@ -41,8 +41,8 @@ std::vector<double> heights_up_to(double front, double opening, double max_spaci
     return heights;
 }
 
-/// Returns columns that end where their ray reaches isotropy, or, where there are any, at the least heights. Whole layers would make the
-/// front a staircase, so columns are stretched to end at its height.
+/// Returns columns that end where their ray reaches isotropy, or, where there are any, at the least heights. Whole
+/// layers would make the front a staircase, so columns are stretched to end at its height.
 LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const std::vector<double>& unstretched,
                                     bool at_least) {
     const std::vector<double> least = at_least ? least_heights(set) : std::vector<double>();

@@ -42,6 +42,9 @@ std::vector<std::size_t> shorten_rays(std::span<const Circle> places, Rays& rays
     for (const std::size_t i : shortened)
         rays.limits[i] = std::min(rays.limits[i], kept_share * rays.fitted.of(i)[rays.counts[i]]);
     smooth_limits(rays.set, rays.heights, rays.limits);
+    // A wake without layers on either side would be no part of the layer.
+    for (std::size_t i = 0; i < rays.limits.size(); ++i)
+        if (rays.set.lines[i].place == RayPlace::wake) rays.limits[i] = std::max(rays.limits[i], rays.fitted.of(i)[1]);
     fit_and_count_layers(rays);
     return ends;
 }

@@ -25,7 +25,8 @@ struct RayPlan {
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
 };
 
-/// Makes rays on prepared walls. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError where their layers do not fit into the far field.
+/// Makes rays on prepared walls. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError
+/// where layers do not fit into the far field.
 RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, const CaseOptions& options,
                   const LayerGrowth& growth, std::vector<ElementWake> wakes = {});
 
