@@ -229,7 +229,7 @@ Configuration make_configuration(std::uint64_t seed, std::uint64_t number) {
         c.description += fmt::format(", flow at {:.3g} degrees, Reynolds number {:.3g}", c.options.conditions.alpha_deg,
                                      *c.options.conditions.reynolds);
         if (layer.growth_law == GrowthLaw::geometric && layer.growth >= 1.1) c.options.layer.layers.reset();
-        c.options.layer.wake_layers = random.chance(0.7);
+        c.options.layer.wake_layers = random.chance(0.7) && !layer.layers;
         if (layer.wake_layers) c.description += ", wake layers";
     }
     return c;

@@ -149,7 +149,7 @@ LAMINA_EXPORT double layer_height(const LayerGrowth& growth, std::uint32_t n);
 /// decides: for layers up to isotropy and for the adaptive law.
 LAMINA_EXPORT std::optional<double> requested_height(const LayerGrowth& growth);
 
-/// Where a ray stands.
+/// The place where a ray stands.
 enum class RayPlace : std::uint8_t {
     wall,      ///< on a wall
     wake,      ///< on a wake behind a trailing edge

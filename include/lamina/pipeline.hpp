@@ -132,7 +132,7 @@ struct FlowSpacing {
     Point at{};           ///< where
 };
 
-/// What the flow before the mesh decided, beside first heights.
+/// The decisions that the flow before the mesh made, beside first heights.
 struct FlowDecisions {
     /// The largest of the heights that layers reach at least, in units of the input; 0 where the flow decides on none.
     double least_thickness = 0;

@@ -107,7 +107,7 @@ private:
         Index t, n;
         Tri old_t, old_n;
     };
-    /// What is known of a vertex where all vertices move together.
+    /// The facts about one vertex where all vertices move together.
     enum class State : unsigned char {
         fixed,
         moved,
@@ -442,7 +442,7 @@ private:
     Tris& tris_;
     Index first_movable_;
     Rules rules_;
-    // Of each vertex, where all move together:
+    // These hold the facts about each vertex, where all move together:
     std::vector<Index> triangle_of_;  ///< one of its triangles
     std::vector<unsigned> degrees_;   ///< the number of its triangles
     std::vector<State> states_;

@@ -78,10 +78,11 @@ OptionTable<LayerOptions> make_table() {
                                         {"layered", LayerTopology::layered},
                                         {"quads", LayerTopology::quads}},
                  at(&LayerOptions::topology));
-    table.choice("wake-layers",
-                 "whether layers up to isotropy go on behind trailing edges, along the wakes that the flow finds; "
-                 "needs use-flow",
-                 Choices<bool>{{"no", false}, {"yes", true}}, at(&LayerOptions::wake_layers));
+    table.choice(
+        "wake-layers",
+        "whether layers up to isotropy go on behind trailing edges, along the wakes that the flow finds; needs "
+        "use-flow and layers auto; behind blunt bases cell-centred solvers may diverge on it",
+        Choices<bool>{{"no", false}, {"yes", true}}, at(&LayerOptions::wake_layers));
     return table.take();
 }
 

@@ -334,6 +334,17 @@ TEST(FlowGuidance, MeshesAreValidAndTheSameOnAnyNumberOfThreads) {
     }
 }
 
+TEST(FlowGuidance, WakeLayersNeedTheFlowAndLayersUpToIsotropy) {
+    CaseOptions options = guided_options(3e6, 4);
+    options.layer.wake_layers = true;
+    EXPECT_NO_THROW(validate(options));
+    CaseOptions without_flow = options, fixed = options;
+    without_flow.use_flow = false;
+    EXPECT_THROW(validate(without_flow), OptionError);
+    fixed.layer.layers = 30;
+    EXPECT_THROW(validate(fixed), OptionError);
+}
+
 TEST(FlowGuidance, NeedsAReynoldsNumber) {
     CaseOptions options;
     options.use_flow = true;
