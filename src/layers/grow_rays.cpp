@@ -48,6 +48,20 @@ void require_sensible_scale(const Box& box, const LayerGrowth& growth, const Lay
                                       thickness, thickness / extent));
 }
 
+/// Returns the height of all layers at each vertex of an outline: the largest of its rays.
+std::vector<double> front_heights(std::span<const RayVertex> outline, std::span<const RayLine> rays,
+                                  const LayerGrowth& growth) {
+    const RaySet set{{rays.begin(), rays.end()}, {0, rays.size()}};
+    const LayerHeights heights = make_heights(set, growth);
+    std::vector<double> result(outline.size(), 0.0);
+    std::size_t vertex = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (vertex + 1 < outline.size() && rays[i].origin == outline[vertex + 1].at) ++vertex;
+        if (rays[i].origin == outline[vertex].at) result[vertex] = std::max(result[vertex], heights.full_height(i));
+    }
+    return result;
+}
+
 RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options,
                const LayerGrowth& growth) {
     RaySet set;
@@ -58,7 +72,9 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         std::vector<RayVertex> outline = outline_with_wake(element.points, wake == wakes.end() ? nullptr : &*wake);
         const LayerGrowth own = growth_on_element(growth, e);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
-        const std::vector<RayLine> rays = make_rays(outline, element.smooth, options, own);
+        std::vector<RayLine> rays = make_rays(outline, element.smooth, options, own);
+        if (element.smooth && !own.least_heights.empty())
+            rays = make_rays(outline, element.smooth, options, own, front_heights(outline, rays, own));
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }

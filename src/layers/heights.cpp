@@ -12,6 +12,7 @@
 #include "layers/growth_laws.hpp"
 #include "layers/isotropy.hpp"
 #include "layers/least_heights.hpp"
+#include "layers/narrow_columns.hpp"
 #include "layers/neighbours.hpp"
 
 namespace lamina::layers {
@@ -49,23 +50,36 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
     const std::vector<double> front = heights_of_isotropy(set, unstretched, least);
     const std::vector<double> max_spacings =
         least.empty() ? std::vector<double>(front.size(), HUGE_VAL) : largest_spacings(set, front);
-    const auto heights_on = [&](std::size_t i) {
-        return heights_up_to(front[i], set.lines[i].opening, max_spacings[i], unstretched);
+    constexpr double extra = 2;  // times the front: more layers than are kept there on narrow columns
+    const auto heights_on = [&](std::size_t i, double fronts) {
+        return heights_up_to(fronts * front[i], set.lines[i].opening, max_spacings[i], unstretched);
     };
     std::vector<std::uint32_t> layers;
     layers.reserve(front.size());
     for (std::size_t i = 0; i < front.size(); ++i)
-        layers.push_back(set.lines[i].place == RayPlace::wake_end ? 0 : layers_up_to(front[i], heights_on(i)).layers);
+        layers.push_back(set.lines[i].place == RayPlace::wake_end ? 0
+                                                                  : layers_up_to(front[i], heights_on(i, 1)).layers);
     if (std::any_of(layers.begin(), layers.end(), [](auto n) { return n >= max_automatic_layers; }))
         throw OptionError("layers", fmt::format("more than {} layers up to isotropy: give a larger growth, a thickness "
                                                 "or their number",
                                                 max_automatic_layers));
     limit_count_differences(set, layers);
+    if (at_least) {
+        std::vector<ColumnEnd> ends;
+        ends.reserve(front.size());
+        for (std::size_t i = 0; i < front.size(); ++i) {
+            const std::vector<double> heights = heights_on(i, extra);
+            const double last = layers[i] > 0 ? heights[layers[i]] - heights[layers[i] - 1] : 0.0;
+            ends.push_back({front[i], last, layer_count(heights)});
+        }
+        keep_counts_on_narrow_columns(set, ends, layers);
+        limit_count_differences(set, layers);
+    }
     std::vector<double> table;
     std::vector<HeightColumn> columns;
     columns.reserve(layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const std::vector<double> heights = heights_on(i);
+        const std::vector<double> heights = heights_on(i, extra);
         const double stretch = stretch_of_layers(front[i], heights, layers[i]);
         columns.push_back({table.size(), layers[i], ray_growth, stretch, 1, max_spacings[i], set.lines[i].opening});
         table.insert(table.end(), heights.begin(), heights.begin() + layers[i] + 1);

@@ -29,7 +29,7 @@ constexpr double max_spread = 2;
 /// Where columns go on beyond isotropy, cells are at most this many times as high as wide, unless the column is so
 /// narrow that it would get many more layers than the second number.
 constexpr double max_tallness = 2;
-constexpr double max_layers_beyond_isotropy = 12;
+constexpr double max_layers_beyond_isotropy = 20;
 /// Largest rise of the front per unit of distance along it.
 constexpr double max_front_slope = 0.25;
 /// Slope with which the front falls from a fan on both sides.

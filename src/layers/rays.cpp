@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "layers/fan_spreading.hpp"
 #include "layers/intermediate_rays.hpp"
 #include "layers/normal_smoothing.hpp"
 
@@ -14,6 +15,9 @@ namespace {
 
 /// Slack on the number of parts of an angle, so that an angle of exactly the limit is not divided.
 constexpr double part_slack = 1e-9;
+
+/// Fans of less than twice this angle, in radians, have given all their angle to the columns beside them.
+constexpr double least_half_fan = 1e-9;
 
 /// Returns into how many equal parts an angle must be divided for none to exceed the limit; at least 1.
 std::size_t angle_parts(double angle, double limit) {
@@ -58,6 +62,7 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     add(first_direction(vertex));
     if (!vertex.fan) return;
     const double half = 0.5 * (vertex.turning + vertex.tilt[1] - vertex.tilt[0]);
+    if (half < least_half_fan) return;
     const double middle = 0.5 * (vertex.tilt[0] + vertex.tilt[1]);
     const std::size_t parts = angle_parts(2 * half, max_angle);
     for (std::size_t k = 1; k < parts; ++k) {
@@ -77,12 +82,13 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 }  // namespace
 
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, const LayerOptions& options,
-                               const LayerGrowth& growth) {
+                               const LayerGrowth& growth, std::span<const double> heights) {
     const double min_fan_turning_deg =
         smooth ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
     smooth_normals(outline, growth, vertices);
     const double max_angle = core::radians(options.max_ray_angle_deg);
+    if (!heights.empty()) spread_fans(outline, heights, max_angle, vertices);
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());
     for (std::size_t i = 0; i < outline.size(); ++i) {

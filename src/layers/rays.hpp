@@ -15,8 +15,9 @@ namespace lamina::layers {
 /// at most options.max_ray_angle_deg. The vertices of the outline are origins exactly; the rays of a fan have one
 /// origin. On an outline that is smooth but at its corners (Element::smooth), blunter corners have fans, too: refining
 /// rays would divide the edges beside them into far shorter ones. Vertices of a wake have one ray on either side, and
-/// its edges no refining rays, so that both sides keep the same vertices. Source: thesis 3 and 3.1.
+/// its edges no refining rays, so that both sides keep the same vertices. With heights of the front, one per vertex,
+/// fans are spread (fan_spreading.hpp). Source: thesis 3 and 3.1.
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, const LayerOptions& options,
-                               const LayerGrowth& growth);
+                               const LayerGrowth& growth, std::span<const double> heights = {});
 
 }  // namespace lamina::layers

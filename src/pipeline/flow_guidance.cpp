@@ -16,8 +16,8 @@ constexpr double max_change = 0.05;
 /// No spacing is smaller than this for the flow's sake, in chords of the configuration.
 constexpr double min_spacing = 2e-4;
 /// Spacing at the corners of a base, in first heights; less where the flow passes them faster than the free stream. With
-/// 100 and more, solutions blow up in the cells beside the fan; with 60, y+ is three times too large there.
-constexpr double base_corner_heights = 30;
+/// 100, y+ is a quarter too large there (docs/decisions/0040).
+constexpr double base_corner_heights = 60;
 
 /// Adds the heights along a side, from its stagnation point to its trailing edge.
 void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double most, bool reversed,

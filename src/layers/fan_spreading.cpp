@@ -1,0 +1,145 @@
+// Walls are divided finely at corners, and layers are thick there. Columns of parallel rays would be many times as high
+// as wide at the front, and the front's edges far shorter than those over the fan:
+//
+//      _____                 ___
+//     |||||||`.             ////|`-.
+//     |||||||   \           ////|   `.        front
+//     |||||||    |          ////|`.   \
+//     |||||||____|          |///|__`.__\      fan of a corner, between the columns on the wall and those on the base
+//     wall                  wall
+//
+// So a part of the fan's angle is given to the columns beside it. What is given widens the narrowest columns first,
+// up to one width, as water fills a hollow up to one level (docs/decisions/0040).
+#include "layers/fan_spreading.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/angles.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// Fans of up to this angle, such as those at the corners of bases, give all of it: half to either side. What is left is
+/// the bisector alone, as in a structured grid, and no cells as narrow as a first layer is high. Wider fans, at sharp
+/// trailing edges, give the second angle to either side, since cells at the wall are as skewed as rays lean.
+constexpr double max_fan_given_deg = 120, given_by_wide_fans_deg = 30;
+/// A stretch of columns ends where the wall turns inwards by more than this.
+constexpr double concave_corner_deg = 20;
+/// Columns widen up to this share of the distance of the fan's rays at the height of the front.
+constexpr double level_share = 0.9;
+
+/// A column beside a fan.
+struct FanColumn {
+    double width;   ///< at the front, before anything is given to it
+    double height;  ///< of the front
+    double share;   ///< of what it lacks that this side gives: half of it in the middle between two fans
+};
+
+/// A walk along the outline, from a fan away.
+struct FanSide {
+    std::span<const RayVertex> outline;
+    std::span<const double> heights;       ///< of the front, one per vertex
+    std::span<const WallVertex> vertices;  ///< as they are before any fan is spread
+    std::size_t fan;                       ///< index of its vertex
+    bool ahead;                            ///< whether it follows the outline's direction
+
+    std::size_t size() const { return outline.size(); }
+    /// Returns the vertex after so many steps.
+    std::size_t at(std::size_t steps) const { return (ahead ? fan + steps : fan + size() - steps) % size(); }
+    /// Returns the number of steps to the next corner; all the way round, it is this one.
+    std::size_t steps_to_corner() const {
+        for (std::size_t k = 1; k < size(); ++k)
+            if (vertices[at(k)].fan || vertices[at(k)].turning < -core::radians(concave_corner_deg)) return k;
+        return size();
+    }
+};
+
+/// Returns the columns up to the middle between the fan and the next corner.
+std::vector<FanColumn> columns_beside(const FanSide& side) {
+    const std::size_t steps = side.steps_to_corner();
+    double length = 0;
+    for (std::size_t k = 0; k < steps; ++k)
+        length += distance(side.outline[side.at(k)].at, side.outline[side.at(k + 1)].at);
+    std::vector<FanColumn> columns;
+    double passed = 0;
+    for (std::size_t k = 0; k < steps; ++k) {
+        const std::size_t i = side.at(side.ahead ? k : k + 1), j = side.at(side.ahead ? k + 1 : k);
+        const WallVertex &a = side.vertices[i], &b = side.vertices[j];
+        const double edge = distance(side.outline[i].at, side.outline[j].at);
+        if (passed >= 0.5 * length) break;
+        passed += edge;
+        const double turning = (a.fan ? 0 : 0.5 * a.turning) + (b.fan ? 0 : 0.5 * b.turning) + b.tilt[0] - a.tilt[1];
+        const double height = std::max(side.heights[i], side.heights[j]);
+        columns.push_back({edge + height * turning, height, passed > 0.5 * length ? 0.5 : 1.0});
+    }
+    return columns;
+}
+
+/// Returns the angles that the columns must open by to be as wide as the level, up to the first that is. None is larger
+/// than the angle at which more rays would be needed.
+std::vector<double> openings_to(double level, double max_opening, std::span<const FanColumn> columns) {
+    std::vector<double> openings;
+    for (const FanColumn& column : columns) {
+        if (!(column.height > 0 && column.width < level)) break;
+        openings.push_back(column.share * std::min((level - column.width) / column.height, max_opening));
+    }
+    return openings;
+}
+
+double sum(std::span<const double> values) {
+    double total = 0;
+    for (const double value : values) total += value;
+    return total;
+}
+
+/// Returns the angles that a fan gives to its columns, `given` radians together at most.
+std::vector<double> openings(std::span<const FanColumn> columns, double max_level, double max_opening, double given) {
+    std::vector<double> all = openings_to(max_level, max_opening, columns);
+    if (sum(all) <= given) return all;
+    double low = 0, high = max_level;
+    for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (sum(openings_to(middle, max_opening, columns)) <= given ? low : high) = middle;
+    }
+    return openings_to(low, max_opening, columns);
+}
+
+/// Gives a part of a fan's angle to one side.
+void spread(const FanSide& side, double max_ray_angle, std::vector<WallVertex>& vertices) {
+    const std::vector<FanColumn> columns = columns_beside(side);
+    if (columns.empty()) return;
+    const WallVertex& fan = side.vertices[side.fan];
+    const double angle = fan.turning + fan.tilt[1] - fan.tilt[0];
+    const double given =
+        angle <= core::radians(max_fan_given_deg) ? 0.5 * angle : core::radians(given_by_wide_fans_deg);
+    const double max_opening = level_share * max_ray_angle;
+    const std::vector<double> angles = openings(columns, max_opening * side.heights[side.fan], max_opening, given);
+    double left = sum(angles);
+    for (std::size_t k = 0; k < angles.size(); ++k) {
+        WallVertex& vertex = vertices[side.at(k)];
+        const double tilt = side.ahead ? -left : left;
+        if (vertex.fan) {
+            vertex.tilt[side.ahead ? 1 : 0] += tilt;
+        } else {
+            for (double& entry : vertex.tilt) entry += tilt;
+        }
+        left -= angles[k];
+    }
+}
+
+}  // namespace
+
+void spread_fans(std::span<const RayVertex> outline, std::span<const double> heights, double max_ray_angle,
+                 std::vector<WallVertex>& vertices) {
+    if (std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; }))
+        return;
+    const std::vector<WallVertex> before = vertices;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        if (before[i].fan)
+            for (const bool ahead : {false, true})
+                spread({outline, heights, before, i, ahead}, max_ray_angle, vertices);
+}
+
+}  // namespace lamina::layers

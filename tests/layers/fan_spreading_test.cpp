@@ -1,0 +1,144 @@
+// Rays beside fans lean towards them so that columns widen with the height, and numbers of layers stay the same across
+// narrow columns.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+#include "core/angles.hpp"
+#include "layers/narrow_columns.hpp"
+#include "layers/rays.hpp"
+#include "support/layers.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+using shapes::Outline;
+
+constexpr double front_height = 0.05;
+
+/// Returns a section whose edges at the trailing edge are 1 / 10,000 chords long.
+Outline finely_divided_section(double base) {
+    Outline outline = shapes::section(0.12, base, 160);
+    if (base == 0) return outline;
+    const Point lower = outline.back(), upper = outline.front();
+    const int parts = static_cast<int>(std::ceil(base / 1e-4));
+    for (int k = 1; k < parts; ++k) outline.push_back(lower + (double(k) / parts) * (upper - lower));
+    return outline;
+}
+
+std::vector<RayLine> spread_rays(const Outline& outline, bool spread) {
+    const LayerOptions options;
+    const std::vector<double> heights(spread ? outline.size() : 0, front_height);
+    return layers::make_rays(layers::outline_with_wake(outline), true, options, test::growth_of(options), heights);
+}
+
+/// Returns the shortest edge of the front within 0.03 chords of the trailing edge.
+double shortest_front_edge(const std::vector<RayLine>& rays) {
+    double shortest = HUGE_VAL;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const RayLine &a = rays[i], &b = rays[(i + 1) % rays.size()];
+        if (a.origin.x < 0.97 || b.origin.x < 0.97) continue;
+        shortest =
+            std::min(shortest, distance(a.origin + front_height * a.direction, b.origin + front_height * b.direction));
+    }
+    return shortest;
+}
+
+TEST(FanSpreading, LengthensTheShortestEdgesOfTheFront) {
+    for (const double base : {0.0, 0.0005, 0.003, 0.02}) {
+        SCOPED_TRACE(base);
+        const Outline outline = finely_divided_section(base);
+        const double before = shortest_front_edge(spread_rays(outline, false)),
+                     after = shortest_front_edge(spread_rays(outline, true));
+        EXPECT_LT(before, 2e-4);
+        // A wide base has more columns than its fans can widen.
+        EXPECT_GT(after, (base > 0.01 ? 2 : 4) * before);
+    }
+}
+
+TEST(FanSpreading, KeepsOriginsAndTheOrderOfDirections) {
+    const LayerOptions options;
+    for (const double base : {0.0, 0.0005, 0.003, 0.02}) {
+        SCOPED_TRACE(base);
+        const Outline outline = finely_divided_section(base);
+        const std::vector<RayLine> rays = spread_rays(outline, true);
+        std::size_t vertex = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const RayLine &ray = rays[i], &next = rays[(i + 1) % rays.size()];
+            vertex += vertex + 1 < outline.size() && ray.origin == outline[vertex + 1];
+            // The nose, which is coarse, has refining rays.
+            if (ray.origin.x > 0.5) {
+                EXPECT_EQ(ray.origin, outline[vertex]) << "no ray is added, and none is left out";
+            }
+            const double turning = core::degrees(core::angle_between(ray.direction, next.direction));
+            EXPECT_GT(turning, -0.05) << ray.origin.x << " " << ray.origin.y;
+            EXPECT_LT(turning, options.max_ray_angle_deg + 1e-9) << ray.origin.x << " " << ray.origin.y;
+            if (ray.origin != next.origin) {
+                const Point normal = -perpendicular(unit(next.origin - ray.origin));
+                EXPECT_LT(std::abs(core::degrees(core::angle_between(normal, ray.direction))), 52) << ray.origin.x;
+            }
+        }
+        EXPECT_EQ(vertex + 1, outline.size());
+    }
+}
+
+TEST(FanSpreading, MirroredOutlinesHaveMirroredRays) {
+    const Outline outline = finely_divided_section(0.003);
+    Outline mirrored;
+    for (const Point p : outline) mirrored.insert(mirrored.begin(), {p.x, -p.y});
+    const std::vector<RayLine> rays = spread_rays(outline, true);
+    std::vector<RayLine> others = spread_rays(mirrored, true);
+    std::reverse(others.begin(), others.end());
+    ASSERT_EQ(rays.size(), others.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        EXPECT_EQ(rays[i].origin.x, others[i].origin.x);
+        EXPECT_NEAR(rays[i].direction.x, others[i].direction.x, 1e-12);
+        EXPECT_NEAR(rays[i].direction.y, -others[i].direction.y, 1e-12);
+    }
+}
+
+/// Returns parallel rays so far apart, which close a ring.
+RaySet parallel_rays(std::size_t count, double apart) {
+    RaySet set;
+    for (std::size_t i = 0; i < count; ++i) set.lines.push_back({{apart * double(i), 0}, {0, 1}});
+    set.begin.push_back(count);
+    return set;
+}
+
+std::vector<std::uint32_t> kept_counts(std::vector<std::uint32_t> counts, double apart) {
+    const std::vector<layers::ColumnEnd> ends(counts.size(), {1.0, 0.1, 100});
+    layers::keep_counts_on_narrow_columns(parallel_rays(counts.size(), apart), ends, counts);
+    return counts;
+}
+
+TEST(NarrowColumns, KeepTheirNumberOfLayers) {
+    const std::vector<std::uint32_t> wanted{40, 41, 40, 41, 42, 41, 42, 43, 42, 41, 40, 39};
+    EXPECT_EQ(kept_counts(wanted, 0.2), wanted) << "wide columns stay as they are";
+    const std::vector<std::uint32_t> kept = kept_counts(wanted, 0.01);
+    std::size_t changes_before = 0, changes = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        EXPECT_LE(std::max(kept[i], wanted[i]) - std::min(kept[i], wanted[i]), 2u);
+        if (i == 0) continue;
+        changes_before += wanted[i] != wanted[i - 1];
+        changes += kept[i] != kept[i - 1];
+    }
+    EXPECT_GE(changes_before, 3 * changes);
+    std::vector<std::uint32_t> reversed(wanted.rbegin(), wanted.rend());
+    reversed = kept_counts(reversed, 0.01);
+    EXPECT_TRUE(std::equal(kept.begin(), kept.end(), reversed.rbegin())) << "both directions count alike";
+}
+
+TEST(NarrowColumns, HaveNoMoreLayersThanThereAreHeights) {
+    std::vector<std::uint32_t> counts{42, 40, 40, 42};
+    const std::vector<layers::ColumnEnd> ends{{1, 0.1, 42}, {1, 0.1, 41}, {1, 0.1, 40}, {1, 0.1, 42}};
+    layers::keep_counts_on_narrow_columns(parallel_rays(4, 0.01), ends, counts);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_LE(counts[i], ends[i].max_layers);
+}
+
+}  // namespace
+}  // namespace lamina
