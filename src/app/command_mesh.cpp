@@ -5,9 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -21,8 +19,8 @@
 #include "app/case_file.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
+#include "app/mesh_command_options.hpp"
 #include "app/options.hpp"
-#include "app/presets.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
@@ -34,64 +32,8 @@ namespace lamina::app {
 
 namespace {
 
-/// The options of the table, each with the option of CLI11 that reads it from the command line.
-using GivenOptions = std::vector<std::pair<const Option<MeshCase>*, CLI::Option*>>;
-
-CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
-    const std::string help = help_text(option);
-    if (option.kind == OptionKind::flag) return command.add_flag(command_line_name(option), help)->group(option.group);
-
-    // The option is set only once the case file is read, so nothing is done with its value here.
-    CLI::Option* given = command.add_option(
-        command_line_name(option), [](const CLI::results_t&) { return true; }, help);
-    given->group(option.group)->type_name(option.metavar);
-    if (option.kind == OptionKind::words) return given->delimiter(',')->expected(1, -1)->allow_extra_args(false);
-    if (option.kind == OptionKind::repeated)
-        return given->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    if (option.kind != OptionKind::paths) return given->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-    return given->expected(1, -1)->allow_extra_args(given->get_positional());
-}
-
-/// Returns the preset that the command line names.
-std::optional<std::string> preset_of_command_line(const GivenOptions& options) {
-    for (const auto& [option, given] : options)
-        if (option->name == preset_option && given->count() > 0) return given->results().back();
-    return {};
-}
-
-/// Returns whether the command line says the Reynolds number.
-bool has_reynolds(const GivenOptions& options) {
-    return std::any_of(options.begin(), options.end(), [](const auto& entry) {
-        const auto& [option, given] = entry;
-        return given->count() > 0 && std::find(std::begin(reynolds_options), std::end(reynolds_options),
-                                               option->name) != std::end(reynolds_options);
-    });
-}
-
-/// Returns the case that the command line describes. Its options override those of the case file.
-MeshCase case_of_command_line(const GivenOptions& options) {
-    MeshCase mesh_case;
-    for (const auto& [option, given] : options) {
-        if (given->get_positional()) {
-            mesh_case = case_of_inputs(given->results(), preset_of_command_line(options), has_reynolds(options));
-        } else if (given->count() > 0) {
-            const std::string origin = "option --" + option->name;
-            assign(*option, mesh_case, value_of_text(option->kind, given->results(), origin), origin);
-        }
-    }
-    return mesh_case;
-}
-
 WriteOptions write_options(const MeshCase& mesh_case) {
     return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance};
-}
-
-std::vector<RunFile> files_read(const MeshCase& mesh_case) {
-    std::vector<RunFile> files;
-    for (const std::string& input : mesh_case.inputs) files.push_back({input, "INPUT"});
-    if (!mesh_case.case_file.empty()) files.push_back({mesh_case.case_file, "INPUT"});
-    if (!mesh_case.background.empty()) files.push_back({mesh_case.background, "option --background"});
-    return files;
 }
 
 std::vector<RunFile> files_written(const MeshCase& mesh_case) {
@@ -102,14 +44,6 @@ std::vector<RunFile> files_written(const MeshCase& mesh_case) {
     if (!mesh_case.wall_data.empty()) files.push_back({mesh_case.wall_data, "option --wall-data"});
     if (!mesh_case.report.empty()) files.push_back({mesh_case.report, "option --report"});
     return files;
-}
-
-/// Throws where standard input is asked for what it cannot give.
-void require_inputs(const MeshCase& mesh_case) {
-    if (std::count_if(mesh_case.inputs.begin(), mesh_case.inputs.end(), is_standard_stream) > 1)
-        throw UsageError("INPUT: '-' is given twice, but standard input can be read only once");
-    if (is_standard_stream(mesh_case.background))
-        throw UsageError("option --background: must be a file: standard input holds sections alone");
 }
 
 /// Throws where an output is missing or certainly cannot be written, before the work begins.
@@ -130,10 +64,7 @@ void mesh(const MeshCase& mesh_case) {
     require_outputs(mesh_case);
     const std::vector<RunFile> outputs = files_written(mesh_case);
     const SignalGuard guard(outputs);
-    CaseOptions options = mesh_case.options;
-    if (!mesh_case.background.empty())
-        options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));
-    options.limits = with_default_limits(options.limits);
+    const CaseOptions options = options_with_files(mesh_case);
     ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
     const MeshResult result =
         generate_mesh(mesh_case.inputs, options, [&](const auto& event) { progress.begin(event); });
@@ -155,8 +86,7 @@ void mesh(const MeshCase& mesh_case) {
 
 void add_mesh_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("mesh", "make a mesh round airfoils and write it");
-    auto options = std::make_shared<GivenOptions>();
-    for (const Option<MeshCase>& option : mesh_options()) options->emplace_back(&option, add_option(*command, option));
+    auto options = std::make_shared<const GivenOptions>(add_mesh_options(*command));
     command->footer(format_help());
     auto dump = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
     command->add_flag("--dump-config", *dump, "print the options in force as a case file, and do nothing else")

@@ -1,0 +1,96 @@
+#include "app/mesh_command_options.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/io.hpp>
+
+#include "app/options.hpp"
+#include "app/presets.hpp"
+#include "app/progress.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
+    const std::string help = help_text(option);
+    if (option.kind == OptionKind::flag) return command.add_flag(command_line_name(option), help)->group(option.group);
+
+    // The option is set only once the case file is read, so nothing is done with its value here.
+    CLI::Option* given = command.add_option(
+        command_line_name(option), [](const CLI::results_t&) { return true; }, help);
+    given->group(option.group)->type_name(option.metavar);
+    if (option.kind == OptionKind::words) return given->delimiter(',')->expected(1, -1)->allow_extra_args(false);
+    if (option.kind == OptionKind::repeated)
+        return given->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    if (option.kind != OptionKind::paths) return given->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    return given->expected(1, -1)->allow_extra_args(given->get_positional());
+}
+
+/// Returns the preset that the command line names.
+std::optional<std::string> preset_of_command_line(const GivenOptions& options) {
+    for (const auto& [option, given] : options)
+        if (option->name == preset_option && given->count() > 0) return given->results().back();
+    return {};
+}
+
+/// Returns whether the command line says the Reynolds number.
+bool has_reynolds(const GivenOptions& options) {
+    return std::any_of(options.begin(), options.end(), [](const auto& entry) {
+        const auto& [option, given] = entry;
+        return given->count() > 0 && std::find(std::begin(reynolds_options), std::end(reynolds_options),
+                                               option->name) != std::end(reynolds_options);
+    });
+}
+
+}  // namespace
+
+GivenOptions add_mesh_options(CLI::App& command) {
+    GivenOptions options;
+    for (const Option<MeshCase>& option : mesh_options()) options.emplace_back(&option, add_option(command, option));
+    return options;
+}
+
+MeshCase case_of_command_line(const GivenOptions& options) {
+    MeshCase mesh_case;
+    for (const auto& [option, given] : options) {
+        if (given->get_positional()) {
+            mesh_case = case_of_inputs(given->results(), preset_of_command_line(options), has_reynolds(options));
+        } else if (given->count() > 0) {
+            const std::string origin = "option --" + option->name;
+            assign(*option, mesh_case, value_of_text(option->kind, given->results(), origin), origin);
+        }
+    }
+    return mesh_case;
+}
+
+std::vector<RunFile> files_read(const MeshCase& mesh_case) {
+    std::vector<RunFile> files;
+    for (const std::string& input : mesh_case.inputs) files.push_back({input, "INPUT"});
+    if (!mesh_case.case_file.empty()) files.push_back({mesh_case.case_file, "INPUT"});
+    if (!mesh_case.background.empty()) files.push_back({mesh_case.background, "option --background"});
+    return files;
+}
+
+void require_inputs(const MeshCase& mesh_case) {
+    if (std::count_if(mesh_case.inputs.begin(), mesh_case.inputs.end(), is_standard_stream) > 1)
+        throw UsageError("INPUT: '-' is given twice, but standard input can be read only once");
+    if (is_standard_stream(mesh_case.background))
+        throw UsageError("option --background: must be a file: standard input holds sections alone");
+}
+
+CaseOptions options_with_files(const MeshCase& mesh_case) {
+    CaseOptions options = mesh_case.options;
+    if (!mesh_case.background.empty())
+        options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(mesh_case.background));
+    options.limits = with_default_limits(options.limits);
+    return options;
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,36 @@
+// The options of `lamina mesh` on the command line: every command that makes meshes takes them all.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <lamina/option.hpp>
+#include <lamina/pipeline.hpp>
+
+#include "app/case.hpp"
+#include "app/run_files.hpp"
+
+namespace lamina::app {
+
+/// The options of the table, each with the option of CLI11 that reads it from the command line.
+using GivenOptions = std::vector<std::pair<const Option<MeshCase>*, CLI::Option*>>;
+
+/// Adds every option of `lamina mesh` to a command, INPUT among them.
+GivenOptions add_mesh_options(CLI::App& command);
+
+/// Returns the case that the command line describes. Its options override those of the case file.
+MeshCase case_of_command_line(const GivenOptions& options);
+
+/// Returns the files that the case reads, each with the option that names it.
+std::vector<RunFile> files_read(const MeshCase& mesh_case);
+
+/// Throws UsageError where standard input is asked for what it cannot give.
+void require_inputs(const MeshCase& mesh_case);
+
+/// Returns the options of the case with the background mesh read and the default limits set. Throws the errors of
+/// read_sizes().
+CaseOptions options_with_files(const MeshCase& mesh_case);
+
+}  // namespace lamina::app
