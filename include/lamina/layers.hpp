@@ -115,6 +115,8 @@ struct LayerGrowth {
     /// Lines along which the layers of both sides go on behind a sharp trailing edge or a base, at most one per element
     /// (LayerOptions::wake_layers).
     std::vector<WakeLine> wakes{};
+    /// CaseOptions::fineness: least heights are reached with so many times the usual number of layers.
+    double fineness = 1;
 
     /// Returns the first height on an element.
     double first_height_on(std::size_t element) const {

@@ -57,6 +57,9 @@ struct CaseOptions {
     /// Whether the flow before the mesh decides: first heights given by y+, the least thickness of layers up to
     /// isotropy, and wakes beside those of SizingOptions. Needs a Reynolds number.
     bool use_flow = false;
+    /// Divides the lengths that no option holds: spacings and wakes that the flow decides on, slowest growth along
+    /// walls, numbers of layers up to least heights. One of what refined() changes.
+    double fineness = 1;
     WorkLimits limits{};   ///< generate_mesh() refuses what is beyond them, before the work
     unsigned threads = 0;  ///< number of threads; 0: one per core. Never changes the mesh
 };
@@ -68,6 +71,23 @@ LAMINA_EXPORT const OptionTable<CaseOptions>& case_option_table();
 /// Throws OptionError where an option of any stage is out of range, and where a y+ or the use of the flow lacks its
 /// Reynolds number.
 LAMINA_EXPORT void validate(const CaseOptions& options);
+
+/// Returns the options of a mesh that is similar to that of these options, with all lengths divided by `ratio`; below 1
+/// the mesh is coarser. Members of a family for a study of convergence are made so (docs/decisions/0039).
+///
+/// Edges of walls, sizes, angles between rays, gradations and the changes of the flow from vertex to vertex are divided
+/// by the ratio, and ratios of lengths r become r^(1/ratio). Layers keep their total height and their law: a given
+/// number N becomes n, the whole number next to ratio x N, and heights as a function of the layer's number over N stay
+/// the same. With ratio 2 and geometric growth two new layers lie in one old one: the growth is the root of the old
+/// one, and the first height is the old one / (1 + root). Layers up to isotropy follow the same formulas with N / n = 1
+/// / ratio. Exponential growth keeps its thickness; adaptive growth takes LayerOptions::growth for that of its rays. A
+/// y+ is multiplied as the first height is. The geometry, the smallest angle, the far field and the flow stay.
+/// SurfaceTreatment::automatic becomes resample, since points that were kept would not follow; the members of a family,
+/// that of ratio 1 included, then have the same splines as walls. `conditions` are those of the geometry.
+///
+/// Throws OptionError where points are to be kept, for growth `aflr`, whose ratios are fixed, where the ratio is not
+/// positive, and where the new options are out of range.
+LAMINA_EXPORT CaseOptions refined(const CaseOptions& options, double ratio, const ReferenceConditions& conditions = {});
 
 /// Returns the limits that the layer over the walls sets on their spacing: an argument of prepare_surfaces().
 LAMINA_EXPORT SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth);

@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
             "Exit codes: 0 done; 2 wrong usage; 3 bad input; 4 no valid mesh could be made, or a checked mesh is not "
             "as required; 5 reading or writing failed.");
         add_mesh_command(app);
+        add_family_command(app);
         add_check_command(app);
         add_plot_command(app);
         add_convert_command(app);

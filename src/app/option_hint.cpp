@@ -207,7 +207,7 @@ constexpr OtherWord command_words[] = {
 };
 
 std::span<const OtherWord> words_of_command(const std::string& command) {
-    if (command == "mesh") return mesh_words;
+    if (command == "mesh" || command == "family") return mesh_words;
     if (command == "delaunay") return delaunay_words;
     if (command == "check") return check_words;
     if (command == "plot") return plot_words;

@@ -45,11 +45,11 @@ std::vector<double> heights_up_to(double front, double opening, double max_spaci
 /// Returns columns that end where their ray reaches isotropy, or, where there are any, at the least heights. Whole
 /// layers would make the front a staircase, so columns are stretched to end at its height.
 LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const std::vector<double>& unstretched,
-                                    bool at_least) {
-    const std::vector<double> least = at_least ? least_heights(set) : std::vector<double>();
-    const std::vector<double> front = heights_of_isotropy(set, unstretched, least);
+                                    const LayerGrowth& growth) {
+    const std::vector<double> least = growth.least_heights.empty() ? std::vector<double>() : least_heights(set);
+    const std::vector<double> front = heights_of_isotropy(set, unstretched, least, growth.fineness);
     const std::vector<double> max_spacings =
-        least.empty() ? std::vector<double>(front.size(), HUGE_VAL) : largest_spacings(set, front);
+        least.empty() ? std::vector<double>(front.size(), HUGE_VAL) : largest_spacings(set, front, growth.fineness);
     constexpr double extra = 2;  // times the front: more layers than are kept there on narrow columns
     const auto heights_on = [&](std::size_t i, double fronts) {
         return heights_up_to(fronts * front[i], set.lines[i].opening, max_spacings[i], unstretched);
@@ -64,7 +64,7 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
                                                 "or their number",
                                                 max_automatic_layers));
     limit_count_differences(set, layers);
-    if (at_least) {
+    if (!least.empty()) {
         std::vector<ColumnEnd> ends;
         ends.reserve(front.size());
         for (std::size_t i = 0; i < front.size(); ++i) {
@@ -155,7 +155,7 @@ LayerHeights upright_heights(const RaySet& set, const LayerGrowth& growth) {
     std::vector<double> table =
         law.heights(growth.first_height, ray_growth, growth.layers.value_or(max_automatic_layers));
     if (growth.thickness && !law.fills_thickness) cut_at_thickness(*growth.thickness, table);
-    if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, table, !growth.least_heights.empty());
+    if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, table, growth);
     const HeightColumn all{0, layer_count(table), ray_growth};
     return LayerHeights(std::move(table), std::vector<HeightColumn>(set.lines.size(), all));
 }

@@ -100,13 +100,14 @@ void raise_over_fans(const RaySet& set, const RayDistances& rays, std::vector<do
 }
 
 /// Raises the front to the least heights, and beside them so far that it need not be lowered to be smooth.
-void raise_to(std::span<const double> least, const RaySet& set, const RayDistances& rays, std::vector<double>& front) {
+void raise_to(std::span<const double> least, const RaySet& set, const RayDistances& rays, double fineness,
+              std::vector<double>& front) {
     constexpr double slope = 0.9 * max_front_slope;
     // A thick layer over a narrow base would end in edges far shorter than those over the fans beside it.
     constexpr double most_widths = 60;
     std::vector<double> raised(least.size());  // negative, so that lowering them raises the front
     for (std::size_t i = 0; i < least.size(); ++i)
-        if (!rays.inside_fan(i)) raised[i] = -std::min(least[i], most_widths * rays.to_neighbours(i, 0));
+        if (!rays.inside_fan(i)) raised[i] = -std::min(least[i], fineness * most_widths * rays.to_neighbours(i, 0));
     fill_fans(set, raised);
     lower_to_neighbours(set, raised, [&](std::size_t from, std::size_t to) {
         return raised[from] + slope * rays.between(from, to, -raised[from]);
@@ -173,7 +174,7 @@ double bisect(double low, double high, Below below) {
 }  // namespace
 
 std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
-                                        std::span<const double> least) {
+                                        std::span<const double> least, double fineness) {
     const RayDistances rays(set);
     std::vector<double> front(set.lines.size());  // height of the front on each ray
     const auto opening = [&](std::size_t i) { return set.lines[i].opening; };
@@ -186,7 +187,7 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
     fill_fans(set, front);
     for (int round = 0; round < 2; ++round) take_medians(rays, front);
     raise_over_fans(set, rays, front);
-    if (!least.empty()) raise_to(least, set, rays, front);
+    if (!least.empty()) raise_to(least, set, rays, fineness, front);
     end_wakes();
     lower_to_neighbours(set, front, [&](std::size_t from, std::size_t to) {
         return front[from] + max_front_slope * rays.between(from, to, front[from]);
@@ -198,7 +199,7 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
     return front;
 }
 
-std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front) {
+std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front, double fineness) {
     const RayDistances rays(set);
     std::vector<double> spacings(set.lines.size());
     for (std::size_t i = 0; i < spacings.size(); ++i)
@@ -210,7 +211,7 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
         return spacings[from] * (1 + spacings[from] / std::max(front[from], front[to]));
     });
     for (std::size_t i = 0; i < spacings.size(); ++i)
-        spacings[i] = std::max(spacings[i], front[i] / max_layers_beyond_isotropy);
+        spacings[i] = std::max(spacings[i], front[i] / (fineness * max_layers_beyond_isotropy));
     return spacings;
 }
 

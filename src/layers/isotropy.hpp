@@ -15,13 +15,14 @@ inline constexpr double min_adaptive_ratio = 1.05, max_adaptive_ratio = 1.5;
 /// Returns, for each ray, the height at which the spacing of the layers reaches the distance of the rays there, or the
 /// height of all layers where none does; the height of one layer at least. It varies smoothly along the walls.
 /// heights[n] is the height of layer n; heights[0] = 0. `least` holds one height per ray, or nothing; the heights
-/// returned are no lower, but for the rounding of kinks.
+/// returned are no lower, but for the rounding of kinks and over walls with short edges. `fineness` is that of
+/// LayerGrowth.
 std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
-                                        std::span<const double> least = {});
+                                        std::span<const double> least = {}, double fineness = 1);
 
 /// Returns, for each ray, the largest height of a layer on the way to the front: some widths of a cell. It varies so
 /// slowly that columns beside each other need not differ by more than one layer.
-std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front);
+std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front, double fineness = 1);
 
 /// Returns, for each ray, the ratio of geometric growth with which the last of `layers` spacings equals the distance of
 /// the rays there, from min_adaptive_ratio to max_adaptive_ratio. It varies along the wall so slowly that heights of

@@ -59,7 +59,8 @@ LayerGrowth growth_on_element(const LayerGrowth& growth, std::size_t element) {
                     .first_height = growth.first_height_on(element),
                     .growth = growth.growth,
                     .layers = growth.layers,
-                    .thickness = growth.thickness};
+                    .thickness = growth.thickness,
+                    .fineness = growth.fineness};
     for (const WallHeight& height : growth.least_heights)
         if (height.element == element) own.least_heights.push_back({0, height.at, height.height});
     return own;

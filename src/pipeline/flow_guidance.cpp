@@ -74,7 +74,8 @@ std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& g
                 const FlowPoint &a = (*side)[i - 1], &b = (*side)[i];
                 const double change = std::abs(b.pressure_coefficient - a.pressure_coefficient),
                              allowed = max_change * std::max({a.speed, b.speed, 1.0});
-                const double spacing = std::max(allowed * (b.s - a.s) / change, min_spacing * flow.chord);
+                const double spacing =
+                    std::max(allowed * (b.s - a.s) / change, min_spacing * flow.chord) / growth.fineness;
                 if (spacing < b.s) spacings.push_back({e, a.at, b.at, spacing});
             }
     return spacings;

@@ -23,6 +23,7 @@ std::vector<WallHeight> heights_of_flow(const Flow& flow);
 
 /// Returns spacings of the walls with which the speed of the flow changes little from one vertex to the next: at the
 /// stagnation point, and on both sides of a suction peak. Spacings at the corners of bases follow from the first heights.
+/// All others are divided by LayerGrowth::fineness.
 std::vector<WallSpacing> spacings_of_flow(const Flow& flow, const LayerGrowth& growth);
 
 /// Returns the smallest of these spacings on each resampled element.
@@ -44,8 +45,8 @@ struct ElementWake {
 
 /// Returns the wakes of all elements: along the streamline behind each trailing edge, as fine as the wake is wide there
 /// divided by a number of triangles. Behind all bodies the streamline is that of a flow with less lift than potential
-/// flow has. A wake ends where it would enter another body.
-std::vector<ElementWake> wakes_of_flow(const Flow& flow);
+/// flow has. A wake ends where it would enter another body. Sizes are divided by CaseOptions::fineness.
+std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness = 1);
 
 /// Returns the lines for layers that go on along these wakes, with heights that hold half of the wake and the boundary
 /// layers of the trailing edges. `heights` are those of heights_of_flow().

@@ -139,8 +139,8 @@ double wake_width(const ElementFlow& element, double behind) {
 
 }  // namespace
 
-std::vector<ElementWake> wakes_of_flow(const Flow& flow) {
-    constexpr double radius_over_size = triangles_across * (0.5 - outer_share);
+std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
+    const double across = fineness * triangles_across, radius_over_size = across * (0.5 - outer_share);
     std::vector<ElementWake> wakes;
     for (const ElementFlow& element : flow.elements) {
         const FlowPoint &above = element.upper.back(), &below = element.lower.back();
@@ -149,11 +149,9 @@ std::vector<ElementWake> wakes_of_flow(const Flow& flow) {
         const MeasuredLine begun = line_past_bodies(flow, from), line = continued(begun, flow, lift_share, rough),
                            other = continued(begun, flow, lift_share - lift_share_range, rougher);
         const auto width = [&](double s) { return wake_width(element, s); };
-        const auto bounded = [&](double size) { return std::max(size, smallest_size * flow.chord); };
-        const auto size = [&](double s) { return bounded(width(s) / triangles_across); };
-        const auto inner_size = [&](double s) {
-            return bounded((inner_start * momentum + inner_growth * s) / triangles_across);
-        };
+        const auto bounded = [&](double size) { return std::max(size, smallest_size / fineness * flow.chord); };
+        const auto size = [&](double s) { return bounded(width(s) / across); };
+        const auto inner_size = [&](double s) { return bounded((inner_start * momentum + inner_growth * s) / across); };
         ElementWake& wake = wakes.emplace_back();
         wake.wake = {element.name, line.s.back(), width(0), width(line.s.back())};
         wake.line = line.points;

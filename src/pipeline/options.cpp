@@ -29,6 +29,12 @@ OptionTable<CaseOptions> make_pipeline_rows() {
                  member_at(&CaseOptions::refine, &RefineOptions::min_angle_deg));
     files.flag("base-marker", "the base of a blunt trailing edge is a marker of its own, NAME_base", true,
                member_at(&CaseOptions::assemble, &AssembleOptions::base_marker));
+    outer
+        .number("fineness", "F",
+                "the lengths that the program chooses by itself, such as those that the flow asks for, are divided by "
+                "this",
+                positive_numbers, member_at(&CaseOptions::fineness))
+        .library_only = true;
     run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
               member_at(&CaseOptions::threads));
     run.count("max-triangles", "N",
@@ -123,7 +129,8 @@ SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& grow
     // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division
     // points.
     constexpr double margin = 0.9;
-    limits.gradation = std::max(margin * border_gradation(options.sizing.gradation), min_wall_gradation);
+    limits.gradation =
+        std::max(margin * border_gradation(options.sizing.gradation), min_wall_gradation / options.fineness);
     if (!options.layer.enabled) return limits;
     // The height of automatic and adaptive layers follows from the spacing of the wall, so it sets no limit.
     const auto fan_edge = [&](const LayerGrowth& on_element) {
@@ -156,7 +163,7 @@ BorderOptions border_options(const CaseOptions& options, double chord, std::span
 
 BorderOptions wall_border_options(const CaseOptions& options, double chord, std::span<const SizeSource> sources) {
     BorderOptions border = border_options(options, chord, sources);
-    border.gradation = std::max(border.gradation, min_wall_gradation);
+    border.gradation = std::max(border.gradation, min_wall_gradation / options.fineness);
     return border;
 }
 

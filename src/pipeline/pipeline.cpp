@@ -238,7 +238,9 @@ void guide_growth(const Flow& flow, std::span<const ElementWake> wakes, const La
                   const ReferenceConditions& conditions, LayerGrowth& growth) {
     if (!options.enabled) return;
     if (const auto* y_plus = std::get_if<YPlus>(&options.first_height); y_plus && !flow.estimated)
-        growth = layer_growth(options, conditions, first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds));
+        growth.first_heights =
+            layer_growth(options, conditions, first_heights_of_flow(flow, y_plus->y_plus, *conditions.reynolds))
+                .first_heights;
     growth.least_heights = heights_of_flow(flow);
     if (options.wake_layers) growth.wakes = wake_lines(flow, wakes, growth.least_heights);
 }
@@ -264,12 +266,13 @@ MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& cl
 
     const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(given));
     LayerGrowth growth = layer_growth(options.layer, conditions);
+    growth.fineness = options.fineness;
     std::optional<Flow> flow;
     std::vector<ElementWake> wakes;
     if (options.use_flow) {
         clock.begin("flow");
         flow = solve_flow(given, options.conditions);
-        if (!flow->estimated) wakes = wakes_of_flow(*flow);
+        if (!flow->estimated) wakes = wakes_of_flow(*flow, options.fineness);
         guide_growth(*flow, wakes, options.layer, conditions, growth);
         seconds.flow = clock.lap();
     }

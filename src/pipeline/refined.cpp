@@ -1,0 +1,108 @@
+// Options of similar meshes: all lengths divided by one ratio (docs/decisions/0039).
+#include <lamina/pipeline.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include <lamina/error.hpp>
+#include <lamina/option_builders.hpp>
+
+#include "core/reproducible_math.hpp"
+#include "layers/growth_laws.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+Length divided(Length length, double ratio) { return {length.value / ratio, length.unit}; }
+
+void refine_surface(double ratio, SurfaceOptions& surface) {
+    if (surface.treatment == SurfaceTreatment::keep)
+        throw OptionError("surface", "must be auto or resample: points that are kept make no similar mesh");
+    surface.treatment = SurfaceTreatment::resample;
+    if (surface.points) surface.points = std::max<std::size_t>(3, std::llround(ratio * double(*surface.points)));
+    surface.max_ratio = core::pow_reproducible(surface.max_ratio, 1 / ratio);
+    for (double* length :
+         {&surface.max_turning_deg, &surface.gradation, &surface.max_spacing, &surface.sharp_corner_spacing,
+          &surface.corner_spacing, &surface.gap_spacing, &surface.min_spacing})
+        *length /= ratio;
+    surface.max_turning_deg = std::min(surface.max_turning_deg, 90.0);
+    for (std::optional<double>* length : {&surface.leading_edge_spacing, &surface.trailing_edge_spacing})
+        if (*length) **length /= ratio;
+    surface.tolerance /= ratio * ratio;  // an edge is away from its curve by the square of its length
+}
+
+/// Returns the ratio of successive heights on a ray, with which the law is geometric.
+double geometric_ratio(const LayerOptions& layer, const ReferenceConditions& conditions) {
+    if (layer.growth_law != GrowthLaw::exponential) return layer.growth;
+    return layers::growth_law_entry(layer.growth_law).ray_growth(layer_growth(layer, conditions));
+}
+
+void multiply_first_height(double factor, LayerOptions& layer) {
+    if (auto* height = std::get_if<Length>(&layer.first_height))
+        height->value *= factor;
+    else
+        std::get<YPlus>(layer.first_height).y_plus *= factor;
+}
+
+/// A layer is numbered by n x `step` of the old ones, where n is its new number.
+void refine_layer(double ratio, const ReferenceConditions& conditions, LayerOptions& layer) {
+    if (!layer.enabled) return;
+    if (layer.growth_law == GrowthLaw::aflr)
+        throw OptionError("growth_law", "must not be aflr: its ratios are fixed, so that no other mesh is similar");
+    double step = 1 / ratio;
+    const double growth = geometric_ratio(layer, conditions);
+    if (layer.layers) {
+        const auto layers =
+            std::max<std::int64_t>(layers::growth_law_entry(layer.growth_law).min_layers,
+                                   std::max<std::int64_t>(1, std::llround(ratio * double(*layer.layers))));
+        step = double(*layer.layers) / double(layers);
+        layer.layers = static_cast<std::uint32_t>(layers);
+    }
+    if (layer.growth_law == GrowthLaw::polynomial) {
+        multiply_first_height(core::pow_reproducible(step, layer.growth), layer);
+    } else {
+        const double power = core::pow_reproducible(growth, step);
+        multiply_first_height((power - 1) / (growth - 1), layer);
+        layer.growth = core::pow_reproducible(layer.growth, step);
+    }
+    layer.max_ray_angle_deg = std::min(layer.max_ray_angle_deg / ratio, 90.0);
+}
+
+void refine_sizing(double ratio, SizingOptions& sizing) {
+    sizing.gradation /= ratio;
+    for (std::optional<Length>* size : {&sizing.far_size, &sizing.wall_size})
+        if (*size) *size = divided(**size, ratio);
+    for (SizeSource& source : sizing.sources) source.size /= ratio;
+    if (sizing.wake && sizing.wake->size) sizing.wake->size = divided(*sizing.wake->size, ratio);
+    if (!sizing.background) return;
+    auto background = std::make_shared<SizedMesh>(*sizing.background);
+    for (double& size : background->sizes) size /= ratio;
+    sizing.background = std::move(background);
+}
+
+}  // namespace
+
+}  // namespace lamina::pipeline
+
+namespace lamina {
+
+using namespace pipeline;
+
+CaseOptions refined(const CaseOptions& options, double ratio, const ReferenceConditions& conditions) {
+    require_in_range(positive_numbers, ratio, "ratio");
+    CaseOptions result = options;
+    refine_surface(ratio, result.surface);
+    if (ratio == 1) return result;
+    refine_layer(ratio, conditions, result.layer);
+    refine_sizing(ratio, result.sizing);
+    result.fineness *= ratio;
+    validate(result);
+    return result;
+}
+
+}  // namespace lamina
