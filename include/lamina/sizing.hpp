@@ -65,6 +65,11 @@ struct SizedMesh {
     std::vector<Point> points;        ///< vertices
     std::vector<Triangle> triangles;  ///< indices into points
     std::vector<double> sizes;        ///< one per point, in units of the input, positive
+    /// Where set, the mesh decides on sizes beyond the layers as solution_sizes() means it: sizes grow by this much per
+    /// unit of distance from walls, borders and sources, in place of SizingOptions::gradation, and the wakes that the
+    /// flow before the mesh finds are left to it. Walls, layers and the edges of their borders stay as they are without
+    /// it, but where it asks for shorter edges.
+    std::optional<double> gradation{};
 };
 
 /// Options of a size field.
@@ -157,6 +162,10 @@ LAMINA_EXPORT const OptionTable<SizingOptions>& sizing_option_table();
 
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const SizingOptions& options);
+
+/// Returns the growth of sizes per unit of distance beyond the layers: SizedMesh::gradation of the background mesh, or
+/// SizingOptions::gradation.
+LAMINA_EXPORT double field_gradation(const SizingOptions& options);
 
 /// Returns the growth of the edges of a frozen border per unit of distance that suits a field of this gradation. It is
 /// less than the gradation, since edges are divided into whole numbers of pieces.

@@ -2,14 +2,18 @@
 // and a row in format_table.cpp; everything else reads the table.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/solution.hpp>
 
+#include "io/field_request.hpp"
 #include "io/sizes.hpp"
 
 namespace lamina::io {
@@ -61,6 +65,11 @@ struct VtuVariant {
 };
 void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
+/// Reads the mesh and these fields.
+Solution read_vtu_solution(const std::string& bytes, const std::filesystem::path& file,
+                           std::span<const FieldRequest> fields);
+/// Writes sizes as point data.
+void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out);
 /// Reads the mesh and the array of point data that size_array() names.
 PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path& file);
 
@@ -90,6 +99,16 @@ std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& f
 void check_openfoam_writable(const std::filesystem::path& file);
 void write_openfoam(const Mesh& mesh, const std::filesystem::path& file);
 Mesh read_openfoam(const std::filesystem::path& file);
+/// A mesh, and the number of each of its cells in the files it was read from: triangles, then quads.
+struct NumberedCells {
+    Mesh mesh;
+    std::vector<std::uint32_t> numbers;
+};
+NumberedCells read_numbered_openfoam(const std::filesystem::path& file);
+/// Reads fields of a time folder, or of the latest one in the folder of a case. `mesh`: its case or polyMesh; empty: the
+/// case round the time folder.
+Solution read_openfoam_solution(const std::filesystem::path& folder, std::span<const FieldRequest> fields,
+                                const std::filesystem::path& mesh);
 /// Returns the folder of the mesh: the path itself where it ends in "polyMesh", else the folder of this name in the
 /// case folder that the path names.
 std::filesystem::path poly_mesh_folder(const std::filesystem::path& file);

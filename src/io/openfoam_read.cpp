@@ -17,96 +17,16 @@
 #include <vector>
 
 #include <lamina/error.hpp>
-#include <lamina/files.hpp>
 
+#include "io/foam_words.hpp"
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
-#include "io/number_text.hpp"
 
 namespace lamina::io {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The words of a file in OpenFOAM's syntax. A bracket or a semicolon is a word by itself; comments count as blanks.
-class FoamWords {
-public:
-    explicit FoamWords(const fs::path& file) : file_(file.string()), bytes_(read_file(file)) {}
-
-    /// Reads a word. Returns an empty text at the end.
-    std::string_view next() {
-        skip_blanks();
-        const std::size_t first = at_;
-        if (at_ < bytes_.size() && bytes_[at_] == '"') {
-            at_ = std::min(bytes_.find('"', at_ + 1), bytes_.size() - 1) + 1;
-        } else if (at_ < bytes_.size() && is_bracket(bytes_[at_])) {
-            ++at_;
-        } else {
-            while (at_ < bytes_.size() && !is_blank(bytes_[at_]) && !is_bracket(bytes_[at_])) ++at_;
-        }
-        return std::string_view(bytes_).substr(first, at_ - first);
-    }
-    void expect(std::string_view expected) {
-        if (const std::string_view word = next(); word != expected)
-            fail(fmt::format("'{}' expected, found '{}'", expected, word.substr(0, 30)));
-    }
-    /// Reads a number; `meaning` names it in errors.
-    template <class T>
-    T number(const char* meaning) {
-        const std::string_view word = next();
-        const std::optional<T> value = parse_whole<T>(word);
-        if (!value) fail(fmt::format("{} expected, found '{}'", meaning, word.substr(0, 30)));
-        return *value;
-    }
-    /// Reads "N (" and returns N. Fails where the rest of the file is too short for N entries, so that no damaged count
-    /// asks for memory.
-    std::size_t begin_list(const char* meaning) {
-        const auto n = number<std::size_t>(meaning);
-        if (n > bytes_.size() - at_) fail(fmt::format("{}: {}, but the file is shorter than that", meaning, n));
-        expect("(");
-        return n;
-    }
-    void end_list() {
-        expect(")");
-        if (!next().empty()) fail("something follows the list");
-    }
-    /// Reads "FoamFile { ... }". Fails unless it announces ASCII and this class of contents.
-    void read_header(std::string_view type) {
-        expect("FoamFile");
-        expect("{");
-        for (std::string_view key; (key = next()) != "}";) {
-            const std::string_view value = next();
-            if (key.empty() || value.empty()) fail("the header does not end");
-            if (key == "format" && value != "ascii") fail("only ASCII can be read (foamFormatConvert makes it)");
-            if (key == "class" && value != type) fail(fmt::format("class {} expected", type));
-            expect(";");
-        }
-    }
-    /// Throws InputError with the file and the line.
-    [[noreturn]] void fail(const std::string& reason) const {
-        throw InputError({file_, line_at(bytes_, at_), {}}, reason);
-    }
-
-private:
-    static bool is_bracket(char c) { return c == '(' || c == ')' || c == '{' || c == '}' || c == ';'; }
-    void skip_blanks() {
-        while (at_ < bytes_.size()) {
-            const std::string_view rest = std::string_view(bytes_).substr(at_);
-            if (is_blank(rest.front()))
-                ++at_;
-            else if (rest.starts_with("//"))
-                at_ = std::min(bytes_.find('\n', at_), bytes_.size());
-            else if (rest.starts_with("/*"))
-                at_ = std::min(bytes_.find("*/", at_ + 2), bytes_.size() - 2) + 2;
-            else
-                return;
-        }
-    }
-
-    std::string file_, bytes_;
-    std::size_t at_ = 0;
-};
 
 /// A part of the boundary: the faces [start, start + faces).
 struct FoamPatch {
@@ -124,7 +44,8 @@ class PolyMeshReader {
 public:
     explicit PolyMeshReader(fs::path folder) : folder_(std::move(folder)) {}
 
-    Mesh read() {
+    /// Returns the mesh and, for each of its cells, the number in the files.
+    NumberedCells read() {
         read_points();
         owner_ = read_cells("owner");
         read_patches();
@@ -134,7 +55,7 @@ public:
                              fmt::format("{} internal faces, but the first patch begins elsewhere", internal));
         read_faces();
         gather_cells();
-        return std::move(mesh_);
+        return {std::move(mesh_), std::move(numbers_)};
     }
 
 private:
@@ -272,8 +193,14 @@ private:
         const auto by_number = [](const auto& a, const auto& b) { return a.first < b.first; };
         std::stable_sort(triangles_.begin(), triangles_.end(), by_number);
         std::stable_sort(quads_.begin(), quads_.end(), by_number);
-        for (const auto& [cell, triangle] : triangles_) mesh_.triangles.push_back(triangle);
-        for (const auto& [cell, quad] : quads_) mesh_.quads.push_back(quad);
+        for (const auto& [cell, triangle] : triangles_) {
+            mesh_.triangles.push_back(triangle);
+            numbers_.push_back(cell);
+        }
+        for (const auto& [cell, quad] : quads_) {
+            mesh_.quads.push_back(quad);
+            numbers_.push_back(cell);
+        }
         // Where a face of either plane is internal or missing, the number of cells does not fit.
         const std::size_t cells = owner_.empty() ? 0 : std::size_t{1} + *std::max_element(owner_.begin(), owner_.end());
         if (triangles_.size() + quads_.size() != cells)
@@ -289,10 +216,13 @@ private:
     std::vector<std::pair<std::uint32_t, Triangle>> triangles_;  ///< with the numbers of the cells
     std::vector<std::pair<std::uint32_t, Quad>> quads_;
     Mesh mesh_;
+    std::vector<std::uint32_t> numbers_;  ///< of the cells of the mesh
 };
 
 }  // namespace
 
-Mesh read_openfoam(const fs::path& file) { return PolyMeshReader(poly_mesh_folder(file)).read(); }
+Mesh read_openfoam(const fs::path& file) { return read_numbered_openfoam(file).mesh; }
+
+NumberedCells read_numbered_openfoam(const fs::path& file) { return PolyMeshReader(poly_mesh_folder(file)).read(); }
 
 }  // namespace lamina::io

@@ -32,6 +32,7 @@ namespace {
 /// Returns the triangles, and the quads cut in two, with the points that they use.
 SizedMesh make_sized_mesh(const PointValues& read, const std::filesystem::path& file) {
     SizedMesh result;
+    result.gradation = read.gradation;
     result.triangles = read.mesh.triangles;
     for (const Quad& quad : read.mesh.quads) {
         result.triangles.push_back({{quad.v[0], quad.v[1], quad.v[2]}});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,11 @@ namespace lamina::io {
 struct PointValues {
     Mesh mesh;
     std::vector<double> values;
+    std::optional<double> gradation{};  ///< SizedMesh::gradation
 };
+
+/// The field data of VTU files that hold it.
+inline constexpr const char* gradation_array = "FieldData/lamina_size_gradation";
 
 /// Returns the name of the array that holds the sizes: `size`, or else the only scalar array. Throws InputError where
 /// there is neither.

@@ -208,6 +208,8 @@ const VtkXmlFile::ArrayHeader& VtkXmlFile::header_of(const std::string& name) co
 }
 
 /// Returns the position of the first byte of an array.
+std::size_t VtkXmlFile::components(const std::string& name) const { return header_of(name).components; }
+
 std::size_t VtkXmlFile::start_of(const ArrayHeader& array, const std::string& name) const {
     if (!array.appended) return array.at;
     if (array.at > bytes_.size() - appended_start_) fail(fmt::format("cut short before array '{}'", name));

@@ -6,9 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include <lamina/error.hpp>
 
 #include "io/formats.hpp"
 #include "io/sizes.hpp"
@@ -49,7 +53,30 @@ public:
         return xml_.values<double>(section + "/" + size_array(xml_.scalars(section), file_), xml_.points());
     }
 
+    /// Returns the growth of sizes that the file holds, if any.
+    std::optional<double> gradation() const {
+        if (!xml_.has(gradation_array)) return {};
+        const double gradation = xml_.values<double>(gradation_array, 1).front();
+        if (!(gradation > 0 && std::isfinite(gradation))) xml_.fail("the gradation of sizes is not positive");
+        return gradation;
+    }
+    /// Returns a field of the points or, where they have none of this name, of the cells. Precondition: read().
+    SolutionField field(const FieldRequest& request) const {
+        const std::string at_points = "PointData/" + request.array, at_cells = "CellData/" + request.array;
+        if (xml_.has(at_points)) return {request.name, false, part(request, at_points, xml_.points())};
+        if (!xml_.has(at_cells)) throw UsageError(fmt::format("{}: no array '{}'", file_.string(), request.array));
+        const std::vector<double> all = part(request, at_cells, xml_.cells());
+        SolutionField field{request.name, true, {}};
+        for (const std::size_t cell : cells_) field.values.push_back(all[cell]);
+        return field;
+    }
+
 private:
+    std::vector<double> part(const FieldRequest& request, const std::string& array, std::size_t tuples) const {
+        const std::size_t components = xml_.components(array);
+        return part_of(request, xml_.values<double>(array, components * tuples), components);
+    }
+
     void read_points() {
         if (xml_.points() > bytes_) xml_.fail("NumberOfPoints exceeds the file");
         const std::vector<double> coordinates = xml_.values<double>("Points/", 3 * xml_.points());
@@ -100,11 +127,11 @@ private:
                                : std::vector<std::uint32_t>(xml_.cells(), 0);
         for (std::size_t i = 0; i < xml_.cells(); ++i) read_cell(i);
 
-        std::vector<std::size_t> cells = std::move(triangles_);
-        cells.insert(cells.end(), quads_.begin(), quads_.end());
-        read_cell_array("CellData/region", cells, static_cast<std::size_t>(Region::isotropic), mesh_.region);
-        read_cell_array("CellData/piece", cells, std::numeric_limits<std::uint32_t>::max(), mesh_.piece);
-        read_cell_array("CellData/layer", cells, std::numeric_limits<std::uint16_t>::max(), mesh_.layer);
+        cells_ = std::move(triangles_);
+        cells_.insert(cells_.end(), quads_.begin(), quads_.end());
+        read_cell_array("CellData/region", static_cast<std::size_t>(Region::isotropic), mesh_.region);
+        read_cell_array("CellData/piece", std::numeric_limits<std::uint32_t>::max(), mesh_.piece);
+        read_cell_array("CellData/layer", std::numeric_limits<std::uint16_t>::max(), mesh_.layer);
     }
     void read_cell(std::size_t i) {
         const std::int64_t first = i == 0 ? 0 : offsets_[i - 1], end = offsets_[i];
@@ -132,11 +159,10 @@ private:
     /// Reads an array of cell data, where the file has it, for the triangles and quads. Fails for values above the
     /// limit.
     template <class T>
-    void read_cell_array(const char* name, const std::vector<std::size_t>& cells, std::size_t limit,
-                         std::vector<T>& target) const {
+    void read_cell_array(const char* name, std::size_t limit, std::vector<T>& target) const {
         if (writer_ != Writer::lamina || !xml_.has(name)) return;
         const auto all = xml_.values<std::uint32_t>(name, xml_.cells());
-        for (const std::size_t i : cells) {
+        for (const std::size_t i : cells_) {
             if (all[i] > limit) xml_.fail(fmt::format("array '{}' holds a value that is out of range", name));
             target.push_back(static_cast<T>(all[i]));
         }
@@ -151,6 +177,7 @@ private:
     std::vector<std::int64_t> connectivity_;      ///< the vertices of all cells
     std::vector<std::uint32_t> markers_;          ///< per cell of the file: its marker, from 1, or 0
     std::vector<std::size_t> triangles_, quads_;  ///< positions of the mesh's cells in the file
+    std::vector<std::size_t> cells_;              ///< the same for triangles and quads, once all are read
     Mesh mesh_;
 };
 
@@ -161,7 +188,19 @@ Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file) {
 }
 
 PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path& file) {
-    return read_point_values(VtuReader(bytes, file, VtuReader::Writer::anyone));
+    VtuReader reader(bytes, file, VtuReader::Writer::anyone);
+    const std::optional<double> gradation = reader.gradation();
+    PointValues result = read_point_values(std::move(reader));
+    result.gradation = gradation;
+    return result;
+}
+
+Solution read_vtu_solution(const std::string& bytes, const std::filesystem::path& file,
+                           std::span<const FieldRequest> fields) {
+    VtuReader reader(bytes, file, VtuReader::Writer::lamina);
+    Solution solution{reader.read(), {}};
+    for (const FieldRequest& field : fields) solution.fields.push_back(reader.field(field));
+    return solution;
 }
 
 }  // namespace lamina::io

@@ -11,12 +11,14 @@
 //   field data   marker_names (UTF-8, with a zero byte behind each name, since not every reader knows strings),
 //                marker_kinds (in the order of MarkerKind), constraints (pairs of points)
 //   point data   wall_distance where it is asked for
+// Files of sizes have the point data size and, where it is known, the field data lamina_size_gradation.
 #include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -154,7 +156,7 @@ struct VtuCells {
     std::vector<MarkerLine> lines;
 };
 
-void add_field_data(const Mesh& mesh, VtuWriter& vtu) {
+void add_field_data(const Mesh& mesh, std::optional<double> size_gradation, VtuWriter& vtu) {
     std::string names;
     for (const Marker& marker : mesh.markers) names += marker.name + '\0';
     vtu.xml += "    <FieldData>\n";
@@ -170,14 +172,23 @@ void add_field_data(const Mesh& mesh, VtuWriter& vtu) {
         in_field_data);
     vtu.add_array<std::uint8_t>(
         "marker_kinds", mesh.markers.size(), 1, [&mesh](std::size_t i) { return mesh.markers[i].kind; }, in_field_data);
+    if (size_gradation)
+        vtu.add_array<double>(
+            "lamina_size_gradation", 1, 1, [size_gradation](std::size_t) { return *size_gradation; }, in_field_data);
     vtu.xml += "    </FieldData>\n";
 }
 
-void add_point_data(const std::vector<double>& wall_distance, VtuWriter& vtu) {
-    if (wall_distance.empty()) return;
+/// Numbers at the points, and their name.
+struct PointArray {
+    const char* name;
+    const std::vector<double>& values;
+};
+
+void add_point_data(const PointArray& array, VtuWriter& vtu) {
+    if (array.values.empty()) return;
     vtu.xml += "      <PointData>\n";
-    vtu.add_array<double>("wall_distance", wall_distance.size(), 1,
-                          [&wall_distance](std::size_t i) { return wall_distance[i]; });
+    vtu.add_array<double>(array.name, array.values.size(), 1,
+                          [&values = array.values](std::size_t i) { return values[i]; });
     vtu.xml += "      </PointData>\n";
 }
 
@@ -217,26 +228,38 @@ void add_cells(const VtuCells& cells, VtuWriter& vtu) {
     vtu.xml += "      </Cells>\n";
 }
 
-}  // namespace
-
-void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out) {
-    const std::vector<double> distances = variant.wall_distance ? mesh::wall_distances(mesh) : std::vector<double>{};
+void write_grid(const Mesh& mesh, const PointArray& array, bool compressed, std::optional<double> size_gradation,
+                std::ostream& out) {
     const VtuCells cells(mesh);
-    VtuWriter vtu(variant.compressed);
+    VtuWriter vtu(compressed);
     vtu.xml = fmt::format(
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
         "  <UnstructuredGrid>\n",
-        variant.compressed ? " compressor=\"vtkZLibDataCompressor\"" : "");
-    add_field_data(mesh, vtu);
+        compressed ? " compressor=\"vtkZLibDataCompressor\"" : "");
+    add_field_data(mesh, size_gradation, vtu);
     vtu.xml +=
         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.size(), cells.count());
-    add_point_data(distances, vtu);
+    add_point_data(array, vtu);
     add_cell_data(mesh, cells, vtu);
     add_points(mesh, vtu);
     add_cells(cells, vtu);
     vtu.xml += "    </Piece>\n  </UnstructuredGrid>\n";
     vtu.write(out);
+}
+
+}  // namespace
+
+void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out) {
+    const std::vector<double> distances = variant.wall_distance ? mesh::wall_distances(mesh) : std::vector<double>{};
+    write_grid(mesh, {"wall_distance", distances}, variant.compressed, {}, out);
+}
+
+void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out) {
+    Mesh mesh;
+    mesh.points = sizes.points;
+    mesh.triangles = sizes.triangles;
+    write_grid(mesh, {"size", sizes.sizes}, true, sizes.gradation, out);
 }
 
 }  // namespace lamina::io

@@ -56,14 +56,20 @@ bool same_points(const Geometry& a, const Geometry& b) {
                       [](const Element& first, const Element& second) { return first.points == second.points; });
 }
 
-/// Returns the sizes that the options, the fronts of these rays and the wakes behind their layers request.
+/// Returns the sizes that the options, the fronts of these rays and the wakes behind their layers request. Where a
+/// background mesh decides on sizes, wakes request them of borders alone.
 SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, const Rays& rays,
                            std::span<const ElementWake> wakes, const Box& domain) {
+    std::vector<SizeSource> along_wakes;
     for (std::size_t e = 0; e < wakes.size(); ++e)
         for (const auto* sources : {&wakes[e].outer, &wakes[e].inner})
             for (const WakeSource& wake : *sources)
-                if (wake.begins >= rays.wake_lengths[e]) options.sources.push_back(wake.source);
-    return gather_size_requests(options, bodies, fronts(rays), domain);
+                if (wake.begins >= rays.wake_lengths[e]) along_wakes.push_back(wake.source);
+    const bool decided = options.background && options.background->gradation;
+    if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
+    SizeRequests requests = gather_size_requests(options, bodies, fronts(rays), domain);
+    if (decided) requests.at_borders.insert(requests.at_borders.end(), along_wakes.begin(), along_wakes.end());
+    return requests;
 }
 
 /// Counts the rays whose limits are lower than they were at first, and finds the one that lost most of its height.

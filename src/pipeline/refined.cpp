@@ -82,6 +82,7 @@ void refine_sizing(double ratio, SizingOptions& sizing) {
     if (!sizing.background) return;
     auto background = std::make_shared<SizedMesh>(*sizing.background);
     for (double& size : background->sizes) size /= ratio;
+    if (background->gradation) *background->gradation /= ratio;
     sizing.background = std::move(background);
 }
 

@@ -58,7 +58,7 @@ std::vector<SizeSource> border_sources(Loops borders, const SizingOptions& optio
             const Point a = border[i], b = border[i + 1 < border.size() ? i + 1 : 0];
             sources.push_back({.a = a, .b = b, .size = distance(a, b) / frozen_share});
         }
-    const std::vector<double> sizes = edge_sizes(sources, options.gradation);
+    const std::vector<double> sizes = edge_sizes(sources, field_gradation(options));
     for (std::size_t i = 0; i < sources.size(); ++i) sources[i].size = std::min(sizes[i], wall_size);
     return sources;
 }
@@ -82,6 +82,10 @@ namespace lamina {
 
 using namespace sizing;
 
+double field_gradation(const SizingOptions& options) {
+    return options.background && options.background->gradation ? *options.background->gradation : options.gradation;
+}
+
 double border_gradation(double gradation) {
     // Edges are divided into whole numbers of parts. Graded as steeply as the field, some would be too long for it.
     constexpr double rounding_of_parts = 1.15;
@@ -90,7 +94,7 @@ double border_gradation(double gradation) {
 
 SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodies& bodies, Loops fronts,
                                   const Box& domain) {
-    const double gradation = options.gradation;
+    const double gradation = field_gradation(options);
     SizeRequests requests;
     append(options.sources, requests.sources);
     append(given_wake_sources(options, bodies), requests.sources);
@@ -99,7 +103,7 @@ SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodie
         const std::vector<SizeSource> points = background_sources(*options.background, gradation, domain);
         append(points, requests.sources);
         // Only few points of a background mesh bind at the borders.
-        append(binding_sources(points, fronts, border_gradation(gradation), frozen_share), requests.at_borders);
+        append(binding_sources(points, fronts, border_gradation(options.gradation), frozen_share), requests.at_borders);
     }
     if (!options.wake || options.wake->size) return requests;
 
@@ -118,7 +122,7 @@ SizeField make_size_field(Loops borders, std::span<const SizeSource> sources, co
                           double chord, const Box& domain) {
     std::vector<SizeSource> all = border_sources(borders, options, chord);
     all.insert(all.end(), sources.begin(), sources.end());
-    SizeFieldOptions field{.gradation = options.gradation};
+    SizeFieldOptions field{.gradation = field_gradation(options)};
     if (options.far_size) field.max_size = in_units(*options.far_size, chord);
     return SizeField(all, field, domain);
 }

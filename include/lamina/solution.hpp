@@ -1,0 +1,42 @@
+// Solutions of flow solvers: fields on a mesh, and files that hold them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <lamina/export.hpp>
+#include <lamina/mesh.hpp>
+#include <lamina/sizing.hpp>
+
+namespace lamina {
+
+/// A field of a solution: one number per vertex of a mesh, or one per cell.
+struct SolutionField {
+    std::string name;            ///< as it was asked for: "p", "U:x", "mag(U)"
+    bool at_cells = false;       ///< whether there is one number per cell, those of triangles before those of quads
+    std::vector<double> values;  ///< finite
+};
+
+/// Fields on a mesh.
+struct Solution {
+    Mesh mesh;                          ///< the mesh that the solver had
+    std::vector<SolutionField> fields;  ///< those asked for, in the order of their names
+};
+
+/// Reads fields of a solution. It is a VTU file of triangles and quads with point data or cell data, or a time folder
+/// of an OpenFOAM case with fields in ASCII (volScalarField, volVectorField) on a mesh one cell thick; where it is the
+/// folder of the case, the latest time is read. A name is that of an array of one component; "NAME:x", "NAME:y" or
+/// "NAME:z", a component of an array; or "mag(NAME)", the length of its vectors. Where there are point data and cell
+/// data of a name, the point data are read. `mesh` holds the mesh of the solution in any format that can be read, with
+/// the same numbers; empty: the VTU file itself, or constant/polyMesh beside the time folder. Throws IoError; UsageError
+/// where a field is missing or has no such component; InputError where a file is malformed, where numbers of values and
+/// of points or cells differ, and where a value is not finite.
+LAMINA_EXPORT Solution read_solution(const std::filesystem::path& solution, const std::vector<std::string>& fields,
+                                     const std::filesystem::path& mesh = {});
+
+/// Writes sizes as a VTU file, which read_sizes() reads back exactly: point data `size`, and the field data
+/// `lamina_size_gradation` where SizedMesh::gradation is set. Throws IoError.
+LAMINA_EXPORT void write_sizes(const SizedMesh& sizes, const std::filesystem::path& file);
+
+}  // namespace lamina
