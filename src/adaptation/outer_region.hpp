@@ -1,0 +1,37 @@
+// The region beyond the layers of a mesh, which is meshed anew with other sizes while the layers stay.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+#include <lamina/mesh.hpp>
+#include <lamina/sizing.hpp>
+
+namespace lamina::adaptation {
+
+/// The region of the isotropic cells: its borders, and what surrounds it.
+struct OuterRegion {
+    std::vector<Point> points;                   ///< the vertices of the inner borders
+    std::vector<std::vector<VertexId>> borders;  ///< indices into points, counter-clockwise round bodies and layers
+    FarField far_field;                          ///< the outer border
+    std::size_t inside_vertices = 0;             ///< number of vertices in and below the layers, without the borders'
+};
+
+/// Takes cells from the isotropic ones until the rest hangs together over edges and has simple loops as borders: cells
+/// between others of the layer, and those at vertices where the region touches itself. Estimated regions need it.
+std::vector<char> simple_region(const Mesh& mesh, std::vector<char> isotropic);
+
+/// Returns the region of these cells. Throws OptionError where the outermost of its borders is not convex. Precondition:
+/// the region is that of simple_region().
+OuterRegion find_outer_region(const Mesh& mesh, std::span<const char> isotropic);
+
+/// Returns the number of vertices of the mesh that has this region meshed with other sizes, and all else as it is.
+/// Throws the errors of decouple() and refine().
+std::size_t count_vertices(const OuterRegion& region, const SizedMesh& sizes);
+
+/// Returns, for each point, the smallest size there that divides no edge of the borders.
+std::vector<double> sizes_of_borders(const OuterRegion& region, std::span<const Point> points);
+
+}  // namespace lamina::adaptation

@@ -1,0 +1,222 @@
+// Sizes that interpolate a solution best. For isotropic triangles of edge h the error of linear interpolation is some
+// multiple of lambda h^2, and there are some 1 / h^2 triangles per unit of area. The integral of (lambda h^2)^2 is least
+// for a given integral of 1 / h^2 where h = c lambda^(-1/3). Source: F. Alauzet, A. Loseille, J. Comput. Phys. 229
+// (2010), section 2.3.
+#include <lamina/solution_sizes.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+
+#include "adaptation/outer_region.hpp"
+#include "adaptation/vertex_patches.hpp"
+
+namespace lamina::adaptation {
+
+namespace {
+
+/// What is known about the vertices of the isotropic cells. Lists have one entry per vertex of the mesh.
+struct OuterVertices {
+    std::vector<double> area;  ///< a third, or a quarter, of the cells at the vertex; 0 inside the layer
+    std::vector<double> edge;  ///< mean length of the cells' edges there
+};
+
+OuterVertices measure_vertices(const Mesh& mesh, const VertexCells& cells) {
+    OuterVertices vertices{std::vector<double>(mesh.points.size(), 0.0), std::vector<double>(mesh.points.size(), 0.0)};
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        double lengths = 0, count = 0;
+        for (const std::uint32_t cell : cells.at(v)) {
+            const std::span<const VertexId> corners = cells.corners(cell);
+            double doubled = 0;
+            for (std::size_t i = 0; i < corners.size(); ++i) {
+                const Point a = mesh.points[corners[i].index()],
+                            b = mesh.points[corners[(i + 1) % corners.size()].index()];
+                doubled += cross(a - mesh.points[v], b - mesh.points[v]);
+                lengths += distance(a, b);
+                ++count;
+            }
+            vertices.area[v] += 0.5 * doubled / static_cast<double>(corners.size());
+        }
+        if (count > 0) vertices.edge[v] = lengths / count;
+    }
+    return vertices;
+}
+
+/// Returns lambda^(-1/3) at each vertex, scaled so that such sizes would make one triangle of area h^2. It is infinite
+/// where the field is linear, and everywhere if it is linear everywhere.
+std::vector<double> shape_of(const Mesh& mesh, const SolutionField& field, const OuterVertices& vertices) {
+    // Smaller second differences, as shares of the largest value, are rounding.
+    constexpr double rounding = 1e-11;
+    const std::vector<Hessian> hessians = recover_hessians(mesh, field);
+    double largest = 0;
+    for (const double value : field.values) largest = std::max(largest, std::abs(value));
+    std::vector<double> shape(hessians.size(), HUGE_VAL);
+    double triangles = 0;
+    for (std::size_t v = 0; v < shape.size(); ++v) {
+        const double curvature = largest_curvature(hessians[v]);
+        if (vertices.area[v] == 0 || !(curvature * vertices.edge[v] * vertices.edge[v] > rounding * largest)) continue;
+        shape[v] = 1 / std::cbrt(curvature);
+        triangles += vertices.area[v] / (shape[v] * shape[v]);
+    }
+    if (triangles > 0)
+        for (double& size : shape) size *= std::sqrt(triangles);
+    return shape;
+}
+
+/// Makes the mesh of sizes from the isotropic cells.
+class SizesMaker {
+public:
+    SizesMaker(const Solution& solution, const SolutionSizeOptions& options, std::span<const char> isotropic,
+               const OuterVertices& vertices)
+        : options_(options) {
+        const Mesh& mesh = solution.mesh;
+        shape_.assign(mesh.points.size(), HUGE_VAL);
+        for (const SolutionField& field : solution.fields) {
+            const std::vector<double> shape = shape_of(mesh, field, vertices);
+            for (std::size_t v = 0; v < shape.size(); ++v) shape_[v] = std::min(shape_[v], shape[v]);
+        }
+        if (std::all_of(shape_.begin(), shape_.end(), [](double size) { return size == HUGE_VAL; }))
+            throw OptionError("field", "is linear everywhere beyond the layer: no sizes follow from it");
+        keep_outer_vertices(mesh, isotropic, vertices);
+    }
+
+    /// Raises all sizes to these, which are given per point of base().
+    void raise_to(std::vector<double> floors) { floors_ = std::move(floors); }
+    /// Returns the points and triangles, without sizes.
+    const SizedMesh& base() const { return base_; }
+    /// Returns a number c with which the sizes would ask for about so many triangles if they had no bounds.
+    double factor_for(double triangles) const {
+        double asked = 0;
+        for (std::size_t v = 0; v < area_.size(); ++v) asked += area_[v] / (shape_[v] * shape_[v]);
+        return std::sqrt(asked / (equilateral_area * triangles));
+    }
+    SizedMesh with(double factor) const {
+        SizedMesh sizes = base_;
+        sizes.gradation = options_.gradation;
+        for (std::size_t v = 0; v < shape_.size(); ++v) {
+            const double size =
+                std::clamp(factor * shape_[v], edge_[v] / options_.max_change, edge_[v] * options_.max_change);
+            sizes.sizes.push_back(floors_.empty() ? size : std::max(size, floors_[v]));
+        }
+        return sizes;
+    }
+
+private:
+    void keep_outer_vertices(const Mesh& mesh, std::span<const char> isotropic, const OuterVertices& vertices) {
+        std::vector<VertexId> number(mesh.points.size());
+        std::vector<double> shape;
+        for (std::size_t v = 0; v < number.size(); ++v) {
+            if (vertices.area[v] == 0) continue;
+            number[v] = VertexId(base_.points.size());
+            base_.points.push_back(mesh.points[v]);
+            shape.push_back(shape_[v]);
+            area_.push_back(vertices.area[v]);
+            edge_.push_back(vertices.edge[v]);
+        }
+        shape_ = std::move(shape);
+        const auto add = [&](VertexId a, VertexId b, VertexId c) {
+            base_.triangles.push_back({{number[a.index()], number[b.index()], number[c.index()]}});
+        };
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+            if (const auto& v = mesh.triangles[t].v; isotropic[t]) add(v[0], v[1], v[2]);
+        for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+            if (!isotropic[mesh.triangles.size() + q]) continue;
+            const auto& v = mesh.quads[q].v;
+            add(v[0], v[1], v[2]);
+            add(v[0], v[2], v[3]);
+        }
+    }
+
+    const SolutionSizeOptions& options_;
+    SizedMesh base_;
+    std::vector<double> shape_, area_, edge_, floors_;  ///< per point of base_
+};
+
+/// Finds the factor with which the mesh has the number of vertices asked for.
+class FactorSearch {
+public:
+    FactorSearch(double vertices, double first) : wanted_(vertices), factor_(first) {}
+
+    double factor() const { return factor_; }
+    double error() const { return error_; }
+    /// Notes the number of vertices with factor(), and chooses the next one.
+    void note(double vertices) {
+        constexpr double widening = 4;
+        error_ = vertices / wanted_ - 1;
+        const double at = std::log(factor_), miss = std::log(vertices / wanted_);
+        (miss > 0 ? low_ : high_) = {at, miss, true};
+        if (!low_.known || !high_.known) {
+            // As many vertices as the inverse square of the factor, and some that do not depend on it.
+            const double step = std::clamp(0.7 * miss, -std::log(widening), std::log(widening));
+            factor_ = std::exp(at + step);
+            return;
+        }
+        // The secant, kept off both ends.
+        const double share = std::clamp(low_.miss / (low_.miss - high_.miss), 0.1, 0.9);
+        factor_ = std::exp(low_.at + share * (high_.at - low_.at));
+    }
+
+private:
+    struct End {
+        double at = 0, miss = 0;
+        bool known = false;
+    };
+    double wanted_, factor_, error_ = HUGE_VAL;
+    End low_, high_;  ///< logarithms of factors with too many and too few vertices
+};
+
+[[noreturn]] void refuse_number(const SolutionSizeOptions& options, std::size_t vertices) {
+    const bool too_many = static_cast<double>(vertices) > options.vertices;
+    throw OptionError(
+        "vertices",
+        fmt::format("cannot be {}: with sizes within a factor of {} of those of the solution's mesh, the "
+                    "next mesh has {} {}",
+                    options.vertices, options.max_change, too_many ? "no fewer than" : "no more than", vertices));
+}
+
+}  // namespace
+
+}  // namespace lamina::adaptation
+
+namespace lamina {
+
+using namespace adaptation;
+
+SolutionSizes solution_sizes(const Solution& solution, const SolutionSizeOptions& options, const VertexCount& count) {
+    constexpr double good_enough = 0.01, acceptable = 0.02;
+    constexpr int most_rounds = 16;
+    validate(options);
+    if (solution.fields.empty()) throw OptionError("field", "is needed: sizes follow from fields of the solution");
+    const std::vector<char> isotropic = simple_region(solution.mesh, isotropic_cells(solution.mesh));
+    const OuterVertices vertices = measure_vertices(solution.mesh, VertexCells(solution.mesh, isotropic));
+    SizesMaker maker(solution, options, isotropic, vertices);
+    OuterRegion region;
+    if (!count || options.keep_borders) {
+        region = find_outer_region(solution.mesh, isotropic);
+        if (options.keep_borders) maker.raise_to(sizes_of_borders(region, maker.base().points));
+    }
+
+    SolutionSizes result;
+    result.vertices_before = solution.mesh.points.size();
+    result.layer_vertices = result.vertices_before - maker.base().points.size();
+    const double beyond = std::max(options.vertices - static_cast<double>(result.layer_vertices), 1.0);
+    FactorSearch search(options.vertices, maker.factor_for(2 * beyond));
+    double best = HUGE_VAL;
+    while (result.rounds < most_rounds && best > good_enough) {
+        SizedMesh sizes = maker.with(search.factor());
+        const std::size_t made = count ? count(sizes) : count_vertices(region, sizes);
+        ++result.rounds;
+        search.note(static_cast<double>(made));
+        if (std::abs(search.error()) >= best) continue;
+        best = std::abs(search.error());
+        result.vertices = made;
+        result.sizes = std::move(sizes);
+    }
+    if (best > acceptable) refuse_number(options, result.vertices);
+    return result;
+}
+
+}  // namespace lamina

@@ -1,0 +1,124 @@
+// lamina sizes: the edge lengths that a solution asks for.
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/io.hpp>
+#include <lamina/pipeline.hpp>
+#include <lamina/solution.hpp>
+#include <lamina/solution_sizes.hpp>
+
+#include "app/case.hpp"
+#include "app/commands.hpp"
+#include "app/mesh_command_options.hpp"
+#include "app/options.hpp"
+#include "app/progress.hpp"
+#include "app/run_files.hpp"
+#include "app/standard_output.hpp"
+#include "app/summary.hpp"
+#include "app/table_option.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+struct SizesArguments {
+    std::string solution, mesh, case_file, output;
+    std::vector<std::string> fields;
+    std::map<std::string, std::string> options;  ///< values by the names of solution_size_option_table()
+};
+
+/// Returns the function that makes the next mesh by a case file, and counts its vertices.
+VertexCount count_by_case(const MeshCase& mesh_case) {
+    CaseOptions options = options_with_files(mesh_case);
+    auto geometry = std::make_shared<const Geometry>(read_geometry(mesh_case.inputs, options.geometry));
+    return [options, geometry](const SizedMesh& sizes) {
+        CaseOptions next = options;
+        next.sizing.background = std::make_shared<const SizedMesh>(sizes);
+        return generate_mesh(*geometry, next).mesh.points.size();
+    };
+}
+
+std::string sizes_summary(const SolutionSizes& made, const SizesArguments& arguments, double wanted,
+                          bool regions_known) {
+    const auto [low, high] = std::minmax_element(made.sizes.sizes.begin(), made.sizes.sizes.end());
+    std::string text = fmt::format("sizes from {}: {}\n", arguments.solution, fmt::join(arguments.fields, ", "));
+    text += summary_line(
+        "solution", fmt::format("{} vertices, {} of them inside the layer{}", made.vertices_before, made.layer_vertices,
+                                regions_known ? "" : ", by the shapes of cells: VTU files of lamina (--mesh) know it"));
+    text += summary_line(
+        "next",
+        fmt::format("{} vertices, where {:.0f} are wanted ({}, {} rounds)", made.vertices, wanted,
+                    arguments.case_file.empty() ? "with the layers of the solution's mesh" : "with those of the case",
+                    made.rounds));
+    text += summary_line("sizes", fmt::format("from {:.4g} to {:.4g} units of the input, growing by {} per unit", *low,
+                                              *high, *made.sizes.gradation));
+    return text + summary_line("wrote", arguments.output);
+}
+
+void sizes(const SizesArguments& arguments) {
+    SolutionSizeOptions options;
+    for (const auto& [name, value] : arguments.options) set_by_name(solution_size_option_table(), name, value, options);
+    validate(options);
+    std::vector<RunFile> inputs{{arguments.solution, "SOLUTION"}};
+    if (!arguments.mesh.empty()) inputs.push_back({arguments.mesh, "option --mesh"});
+    const std::vector<RunFile> outputs{{arguments.output, "option --output"}};
+    require_distinct(inputs, outputs);
+    check_folder_writable(arguments.output);
+    VertexCount count;
+    if (!arguments.case_file.empty()) {
+        const MeshCase mesh_case = case_of_inputs({arguments.case_file});
+        require_consistent(mesh_case);
+        count = count_by_case(mesh_case);
+        options.keep_borders = false;
+    }
+    const SignalGuard guard(outputs);
+    const Solution solution = read_solution(arguments.solution, arguments.fields, arguments.mesh);
+    const SolutionSizes made = solution_sizes(solution, options, count);
+    write_sizes(made.sizes, arguments.output);
+    print_summary(sizes_summary(made, arguments, options.vertices, !solution.mesh.region.empty()), outputs);
+}
+
+}  // namespace
+
+void add_sizes_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("sizes", "find the edge lengths that a solution asks for");
+    auto arguments = std::make_shared<SizesArguments>();
+    command
+        ->add_option("SOLUTION", arguments->solution,
+                     "VTU file with point data or cell data, or folder of an OpenFOAM case or of one of its times")
+        ->required();
+    command
+        ->add_option("--mesh", arguments->mesh,
+                     "mesh of the solution, in any format that can be read; else that of SOLUTION")
+        ->type_name("FILE");
+    command
+        ->add_option("--field", arguments->fields,
+                     "fields to interpolate well: NAME, a component such as U:x, or the length of vectors, mag(U)")
+        ->required()
+        ->delimiter(',')
+        ->type_name("NAME[,NAME...]");
+    for (const char* name : {"vertices", "gradation", "max-change"})
+        add_table_option(*command, solution_size_option_table(), name, arguments->options[name]);
+    command->get_option("--vertices")->required();
+    command
+        ->add_option("--case", arguments->case_file,
+                     "case file of the next mesh (lamina mesh --dump-config), which is made to count its vertices; "
+                     "sizes may then divide the borders of layers, too; else the layers are those of the solution")
+        ->type_name("FILE");
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "VTU file to write, for lamina mesh --background; - for standard output")
+        ->required()
+        ->type_name("FILE");
+    command->callback([arguments] { sizes(*arguments); });
+}
+
+}  // namespace lamina::app
