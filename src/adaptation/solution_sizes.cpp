@@ -45,24 +45,35 @@ OuterVertices measure_vertices(const Mesh& mesh, const VertexCells& cells) {
     return vertices;
 }
 
-/// Returns lambda^(-1/3) at each vertex, scaled so that such sizes would make one triangle of area h^2. It is infinite
-/// where the field is linear, and everywhere if it is linear everywhere.
-std::vector<double> shape_of(const Mesh& mesh, const SolutionField& field, const OuterVertices& vertices) {
+/// What a field asks for.
+struct FieldShape {
+    /// Per vertex of the mesh: lambda^(-1/3), scaled so that such sizes would make one triangle of area h^2. It is
+    /// infinite where the field is linear, and everywhere if it is linear everywhere.
+    std::vector<double> size;
+    double error = 0;  ///< SolutionSizes::errors
+};
+
+FieldShape shape_of(const Mesh& mesh, const SolutionField& field, const OuterVertices& vertices) {
     // Smaller second differences, as shares of the largest value, are rounding.
     constexpr double rounding = 1e-11;
+    // The mean square error of interpolating lambda x^2 / 2 on an equilateral triangle is so many times (lambda h^2)^2.
+    constexpr double square_error = 3.375 / 720;
     const std::vector<Hessian> hessians = recover_hessians(mesh, field);
     double largest = 0;
     for (const double value : field.values) largest = std::max(largest, std::abs(value));
-    std::vector<double> shape(hessians.size(), HUGE_VAL);
-    double triangles = 0;
-    for (std::size_t v = 0; v < shape.size(); ++v) {
-        const double curvature = largest_curvature(hessians[v]);
-        if (vertices.area[v] == 0 || !(curvature * vertices.edge[v] * vertices.edge[v] > rounding * largest)) continue;
-        shape[v] = 1 / std::cbrt(curvature);
-        triangles += vertices.area[v] / (shape[v] * shape[v]);
+    FieldShape shape{std::vector<double>(hessians.size(), HUGE_VAL)};
+    double triangles = 0, squared = 0;
+    for (std::size_t v = 0; v < hessians.size(); ++v) {
+        const double curvature = largest_curvature(hessians[v]),
+                     difference = curvature * vertices.edge[v] * vertices.edge[v];
+        if (vertices.area[v] == 0 || !(difference > rounding * largest)) continue;
+        shape.size[v] = 1 / std::cbrt(curvature);
+        triangles += vertices.area[v] / (shape.size[v] * shape.size[v]);
+        squared += square_error * vertices.area[v] * difference * difference;
     }
     if (triangles > 0)
-        for (double& size : shape) size *= std::sqrt(triangles);
+        for (double& size : shape.size) size *= std::sqrt(triangles);
+    shape.error = std::sqrt(squared);
     return shape;
 }
 
@@ -75,8 +86,9 @@ public:
         const Mesh& mesh = solution.mesh;
         shape_.assign(mesh.points.size(), HUGE_VAL);
         for (const SolutionField& field : solution.fields) {
-            const std::vector<double> shape = shape_of(mesh, field, vertices);
-            for (std::size_t v = 0; v < shape.size(); ++v) shape_[v] = std::min(shape_[v], shape[v]);
+            const FieldShape shape = shape_of(mesh, field, vertices);
+            for (std::size_t v = 0; v < shape_.size(); ++v) shape_[v] = std::min(shape_[v], shape.size[v]);
+            errors_.push_back(shape.error);
         }
         if (std::all_of(shape_.begin(), shape_.end(), [](double size) { return size == HUGE_VAL; }))
             throw OptionError("field", "is linear everywhere beyond the layer: no sizes follow from it");
@@ -87,6 +99,8 @@ public:
     void raise_to(std::vector<double> floors) { floors_ = std::move(floors); }
     /// Returns the points and triangles, without sizes.
     const SizedMesh& base() const { return base_; }
+    /// Returns SolutionSizes::errors.
+    const std::vector<double>& errors() const { return errors_; }
     /// Returns a number c with which the sizes would ask for about so many triangles if they had no bounds.
     double factor_for(double triangles) const {
         double asked = 0;
@@ -133,6 +147,7 @@ private:
     const SolutionSizeOptions& options_;
     SizedMesh base_;
     std::vector<double> shape_, area_, edge_, floors_;  ///< per point of base_
+    std::vector<double> errors_;                        ///< per field
 };
 
 /// Finds the factor with which the mesh has the number of vertices asked for.
@@ -200,6 +215,7 @@ SolutionSizes solution_sizes(const Solution& solution, const SolutionSizeOptions
     }
 
     SolutionSizes result;
+    result.errors = maker.errors();
     result.vertices_before = solution.mesh.points.size();
     result.layer_vertices = result.vertices_before - maker.base().points.size();
     const double beyond = std::max(options.vertices - static_cast<double>(result.layer_vertices), 1.0);

@@ -53,6 +53,10 @@ std::string sizes_summary(const SolutionSizes& made, const SizesArguments& argum
     text += summary_line(
         "solution", fmt::format("{} vertices, {} of them inside the layer{}", made.vertices_before, made.layer_vertices,
                                 regions_known ? "" : ", by the shapes of cells: VTU files of lamina (--mesh) know it"));
+    for (std::size_t i = 0; i < made.errors.size(); ++i)
+        text += summary_line("error", fmt::format("{:.4g} in {}: estimate for linear interpolation beyond the layer, "
+                                                  "root of the integral of its square",
+                                                  made.errors[i], arguments.fields[i]));
     text += summary_line(
         "next",
         fmt::format("{} vertices, where {:.0f} are wanted ({}, {} rounds)", made.vertices, wanted,

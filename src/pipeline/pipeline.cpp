@@ -246,13 +246,14 @@ void guide_growth(const Flow& flow, std::span<const ElementWake> wakes, const La
 }
 
 /// Returns what the flow decided for a mesh on these rays.
-FlowDecisions flow_decisions(const LayerGrowth& growth, std::span<const WallSpacing> spacings, const RayPlan& plan) {
+FlowDecisions flow_decisions(const LayerGrowth& growth, std::span<const WallSpacing> spacings, const RayPlan& plan,
+                             const SizingOptions& sizing) {
     FlowDecisions decisions;
     if (!growth.layers)
         for (const WallHeight& least : growth.least_heights)
             decisions.least_thickness = std::max(decisions.least_thickness, least.height);
     for (std::size_t e = 0; e < plan.wakes.size(); ++e) {
-        if (plan.wakes[e].outer.empty()) continue;
+        if (plan.wakes[e].outer.empty() || (decides_on_sizes(sizing) && plan.rays.wake_lengths[e] == 0)) continue;
         decisions.wakes.push_back(plan.wakes[e].wake);
         decisions.wakes.back().with_layers = plan.rays.wake_lengths[e];
     }
@@ -294,7 +295,7 @@ MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& cl
     make_room(options, plan, clock, result);
     if (flow) result.warnings.insert(result.warnings.begin(), flow->warnings.begin(), flow->warnings.end());
     result.flow = std::move(flow);
-    result.decisions = flow_decisions(growth, spacings, plan);
+    result.decisions = flow_decisions(growth, spacings, plan, options.sizing);
     result.seconds.total = clock.total();
     return result;
 }

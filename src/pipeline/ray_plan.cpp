@@ -65,7 +65,7 @@ SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, con
         for (const auto* sources : {&wakes[e].outer, &wakes[e].inner})
             for (const WakeSource& wake : *sources)
                 if (wake.begins >= rays.wake_lengths[e]) along_wakes.push_back(wake.source);
-    const bool decided = options.background && options.background->gradation;
+    const bool decided = decides_on_sizes(options);
     if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
     SizeRequests requests = gather_size_requests(options, bodies, fronts(rays), domain);
     if (decided) requests.at_borders.insert(requests.at_borders.end(), along_wakes.begin(), along_wakes.end());

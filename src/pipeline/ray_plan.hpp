@@ -25,6 +25,9 @@ struct RayPlan {
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
 };
 
+/// Returns whether a background mesh decides on the sizes beyond the layers (SizedMesh::gradation).
+inline bool decides_on_sizes(const SizingOptions& sizing) { return sizing.background && sizing.background->gradation; }
+
 /// Makes rays on prepared walls. Behind the layers that go on along a wake, its sources request sizes. Throws OptionError
 /// where layers do not fit into the far field.
 RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, const CaseOptions& options,

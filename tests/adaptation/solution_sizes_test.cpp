@@ -143,6 +143,18 @@ TEST(SolutionSizes, RoundsOfTheLoopLowerTheErrorAtEqualNumbers) {
     }
 }
 
+TEST(SolutionSizes, TheErrorIsEstimatedWhereTheMeshResolvesTheField) {
+    const auto ridges = [](Point p) { return std::sin(2 * p.x + p.y); };
+    CaseOptions options = near_options();
+    options.sizing.far_size = 0.3;
+    const MeshResult mesh = generate_mesh(one_section(), options);
+    const SolutionSizes made = solution_sizes(solution_on(mesh.mesh, {ridges, front}),
+                                              {.vertices = 1.3 * static_cast<double>(mesh.mesh.points.size())});
+    ASSERT_EQ(made.errors.size(), 2u);
+    const double error = interpolation_error(mesh.mesh, ridges);
+    EXPECT_NEAR(made.errors[0], error, 0.3 * error);
+}
+
 TEST(SolutionSizes, UnitsOfFieldsDoNotMatter) {
     const MeshResult first = generate_mesh(one_section(), near_options());
     const SolutionSizeOptions options{.vertices = 12'000};
