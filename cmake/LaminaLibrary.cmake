@@ -33,6 +33,7 @@ function(lamina_library folder)
     CXX_EXTENSIONS OFF
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
+    POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -42,6 +43,9 @@ function(lamina_library folder)
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
   # Results may not depend on the compiler's liking for fused operations, in headers neither: contraction is off.
   target_compile_options(${target} PUBLIC "$<${lamina_gcc_like}:-ffp-contract=off>")
+  # One build serves the program, the tests and the Python module. Nobody replaces single functions of a library, so
+  # position-independent code may inline them as other code does; it then costs nothing.
+  target_compile_options(${target} PRIVATE "$<${lamina_gcc_like}:-fno-semantic-interposition>")
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:lamina_flags>)
   list(TRANSFORM arg_DEPENDS PREPEND lamina::)
   target_link_libraries(${target} PUBLIC ${arg_DEPENDS})
