@@ -41,11 +41,12 @@ struct Element {
     std::string name;             ///< name of its marker in the mesh: no spaces, at most 32 characters, unique
     std::string file;             ///< as the user gave it; "naca:0012" for generated sections
     std::string title;            ///< the title line of the file, if it has one
-    std::string format;           ///< "selig", "lednicer", "table", "xy", "csv" or "naca"
+    std::string format;           ///< "selig", "lednicer", "table", "xy", "csv", "naca" or "points"
     std::size_t points_read = 0;  ///< number of points in the file; 0 for generated sections
     /// The outline, counter-clockwise: the body lies on the left of every edge. The first point is not repeated.
     std::vector<Point> points;
-    std::vector<std::size_t> lines;    ///< per point: its line in the file; 0 where lamina added the point
+    /// Per point: its line in the file, or its number, from 1, among points in memory; 0 where lamina added the point.
+    std::vector<std::size_t> lines;
     std::vector<std::string> repairs;  ///< repairs by the reader: "line 12: duplicate of line 11 removed (0.5, 0.1)"
     std::vector<std::string> transformations;  ///< what transformed() and flipped() did, in order
     std::vector<Warning> warnings;             ///< by the reader; their messages do not name the element
@@ -93,6 +94,20 @@ LAMINA_EXPORT void validate(const GeometryOptions& options);
 /// that cross or contain each other, coordinates outside the exact range of predicates.hpp) or transformed, IoError for
 /// files that cannot be read, UsageError for names that are no markers or that no element has.
 LAMINA_EXPORT Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
+
+/// Reads one input of read_geometry() and repairs its elements, which do not have names yet. Throws as read_geometry()
+/// does.
+LAMINA_EXPORT std::vector<Element> read_input(const std::string& input, const GeometryOptions& options = {});
+
+/// Returns the element of an outline in memory, which does not have a name yet. It may be anything that an outline in a
+/// file may be: closed or open at a base, of either direction, or the two surfaces one behind the other; it is repaired
+/// likewise. `source` stands for the file in messages, where lines are points, counted from 1. Throws InputError for
+/// points that cannot be repaired, among them numbers that are not finite or outside the exact range of predicates.hpp.
+LAMINA_EXPORT Element element_of_points(std::span<const Point> points, const std::string& source);
+
+/// Makes the geometry of elements from read_input() and element_of_points(): names, transforms and checks them. Throws
+/// as read_geometry() does.
+LAMINA_EXPORT Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options = {});
 
 /// Reads one file, which may hold several elements. Takes the same steps and throws the same errors as read_geometry().
 LAMINA_EXPORT std::vector<Element> read_airfoil(const std::filesystem::path& file);

@@ -8,13 +8,17 @@
 
 #include <lamina/files.hpp>
 #include <lamina/geometry.hpp>
+#include <lamina/predicates.hpp>
 #include <lamina/suggestion.hpp>
 
 #include "core/text.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/element_names.hpp"
 #include "geometry/naca.hpp"
+#include "geometry/orientation_warnings.hpp"
+#include "geometry/outline_repair.hpp"
 #include "geometry/parse_airfoil.hpp"
+#include "geometry/point_runs.hpp"
 
 namespace lamina::geometry {
 
@@ -66,7 +70,7 @@ std::string meant_section(const std::string& input) {
 }
 
 /// Returns the contents of an airfoil file. An error says where the name was probably meant to be a section.
-std::string read_input(const std::string& input) {
+std::string contents_of(const std::string& input) {
     try {
         return read_file(input);
     } catch (const IoError& error) {
@@ -88,18 +92,45 @@ std::vector<Element> read_airfoil(const std::filesystem::path& file) {
     return make_geometry(parse_airfoil(read_file(file), file.string()), {}).elements;
 }
 
+std::vector<Element> read_input(const std::string& input, const GeometryOptions& options) {
+    if (input.starts_with(naca_prefix)) return {read_naca(input, options.naca_points)};
+    return parse_airfoil(contents_of(input), input_name(input));
+}
+
+Element element_of_points(std::span<const Point> points, const std::string& source) {
+    PointRun run;
+    run.reserve(points.size());
+    for (const Point p : points) {
+        run.push_back({{p, run.size() + 1}});
+        if (!in_exact_range(p)) throw InputError({source, run.size(), {}}, "no number, or outside the exact range");
+    }
+    if (const auto second_surface = find_second_surface(run)) {
+        const auto second = run.begin() + static_cast<std::ptrdiff_t>(*second_surface);
+        run = join_surfaces({run.begin(), second}, {second, run.end()});
+    }
+    RawOutline outline;
+    outline.points.assign(run.begin(), run.end());
+    outline.format = "points";
+    return repair_outline(outline, source);
+}
+
+Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options) {
+    validate(options);
+    if (elements.empty()) throw UsageError("no input given");
+    Geometry geometry{std::move(elements)};
+    name_elements(geometry.elements, options);
+    if (options.flip) geometry = flipped(std::move(geometry));
+    geometry = transformed(std::move(geometry), options.transformations);
+    check_simple(geometry);
+    add_orientation_warnings(geometry, options.flip);
+    return geometry;
+}
+
 Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options) {
     validate(options);
-    if (inputs.empty()) throw UsageError("no input given");
     std::vector<Element> elements;
-    for (const std::string& input : inputs) {
-        if (input.starts_with(naca_prefix)) {
-            elements.push_back(read_naca(input, options.naca_points));
-        } else {
-            for (Element& element : parse_airfoil(read_input(input), input_name(input)))
-                elements.push_back(std::move(element));
-        }
-    }
+    for (const std::string& input : inputs)
+        for (Element& element : read_input(input, options)) elements.push_back(std::move(element));
     return make_geometry(std::move(elements), options);
 }
 

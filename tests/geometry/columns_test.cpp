@@ -20,7 +20,7 @@ namespace {
 
 /// Returns the geometry of the text of a file.
 Geometry parsed(const std::string& content) {
-    return geometry::make_geometry(geometry::parse_airfoil(content, "sample.dat"), {});
+    return make_geometry(geometry::parse_airfoil(content, "sample.dat"), {});
 }
 
 bool says(const Element& e, const std::string& part) {

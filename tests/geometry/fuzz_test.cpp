@@ -90,7 +90,7 @@ TEST(Fuzz, DamagedFilesGiveASimpleGeometryOrAnError) {
     for (std::size_t i = 0; i < cases; ++i) {
         const std::string content = mutate(seeds[i % seeds.size()]);
         try {
-            const Geometry geometry = geometry::make_geometry(geometry::parse_airfoil(content, "fuzz.dat"), {});
+            const Geometry geometry = make_geometry(geometry::parse_airfoil(content, "fuzz.dat"), {});
             ASSERT_FALSE(geometry.elements.empty());
             ASSERT_NO_THROW(check_simple(geometry)) << content;
             ASSERT_FALSE(describe(geometry).empty());
