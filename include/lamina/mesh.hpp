@@ -176,6 +176,23 @@ LAMINA_EXPORT MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& opt
 /// isotropic. Empty where no cell is taken for the layer. Precondition: all indices are in range.
 LAMINA_EXPORT std::vector<Region> estimate_regions(const Mesh& mesh);
 
+/// Returns the distance of each point to the nearest edge of a marker of kind wall; infinite where there is none.
+LAMINA_EXPORT std::vector<double> wall_distances(const Mesh& mesh);
+
+/// The vertices of the walls, body by body in the order of the outline, counter-clockwise round each. The arrays have
+/// one entry per vertex.
+struct WallVertices {
+    std::vector<VertexId> vertex;         ///< index into Mesh::points
+    std::vector<std::uint32_t> marker;    ///< index into Mesh::markers, of the edge that begins at the vertex
+    std::vector<double> arc_length;       ///< from the first vertex of the body
+    std::vector<Point> normal;            ///< unit vector into the flow: the bisector at corners
+    std::vector<double> first_height;     ///< above the wall, of the lowest vertex of the cells on the two edges beside
+    std::vector<std::size_t> body_first;  ///< where each body begins, followed by the number of vertices
+};
+
+/// Returns the vertices of the markers of kind wall. Precondition: check_mesh() finds no defect.
+LAMINA_EXPORT WallVertices wall_vertices(const Mesh& mesh);
+
 /// Returns a hash of the mesh as 32 lower-case hexadecimal digits. It does not depend on the numbering, and hence not
 /// on the file format: it is the sum modulo 2^128 of one hash per cell and per marker edge. Each covers the IEEE bits
 /// of the vertices' coordinates (-0 as +0), from the lexicographically smallest vertex of a cell on, and the name of

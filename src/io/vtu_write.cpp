@@ -30,7 +30,6 @@
 #include "io/formats.hpp"
 #include "io/vtk_cell_types.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/wall_distance.hpp"
 
 namespace lamina::io {
 
@@ -251,7 +250,7 @@ void write_grid(const Mesh& mesh, const PointArray& array, bool compressed, std:
 }  // namespace
 
 void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out) {
-    const std::vector<double> distances = variant.wall_distance ? mesh::wall_distances(mesh) : std::vector<double>{};
+    const std::vector<double> distances = variant.wall_distance ? wall_distances(mesh) : std::vector<double>{};
     write_grid(mesh, {"wall_distance", distances}, variant.compressed, {}, out);
 }
 

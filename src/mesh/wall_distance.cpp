@@ -1,13 +1,15 @@
-#include "mesh/wall_distance.hpp"
-
+// Distances to the walls.
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include <lamina/mesh.hpp>
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
 
-namespace lamina::mesh {
+namespace lamina {
 
 std::vector<double> wall_distances(const Mesh& mesh) {
     struct WallSegment {
@@ -36,4 +38,4 @@ std::vector<double> wall_distances(const Mesh& mesh) {
     return distances;
 }
 
-}  // namespace lamina::mesh
+}  // namespace lamina
