@@ -33,6 +33,7 @@ OWNERS["transformation"] = "geometry"
 OWNERS["solution"] = "io"
 OWNERS["solution_sizes"] = "adaptation"
 OWNERS["triangle_files"] = "io"
+OWNERS["presets"] = "pipeline"
 
 # The colours of docs/images/stages.dot.
 COLOURS = {"geometry": "#cfe3f7", "surface": "#d8ecd0", "layers": "#fbe3c0", "sizing": "#f3d3e2",

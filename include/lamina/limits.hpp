@@ -97,4 +97,8 @@ LAMINA_EXPORT std::string memory_text(std::size_t bytes);
 /// not tell. `root` is the root of the file system.
 LAMINA_EXPORT std::optional<std::size_t> free_memory(const std::filesystem::path& root = "/");
 
+/// Returns the limits with those that the program and the Python module set where the user gives none: 80 % of the
+/// memory that is free.
+LAMINA_EXPORT WorkLimits with_default_limits(WorkLimits limits);
+
 }  // namespace lamina

@@ -2,6 +2,7 @@
 // once. The command line, case files, the guide and validate() all read these tables.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -82,6 +83,12 @@ struct Option {
 template <class Options>
 using OptionTable = std::vector<Option<Options>>;
 
+/// Returns the row of this name. Precondition: the table has one.
+template <class Options>
+const Option<Options>& find_row(const OptionTable<Options>& table, const std::string& name) {
+    return *std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.name == name; });
+}
+
 /// Throws OptionError unless every option of the table has a value that it could be set to.
 template <class Options>
 void require_in_range(const OptionTable<Options>& table, const Options& options) {
@@ -90,6 +97,23 @@ void require_in_range(const OptionTable<Options>& table, const Options& options)
         if (!value) continue;
         Options copy = options;
         option.set(copy, *value);
+    }
+}
+
+/// Throws UsageError where options of the table were given that exclude each other, or one without another that it
+/// needs. `given` are names of options.
+template <class Options>
+void require_consistent(const OptionTable<Options>& table, const std::vector<std::string>& given) {
+    const auto is_given = [&](const std::string& name) {
+        return std::find(given.begin(), given.end(), name) != given.end();
+    };
+    for (const Option<Options>& option : table) {
+        if (!is_given(option.name)) continue;
+        for (const std::string& other : option.excludes)
+            if (is_given(other))
+                throw UsageError(option.name + " and " + other + " exclude each other: give one of them");
+        for (const std::string& other : option.needs)
+            if (!is_given(other)) throw UsageError(option.name + " needs " + other + ", which is not given");
     }
 }
 

@@ -6,14 +6,12 @@
 #include <vector>
 
 #include <lamina/pipeline.hpp>
+#include <lamina/presets.hpp>
 
 namespace lamina::app {
 
 /// When the names of the stages are printed on standard error. `automatic`: where it is a terminal.
 enum class ProgressShown { automatic, always, never };
-
-/// The words for no preset, and for the one that suits the other options (presets.hpp).
-inline constexpr const char *no_preset = "none", *automatic_preset = "auto";
 
 struct MeshCase {
     std::string preset = automatic_preset;  ///< the preset that its options began with

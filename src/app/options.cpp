@@ -89,10 +89,6 @@ OptionTable<MeshCase> make_table() {
     return table;
 }
 
-bool is_given(const MeshCase& mesh_case, const std::string& name) {
-    return std::find(mesh_case.given.begin(), mesh_case.given.end(), name) != mesh_case.given.end();
-}
-
 /// Reads a number of this type that fills the whole text; `type_name` names the type in errors.
 template <class Number>
 Number parse(const std::string& text, const std::string& origin, const char* type_name) {
@@ -139,15 +135,7 @@ void assign(const Option<MeshCase>& option, MeshCase& mesh_case, const OptionVal
 }
 
 void require_consistent(const MeshCase& mesh_case) {
-    for (const Option<MeshCase>& option : mesh_options()) {
-        if (!is_given(mesh_case, option.name)) continue;
-        for (const std::string& other : option.excludes)
-            if (is_given(mesh_case, other))
-                throw UsageError(fmt::format("{} and {} exclude each other: give one of them", option.name, other));
-        for (const std::string& other : option.needs)
-            if (!is_given(mesh_case, other))
-                throw UsageError(fmt::format("{} needs {}, which is not given", option.name, other));
-    }
+    require_consistent(mesh_options(), mesh_case.given);
     validate(mesh_case.options);
 }
 

@@ -90,12 +90,4 @@ void require_no_warnings(std::span<const Warning> warnings, bool strict) {
                                 warnings.size() == 1 ? "" : "s"));
 }
 
-WorkLimits with_default_limits(WorkLimits limits) {
-    constexpr double share_of_free = 0.8;
-    if (limits.max_memory_bytes) return limits;
-    if (const auto free = free_memory())
-        limits.max_memory_bytes = static_cast<std::size_t>(share_of_free * static_cast<double>(*free));
-    return limits;
-}
-
 }  // namespace lamina::app

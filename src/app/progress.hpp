@@ -54,7 +54,4 @@ void require_promised_angles(const MeshCheck& check, bool allow_defects);
 /// Throws MeshError where there are warnings and `strict` asks for none.
 void require_no_warnings(std::span<const Warning> warnings, bool strict);
 
-/// Returns the limits with those that the program sets where the user gives none: 80 % of the memory that is free.
-WorkLimits with_default_limits(WorkLimits limits);
-
 }  // namespace lamina::app

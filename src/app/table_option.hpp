@@ -1,7 +1,6 @@
 // Options of commands that take single rows of an option table.
 #pragma once
 
-#include <algorithm>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -11,12 +10,6 @@
 #include "app/options.hpp"
 
 namespace lamina::app {
-
-/// Returns the row of this name. Precondition: the table has one.
-template <class Options>
-const Option<Options>& find_row(const OptionTable<Options>& table, const std::string& name) {
-    return *std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.name == name; });
-}
 
 /// Adds an option of a table to a command. `text` receives the value that the user gives.
 template <class Options>

@@ -145,4 +145,12 @@ std::string memory_text(std::size_t bytes) {
     return std::to_string(bytes) + unit;
 }
 
+WorkLimits with_default_limits(WorkLimits limits) {
+    constexpr double share_of_free = 0.8;
+    if (limits.max_memory_bytes) return limits;
+    if (const auto free = free_memory())
+        limits.max_memory_bytes = static_cast<std::size_t>(share_of_free * static_cast<double>(*free));
+    return limits;
+}
+
 }  // namespace lamina
