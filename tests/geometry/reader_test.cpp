@@ -258,6 +258,37 @@ TEST(Reader, MappedInputGivesTheMappedLoop) {
     }
 }
 
+TEST(PointsInMemory, AreRepairedAsThoseOfFiles) {
+    for (const std::string& content : fixtures::same_loop) {
+        SCOPED_TRACE(content);
+        const Element of_file = read(content).elements[0];
+        std::vector<Point> points = of_file.points;
+        const std::vector<Point> loop = points;
+        EXPECT_EQ(element_of_points(points, "array").points, loop);
+        points.push_back(points[0]);
+        EXPECT_EQ(element_of_points(points, "array").points, loop);
+        std::reverse(points.begin(), points.end());
+        const Element clockwise = element_of_points(points, "array");
+        EXPECT_EQ(clockwise.points, loop);
+        EXPECT_TRUE(has_repair(clockwise, "clockwise order reversed"));
+        EXPECT_EQ(make_geometry({clockwise}).elements[0].name, "airfoil");
+    }
+}
+
+TEST(PointsInMemory, ErrorsSayWhichPoint) {
+    std::vector<Point> points{{1, 0}, {0.5, 0.1}, {0, 0}, {0.5, -0.1}};
+    points[2].x = HUGE_VAL;
+    try {
+        element_of_points(points, "wing");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.place().file, "wing");
+        EXPECT_EQ(error.place().line, 3u);
+    }
+    EXPECT_THROW(element_of_points({}, "wing"), InputError);
+    EXPECT_THROW(make_geometry({}), UsageError);
+}
+
 TEST(Names, ComeFromFileStemsOrTheUser) {
     const test::TemporaryFolder folder;
     const std::string main = folder.write("main element (v2).dat", fixtures::selig).string();
