@@ -1,0 +1,23 @@
+// The parts of the module. Each function adds its part.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace lamina::python {
+
+/// Makes the errors of the library those of lamina._errors.
+void translate_errors();
+
+/// Adds the table of the options of mesh().
+void add_options(nanobind::module_& module);
+
+/// Adds sections: NACA sections and files of coordinates.
+void add_sections(nanobind::module_& module);
+
+/// Adds meshes: how they are made, read, checked and written.
+void add_meshes(nanobind::module_& module);
+
+/// Adds triangulations and their refinement.
+void add_triangulations(nanobind::module_& module);
+
+}  // namespace lamina::python

@@ -1,0 +1,229 @@
+// Meshes: made, read, checked, written, and seen as arrays without copies.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <lamina/io.hpp>
+#include <lamina/pipeline.hpp>
+#include <lamina/warning.hpp>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "facts.hpp"
+#include "interruption.hpp"
+#include "request.hpp"
+#include "sections.hpp"
+
+namespace lamina::python {
+
+namespace {
+
+/// A mesh that arrays of Python may still see. It never changes.
+struct SharedMesh {
+    std::shared_ptr<const Mesh> mesh;
+    const Mesh& operator*() const { return *mesh; }
+};
+
+SharedMesh shared(Mesh mesh) { return {std::make_shared<const Mesh>(std::move(mesh))}; }
+
+using OptionValues = std::vector<std::pair<std::string, OptionValue>>;
+using Background = std::tuple<PointsArgument, RowsArgument<std::uint32_t, 3>, ListArgument<double>>;
+
+std::shared_ptr<const SizedMesh> background_of(const Background& arrays) {
+    const auto& [points, triangles, sizes] = arrays;
+    auto mesh = std::make_shared<SizedMesh>();
+    mesh->points = points_of(points);
+    mesh->triangles = cells_of<Triangle, 3>(triangles);
+    mesh->sizes.assign(sizes.data(), sizes.data() + sizes.shape(0));
+    return mesh;
+}
+
+/// Throws MeshError where isotropic triangles have angles below the bound that no sharp corner excuses.
+void require_promised_angles(const MeshResult& result) {
+    const std::size_t narrow = result.check.isotropic.unexcused();
+    if (narrow == 0) return;
+    std::optional<Point> at;
+    if (!result.check.unexcused_cells.empty() && result.check.unexcused_cells[0] < result.mesh.triangles.size())
+        at = result.mesh.points[result.mesh.triangles[result.check.unexcused_cells[0]].v[0].index()];
+    throw MeshError(
+        fmt::format("{} triangle{} beyond the layer {} an angle below the bound (allow_defects=True returns "
+                    "the mesh all the same)",
+                    narrow, narrow == 1 ? "" : "s", narrow == 1 ? "has" : "have"),
+        at);
+}
+
+/// Makes a mesh. Returns it with its warnings and the facts about the run.
+nb::tuple generate(const nb::list& given_sections, const OptionValues& values, const std::optional<Background>& sizes,
+                   const nb::object& callback) {
+    MeshRequest request = make_request(values);
+    if (sizes) request.options.sizing.background = background_of(*sizes);
+    request.options.limits = with_default_limits(request.options.limits);
+    const std::vector<Section> sections = sections_of(given_sections);
+    const Progress progress = python_progress(callback);
+    MeshResult result;
+    {
+        const nb::gil_scoped_release unlocked;
+        const Geometry geometry = geometry_of(sections, request.options.geometry);
+        result = generate_mesh(geometry, request.options, progress);
+        if (!request.allow_defects) require_promised_angles(result);
+    }
+    raise_signals();
+    nb::list warnings = warnings_of(result.warnings);
+    nb::dict facts = facts_of(result);
+    return nb::make_tuple(shared(std::move(result.mesh)), warnings, facts);
+}
+
+SharedMesh read(const std::string& file, const std::string& format) {
+    const nb::gil_scoped_release unlocked;
+    return shared(read_mesh(file, {.format = format}));
+}
+
+void write(const SharedMesh& mesh, const std::string& file, const std::string& format, bool wall_distance) {
+    const nb::gil_scoped_release unlocked;
+    write_mesh(*mesh, file, {.format = format, .wall_distance = wall_distance});
+}
+
+nb::dict check(const SharedMesh& mesh, double min_angle, const std::optional<double>& first_height) {
+    MeshCheck result;
+    {
+        const nb::gil_scoped_release unlocked;
+        result = check_mesh(*mesh, {.min_angle_deg = min_angle, .first_height = first_height});
+    }
+    return check_of(result);
+}
+
+/// Returns (vertex, marker, arc length, normal, first height, where bodies begin).
+nb::tuple walls(const SharedMesh& mesh) {
+    WallVertices found;
+    {
+        const nb::gil_scoped_release unlocked;
+        found = wall_vertices(*mesh);
+    }
+    return nb::make_tuple(
+        owning_array<std::uint32_t>(std::move(found.vertex)), owning_array<std::uint32_t>(std::move(found.marker)),
+        owning_array<double>(std::move(found.arc_length)), owning_array<double>(std::move(found.normal)),
+        owning_array<double>(std::move(found.first_height)), found.body_first);
+}
+
+ReadOnlyArray<double> distances(const SharedMesh& mesh) {
+    std::vector<double> found;
+    {
+        const nb::gil_scoped_release unlocked;
+        found = wall_distances(*mesh);
+    }
+    return owning_array<double>(std::move(found));
+}
+
+/// Returns a view of an array of the mesh, which keeps the mesh alive.
+template <class Scalar, class Item>
+ReadOnlyArray<Scalar> view_of(const SharedMesh& mesh, std::vector<Item> Mesh::*items) {
+    auto kept = std::make_unique<std::shared_ptr<const Mesh>>(mesh.mesh);
+    const nb::capsule owner(kept.get(), [](void* p) noexcept { delete static_cast<std::shared_ptr<const Mesh>*>(p); });
+    return view<Scalar>((**kept.release()).*items, owner);
+}
+
+/// Returns (name, kind, edges) for each marker.
+nb::list markers(const SharedMesh& mesh) {
+    nb::list result;
+    for (const Marker& marker : (*mesh).markers) {
+        auto kept = std::make_unique<std::shared_ptr<const Mesh>>(mesh.mesh);
+        const nb::capsule owner(kept.release(),
+                                [](void* p) noexcept { delete static_cast<std::shared_ptr<const Mesh>*>(p); });
+        result.append(
+            nb::make_tuple(marker.name, static_cast<int>(marker.kind), view<std::uint32_t>(marker.edges, owner)));
+    }
+    return result;
+}
+
+using MarkerArrays = std::vector<std::tuple<std::string, int, RowsArgument<std::uint32_t, 2>>>;
+using CellArrays = std::tuple<ListArgument<std::uint8_t>, ListArgument<std::uint32_t>, ListArgument<std::uint16_t>>;
+
+/// Throws InputError where vertices have no points, or arrays per cell are neither empty nor one number per cell.
+void require_consistent_arrays(const Mesh& mesh) {
+    const auto require = [](bool holds, const char* reason) {
+        if (!holds) throw InputError({}, reason);
+    };
+    const auto in_range = [&](VertexId v) { return v.value < mesh.points.size(); };
+    for (const Triangle& t : mesh.triangles)
+        for (VertexId v : t.v) require(in_range(v), "a triangle has a vertex without a point");
+    for (const Quad& q : mesh.quads)
+        for (VertexId v : q.v) require(in_range(v), "a quadrilateral has a vertex without a point");
+    const auto require_segments = [&](const std::vector<Segment>& segments) {
+        for (const Segment& s : segments)
+            require(in_range(s.a) && in_range(s.b), "an edge has a vertex without a point");
+    };
+    for (const Marker& marker : mesh.markers) require_segments(marker.edges);
+    require_segments(mesh.constraints);
+    const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
+    for (const std::size_t size : {mesh.region.size(), mesh.piece.size(), mesh.layer.size()})
+        require(size == 0 || size == cells, "an array of the cells has not one number for each");
+    for (Region region : mesh.region) require(region <= Region::isotropic, "a region is neither 0 nor 1");
+}
+
+/// Returns the mesh of these arrays.
+SharedMesh mesh_of_arrays(const PointsArgument& points, const RowsArgument<std::uint32_t, 3>& triangles,
+                          const RowsArgument<std::uint32_t, 4>& quads, const MarkerArrays& markers,
+                          const CellArrays& cells, const RowsArgument<std::uint32_t, 2>& constraints) {
+    Mesh mesh;
+    mesh.points = points_of(points);
+    mesh.triangles = cells_of<Triangle, 3>(triangles);
+    mesh.quads = cells_of<Quad, 4>(quads);
+    mesh.constraints = cells_of<Segment, 2>(constraints);
+    for (const auto& [name, kind, edges] : markers) {
+        if (kind < 0 || kind > static_cast<int>(MarkerKind::other))
+            throw InputError({}, "a marker has an unknown kind");
+        mesh.markers.push_back({name, static_cast<MarkerKind>(kind), cells_of<Segment, 2>(edges)});
+    }
+    const auto& [region, piece, layer] = cells;
+    for (std::size_t i = 0; i < region.shape(0); ++i) mesh.region.push_back(static_cast<Region>(region.data()[i]));
+    mesh.piece.assign(piece.data(), piece.data() + piece.shape(0));
+    mesh.layer.assign(layer.data(), layer.data() + layer.shape(0));
+    require_consistent_arrays(mesh);
+    return shared(std::move(mesh));
+}
+
+}  // namespace
+
+void add_meshes(nb::module_& module) {
+    nb::class_<SharedMesh>(module, "Mesh")
+        .def("points", [](const SharedMesh& mesh) { return view_of<double>(mesh, &Mesh::points); })
+        .def("triangles", [](const SharedMesh& mesh) { return view_of<std::uint32_t>(mesh, &Mesh::triangles); })
+        .def("quads", [](const SharedMesh& mesh) { return view_of<std::uint32_t>(mesh, &Mesh::quads); })
+        .def("region", [](const SharedMesh& mesh) { return view_of<std::uint8_t>(mesh, &Mesh::region); })
+        .def("piece", [](const SharedMesh& mesh) { return view_of<std::uint32_t>(mesh, &Mesh::piece); })
+        .def("layer", [](const SharedMesh& mesh) { return view_of<std::uint16_t>(mesh, &Mesh::layer); })
+        .def("constraints", [](const SharedMesh& mesh) { return view_of<std::uint32_t>(mesh, &Mesh::constraints); })
+        .def("markers", &markers)
+        .def("walls", &walls)
+        .def("wall_distances", &distances)
+        .def("check", &check, nb::arg("min_angle"), nb::arg("first_height").none())
+        .def("write", &write)
+        .def("write_wall_data", [](const SharedMesh& mesh, const std::string& file) { write_wall_data(*mesh, file); })
+        .def("hash", [](const SharedMesh& mesh) {
+            const nb::gil_scoped_release unlocked;
+            return mesh_hash(*mesh);
+        });
+    module.def("generate", &generate, nb::arg("sections"), nb::arg("values"), nb::arg("sizes").none(),
+               nb::arg("progress").none());
+    module.def("read", &read);
+    module.def("mesh_of_arrays", &mesh_of_arrays);
+    module.def("format_names", [] {
+        std::vector<std::string> names;
+        for (const MeshFormat& format : mesh_formats()) names.push_back(format.name);
+        return names;
+    });
+    module.attr("proved_min_angle") = proved_min_angle_deg;
+}
+
+}  // namespace lamina::python

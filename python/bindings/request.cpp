@@ -1,0 +1,134 @@
+#include "request.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <lamina/io.hpp>
+#include <lamina/option_builders.hpp>
+#include <lamina/suggestion.hpp>
+
+#include "bindings.hpp"
+
+namespace lamina::python {
+
+namespace nb = nanobind;
+
+namespace {
+
+constexpr const char* preset_key = "preset";
+
+OptionTable<MeshRequest> make_request_table() {
+    OptionTableBuilder<MeshRequest> presets("Files"), sizes("Outer region"), run("Run");
+    presets.choice(preset_key,
+                   "options to begin with, which all others override; auto: rans where a Reynolds number "
+                   "is given, else none",
+                   preset_choices(), member_at(&MeshRequest::preset));
+    OptionTable<MeshRequest> table = presets.take();
+    for (Option<MeshRequest>& row : nested_table<MeshRequest>(case_option_table(), member_at(&MeshRequest::options)))
+        if (!row.library_only) table.push_back(std::move(row));
+    const auto set_background = [](MeshRequest& request, const OptionValue& value) {
+        request.options.sizing.background = std::make_shared<const SizedMesh>(read_sizes(as_word(value, "background")));
+    };
+    sizes.add({"background", OptionKind::path, "FILE",
+               "VTU or MSH mesh to read with an edge length at each vertex, in units of the input, or the arrays "
+               "(points, triangles, sizes); linear in its triangles",
+               "", set_background, [](const MeshRequest&) { return std::optional<OptionValue>{}; }});
+    run.flag("allow-defects",
+             "return the mesh even where isotropic triangles have an angle below min_angle that no sharp corner "
+             "excuses; otherwise such a run raises MeshError",
+             true, member_at(&MeshRequest::allow_defects));
+    for (auto* builder : {&sizes, &run})
+        for (Option<MeshRequest>& row : builder->take()) table.push_back(std::move(row));
+    return table;
+}
+
+const Option<MeshRequest>& row_of_key(const std::string& key) {
+    const OptionTable<MeshRequest>& table = request_table();
+    const auto row = std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.key() == key; });
+    if (row != table.end()) return *row;
+    std::vector<std::string> keys;
+    for (const Option<MeshRequest>& option : table) keys.push_back(option.key());
+    throw OptionError(key, "no such option" + did_you_mean(closest_word(key, keys)));
+}
+
+const char* kind_name(OptionKind kind) {
+    switch (kind) {
+        case OptionKind::number:
+            return "number";
+        case OptionKind::length:
+            return "length";
+        case OptionKind::count:
+            return "count";
+        case OptionKind::count_or_auto:
+            return "count_or_auto";
+        case OptionKind::flag:
+            return "flag";
+        case OptionKind::word:
+            return "word";
+        case OptionKind::words:
+            return "words";
+        case OptionKind::repeated:
+            return "repeated";
+        case OptionKind::path:
+            return "path";
+        case OptionKind::paths:
+            return "paths";
+    }
+    return "";
+}
+
+/// Returns one dictionary for each option.
+nb::list option_rows() {
+    const MeshRequest defaults;
+    nb::list rows;
+    for (const Option<MeshRequest>& option : request_table()) {
+        nb::dict row;
+        row["key"] = option.key();
+        row["kind"] = kind_name(option.kind);
+        row["metavar"] = option.metavar;
+        row["help"] = option.help;
+        row["range"] = option.range;
+        row["group"] = option.group;
+        row["default"] = nb::cast(option.get(defaults));
+        rows.append(row);
+    }
+    return rows;
+}
+
+}  // namespace
+
+const OptionTable<MeshRequest>& request_table() {
+    static const OptionTable<MeshRequest> table = make_request_table();
+    return table;
+}
+
+MeshRequest make_request(const std::vector<std::pair<std::string, OptionValue>>& values) {
+    const auto is_given = [&](const std::string& key) {
+        return std::any_of(values.begin(), values.end(), [&](const auto& entry) { return entry.first == key; });
+    };
+    MeshRequest request;
+    for (const auto& [key, value] : values)
+        if (key == preset_key) row_of_key(key).set(request, value);
+    request.options =
+        preset_options(request.preset, std::any_of(std::begin(reynolds_options), std::end(reynolds_options), is_given));
+    std::vector<std::string> given;
+    for (const auto& [key, value] : values) {
+        const Option<MeshRequest>& row = row_of_key(key);
+        row.set(request, value);
+        given.push_back(row.name);
+    }
+    require_consistent(request_table(), given);
+    validate(request.options);
+    return request;
+}
+
+void add_options(nb::module_& module) { module.def("option_rows", &option_rows); }
+
+}  // namespace lamina::python

@@ -1,0 +1,169 @@
+// Triangulations of points and segments, and their refinement.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/variant.h>
+
+#include <lamina/delaunay.hpp>
+#include <lamina/limits.hpp>
+#include <lamina/option_builders.hpp>
+#include <lamina/threads.hpp>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "interruption.hpp"
+
+namespace lamina::python {
+
+namespace {
+
+using SegmentsArgument = RowsArgument<std::uint32_t, 2>;
+using TrianglesArgument = RowsArgument<std::uint32_t, 3>;
+
+/// Returns the value of a word. Throws OptionError for other words.
+template <class Choice>
+Choice choice_of(const Choices<Choice>& choices, const std::string& option, const std::string& word) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : choices) {
+        if (name == word) return value;
+        names.push_back(name);
+    }
+    throw OptionError(option, unknown_choice(word, names));
+}
+
+ReadOnlyArray<std::uint32_t> delaunay(const PointsArgument& given) {
+    const std::vector<Point> points = points_of(given);
+    std::vector<Triangle> triangles;
+    {
+        const nb::gil_scoped_release unlocked;
+        triangles = triangulate(points).triangles;
+    }
+    raise_signals();
+    return owning_array<std::uint32_t>(std::move(triangles));
+}
+
+/// Returns (Steiner points, triangles, segments, parents).
+nb::tuple constrained_delaunay(const PointsArgument& given, const SegmentsArgument& given_segments,
+                               const std::string& keep, const std::string& crossings, const PointsArgument& holes) {
+    const std::vector<Point> points = points_of(given);
+    const std::vector<Segment> segments = cells_of<Segment, 2>(given_segments);
+    ConstrainedOptions options;
+    options.keep = choice_of<KeptRegion>({{"convex_hull", KeptRegion::convex_hull},
+                                          {"inside_segments", KeptRegion::inside_segments},
+                                          {"left_of_segments", KeptRegion::left_of_segments}},
+                                         "keep", keep);
+    options.crossings =
+        choice_of<Crossings>({{"refuse", Crossings::refuse}, {"insert", Crossings::insert}}, "crossings", crossings);
+    options.holes = points_of(holes);
+    ConstrainedTriangulation result;
+    {
+        const nb::gil_scoped_release unlocked;
+        result = triangulate(points, segments, options);
+    }
+    raise_signals();
+    return nb::make_tuple(owning_array<double>(std::move(result.steiner_points)),
+                          owning_array<std::uint32_t>(std::move(result.triangles)),
+                          owning_array<std::uint32_t>(std::move(result.segments)),
+                          owning_array<std::uint32_t>(std::move(result.parents)));
+}
+
+/// One size, or a background of points, triangles and the sizes of the points.
+using SizeArgument = std::variant<double, std::tuple<PointsArgument, TrianglesArgument, ListArgument<double>>>;
+
+SizeField size_field_of(const SizeArgument& argument, double gradation, const Box& domain) {
+    if (const double* size = std::get_if<double>(&argument)) return SizeField(*size);
+    const auto& [points, triangles, sizes] = std::get<1>(argument);
+    auto background = std::make_shared<SizedMesh>();
+    background->points = points_of(points);
+    background->triangles = cells_of<Triangle, 3>(triangles);
+    background->sizes.assign(sizes.data(), sizes.data() + sizes.shape(0));
+    SizingOptions options;
+    options.gradation = gradation;
+    options.background = std::move(background);
+    const SizeRequests requests = gather_size_requests(options, {}, {}, domain);
+    return SizeField(requests.sources, {.gradation = gradation}, domain);
+}
+
+/// Throws LimitError where the refinement would exceed the limits.
+void require_refinement_within(const WorkLimits& limits, std::span<const Point> points,
+                               const ConstrainedTriangulation& triangulation, const SizeField& size,
+                               const ConstrainedRefineOptions& options) {
+    const RefinementEstimate estimate = estimate_triangles(points, triangulation, size, options);
+    require_within(limits, estimate_run(estimate.by_sizes, refinement_cost, thread_count()), "size", "this size");
+    if (estimate.least_by_angles > allowed_triangles(limits, angle_refinement_cost))
+        throw_limit_error(limits, estimate_run(estimate.by_angles, angle_refinement_cost, thread_count()), "min_angle",
+                          fmt::format("{}, with segments so close together,", options.refine.min_angle_deg));
+}
+
+/// The options of refine() as the package hands them over.
+struct RefineArguments {
+    double gradation, min_angle;
+    bool split_segments;
+    unsigned smoothing;
+    std::optional<std::size_t> max_triangles;
+};
+
+/// Returns (Steiner points, triangles, segments, parents, numbers of what could not be refined).
+nb::tuple refine_triangulation(const PointsArgument& given, const TrianglesArgument& triangles,
+                               const SegmentsArgument& segments, const ListArgument<std::uint32_t>& parents,
+                               const SizeArgument& size_argument, const RefineArguments& arguments) {
+    const std::vector<Point> points = points_of(given);
+    ConstrainedTriangulation triangulation;
+    triangulation.triangles = cells_of<Triangle, 3>(triangles);
+    triangulation.segments = cells_of<Segment, 2>(segments);
+    triangulation.parents.assign(parents.data(), parents.data() + parents.shape(0));
+    Box domain;
+    for (const Point p : points) domain.include(p);
+    ConstrainedRefineOptions options;
+    options.refine.min_angle_deg = arguments.min_angle;
+    options.refine.smoothing = arguments.smoothing;
+    options.split_segments = arguments.split_segments;
+    const WorkLimits limits = with_default_limits({.max_triangles = arguments.max_triangles});
+    ConstrainedRefinement result;
+    {
+        const nb::gil_scoped_release unlocked;
+        const SizeField size = size_field_of(size_argument, arguments.gradation, domain);
+        require_refinement_within(limits, points, triangulation, size, options);
+        options.refine.max_points = allowed_points(limits, angle_refinement_cost, options.refine.max_points);
+        result = refine(points, triangulation, size, options);
+    }
+    raise_signals();
+    nb::dict stats;
+    stats["refused"] = result.stats.refused;
+    stats["below_bound"] = result.stats.below_bound;
+    stats["exempt"] = result.stats.exempt;
+    stats["oversized"] = result.stats.oversized;
+    return nb::make_tuple(owning_array<double>(std::move(result.steiner_points)),
+                          owning_array<std::uint32_t>(std::move(result.triangles)),
+                          owning_array<std::uint32_t>(std::move(result.segments)),
+                          owning_array<std::uint32_t>(std::move(result.parents)), stats);
+}
+
+}  // namespace
+
+void add_triangulations(nb::module_& module) {
+    module.def("delaunay", &delaunay);
+    module.def("constrained_delaunay", &constrained_delaunay);
+    module.def(
+        "refine",
+        [](const PointsArgument& points, const TrianglesArgument& triangles, const SegmentsArgument& segments,
+           const ListArgument<std::uint32_t>& parents, const SizeArgument& size, double gradation, double min_angle,
+           bool split_segments, unsigned smoothing, std::optional<std::size_t> max_triangles) {
+            return refine_triangulation(points, triangles, segments, parents, size,
+                                        {gradation, min_angle, split_segments, smoothing, max_triangles});
+        },
+        nb::arg("points"), nb::arg("triangles"), nb::arg("segments"), nb::arg("parents"), nb::arg("size"),
+        nb::arg("gradation"), nb::arg("min_angle"), nb::arg("split_segments"), nb::arg("smoothing"),
+        nb::arg("max_triangles").none());
+}
+
+}  // namespace lamina::python

@@ -1,0 +1,354 @@
+"""The mesh and its check."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Mapping
+
+import numpy as np
+
+from . import _lamina
+from ._arrays import index_array, points_array
+from ._errors import MeshWarning
+
+#: The kinds of markers, in the order of the C++ enumeration.
+_KINDS = ("wall", "far_field", "symmetry", "other")
+
+
+@dataclass(frozen=True)
+class QualitySummary:
+    """Statistics of the cells of one region; all numbers are 0 where there are no cells. Angles are in degrees."""
+
+    cells: int  #: number of cells
+    min_angle: float  #: smallest angle of all cells
+    max_angle: float  #: largest angle of all cells
+    mean_min_angle: float  #: mean of the smallest angles of the cells
+    mean_max_angle: float  #: mean of the largest angles of the cells
+    mean_ratio: float  #: mean of the mean ratios; 1 for equilateral triangles and squares
+    share_below_40: float  #: share of the cells whose smallest angle is below 40 degrees
+    angles_below_bound: int  #: cells whose smallest angle is below the bound of the check
+    exempt: int  #: those of them at sharp corners, which no refinement could mend
+    max_neighbour_area_ratio: float  #: over edges between two isotropic cells
+    p999_neighbour_area_ratio: float  #: 99.9th percentile of the same
+    max_aspect_ratio: float  #: longest edge over the height on it
+    angle_histogram: list[int]  #: numbers of smallest angles in [0, 5), [5, 10), ... degrees
+
+
+@dataclass(frozen=True)
+class TransitionSummary:
+    """Areas of layer cells over those of the isotropic cells beyond; 1 is ideal."""
+
+    edges: int  #: edges between the two regions
+    p01_area_ratio: float  #: 1st percentile
+    median_area_ratio: float  #: median
+    p99_area_ratio: float  #: 99th percentile
+
+
+@dataclass(frozen=True)
+class WallSummary:
+    """How evenly the walls are divided, and how high the cells on them are."""
+
+    edges: int  #: edges on walls
+    max_ratio: float  #: largest ratio of the lengths of neighbouring edges
+    max_ratio_at: tuple[float, float]  #: the vertex between the two
+    uneven_vertices: int  #: vertices where the ratio exceeds 1.25
+    first_cells: int  #: edges with a cell of the first layer
+    median_first_height: float  #: in units of the input
+    share_of_kept_heights: float  #: share of the first heights within 1 % of the height wanted
+    worst_first_height: float  #: the height that differs most, over the height wanted
+    worst_first_height_at: tuple[float, float]  #: the wall vertex at its edge's start
+
+
+@dataclass(frozen=True)
+class MeshCheck:
+    """The result of `lamina.check()`: whether the mesh is valid, exactly, and how good it is."""
+
+    defects: list[tuple[str, tuple[float, float]]]  #: the first 20, each with a place; empty: the mesh is valid
+    defect_count: int  #: number of all defects
+    area: float  #: sum of the areas of the cells
+    euler_characteristic: int  #: vertices - edges + cells
+    boundary_loops: int  #: closed loops of boundary edges
+    layer: QualitySummary  #: of the cells of the layer
+    isotropic: QualitySummary  #: of the other cells
+    transition: TransitionSummary  #: between the two
+    walls: WallSummary  #: of all edges of walls
+    interior_edges: int  #: edges between two isotropic triangles that are no constraints
+    delaunay_violations: int  #: those of them that are not Delaunay (exact)
+    edges_without_first_layer: int  #: boundary edges of layer cells that reach beyond the first layer
+
+    @property
+    def valid(self) -> bool:
+        """Whether the mesh has no defects."""
+        return self.defect_count == 0
+
+    @classmethod
+    def _from(cls, data: dict[str, Any]) -> MeshCheck:
+        parts = {"layer": QualitySummary, "isotropic": QualitySummary, "transition": TransitionSummary,
+                 "walls": WallSummary}
+        return cls(**{key: parts[key](**value) if key in parts else value for key, value in data.items()})
+
+    def _rows(self) -> list[tuple[str, str]]:
+        """Returns what a person wants to know first, as names and texts."""
+        rows = [("valid", "yes" if self.valid else f"no: {self.defects[0][0]}")]
+        for name, part in (("layer", self.layer), ("isotropic", self.isotropic)):
+            if part.cells:
+                rows.append((f"{name} cells", f"{part.cells:,}, angles {part.min_angle:.3g} to "
+                                              f"{part.max_angle:.4g} degrees"))
+        if self.layer.cells:
+            rows.append(("median first height", f"{self.walls.median_first_height:.4g}"))
+        return rows
+
+    def _repr_html_(self) -> str:
+        return _html_table(self._rows())
+
+
+@dataclass(frozen=True)
+class WallVertices:
+    """The vertices of the walls, body by body in the order of the outline, counter-clockwise round each."""
+
+    vertex: np.ndarray  #: (n,) indices into Mesh.points
+    marker: np.ndarray  #: (n,) indices into list(Mesh.markers), of the edge that begins at the vertex
+    arc_length: np.ndarray  #: (n,) from the first vertex of the body, in units of the input
+    normal: np.ndarray  #: (n, 2) unit vectors into the flow: the bisectors at corners
+    first_height: np.ndarray  #: (n,) height above the wall of the lowest vertex of the cells beside, in units of the input
+    bodies: list[slice] = field(default_factory=list)  #: for each body its part of the arrays
+
+    def __len__(self) -> int:
+        return len(self.vertex)
+
+
+class Mesh:
+    """A valid mesh of triangles and quadrilaterals. It never changes; its arrays are read-only and are no copies.
+
+    Vertices of the walls come first, in the order of the input, then those of the layer, then the rest. Arrays per cell
+    hold one entry per triangle, followed by one per quadrilateral; they are empty for meshes from files that do not
+    hold them.
+    """
+
+    def __init__(self) -> None:
+        raise TypeError("meshes come from lamina.mesh(), lamina.read() and lamina.mesh_of_arrays()")
+
+    @classmethod
+    def _from(cls, data: _lamina.Mesh, warnings: list[MeshWarning] | None = None,
+              facts: dict[str, Any] | None = None) -> Mesh:
+        mesh = cls.__new__(cls)
+        mesh._data = data
+        mesh._warnings = warnings or []
+        mesh._facts = facts or {}
+        return mesh
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """The vertices: (n, 2) doubles, in units of the input."""
+        return self._data.points()
+
+    @cached_property
+    def triangles(self) -> np.ndarray:
+        """(m, 3) indices into `points`, counter-clockwise."""
+        return self._data.triangles()
+
+    @cached_property
+    def quads(self) -> np.ndarray:
+        """(m, 4) indices into `points`, counter-clockwise."""
+        return self._data.quads()
+
+    @cached_property
+    def _markers(self) -> list[tuple[str, int, np.ndarray]]:
+        return self._data.markers()
+
+    @cached_property
+    def markers(self) -> Mapping[str, np.ndarray]:
+        """The edges of each marker by its name: (k, 2) indices into `points`, with the mesh on the left of each edge.
+        Together they are all edges of the boundary."""
+        return {name: edges for name, _, edges in self._markers}
+
+    @cached_property
+    def marker_kinds(self) -> Mapping[str, str]:
+        """The kind of each marker by its name: "wall", "far_field", "symmetry" or "other"."""
+        return {name: _KINDS[kind] for name, kind, _ in self._markers}
+
+    @cached_property
+    def region(self) -> np.ndarray:
+        """Per cell: 0 in the layer, 1 in the isotropic region."""
+        return self._data.region()
+
+    @cached_property
+    def layer(self) -> np.ndarray:
+        """Per cell: the number of its layer from the wall, from 1; 0 outside the layer."""
+        return self._data.layer()
+
+    @cached_property
+    def piece(self) -> np.ndarray:
+        """Per cell: the subdomain that made it."""
+        return self._data.piece()
+
+    @cached_property
+    def constraints(self) -> np.ndarray:
+        """Interior edges that the triangulation was constrained to: the outer borders of the layer. (k, 2) indices."""
+        return self._data.constraints()
+
+    @cached_property
+    def wall_distance(self) -> np.ndarray:
+        """Per point: the distance to the nearest edge of a wall, in units of the input. Computed when first asked for."""
+        return self._data.wall_distances()
+
+    @cached_property
+    def wall(self) -> WallVertices:
+        """The vertices of the walls in order, with arc length, normal and first height. Computed when first asked for."""
+        vertex, marker, arc_length, normal, first_height, first = self._data.walls()
+        bodies = [slice(a, b) for a, b in zip(first[:-1], first[1:])]
+        return WallVertices(vertex, marker, arc_length, normal, first_height, bodies)
+
+    @cached_property
+    def hash(self) -> str:
+        """32 hexadecimal digits that depend on the cells and markers, and not on their numbering: that of the report
+        of the program."""
+        return self._data.hash()
+
+    @property
+    def warnings(self) -> list[MeshWarning]:
+        """What the user should know about the mesh; empty: nothing."""
+        return list(self._warnings)
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """What the run that made the mesh says beside it: chord, Reynolds number, elements, first heights, estimate,
+        seconds. Empty for a mesh from a file."""
+        return dict(self._facts)
+
+    def quality(self, *, min_angle: float | None = None, first_height: float | None = None) -> MeshCheck:
+        """Checks the mesh exactly and measures its quality: `lamina.check(mesh)`."""
+        bound = _lamina.proved_min_angle if min_angle is None else min_angle
+        return MeshCheck._from(self._data.check(bound, first_height))
+
+    def write(self, path: str | os.PathLike[str], *, format: str = "", wall_distance: bool = False) -> None:
+        """Writes the mesh to a file.
+
+        The extension of the file says its format, unless `format` names one of `lamina.formats()`. `wall_distance`
+        adds the distance to the nearest wall as point data, in VTU files. Raises IoError, UsageError for unknown
+        formats, MeshError for a mesh that the format cannot hold. A failure leaves nothing half-written.
+        """
+        self._data.write(os.fspath(path), format, wall_distance)
+
+    def write_wall_data(self, path: str | os.PathLike[str]) -> None:
+        """Writes the table of `wall` as CSV, as `lamina mesh --wall-data` does."""
+        self._data.write_wall_data(os.fspath(path))
+
+    def plot(self, ax=None, *, window: tuple[float, float, float, float] | None = None, color: str = "none", **style):
+        """Draws the mesh with matplotlib and returns the axes.
+
+        `window` is (x0, x1, y0, y1) in units of the input, and else the bodies and some space round them. `color` says
+        what the colours of the cells show: "none", "quality" (smallest angle), "size" (square root of the area),
+        "piece" or "layer". Further arguments go to the collection of the edges, such as `linewidth`.
+        """
+        from ._picture import draw_mesh
+
+        return draw_mesh(self, ax, window, color, style)
+
+    def to_meshio(self):
+        """Returns the mesh as a `meshio.Mesh`: cells, one block of lines for each marker, data `layer` and `region` of
+        the cells, and one set of cells for each marker. Needs meshio."""
+        from ._export import to_meshio
+
+        return to_meshio(self)
+
+    def to_pyvista(self):
+        """Returns the mesh as a `pyvista.UnstructuredGrid` with the data `layer` and `region` of the cells. Needs
+        pyvista."""
+        from ._export import to_pyvista
+
+        return to_pyvista(self)
+
+    def __len__(self) -> int:
+        return len(self.triangles) + len(self.quads)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Mesh) and self.hash == other.hash
+
+    def __hash__(self) -> int:
+        return hash(self.hash)
+
+    def __repr__(self) -> str:
+        walls = [name for name, kind in self.marker_kinds.items() if kind == "wall"]
+        return (f"<lamina.Mesh round {', '.join(walls) or 'nothing'}: {len(self.points):,} points, "
+                f"{len(self.triangles):,} triangles, {len(self.quads):,} quadrilaterals>")
+
+    def _repr_html_(self) -> str:
+        from ._picture import picture_html
+
+        rows = [("points", f"{len(self.points):,}"), ("triangles", f"{len(self.triangles):,}"),
+                ("quadrilaterals", f"{len(self.quads):,}"),
+                ("markers", ", ".join(f"{name} ({len(edges):,})" for name, edges in self.markers.items()))]
+        rows += self.quality()._rows()
+        rows += [("warning", str(warning)) for warning in self._warnings]
+        return f"<div>{picture_html(self)}{_html_table(rows)}</div>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        arrays: dict[str, Any] = {
+            name: np.array(getattr(self, name))
+            for name in ("points", "triangles", "quads", "region", "piece", "layer", "constraints")}
+        arrays["markers"] = [(name, kind, np.array(edges)) for name, kind, edges in self._markers]
+        return {"arrays": arrays, "warnings": self._warnings, "facts": self._facts}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._data = _data_of_arrays(**state["arrays"])
+        self._warnings = state["warnings"]
+        self._facts = state["facts"]
+
+
+def _data_of_arrays(points, triangles, quads, markers, region, piece, layer, constraints) -> _lamina.Mesh:
+    def per_cell(values, dtype, name):
+        return np.ascontiguousarray(index_array(values, 1, name), dtype=dtype)
+
+    return _lamina.mesh_of_arrays(
+        points_array(points), index_array(triangles, 3, "triangles"), index_array(quads, 4, "quads"),
+        [(name, kind, index_array(edges, 2, "markers")) for name, kind, edges in markers],
+        (per_cell(region, np.uint8, "region"), per_cell(piece, np.uint32, "piece"),
+         per_cell(layer, np.uint16, "layer")),
+        index_array(constraints, 2, "constraints"))
+
+
+def mesh_of_arrays(points, triangles, markers: Mapping[str, Any], *, quads=(),
+                   marker_kinds: Mapping[str, str] | None = None) -> Mesh:
+    """Returns a mesh of arrays, such as one that another mesher made.
+
+    points: (n, 2) coordinates. triangles: (m, 3), quads: (k, 4) indices into them, counter-clockwise. markers: for each
+    name (l, 2) indices, with the mesh on the left of each edge. marker_kinds: "wall" (where nothing is said),
+    "far_field", "symmetry" or "other". `lamina.check()` says whether the mesh is valid.
+    """
+    kinds = dict(marker_kinds or {})
+    named = [(name, _KINDS.index(kinds.get(name, "wall")), edges) for name, edges in markers.items()]
+    return Mesh._from(_data_of_arrays(points, triangles, quads, named, (), (), (), ()))
+
+
+def read(path: str | os.PathLike[str], *, format: str = "") -> Mesh:
+    """Reads a mesh from a file. The extension says its format, unless `format` names one of `lamina.formats()`.
+
+    Raises IoError where the file cannot be read, InputError where it is malformed, UsageError for unknown formats.
+    """
+    return Mesh._from(_lamina.read(os.fspath(path), format))
+
+
+def check(mesh: Mesh, *, min_angle: float | None = None, first_height: float | None = None) -> MeshCheck:
+    """Checks a mesh exactly and measures its quality.
+
+    A mesh is valid if its cells are counter-clockwise, conform, and cover its domain once, and if the markers are its
+    boundary. `min_angle`, in degrees, is the bound of `QualitySummary.angles_below_bound`; `first_height`, in units of
+    the input, the height that first cells should have, else their median on each marker.
+    """
+    return mesh.quality(min_angle=min_angle, first_height=first_height)
+
+
+def formats() -> list[str]:
+    """Returns the names of the formats that meshes are written in."""
+    return _lamina.format_names()
+
+
+def _html_table(rows: list[tuple[str, str]]) -> str:
+    from html import escape
+
+    cells = "".join(f"<tr><th style='text-align:left'>{escape(name)}</th><td style='text-align:left'>{escape(text)}"
+                    "</td></tr>" for name, text in rows)
+    return f"<table>{cells}</table>"

@@ -1,0 +1,135 @@
+"""Meshes round sections. Generated from the option tables: `python -m lamina._stubs` prints this file."""
+
+from collections.abc import Callable, Sequence
+from os import PathLike
+from typing import Any, Literal
+
+from ._errors import RunEstimate
+from ._mesh import Mesh
+from ._sections import Sections
+
+def mesh(
+    sections: Sections,
+    *,
+    progress: Callable[[str, RunEstimate | None], object] | None = None,
+    # options to begin with, which all others override; auto: rans where a Reynolds number is given, else none
+    # [auto]
+    preset: Literal["auto", "none", "rans", "wall-function", "euler", "les2d", "thesis"] | None = None,
+    # what becomes of the given points: they are kept, replaced by new ones on a spline through them, or
+    # replaced where they are coarse [auto]
+    surface: Literal["auto", "keep", "resample"] | None = None,
+    # wall vertices per element, about; else as many as the ray angle requires; >= 3 and <= 1e+07
+    surface_points: int | None = None,
+    # wall spacing at the leading edge at most, in lengths of the element; makes auto resample. Where the
+    # curvature asks for less, it gets less; > 0
+    spacing_le: float | None = None,
+    # wall spacing at the trailing edge, in lengths of the element; makes auto resample; else as the layer asks,
+    # about 0.001; > 0
+    spacing_te: float | None = None,
+    # largest wall spacing, in lengths of the element; > 0 [0.02]
+    spacing_max: float | None = None,
+    # smooth the points first; none moves by more than this; > 0
+    smooth: float | str | None = None,
+    # marker names, one per element; else the stems of the files, or 'airfoil' for a single element
+    names: str | Sequence[str | float] | None = None,
+    # exchange left and right of the whole configuration, for flow that comes from the right; before any
+    # --transform
+    flip: bool | None = None,
+    # change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] (counter-clockwise,
+    # about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), flap:DEG:X,Y (a plain flap with
+    # its hinge at X,Y, downwards); may be given several times, in order
+    transform: str | Sequence[str] | None = None,
+    # reference chord, in units of the input: what lengths in chords count; else the extent in x of the
+    # configuration; > 0
+    chord: float | None = None,
+    # angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned
+    # (--flip is for flow from the right); >= -90 and <= 90 [0]
+    alpha: float | None = None,
+    # Reynolds number of the free stream, based on the chord; > 0
+    reynolds: float | None = None,
+    # velocity of the free stream, in units of the input per second; with the viscosity it gives the Reynolds
+    # number; > 0
+    velocity: float | None = None,
+    # kinematic viscosity, in squared units of the input per second; > 0
+    viscosity: float | None = None,
+    # Mach number of the free stream; > 0
+    mach: float | None = None,
+    # height of the first layer above the wall; > 0 [1e-05]
+    first_height: float | str | None = None,
+    # instead: y+ of the top of the first layer, on a flat plate or, with use-flow, where friction is largest;
+    # needs reynolds, or velocity and viscosity; > 0
+    y_plus: float | None = None,
+    # ratio of the heights of successive layers, or power of the polynomial law; > 1 [1.2]
+    growth: float | None = None,
+    # height of the top of layer n, where H is the first height: geometric, H (R^n - 1) / (R - 1); polynomial, H
+    # n^R; exponential, T (e^(a n/N) - 1) / (e^a - 1), where a makes the first layer H high; adaptive,
+    # geometric, where a ratio of 1.05 to 1.5 makes the last layer as high as the rays stand apart; aflr, 5
+    # layers of H, then each 1.05, 1.05^2, ... 1.5, 1.5 ... times as high as the one below [geometric]
+    growth_law: Literal["geometric", "polynomial", "exponential", "adaptive", "aflr"] | None = None,
+    # number of layers; auto: on each ray up to cells as high as wide; >= 1 and <= 65535 [30]
+    layers: int | Literal["auto"] | None = None,
+    # total height beyond which no layer goes; > 0
+    thickness: float | str | None = None,
+    # isotropic triangles up to the wall
+    no_layers: bool | None = None,
+    # largest angle between neighbouring rays, in degrees; >= 0.01 and <= 90 [5]
+    max_ray_angle: float | None = None,
+    # at sharp convex corners: a fan of rays, or refining rays beside the vertex [fan]
+    corners: Literal["fan", "refine"] | None = None,
+    # cells of the layer: Delaunay triangles, or the grid of rays and layers, cut or left whole [layered]
+    layer_topology: Literal["delaunay", "layered", "quads"] | None = None,
+    # whether layers up to isotropy go on behind trailing edges, along the wakes that the flow finds; needs
+    # use-flow and layers auto; behind blunt bases cell-centred solvers may diverge on it [no]
+    wake_layers: bool | None = None,
+    # half-width of the far-field box or radius of the circle; > 0 [100]
+    far_field: float | str | None = None,
+    # shape of the far field round the middle of the configuration [box]
+    far_field_shape: Literal["box", "circle"] | None = None,
+    # instead: corners of a convex far field, counter-clockwise, in units of the input
+    far_field_outline: str | float | Sequence[float] | None = None,
+    # growth of the edge length per unit of distance; > 0 and <= 1 [0.1]
+    gradation: float | None = None,
+    # largest edge length at the outer border of the layer; else the edges of the border decide; > 0
+    wall_size: float | str | None = None,
+    # largest edge length; else unbounded; > 0
+    far_size: float | str | None = None,
+    # small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, or auto for that of
+    # the flow (alpha); LENGTH of the line (2 chords); SIZE at the trailing edge (else the size there without a
+    # wake)
+    wake: str | float | Sequence[float] | None = None,
+    # edge length H in and round a shape, box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H, in units of
+    # the input; may be given several times
+    refine: str | Sequence[str] | None = None,
+    # smallest angle of isotropic triangles, in degrees; > 0 and <= 33 [20.7]
+    min_angle: float | None = None,
+    # how often all vertices of isotropic triangles move to the means of their neighbours; those of ill-shaped
+    # ones then move a few times more; 0: none moves; >= 0 and <= 100 [2]
+    smoothing: int | None = None,
+    # how borders between pieces are divided [equidistributed]
+    separators: Literal["equidistributed", "k-rule"] | None = None,
+    # triangles per piece, about; >= 100 and <= 1e+09 [50000]
+    pieces_target: float | None = None,
+    # largest number of cuts on the way to a piece of the layer; >= 0 and <= 24 [6]
+    decomposition_depth: int | None = None,
+    # pieces of the layer with at most this many vertices are not cut further; >= 1 and <= 1e+09 [5000]
+    leaf_vertices: int | None = None,
+    # whether a panel method and boundary layers decide first heights for y+, the least thickness of --layers
+    # auto, and wakes; needs a Reynolds number [no]
+    use_flow: bool | None = None,
+    # the base of a blunt trailing edge is a marker of its own, NAME_base
+    base_marker: bool | None = None,
+    # number of threads; 0: one per core; never changes the mesh; >= 0 and <= 1024 [0]
+    threads: int | None = None,
+    # largest number of triangles; a run that needs more, by estimate, is refused before the work; >= 1 and <=
+    # 1e+15
+    max_triangles: int | None = None,
+    # largest memory of the process, such as 500M or 2G; a run that needs more, by estimate, is refused before
+    # the work; the program's default is 80 % of what is free
+    max_memory: str | float | Sequence[float] | None = None,
+    # VTU or MSH mesh to read with an edge length at each vertex, in units of the input, or the arrays (points,
+    # triangles, sizes); linear in its triangles
+    background: str | PathLike[str] | tuple[Any, Any, Any] | None = None,
+    # return the mesh even where isotropic triangles have an angle below min_angle that no sharp corner excuses;
+    # otherwise such a run raises MeshError
+    allow_defects: bool | None = None,
+) -> Mesh: ...

@@ -1,0 +1,69 @@
+"""Sections: files, names and arrays."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Union
+
+import numpy as np
+
+from . import _lamina
+from ._arrays import points_array
+from ._errors import UsageError
+
+#: One section: a file, a name such as "naca:0012", or an (n, 2) array of coordinates.
+Section = Union[str, "os.PathLike[str]", np.ndarray, Sequence[Sequence[float]]]
+#: One section, a list of them, or a dictionary from names of markers to them.
+Sections = Union[Section, Sequence[Section], Mapping[str, Section]]
+
+
+def _is_points(value: Any) -> bool:
+    """Whether the value is an array of coordinates, or rows of two numbers."""
+    if isinstance(value, np.ndarray):
+        return True
+    return (isinstance(value, Sequence) and not isinstance(value, str) and len(value) > 0
+            and all(isinstance(row, Sequence) and not isinstance(row, str) and len(row) == 2
+                    and all(np.isscalar(x) and not isinstance(x, str) for x in row) for row in value))
+
+
+def _section(value: Any, name: str) -> str | tuple[str, np.ndarray]:
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    return name, points_array(value, name)
+
+
+def section_list(sections: Sections) -> tuple[list[Any], list[str]]:
+    """Returns the sections as the C++ part takes them, and the names of a dictionary."""
+    if isinstance(sections, Mapping):
+        return [_section(value, str(name)) for name, value in sections.items()], [str(name) for name in sections]
+    if isinstance(sections, (str, os.PathLike)) or _is_points(sections):
+        return [_section(sections, "array")], []
+    if not isinstance(sections, Sequence):
+        raise UsageError(f"sections must be a path, a name, an array, or a list or dictionary of these, not "
+                         f"{type(sections).__name__}")
+    return [_section(value, "array") for value in sections], []
+
+
+def _closed(points: np.ndarray) -> np.ndarray:
+    return np.concatenate([points, points[:1]])
+
+
+def naca(digits: str, points: int = 200, *, trailing_edge: str = "sharp") -> np.ndarray:
+    """Returns the NACA 4-digit or 5-digit section of unit chord, such as "0012" or "23012".
+
+    (n, 2) coordinates with cosine spacing, from the trailing edge over the upper surface first; the first point is
+    repeated at the end. `points` is rounded so that both surfaces get the same number. `trailing_edge` is "sharp", "blunt" (the
+    published thickness) or "extended" (that of the NASA Turbulence Modeling Resource).
+    """
+    return _closed(_lamina.naca(str(digits), points, trailing_edge))
+
+
+def outlines(sections: Sections) -> dict[str, np.ndarray]:
+    """Reads and repairs sections as `lamina.mesh()` does, and returns the outline of each by its name.
+
+    Outlines are (n, 2) coordinates, counter-clockwise; the first point is repeated at the end. Raises InputError, IoError.
+    """
+    given, names = section_list(sections)
+    read = _lamina.outlines(given)
+    return {name: _closed(points) for name, (_, points, *_) in zip(names or [row[0] for row in read], read)}

@@ -1,0 +1,179 @@
+"""The mesh as an object: arrays, files, check, pictures, other packages."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import lamina
+
+
+def area_of(polygon):
+    x, y = polygon.T
+    return 0.5 * float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+
+
+def test_arrays_are_views_that_cannot_change(small):
+    for name in ("points", "triangles", "quads", "region", "layer", "piece", "constraints"):
+        array = getattr(small, name)
+        assert array.dtype == {"points": np.float64, "region": np.uint8, "layer": np.uint16}.get(name, np.uint32)
+        assert not array.flags.writeable
+        with pytest.raises(ValueError):
+            array[...] = 0
+        assert len(array) == 0 or np.shares_memory(array, getattr(small._data, name)())
+    assert small.points.shape[1] == 2 and small.triangles.shape[1] == 3 and small.quads.shape[1] == 4
+
+
+def test_arrays_outlive_the_mesh():
+    mesh = lamina.mesh("naca:0012", preset="euler")
+    points, edges = mesh.points, mesh.markers["airfoil"]
+    copies = points.copy(), edges.copy()
+    del mesh
+    for _ in range(3):
+        lamina.mesh("naca:2412", preset="euler")  # would reuse the memory
+    assert np.array_equal(points, copies[0]) and np.array_equal(edges, copies[1])
+
+
+def test_cells(small):
+    cells = len(small.triangles) + len(small.quads)
+    assert len(small) == cells == len(small.region) == len(small.layer) == len(small.piece)
+    assert ((small.layer > 0) == (small.region == 0)).all() and small.layer.max() == 12
+    corners = small.points[small.triangles]
+    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    assert (ax * by - ay * bx > 0).all()
+    assert lamina.check(small).area == pytest.approx(0.5 * float((ax * by - ay * bx).sum()), rel=1e-12)
+
+
+def test_quads_come_last():
+    mesh = lamina.mesh("naca:0012", first_height=1e-4, layers=12, layer_topology="quads")
+    assert len(mesh.quads) > 1000
+    assert (mesh.region[len(mesh.triangles):] == 0).all()
+
+
+def test_markers(small):
+    assert small.marker_kinds == {"airfoil": "wall", "farfield": "far_field"}
+    edges = small.markers["airfoil"]
+    starts, ends = set(edges[:, 0].tolist()), set(edges[:, 1].tolist())
+    assert starts == ends and len(starts) == len(edges)
+
+
+def test_wall(small):
+    wall = small.wall
+    assert len(wall) == len(small.markers["airfoil"]) and wall.bodies == [slice(0, len(wall))]
+    outline = small.points[wall.vertex]
+    assert area_of(outline) > 0.08  # counter-clockwise
+    steps = np.hypot(*np.diff(outline, axis=0).T)
+    assert np.allclose(np.diff(wall.arc_length), steps, rtol=1e-12)
+    assert np.allclose(np.hypot(*wall.normal.T), 1)
+    nose = int(np.argmin(outline[:, 0]))
+    assert wall.normal[nose] == pytest.approx([-1, 0], abs=1e-6)
+    assert np.median(wall.first_height) == pytest.approx(1e-4, rel=1e-3)
+    assert (wall.marker == 0).all()
+
+
+def test_wall_distance(small):
+    distance = small.wall_distance
+    assert distance.shape == (len(small.points),)
+    assert (distance[small.wall.vertex] == 0).all() and (distance >= 0).all()
+    far = np.unique(small.markers["farfield"])
+    assert distance[far].min() > 90
+    # Brute force at some points, against the edges of the wall.
+    a, b = (small.points[small.markers["airfoil"][:, k]] for k in (0, 1))
+    for i in range(0, len(small.points), len(small.points) // 50):
+        p, along = small.points[i], b - a
+        share = np.clip(((p - a) * along).sum(1) / (along * along).sum(1), 0, 1)
+        assert distance[i] == pytest.approx(np.hypot(*(a + share[:, None] * along - p).T).min(), rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.parametrize("suffix", ["su2", "vtu", "msh"])
+def test_files(small, suffix, tmp_path):
+    file = tmp_path / f"mesh.{suffix}"
+    small.write(file)
+    again = lamina.read(file)
+    assert again == small and again.warnings == [] and again.facts == {}
+    small.write(str(tmp_path / "named"), format="su2")
+    assert lamina.read(tmp_path / "named", format="su2") == small
+    with pytest.raises(lamina.UsageError):
+        small.write(tmp_path / "mesh.unknown")
+    with pytest.raises(lamina.IoError):
+        small.write(tmp_path / "no" / "folder" / "mesh.su2")
+    assert "su2" in lamina.formats()
+
+
+def test_wall_data(small, tmp_path):
+    small.write_wall_data(tmp_path / "wall.csv")
+    rows = np.genfromtxt(tmp_path / "wall.csv", delimiter=",", skip_header=1)
+    assert np.array_equal(rows[:, 1].astype(int), small.wall.vertex)
+    assert np.array_equal(rows[:, 4], small.wall.arc_length) and np.array_equal(rows[:, 7], small.wall.first_height)
+
+
+def test_pickle(small):
+    again = pickle.loads(pickle.dumps(small))
+    assert again == small and again.facts == small.facts and again.marker_kinds == small.marker_kinds
+    for name in ("points", "triangles", "quads", "region", "layer", "piece", "constraints"):
+        assert np.array_equal(getattr(again, name), getattr(small, name))
+
+
+def test_meshes_of_arrays():
+    points = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    mesh = lamina.mesh_of_arrays(points, [[0, 1, 2], [0, 2, 3]], {"all": [[0, 1], [1, 2], [2, 3], [3, 0]]},
+                                 marker_kinds={"all": "symmetry"})
+    check = lamina.check(mesh)
+    assert check.valid and check.area == 1 and check.euler_characteristic == 1
+    clockwise = lamina.mesh_of_arrays(points, [[0, 2, 1], [0, 2, 3]], {"all": [[0, 1], [1, 2], [2, 3], [3, 0]]})
+    assert not lamina.check(clockwise).valid and lamina.check(clockwise).defects[0][0]
+    for triangles in ([[0, 1, 4]], [[0, 1, -1]], [[0.5, 1, 2]], [[0, 1]]):
+        with pytest.raises(lamina.InputError):
+            lamina.mesh_of_arrays(points, triangles, {})
+    with pytest.raises(TypeError):
+        lamina.Mesh()
+
+
+def test_quality(small):
+    check = small.quality()
+    assert check.valid and check.defects == [] and check.layer.cells + check.isotropic.cells == len(small)
+    assert sum(check.isotropic.angle_histogram) == check.isotropic.cells
+    assert check.isotropic.min_angle > 20.7 and check.isotropic.max_angle < 140
+    assert check.walls.median_first_height == pytest.approx(1e-4, rel=1e-3)
+    assert small.quality(min_angle=30).isotropic.angles_below_bound >= check.isotropic.angles_below_bound
+
+
+def test_pictures(small, tmp_path):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    for color in ("none", "quality", "size", "piece", "layer"):
+        ax = small.plot(color=color, window=(0.9, 1.1, -0.1, 0.1))
+        assert ax.get_xlim() == (0.9, 1.1)
+        ax.figure.savefig(tmp_path / "m.png")
+        assert (tmp_path / "m.png").stat().st_size > 5000
+        pyplot.close(ax.figure)
+    figure, ax = pyplot.subplots()
+    assert small.plot(ax) is ax
+    pyplot.close(figure)
+    with pytest.raises(ValueError):
+        small.plot(color="blue")
+
+
+def test_notebooks(small):
+    html = small._repr_html_()
+    assert "data:image/png;base64," in html and f"{len(small.triangles):,}" in html and "airfoil" in html
+    assert "<table>" in small.quality()._repr_html_()
+    assert "airfoil" in repr(small)
+
+
+def test_meshio(small, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    other = small.to_meshio()
+    assert sum(len(block.data) for block in other.cells if block.type == "triangle") == len(small.triangles)
+    assert sum(len(block.data) for block in other.cells if block.type == "line") == sum(map(len, small.markers.values()))
+    meshio.write(tmp_path / "m.vtu", other)
+    assert np.array_equal(meshio.read(tmp_path / "m.vtu").points[:, :2], small.points)
+
+
+def test_pyvista(small):
+    pytest.importorskip("pyvista")
+    grid = small.to_pyvista()
+    assert grid.n_cells == len(small) and grid.n_points == len(small.points)
+    assert np.array_equal(grid.cell_data["layer"], small.layer)

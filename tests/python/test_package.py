@@ -1,0 +1,76 @@
+"""The package as a whole: options, stubs, documentation and examples."""
+
+import inspect
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+import lamina
+from lamina import _options, _stubs
+
+
+def test_stub_is_current(repository):
+    assert (repository / "python/lamina/_meshing.pyi").read_text() == _stubs.stub(), \
+        "run: python -m lamina._stubs > python/lamina/_meshing.pyi (./dev docs does)"
+
+
+def test_options_are_those_of_the_program(program):
+    page = subprocess.run([program, "mesh", "--options-as-markdown"], check=True, capture_output=True, text=True).stdout
+    of_program = {line.split("`")[1].lstrip("-").split()[0].replace("-", "_") for line in page.splitlines()
+                  if line.startswith("| `--")}
+    of_run = {"format", "wall_distance", "wall_data", "report", "progress", "quiet", "strict"}
+    assert set(_options.option_rows()) == of_program - of_run
+
+
+def test_every_default_can_be_given():
+    """Each default is a value that the option takes, alone."""
+    for key, row in _options.option_rows().items():
+        if row["default"] in (None, [], "") or key == "threads":
+            continue
+        value = row["default"]
+        options = {key: value}
+        if key in ("far_field", "first_height", "y_plus"):
+            options["preset"] = "none"
+        lamina.mesh("naca:0012", **{"layers": 5, "first_height": 1e-3, **options})
+
+
+def test_signature_and_help():
+    parameters = inspect.signature(lamina.mesh).parameters
+    assert set(_options.option_rows()) | {"sections", "progress"} == set(parameters)
+    for key in _options.option_rows():
+        assert f"  {key}: " in lamina.mesh.__doc__
+
+
+def test_everything_public_is_described():
+    for name in lamina.__all__:
+        thing = getattr(lamina, name)
+        assert isinstance(thing, str) or inspect.getdoc(thing), name
+        if inspect.isclass(thing):
+            for member, value in vars(thing).items():
+                if not member.startswith("_") and (inspect.isfunction(value) or isinstance(value, property)):
+                    assert inspect.getdoc(value), f"{name}.{member}"
+
+
+def test_version(program):
+    version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout
+    assert lamina.__version__ in version
+
+
+EXAMPLES = sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples/python").glob("*.py"))
+
+
+def test_there_are_examples():
+    assert EXAMPLES
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_example(example, tmp_path):
+    run = subprocess.run([sys.executable, str(example)], cwd=tmp_path, env={**os.environ, "MPLBACKEND": "Agg"},
+                         capture_output=True, text=True, timeout=120)
+    assert run.returncode == 0, run.stderr
+    assert any(tmp_path.iterdir()), "an example leaves files"
+    for mesh in tmp_path.glob("*.su2"):
+        assert lamina.check(lamina.read(mesh)).valid
