@@ -6,6 +6,7 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
@@ -129,6 +130,10 @@ MeshRequest make_request(const std::vector<std::pair<std::string, OptionValue>>&
     return request;
 }
 
-void add_options(nb::module_& module) { module.def("option_rows", &option_rows); }
+void add_options(nb::module_& module) {
+    module.def("option_rows", &option_rows);
+    module.def("check_options",
+               [](const std::vector<std::pair<std::string, OptionValue>>& values) { make_request(values); });
+}
 
 }  // namespace lamina::python

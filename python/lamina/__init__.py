@@ -8,6 +8,7 @@
 docs/python.md is the guide.
 """
 
+from ._batch import BatchResult, batch
 from ._errors import (Error, InputError, IoError, LimitError, MeshError, MeshWarning, OptionError, RunEstimate,
                       UsageError)
 from ._lamina import version as __version__
@@ -17,7 +18,7 @@ from ._meshing import mesh
 from ._sections import naca, outlines
 from ._triangulation import Triangulation, constrained_delaunay, delaunay, refine
 
-__all__ = ["Error", "InputError", "IoError", "LimitError", "Mesh", "MeshCheck", "MeshError", "MeshWarning",
-           "OptionError", "QualitySummary", "RunEstimate", "TransitionSummary", "Triangulation", "UsageError",
-           "WallSummary", "WallVertices", "__version__", "check", "constrained_delaunay", "delaunay", "formats",
-           "mesh", "mesh_of_arrays", "naca", "outlines", "read", "refine"]
+__all__ = ["BatchResult", "Error", "InputError", "IoError", "LimitError", "Mesh", "MeshCheck", "MeshError",
+           "MeshWarning", "OptionError", "QualitySummary", "RunEstimate", "TransitionSummary", "Triangulation",
+           "UsageError", "WallSummary", "WallVertices", "__version__", "batch", "check", "constrained_delaunay",
+           "delaunay", "formats", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "refine"]

@@ -25,7 +25,8 @@ def index_array(indices, columns: int, name: str) -> np.ndarray:
     if array.dtype.kind not in "ui":
         raise InputError(f"{name} must be whole numbers, not {array.dtype}")
     if (columns > 1 and (array.ndim != 2 or array.shape[1] != columns)) or (columns == 1 and array.ndim != 1):
-        raise InputError(f"{name} must have the shape {f'(n, {columns})' if columns > 1 else '(n,)'}, not {array.shape}")
+        wanted = f"(n, {columns})" if columns > 1 else "(n,)"
+        raise InputError(f"{name} must have the shape {wanted}, not {array.shape}")
     if array.min() < 0 or array.max() >= 2**32 - 1:
         raise InputError(f"{name} must lie between 0 and 2^32 - 2")
     return np.ascontiguousarray(array, dtype=np.uint32)

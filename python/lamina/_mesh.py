@@ -112,7 +112,7 @@ class WallVertices:
     marker: np.ndarray  #: (n,) indices into list(Mesh.markers), of the edge that begins at the vertex
     arc_length: np.ndarray  #: (n,) from the first vertex of the body, in units of the input
     normal: np.ndarray  #: (n, 2) unit vectors into the flow: the bisectors at corners
-    first_height: np.ndarray  #: (n,) height above the wall of the lowest vertex of the cells beside, in units of the input
+    first_height: np.ndarray  #: (n,) height of the lowest vertex of the cells beside, in units of the input
     bodies: list[slice] = field(default_factory=list)  #: for each body its part of the arrays
 
     def __len__(self) -> int:
@@ -191,12 +191,12 @@ class Mesh:
 
     @cached_property
     def wall_distance(self) -> np.ndarray:
-        """Per point: the distance to the nearest edge of a wall, in units of the input. Computed when first asked for."""
+        """Per point: the distance to the nearest edge of a wall, in units of the input. Computed on demand."""
         return self._data.wall_distances()
 
     @cached_property
     def wall(self) -> WallVertices:
-        """The vertices of the walls in order, with arc length, normal and first height. Computed when first asked for."""
+        """The vertices of the walls in order, with arc length, normal and first height. Computed on demand."""
         vertex, marker, arc_length, normal, first_height, first = self._data.walls()
         bodies = [slice(a, b) for a, b in zip(first[:-1], first[1:])]
         return WallVertices(vertex, marker, arc_length, normal, first_height, bodies)

@@ -43,7 +43,17 @@ def mesh(sections: Sections, *, progress: Callable[[str, RunEstimate | None], ob
     need too much, MeshError where no mesh of the promised standard can be made. Issues a MeshWarning for each of
     `Mesh.warnings`.
     """
-    given, names = section_list(sections)
+    result = make_mesh(sections, progress, options)
+    for warning in result.warnings:
+        warnings.warn(warning, stacklevel=2)
+    return result
+
+
+def make_mesh(sections: Sections, progress: Callable[[str, RunEstimate | None], object] | None,
+              options: dict[str, Any], source: str = "array") -> Mesh:
+    """Does what mesh() does, without issuing warnings. Errors call an array without a name `source`."""
+    options = dict(options)
+    given, names = section_list(sections, source)
     if names:
         if options.get("names") is not None:
             raise UsageError("names: the dictionary of sections says them already")
@@ -52,7 +62,4 @@ def mesh(sections: Sections, *, progress: Callable[[str, RunEstimate | None], ob
     if options.get("background") is not None and not isinstance(options["background"], (str, os.PathLike)):
         sizes = _background_arrays(options.pop("background"))
     data, found, facts = _lamina.generate(given, option_values(options), sizes, progress)
-    result = Mesh._from(data, [MeshWarning._from(warning) for warning in found], facts)
-    for warning in result.warnings:
-        warnings.warn(warning, stacklevel=2)
-    return result
+    return Mesh._from(data, [MeshWarning._from(warning) for warning in found], facts)

@@ -133,3 +133,9 @@ def mesh(
     # otherwise such a run raises MeshError
     allow_defects: bool | None = None,
 ) -> Mesh: ...
+def make_mesh(
+    sections: Sections,
+    progress: Callable[[str, RunEstimate | None], object] | None,
+    options: dict[str, Any],
+    source: str = ...,
+) -> Mesh: ...

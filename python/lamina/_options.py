@@ -89,7 +89,7 @@ _GROUPS = ["Files", "Geometry", "Flow", "Layer", "Outer region", "Run"]
 
 
 def with_options(function):
-    """Gives a function that takes **options the signature and the description of all of them, for help() and editors."""
+    """Gives a function that takes **options the signature and the description of all of them, for help()."""
     signature = inspect.signature(function)
     kept = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
     options = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None,

@@ -135,4 +135,5 @@ def picture_html(mesh) -> str:
         _set_window(ax, window)
     png = io.BytesIO()
     figure.savefig(png, format="png")
-    return f"<img alt='the mesh round the bodies' src='data:image/png;base64,{base64.b64encode(png.getvalue()).decode()}'/>"
+    data = base64.b64encode(png.getvalue()).decode()
+    return f"<img alt='the mesh round the bodies' src='data:image/png;base64,{data}'/>"

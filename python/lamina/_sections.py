@@ -33,16 +33,16 @@ def _section(value: Any, name: str) -> str | tuple[str, np.ndarray]:
     return name, points_array(value, name)
 
 
-def section_list(sections: Sections) -> tuple[list[Any], list[str]]:
-    """Returns the sections as the C++ part takes them, and the names of a dictionary."""
+def section_list(sections: Sections, source: str = "array") -> tuple[list[Any], list[str]]:
+    """Returns the sections as the C++ part takes them, and the names of a dictionary. Errors call arrays `source`."""
     if isinstance(sections, Mapping):
         return [_section(value, str(name)) for name, value in sections.items()], [str(name) for name in sections]
     if isinstance(sections, (str, os.PathLike)) or _is_points(sections):
-        return [_section(sections, "array")], []
+        return [_section(sections, source)], []
     if not isinstance(sections, Sequence):
         raise UsageError(f"sections must be a path, a name, an array, or a list or dictionary of these, not "
                          f"{type(sections).__name__}")
-    return [_section(value, "array") for value in sections], []
+    return [_section(value, source) for value in sections], []
 
 
 def _closed(points: np.ndarray) -> np.ndarray:
@@ -53,8 +53,8 @@ def naca(digits: str, points: int = 200, *, trailing_edge: str = "sharp") -> np.
     """Returns the NACA 4-digit or 5-digit section of unit chord, such as "0012" or "23012".
 
     (n, 2) coordinates with cosine spacing, from the trailing edge over the upper surface first; the first point is
-    repeated at the end. `points` is rounded so that both surfaces get the same number. `trailing_edge` is "sharp", "blunt" (the
-    published thickness) or "extended" (that of the NASA Turbulence Modeling Resource).
+    repeated at the end. `points` is rounded so that both surfaces get the same number. `trailing_edge` is "sharp",
+    "blunt" (the published thickness) or "extended" (that of the NASA Turbulence Modeling Resource).
     """
     return _closed(_lamina.naca(str(digits), points, trailing_edge))
 
@@ -62,7 +62,8 @@ def naca(digits: str, points: int = 200, *, trailing_edge: str = "sharp") -> np.
 def outlines(sections: Sections) -> dict[str, np.ndarray]:
     """Reads and repairs sections as `lamina.mesh()` does, and returns the outline of each by its name.
 
-    Outlines are (n, 2) coordinates, counter-clockwise; the first point is repeated at the end. Raises InputError, IoError.
+    Outlines are (n, 2) coordinates, counter-clockwise; the first point is repeated at the end. Raises InputError and
+    IoError.
     """
     given, names = section_list(sections)
     read = _lamina.outlines(given)

@@ -39,7 +39,10 @@ def stub() -> str:
     options = "".join(_parameter(row) for row in option_rows().values())
     return (f"{_HEAD}def mesh(\n    sections: Sections,\n    *,\n"
             "    progress: Callable[[str, RunEstimate | None], object] | None = None,\n"
-            f"{options}) -> Mesh: ...\n")
+            f"{options}) -> Mesh: ...\n"
+            "def make_mesh(\n    sections: Sections,\n"
+            "    progress: Callable[[str, RunEstimate | None], object] | None,\n    "
+            "options: dict[str, Any],\n    source: str = ...,\n) -> Mesh: ...\n")
 
 
 if __name__ == "__main__":
