@@ -9,6 +9,7 @@ namespace lamina::app {
 void add_mesh_command(CLI::App& app);
 void add_family_command(CLI::App& app);
 void add_sizes_command(CLI::App& app);
+void add_batch_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_convert_command(CLI::App& app);

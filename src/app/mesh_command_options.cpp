@@ -33,20 +33,24 @@ CLI::Option* add_option(CLI::App& command, const Option<MeshCase>& option) {
     return given->expected(1, -1)->allow_extra_args(given->get_positional());
 }
 
-/// Returns the preset that the command line names.
-std::optional<std::string> preset_of_command_line(const GivenOptions& options) {
+/// Returns the preset that the further options or the command line name.
+std::optional<std::string> preset_of_command_line(const GivenOptions& options, const std::vector<OptionText>& further) {
+    for (const auto& [option, text] : further)
+        if (option->name == preset_option) return text;
     for (const auto& [option, given] : options)
         if (option->name == preset_option && given->count() > 0) return given->results().back();
     return {};
 }
 
-/// Returns whether the command line says the Reynolds number.
-bool has_reynolds(const GivenOptions& options) {
-    return std::any_of(options.begin(), options.end(), [](const auto& entry) {
-        const auto& [option, given] = entry;
-        return given->count() > 0 && std::find(std::begin(reynolds_options), std::end(reynolds_options),
-                                               option->name) != std::end(reynolds_options);
-    });
+/// Returns whether the command line or the further options say the Reynolds number.
+bool has_reynolds(const GivenOptions& options, const std::vector<OptionText>& further) {
+    const auto says_it = [](const Option<MeshCase>* option) {
+        return std::find(std::begin(reynolds_options), std::end(reynolds_options), option->name) !=
+               std::end(reynolds_options);
+    };
+    return std::any_of(options.begin(), options.end(),
+                       [&](const auto& entry) { return entry.second->count() > 0 && says_it(entry.first); }) ||
+           std::any_of(further.begin(), further.end(), [&](const auto& entry) { return says_it(entry.first); });
 }
 
 }  // namespace
@@ -58,15 +62,22 @@ GivenOptions add_mesh_options(CLI::App& command) {
 }
 
 MeshCase case_of_command_line(const GivenOptions& options) {
-    MeshCase mesh_case;
-    for (const auto& [option, given] : options) {
-        if (given->get_positional()) {
-            mesh_case = case_of_inputs(given->results(), preset_of_command_line(options), has_reynolds(options));
-        } else if (given->count() > 0) {
-            const std::string origin = "option --" + option->name;
-            assign(*option, mesh_case, value_of_text(option->kind, given->results(), origin), origin);
-        }
-    }
+    for (const auto& [option, given] : options)
+        if (given->get_positional()) return case_of_command_line(options, given->results(), {});
+    return {};
+}
+
+MeshCase case_of_command_line(const GivenOptions& options, const std::vector<std::string>& inputs,
+                              const std::vector<OptionText>& further) {
+    MeshCase mesh_case =
+        case_of_inputs(inputs, preset_of_command_line(options, further), has_reynolds(options, further));
+    const auto set = [&](const Option<MeshCase>& option, const std::vector<std::string>& texts) {
+        const std::string origin = "option --" + option.name;
+        assign(option, mesh_case, value_of_text(option.kind, texts, origin), origin);
+    };
+    for (const auto& [option, given] : options)
+        if (!given->get_positional() && given->count() > 0) set(*option, given->results());
+    for (const auto& [option, text] : further) set(*option, {text});
     return mesh_case;
 }
 

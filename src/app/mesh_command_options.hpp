@@ -1,6 +1,7 @@
 // The options of `lamina mesh` on the command line: every command that makes meshes takes them all.
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,14 @@ GivenOptions add_mesh_options(CLI::App& command);
 
 /// Returns the case that the command line describes. Its options override those of the case file.
 MeshCase case_of_command_line(const GivenOptions& options);
+
+/// An option, and the text of its value.
+using OptionText = std::pair<const Option<MeshCase>*, std::string>;
+
+/// Returns the case that the command line describes with these INPUTs in place of its own. The further options override
+/// those of the command line.
+MeshCase case_of_command_line(const GivenOptions& options, const std::vector<std::string>& inputs,
+                              const std::vector<OptionText>& further);
 
 /// Returns the files that the case reads, each with the option that names it.
 std::vector<RunFile> files_read(const MeshCase& mesh_case);

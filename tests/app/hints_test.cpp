@@ -78,7 +78,7 @@ TEST(Hints, Commands) {
     expect_refused(folder, {"triangulate"}, usage, "did you mean lamina delaunay?");
     expect_refused(folder, {"naca:0012"}, usage, "did you mean lamina mesh naca:0012?");
     expect_refused(folder, {"help", "mehs"}, usage, "did you mean lamina mesh?");
-    expect_refused(folder, {"xyzzy"}, usage, "known: mesh, family, sizes, check");
+    expect_refused(folder, {"xyzzy"}, usage, "known: mesh, family, sizes, batch, check");
 }
 
 TEST(Hints, ValuesAndFormats) {

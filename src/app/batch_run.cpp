@@ -1,0 +1,283 @@
+#include "app/batch_run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/io.hpp>
+#include <lamina/pipeline.hpp>
+#include <lamina/version.hpp>
+
+#include "app/case_file.hpp"
+#include "app/mesh_command_options.hpp"
+#include "app/options.hpp"
+#include "app/progress.hpp"
+#include "app/report.hpp"
+#include "app/stopwatch.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Adds the bytes of a text to a hash. Source: G. Fowler, L. C. Noll, K.-P. Vo, the FNV-1a hash (RFC 9923).
+std::uint64_t hashed(std::uint64_t hash, const std::string& text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    return hash;
+}
+
+/// Returns digits that change where an input does, or an option that changes the outcome of a job.
+std::string fingerprint(MeshCase mesh_case) {
+    mesh_case.quiet = false;
+    mesh_case.progress = ProgressShown::automatic;
+    mesh_case.options.threads = 0;
+    std::uint64_t hash = hashed(0xcbf29ce484222325u, dump_case(mesh_case));
+    for (const RunFile& file : files_read(mesh_case)) {
+        std::error_code ignored;
+        if (fs::is_regular_file(file.path, ignored)) hash = hashed(hash, read_file(file.path));
+    }
+    return fmt::format("{:016x}", hash);
+}
+
+/// Returns the text that names a job among those of a batch.
+std::string id_of(const BatchJob& job) {
+    std::string id = job.name;
+    for (const auto& [option, value] : job.swept) id += fmt::format(" {}={}", option, value);
+    return id;
+}
+
+Json quality_of(const MeshResult& result) {
+    return {{"min_angle", result.check.isotropic.min_angle_deg},
+            {"max_angle", std::max(result.check.isotropic.max_angle_deg, result.check.layer.max_angle_deg)},
+            {"median_first_height", result.check.walls.median_first_height}};
+}
+
+/// Writes the files of a case, and returns their names.
+Json write_files(const MeshCase& mesh_case, const MeshResult& result) {
+    Stopwatch watch;
+    Json files = Json::array();
+    for (const std::string& output : mesh_case.outputs) {
+        write_mesh(result.mesh, output, {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance});
+        files.push_back(output);
+    }
+    if (!mesh_case.wall_data.empty()) {
+        write_wall_data(result.mesh, mesh_case.wall_data);
+        files.push_back(mesh_case.wall_data);
+    }
+    if (!mesh_case.report.empty()) {
+        write_file(mesh_case.report, to_text(mesh_report(mesh_case, result, watch.lap())));
+        files.push_back(mesh_case.report);
+    }
+    return files;
+}
+
+/// Makes and writes the mesh of a job, and adds what is known about it to its record.
+void make_mesh(const MeshCase& mesh_case, unsigned jobs, bool strict, Json& record) {
+    require_consistent(mesh_case);
+    CaseOptions options = options_with_files(mesh_case);
+    if (!mesh_case.options.limits.max_memory_bytes && options.limits.max_memory_bytes)
+        *options.limits.max_memory_bytes /= jobs;  // what is free is for all that run at a time
+    if (options.threads == 0) options.threads = 1;
+    const MeshResult result = generate_mesh(mesh_case.inputs, options);
+    record["warnings"] = warnings_report(result.warnings);
+    require_promised_angles(result.check, mesh_case.allow_defects);
+    record["files"] = write_files(mesh_case, result);
+    record["points"] = result.mesh.points.size();
+    record["triangles"] = result.mesh.triangles.size();
+    record["quadrilaterals"] = result.mesh.quads.size();
+    record["quality"] = quality_of(result);
+    record["hash"] = mesh_hash(result.mesh);
+    require_no_warnings(result.warnings, strict);
+}
+
+/// Returns the record of a job once it has run: one object of JSON.
+Json run_job(const BatchJob& job, const std::string& digits, unsigned jobs, bool strict) {
+    Json record{{"job", id_of(job)}, {"fingerprint", digits}, {"name", job.name}};
+    for (const auto& [option, value] : job.swept) record["sweep"][option] = value;
+    record["outcome"] = "failed";
+    Stopwatch watch;
+    const auto fail = [&](ExitCode code, const std::string& error) {
+        record["exit_code"] = static_cast<int>(code);
+        record["error"] = error;
+    };
+    try {
+        make_mesh(job.mesh_case, jobs, strict, record);
+        record["outcome"] = "done";
+        fail(ExitCode::done, "");
+    } catch (const Error& error) {
+        fail(error.exit_code(), error.what());
+    } catch (const std::bad_alloc&) {
+        fail(ExitCode::mesh_failed, "out of memory");
+    } catch (const std::exception& error) {
+        fail(ExitCode::mesh_failed, std::string("internal error: ") + error.what());
+    }
+    record["seconds"] = watch.lap();
+    return record;
+}
+
+/// Returns a record as one line.
+std::string line_of(const Json& record) { return record.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+/// The records of a journal by the names of their jobs. A line that an interruption cut off does not count.
+std::map<std::string, Json> read_journal(const fs::path& journal) {
+    std::map<std::string, Json> records;
+    std::ifstream in(journal);
+    for (std::string line; std::getline(in, line);) {
+        const Json record = Json::parse(line, nullptr, false);
+        if (record.is_object() && record.contains("job") && record["job"].is_string())
+            records[record["job"].get<std::string>()] = record;
+    }
+    return records;
+}
+
+/// Returns whether a record is of a job with this fingerprint, and the files of the job are still there.
+bool still_holds(const Json& record, const std::string& digits) {
+    if (record.value("fingerprint", "") != digits || record.value("outcome", "") != "done") return false;
+    const Json files = record.value("files", Json::array());
+    return std::all_of(files.begin(), files.end(), [](const Json& file) {
+        std::error_code ignored;
+        return file.is_string() && fs::exists(file.get<std::string>(), ignored);
+    });
+}
+
+/// Returns a field of CSV.
+std::string csv_field(std::string text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
+    return '"' + text + '"';
+}
+
+std::string csv_field(const Json& value) {
+    return csv_field(value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+std::string table_of(const std::vector<BatchJob>& jobs, const std::vector<Json>& records) {
+    std::string text = "name";
+    if (!jobs.empty())
+        for (const auto& [option, value] : jobs.front().swept) text += "," + option;
+    text +=
+        ",outcome,exit_code,error,warnings,points,triangles,quadrilaterals,min_angle,max_angle,median_first_height,"
+        "seconds,hash\n";
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const Json& record = records[i];
+        text += csv_field(jobs[i].name);
+        for (const auto& [option, value] : jobs[i].swept) text += "," + csv_field(value);
+        for (const char* key : {"outcome", "exit_code", "error"}) text += "," + csv_field(record.value(key, Json()));
+        text += fmt::format(",{}", record.value("warnings", Json::array()).size());
+        for (const char* key : {"points", "triangles", "quadrilaterals"})
+            text += "," + csv_field(record.value(key, Json()));
+        const Json quality = record.value("quality", Json::object());
+        for (const char* key : {"min_angle", "max_angle", "median_first_height"})
+            text += "," + csv_field(quality.value(key, Json()));
+        for (const char* key : {"seconds", "hash"}) text += "," + csv_field(record.value(key, Json()));
+        text += "\n";
+    }
+    return text;
+}
+
+/// Runs jobs on several threads. Each thread takes the next job that is left.
+class BatchRunner {
+public:
+    BatchRunner(const std::vector<BatchJob>& jobs, const BatchSettings& settings)
+        : jobs_(jobs), settings_(settings), records_(jobs.size()), fingerprints_(jobs.size()) {
+        threads_ = settings.jobs > 0 ? settings.jobs : std::max(1u, std::thread::hardware_concurrency());
+        keep_earlier_records();
+    }
+
+    BatchOutcome run() {
+        std::vector<std::thread> workers;
+        const auto count = static_cast<unsigned>(std::min<std::size_t>(threads_, left_.size()));
+        for (unsigned i = 0; i < count; ++i) workers.emplace_back([this] { work(); });
+        for (std::thread& worker : workers) worker.join();
+        if (failure_) std::rethrow_exception(failure_);
+        write_file(settings_.table, table_of(jobs_, records_));
+        return outcome_;
+    }
+
+private:
+    const std::vector<BatchJob>& jobs_;
+    const BatchSettings& settings_;
+    unsigned threads_ = 1;
+    std::vector<Json> records_;
+    std::vector<std::string> fingerprints_;
+    std::vector<std::size_t> left_;  ///< numbers of the jobs to run
+    std::atomic<std::size_t> next_ = 0;
+    std::mutex mutex_;  ///< guards all below
+    std::ofstream journal_;
+    BatchOutcome outcome_;
+    std::exception_ptr failure_;
+
+    /// Takes the records of an earlier run that still hold, and begins a journal with them.
+    void keep_earlier_records() {
+        const std::map<std::string, Json> earlier = read_journal(settings_.journal);
+        std::string kept;
+        for (std::size_t i = 0; i < jobs_.size(); ++i) {
+            fingerprints_[i] = fingerprint(jobs_[i].mesh_case);
+            const auto found = earlier.find(id_of(jobs_[i]));
+            if (found == earlier.end() || !still_holds(found->second, fingerprints_[i])) {
+                left_.push_back(i);
+                continue;
+            }
+            records_[i] = found->second;
+            kept += line_of(found->second);
+            ++outcome_.kept;
+        }
+        write_file(settings_.journal, kept);
+        journal_.open(settings_.journal, std::ios::app);
+    }
+
+    void work() {
+        for (std::size_t n; (n = next_.fetch_add(1)) < left_.size();) {
+            const std::size_t i = left_[n];
+            try {
+                record(i, run_job(jobs_[i], fingerprints_[i], threads_, settings_.strict));
+            } catch (...) {
+                next_ = left_.size();
+                const std::lock_guard lock(mutex_);
+                failure_ = std::current_exception();
+            }
+        }
+    }
+
+    void record(std::size_t i, Json result) {
+        const std::lock_guard lock(mutex_);
+        journal_ << line_of(result) << std::flush;
+        if (!journal_) throw IoError(settings_.journal.string(), "cannot be written");
+        const bool done = result["outcome"] == "done";
+        ++(done ? outcome_.done : outcome_.failed);
+        if (!settings_.quiet || !done) print(i, result, done);
+        records_[i] = std::move(result);
+    }
+
+    void print(std::size_t i, const Json& result, bool done) const {
+        const std::string what =
+            done ? fmt::format("{} triangles, {:.2f} s", result["triangles"].dump(), result["seconds"].get<double>())
+                 : result["error"].get<std::string>();
+        std::fputs(fmt::format("lamina: {} of {}: {}: {}\n", outcome_.kept + outcome_.done + outcome_.failed,
+                               jobs_.size(), id_of(jobs_[i]), what)
+                       .c_str(),
+                   stderr);
+    }
+};
+
+}  // namespace
+
+BatchOutcome run_batch(const std::vector<BatchJob>& jobs, const BatchSettings& settings) {
+    return BatchRunner(jobs, settings).run();
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,254 @@
+// lamina batch: makes the meshes of many inputs, and of many values of options.
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/io.hpp>
+#include <lamina/suggestion.hpp>
+
+#include "app/batch_run.hpp"
+#include "app/commands.hpp"
+#include "app/format_help.hpp"
+#include "app/mesh_command_options.hpp"
+#include "app/options.hpp"
+#include "app/run_files.hpp"
+#include "app/standard_output.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+struct BatchArguments {
+    unsigned jobs = 0;
+    std::vector<std::string> sweeps;
+    std::string shard, summary;
+};
+
+/// An option with the values that a batch gives it.
+struct Sweep {
+    const Option<MeshCase>* option;
+    std::vector<std::string> values;
+};
+
+/// Splits a text at every comma.
+std::vector<std::string> values_in(std::string_view text) {
+    std::vector<std::string> values;
+    for (;;) {
+        const std::size_t comma = std::min(text.find(','), text.size());
+        values.emplace_back(text.substr(0, comma));
+        if (comma == text.size()) return values;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+/// Reads "reynolds=1e5,1e6".
+Sweep parse_sweep(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals + 1 == text.size())
+        throw UsageError(fmt::format("option --sweep: '{}' is not OPTION=VALUE,VALUE,...", text));
+    std::vector<std::string> names;
+    for (const Option<MeshCase>& option : mesh_options()) {
+        if (option.name == "input" || option.name == "output") continue;
+        if (option.key() == option_key(text.substr(0, equals))) return {&option, values_in(text.substr(equals + 1))};
+        names.push_back(option.name);
+    }
+    const std::string name = text.substr(0, equals);
+    throw UsageError(
+        fmt::format("option --sweep: there is no option '{}'{}", name, did_you_mean(closest_word(name, names))));
+}
+
+/// The part of the jobs that this run makes: every `of`-th one, from `number` on, which counts from 1.
+struct Shard {
+    std::size_t number = 1, of = 1;
+};
+
+Shard parse_shard(const std::string& text) {
+    Shard shard;
+    if (text.empty()) return shard;
+    const char* const end = text.data() + text.size();
+    const auto number = std::from_chars(text.data(), end, shard.number);
+    const bool slash = number.ec == std::errc{} && number.ptr != end && *number.ptr == '/';
+    const auto of = slash ? std::from_chars(number.ptr + 1, end, shard.of) : number;
+    if (!slash || of.ec != std::errc{} || of.ptr != end || shard.number < 1 || shard.number > shard.of)
+        throw UsageError(fmt::format("option --shard: '{}' is not I/N with I from 1 to N", text));
+    return shard;
+}
+
+/// Returns the name of a job's input: the stem of its file, or "naca_0012".
+std::string name_of(const std::string& input) {
+    if (input.starts_with("naca:")) {
+        std::string name = input;
+        std::replace(name.begin(), name.end(), ':', '_');
+        return name;
+    }
+    return std::filesystem::path(input).stem().string();
+}
+
+/// Returns the name of a file with {name} and the names of swept options in braces replaced.
+std::string filled_in(std::string text, const BatchJob& job) {
+    std::vector<std::pair<std::string, std::string>> marks = job.swept;
+    marks.emplace_back("name", job.name);
+    for (const auto& [name, value] : marks) {
+        const std::string mark = "{" + name + "}";
+        for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += value.size())
+            text.replace(at, mark.size(), value);
+    }
+    return text;
+}
+
+/// Returns the jobs of one input: all combinations of the values that are swept, the last option fastest.
+std::vector<BatchJob> jobs_of(const GivenOptions& options, const std::string& input, const std::vector<Sweep>& sweeps) {
+    std::vector<BatchJob> jobs;
+    std::size_t combinations = 1;
+    for (const Sweep& sweep : sweeps) combinations *= sweep.values.size();
+    for (std::size_t i = 0; i < combinations; ++i) {
+        BatchJob job;
+        job.name = name_of(input);
+        std::vector<OptionText> further;
+        std::size_t rest = combinations, index = i;
+        for (const Sweep& sweep : sweeps) {
+            rest /= sweep.values.size();
+            const std::string& value = sweep.values[index / rest];
+            index %= rest;
+            further.emplace_back(sweep.option, value);
+            job.swept.emplace_back(sweep.option->key(), value);
+        }
+        job.mesh_case = case_of_command_line(options, {input}, further);
+        for (std::string& output : job.mesh_case.outputs) output = filled_in(output, job);
+        job.mesh_case.wall_data = filled_in(job.mesh_case.wall_data, job);
+        job.mesh_case.report = filled_in(job.mesh_case.report, job);
+        require_consistent(job.mesh_case);
+        jobs.push_back(std::move(job));
+    }
+    return jobs;
+}
+
+/// Returns the files that a job writes, each with the option that names it.
+std::vector<RunFile> files_of(const BatchJob& job) {
+    const MeshCase& mesh_case = job.mesh_case;
+    std::vector<RunFile> files;
+    for (const std::string& output : mesh_case.outputs)
+        for (const std::filesystem::path& file : output_files(output, {.format = mesh_case.format}))
+            files.push_back({file, "option --output"});
+    if (!mesh_case.wall_data.empty()) files.push_back({mesh_case.wall_data, "option --wall-data"});
+    if (!mesh_case.report.empty()) files.push_back({mesh_case.report, "option --report"});
+    return files;
+}
+
+/// Returns the files of all jobs. Throws where a file would be written twice or replace an input, and where one
+/// certainly cannot be written. Files are compared by their names: links are not followed.
+std::vector<RunFile> require_files(const std::vector<BatchJob>& jobs) {
+    const auto plain = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal();
+    };
+    std::set<std::filesystem::path> inputs, written, folders;
+    for (const BatchJob& job : jobs)
+        for (const RunFile& file : files_read(job.mesh_case)) inputs.insert(plain(file.path));
+    std::vector<RunFile> files;
+    for (const BatchJob& job : jobs) {
+        if (job.mesh_case.outputs.empty()) throw UsageError("no output: give -o 'FOLDER/{name}.EXTENSION'");
+        for (const RunFile& file : files_of(job)) {
+            if (is_standard_stream(file.path)) throw UsageError(file.role + ": a batch writes files, not '-'");
+            if (inputs.contains(plain(file.path)))
+                throw UsageError(fmt::format("{}: '{}' would replace an input", file.role, file.path.string()));
+            if (!written.insert(plain(file.path)).second)
+                throw UsageError(
+                    fmt::format("{}: '{}' would be written twice: put {{name}} and what is swept into the "
+                                "name, as in 'out/{{name}}_{{reynolds}}.su2'",
+                                file.role, file.path.string()));
+            if (folders.insert(plain(file.path).parent_path()).second) check_folder_writable(file.path);
+            files.push_back(file);
+        }
+    }
+    return files;
+}
+
+/// Returns the stem of the names of journal and table: beside the outputs, unless it is given.
+std::string summary_stem(const BatchArguments& arguments, const std::string& output, const Shard& shard) {
+    std::string stem = arguments.summary;
+    if (stem.ends_with(".csv")) stem.resize(stem.size() - 4);
+    if (stem.empty())
+        stem = (std::filesystem::path(output.substr(0, output.find('{')) + "x").parent_path() / "summary").string();
+    return shard.of > 1 ? fmt::format("{}.{}-of-{}", stem, shard.number, shard.of) : stem;
+}
+
+void batch(const GivenOptions& options, const BatchArguments& arguments) {
+    const Shard shard = parse_shard(arguments.shard);
+    std::vector<Sweep> sweeps;
+    for (const std::string& text : arguments.sweeps) sweeps.push_back(parse_sweep(text));
+    std::vector<BatchJob> all;
+    std::string first_output;
+    for (const auto& [option, given] : options) {
+        if (option->name == "output" && given->count() > 0) first_output = given->results().front();
+        if (!given->get_positional()) continue;
+        for (const std::string& input : given->results())
+            for (BatchJob& job : jobs_of(options, input, sweeps)) all.push_back(std::move(job));
+    }
+    if (all.empty()) throw UsageError("no INPUT: give airfoil files, naca:DIGITS or case files");
+    std::vector<RunFile> files = require_files(all);
+    if (first_output.empty()) first_output = all.front().mesh_case.outputs.front();
+
+    std::vector<BatchJob> jobs;
+    for (std::size_t i = shard.number - 1; i < all.size(); i += shard.of) jobs.push_back(std::move(all[i]));
+    BatchSettings settings;
+    settings.jobs = arguments.jobs;
+    const std::string stem = summary_stem(arguments, first_output, shard);
+    settings.journal = stem + ".jsonl";
+    settings.table = stem + ".csv";
+    const MeshCase common = jobs.empty() ? MeshCase{} : jobs.front().mesh_case;
+    settings.quiet = common.quiet;
+    settings.strict = common.strict;
+    files.push_back({settings.journal, "option --summary"});
+    files.push_back({settings.table, "option --summary"});
+    const SignalGuard guard(files);
+    const BatchOutcome outcome = run_batch(jobs, settings);
+    if (!common.quiet)
+        print_result(fmt::format("{} meshes made, {} kept from before, {} failed: {}\n", outcome.done, outcome.kept,
+                                 outcome.failed, settings.table.string()));
+    if (outcome.failed > 0)
+        throw MeshError(fmt::format("{} of {} meshes were not made; {} says why", outcome.failed, jobs.size(),
+                                    settings.table.string()));
+}
+
+}  // namespace
+
+void add_batch_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("batch", "make the meshes of many inputs, several at a time");
+    auto options = std::make_shared<GivenOptions>(add_mesh_options(*command));
+    auto arguments = std::make_shared<BatchArguments>();
+    command
+        ->add_option("--jobs", arguments->jobs, "number of meshes made at a time, each on one thread; 0: one per core")
+        ->type_name("N")
+        ->group("Batch");
+    command
+        ->add_option("--sweep", arguments->sweeps,
+                     "values of an option to combine, as in reynolds=1e5,1e6; may be given several times, for all "
+                     "combinations")
+        ->type_name("OPTION=A,B,...")
+        ->allow_extra_args(false)
+        ->group("Batch");
+    command->add_option("--shard", arguments->shard, "make the I-th of N parts of the meshes alone, for N machines")
+        ->type_name("I/N")
+        ->group("Batch");
+    command
+        ->add_option(
+            "--summary", arguments->summary,
+            "table of all meshes to write; beside it, with the extension .jsonl, a line for each as soon as it "
+            "is finished; else summary.csv beside the outputs")
+        ->type_name("FILE.csv")
+        ->group("Batch");
+    command->footer(format_help());
+    command->callback([options, arguments] { batch(*options, *arguments); });
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,153 @@
+// lamina batch: many inputs, failures, sweeps, interruptions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const std::vector<std::string> quick{"--first-height", "1e-4", "--layers", "8", "--quiet"};
+
+ProgramRun run_batch(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "batch");
+    arguments.insert(arguments.end(), quick.begin(), quick.end());
+    return run_lamina(folder, arguments);
+}
+
+/// Returns the records of a journal by the names of the jobs.
+std::map<std::string, Json> journal(const TemporaryFolder& folder, const std::string& file) {
+    std::map<std::string, Json> records;
+    for (const std::string& line : lines_of(folder.read(file))) {
+        const Json record = Json::parse(line);
+        EXPECT_TRUE(records.emplace(record["job"], record).second) << line;
+    }
+    return records;
+}
+
+/// Returns the table with the column of seconds left out.
+std::vector<std::string> table_without_times(const TemporaryFolder& folder, const std::string& file) {
+    std::vector<std::string> lines = lines_of(folder.read(file));
+    for (std::string& line : lines) {
+        const std::size_t hash = line.rfind(','), seconds = line.rfind(',', hash - 1);
+        line.erase(seconds, hash - seconds);
+    }
+    return lines;
+}
+
+TEST(Batch, OneBadFileDoesNotStopTheRest) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "out");
+    folder.write("bad.dat", "title\n1 0\n0.5 nan\n0 0\n");
+    const ProgramRun run =
+        run_batch(folder, {"naca:0012", "bad.dat", "naca:4412", "missing.dat", "-o", "out/{name}.su2", "--jobs", "2"});
+    EXPECT_EQ(run.exit_code, 4);
+    EXPECT_NE(run.err.find("2 of 4 meshes were not made; out/summary.csv says why"), std::string::npos) << run.err;
+    auto records = journal(folder, "out/summary.jsonl");
+    ASSERT_EQ(records.size(), 4u);
+    EXPECT_EQ(records["bad"]["exit_code"], 3);
+    EXPECT_NE(records["bad"]["error"].get<std::string>().find("bad.dat:3"), std::string::npos);
+    EXPECT_EQ(records["missing"]["exit_code"], 5);
+    const std::vector<std::string> table = lines_of(folder.read("out/summary.csv"));
+    ASSERT_EQ(table.size(), 5u);
+    EXPECT_TRUE(table[1].starts_with("naca_0012,done,0,")) << table[1];
+    EXPECT_TRUE(table[2].starts_with("bad,failed,3,")) << table[2];
+    // The meshes are those of lamina mesh.
+    for (const std::string digits : {"0012", "4412"}) {
+        std::vector<std::string> arguments{"mesh", "naca:" + digits, "-o", "m.su2", "--report", "r.json"};
+        arguments.insert(arguments.end(), quick.begin(), quick.end());
+        ASSERT_EQ(run_lamina(folder, arguments).exit_code, 0);
+        EXPECT_EQ(Json::parse(folder.read("r.json"))["hash"], records["naca_" + digits]["hash"]);
+        EXPECT_EQ(folder.read("m.su2"), folder.read("out/naca_" + digits + ".su2"));
+    }
+}
+
+TEST(Batch, SweepsAndShards) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> sweep{"naca:0012", "naca:2412",          "-o",      "{name}_{growth}_{layers}.vtu",
+                                         "--sweep",   "growth=1.2,1.3,1.4", "--sweep", "layers=5,8"};
+    EXPECT_EQ(run_batch(folder, sweep).exit_code, 0);
+    const auto all = journal(folder, "summary.jsonl");
+    EXPECT_EQ(all.size(), 12u);
+    EXPECT_EQ(all.at("naca_2412 growth=1.3 layers=5")["sweep"]["growth"], "1.3");
+    EXPECT_TRUE(fs::exists(folder / "naca_2412_1.3_5.vtu"));
+    const std::vector<std::string> table = lines_of(folder.read("summary.csv"));
+    EXPECT_TRUE(table[0].starts_with("name,growth,layers,outcome,"));
+    EXPECT_TRUE(table[2].starts_with("naca_0012,1.2,8,done,"));
+
+    std::map<std::string, Json> of_shards;
+    for (const std::string shard : {"1", "2", "3", "4", "5"}) {
+        std::vector<std::string> arguments = sweep;
+        arguments.insert(arguments.end(), {"--shard", shard + "/5", "--summary", "part.csv"});
+        ASSERT_EQ(run_batch(folder, arguments).exit_code, 0);
+        for (const auto& [job, record] : journal(folder, "part." + shard + "-of-5.jsonl"))
+            EXPECT_TRUE(of_shards.emplace(job, record).second);
+    }
+    ASSERT_EQ(of_shards.size(), all.size());
+    for (const auto& [job, record] : all) EXPECT_EQ(of_shards[job]["hash"], record["hash"]);
+}
+
+TEST(Batch, GoesOnAfterAnInterruption) {
+    const TemporaryFolder folder;
+    std::vector<std::string> arguments{"batch", "-o", "{name}_{growth}.su2", "--jobs", "1", "--sweep", "growth="};
+    for (int i = 0; i < 8; ++i) arguments.back() += (i > 0 ? "," : "") + std::to_string(1.1 + 0.005 * i);
+    arguments.insert(arguments.begin() + 1, {"naca:0012", "naca:4412"});
+    arguments.insert(arguments.end(), quick.begin(), quick.end());
+    const auto lines = [&] {
+        return fs::exists(folder / "summary.jsonl") ? lines_of(folder.read("summary.jsonl")).size() : 0;
+    };
+    ASSERT_EQ(interrupt_lamina(folder, arguments, SIGKILL, [&] { return lines() >= 3; }), SIGKILL);
+    const std::size_t before = lines();
+    ASSERT_LT(before, 16u);
+    EXPECT_FALSE(fs::exists(folder / "summary.csv"));
+    // The last line may have been cut off.
+    folder.write("summary.jsonl", folder.read("summary.jsonl") + "{\"job\": \"naca_");
+
+    std::vector<std::string> loud = arguments;
+    std::erase(loud, "--quiet");
+    const ProgramRun resumed = run_lamina(folder, loud);
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    EXPECT_EQ(resumed.out.find(", 0 kept"), std::string::npos) << resumed.out;
+    EXPECT_EQ(journal(folder, "summary.jsonl").size(), 16u);
+    const auto table = table_without_times(folder, "summary.csv");
+
+    const TemporaryFolder other;
+    ASSERT_EQ(run_lamina(other, arguments).exit_code, 0);
+    EXPECT_EQ(table, table_without_times(other, "summary.csv"));
+
+    // Missing files and other options are made anew, and nothing else.
+    fs::remove(folder / "naca_0012_1.100000.su2");
+    EXPECT_NE(run_lamina(folder, loud).out.find("1 meshes made, 15 kept"), std::string::npos);
+    loud.insert(loud.end(), {"--far-field", "20"});
+    EXPECT_NE(run_lamina(folder, loud).out.find("16 meshes made, 0 kept"), std::string::npos);
+}
+
+TEST(Batch, WrongCallsAreRefusedBeforeTheWork) {
+    const TemporaryFolder folder;
+    folder.write("a.dat", "title\n1 0\n0 0.1\n0 -0.1\n");
+    expect_refused(folder, {"batch", "naca:0012"}, usage, "no output");
+    expect_refused(folder, {"batch", "naca:0012", "naca:0015", "-o", "m.su2"}, usage, "would be written twice");
+    expect_refused(folder, {"batch", "a.dat", "-o", "{name}.dat", "--format", "su2"}, usage, "would replace an input");
+    expect_refused(folder, {"batch", "naca:0012", "-o", "-", "--format", "su2"}, usage, "not '-'");
+    expect_refused(folder, {"batch", "naca:0012", "-o", "m.su2", "--sweep", "growht=1.2"}, usage,
+                   "did you mean 'growth'");
+    expect_refused(folder, {"batch", "naca:0012", "-o", "m.su2", "--sweep", "growth=0.5"}, usage, "growth");
+    expect_refused(folder, {"batch", "naca:0012", "-o", "m.su2", "--sweep", "growth"}, usage, "OPTION=VALUE");
+    for (const char* shard : {"0/4", "5/4", "1", "1/", "a/b", "1/4x"})
+        expect_refused(folder, {"batch", "naca:0012", "-o", "m.su2", "--shard", shard}, usage, "--shard");
+    expect_refused(folder, {"batch", "naca:0012", "-o", "no/folder/{name}.su2"}, io_failed, "no/folder");
+}
+
+}  // namespace
+}  // namespace lamina::test
