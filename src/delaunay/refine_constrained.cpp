@@ -28,12 +28,28 @@ namespace {
 
 /// Attempts with lattices before the domain is refined without.
 constexpr int max_lattice_attempts = 4;
-/// Opposite a vertex, edges of lines are divided into parts of this share of the greatest length that the angle bound
-/// admits. It leaves room for vertices that do not stand opposite the very middle.
-constexpr double part_share = 0.9;
-/// Shares that are tried too where few triangles result, because their number is a matter of chance then.
-constexpr std::array other_part_shares{0.75, 0.97, 0.55, 0.65, 0.83};
-constexpr std::size_t few_triangles = 1000;
+/// Ways that are tried besides the first one where few triangles result, because their number is a matter of chance
+/// then. What each of them adds to those before it is in docs/decisions/0022.
+constexpr std::array other_ways{
+    RefinementWay{.part_share = 0.97},
+    RefinementWay{.off_centre_share = 0.85},
+    RefinementWay{.part_share = 0.75},
+    RefinementWay{.off_centre_share = 0.85, .more_angle_deg = 0.5},
+    RefinementWay{.off_centre_share = 0.95, .diametral_circles = true},
+    RefinementWay{.part_share = 0.55},
+    RefinementWay{.part_share = 0.65, .off_centre_share = 0.75},
+    RefinementWay{.off_centre_share = 0.6, .diametral_circles = true},
+    RefinementWay{.part_share = 0.83},
+    RefinementWay{.part_share = 0.65, .off_centre_share = 0.95},
+    RefinementWay{.off_centre_share = 0.95},
+    RefinementWay{.off_centre_share = 0.75},
+    RefinementWay{.off_centre_share = 0.85, .more_angle_deg = 2},
+    RefinementWay{.off_centre_share = 0.85, .diametral_circles = true, .more_angle_deg = 0.5},
+    RefinementWay{.diametral_circles = true},
+    RefinementWay{.part_share = 0.65},
+};
+/// Other ways are tried as long as all meshes together have no more triangles than this.
+constexpr std::size_t max_triangles_of_ways = 6000;
 
 /// Returns the vertices so near to others that triangles round them will be smaller than their sizes demand. Lattices
 /// leave room for triangles to grow.
@@ -191,7 +207,7 @@ void append_segments(const ConstrainedTriangulation& triangulation, const Border
 /// Joins the patches and the refined seam.
 ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulation& triangulation,
                            const FieldPatches& filled, const SeamDomain& seam, const BorderLines& lines,
-                           const SplittingRefiner& refiner) {
+                           const SplittingRefiner& refiner, double min_angle_deg) {
     const LatticePatches& patches = filled.patches;
     const std::size_t input_count = user_points + triangulation.steiner_points.size();
     const std::size_t first_of_patch = input_count + lines.splits();
@@ -215,7 +231,7 @@ ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulati
         r.regions.push_back(region_of_field(refiner.field_of(t)));
     }
     append_segments(triangulation, lines, vertices, ids, r);
-    r.stats = refiner.count_leftovers();
+    r.stats = refiner.count_leftovers(min_angle_deg);
     return r;
 }
 
@@ -234,15 +250,19 @@ struct Outcome {
     std::size_t inserted = 0;  ///< number of vertices that the refiner inserted
 };
 
-Outcome refine_round(const FieldPatches& filled, const RefinementTask& task, double share) {
+Outcome refine_round(const FieldPatches& filled, const RefinementTask& task, const RefinementWay& way) {
+    ConstrainedRefineOptions options = task.options;
+    double& min_angle = options.refine.min_angle_deg;
+    min_angle = std::max(min_angle, std::min(min_angle + way.more_angle_deg, max_min_angle_deg));
     SeamDomain seam = make_seam(task.input, filled);
     const std::size_t before = seam.domain.points.size();
     BorderLines lines(task.input.points, task.triangulation.segments, task.input.tris);
-    SplittingRefiner refiner(std::move(seam.domain), lines, task.input.sizes, task.options, share);
+    SplittingRefiner refiner(std::move(seam.domain), lines, task.input.sizes, options, way);
     refiner.refine();
     Outcome outcome{{}, refiner.kept_out(), refiner.vertices().size() - before};
     if (filled.patches.empty() || outcome.kept_out.empty())
-        outcome.mesh = join(task.user_points, task.triangulation, filled, seam, lines, refiner);
+        outcome.mesh =
+            join(task.user_points, task.triangulation, filled, seam, lines, refiner, task.options.refine.min_angle_deg);
     return outcome;
 }
 
@@ -254,20 +274,23 @@ bool is_better(const ConstrainedRefinement& mesh, const ConstrainedRefinement& o
            std::pair{beyond(other.stats), other.triangles.size()};
 }
 
-/// Refines in the other ways that there are, and returns the best mesh.
-ConstrainedRefinement choose_best(Outcome first, const FieldPatches& filled, const RefinementTask& task) {
+/// Refines in other ways as well, the more the smaller the mesh is, and returns the best mesh.
+ConstrainedRefinement choose_best(Outcome best, const FieldPatches& filled, const RefinementTask& task) {
     ConstrainedRefineOptions options = task.options;
-    for (const double share : other_part_shares) {
-        options.refine.max_points = first.inserted;
+    std::size_t triangles = 0;
+    for (const RefinementWay& way : other_ways) {
+        triangles += best.mesh.triangles.size();
+        if (triangles > max_triangles_of_ways) break;
+        options.refine.max_points = best.inserted;
         try {
-            Outcome other = refine_round(filled, {task.input, task.triangulation, options, task.user_points}, share);
-            if ((filled.patches.empty() || other.kept_out.empty()) && is_better(other.mesh, first.mesh))
-                first = std::move(other);
+            Outcome other = refine_round(filled, {task.input, task.triangulation, options, task.user_points}, way);
+            if ((filled.patches.empty() || other.kept_out.empty()) && is_better(other.mesh, best.mesh))
+                best = std::move(other);
         } catch (const MeshError&) {
             continue;  // This way needs more points, and is therefore no better.
         }
     }
-    return std::move(first.mesh);
+    return std::move(best.mesh);
 }
 
 }  // namespace
@@ -288,11 +311,8 @@ ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTri
         FieldPatches filled;
         if (options.refine.lattice && attempt < max_lattice_attempts)
             filled = fill_fields(input, obstacles, options.refine);
-        Outcome outcome = refine_round(filled, task, part_share);
-        if (filled.patches.empty() || outcome.kept_out.empty()) {
-            if (outcome.mesh.triangles.size() >= few_triangles) return std::move(outcome.mesh);
-            return choose_best(std::move(outcome), filled, task);
-        }
+        Outcome outcome = refine_round(filled, task, {});
+        if (filled.patches.empty() || outcome.kept_out.empty()) return choose_best(std::move(outcome), filled, task);
         const double reach = 2 << attempt;
         for (const Point p : outcome.kept_out) obstacles.push_back({p, reach * size(p)});
     }

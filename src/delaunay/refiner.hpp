@@ -205,6 +205,7 @@ protected:
     std::vector<float> sizes_;   ///< h at each point, in multiples of the unit
     Tris tris_;
     double squared_sine_ = 0;  ///< of the angle bound
+    double off_centre_ = 0;    ///< height of the off-centre over the shortest edge, in lengths of that edge
     Cavity cavity_;
     AdvancingFront front_;
     std::size_t refused_ = 0;
@@ -490,7 +491,6 @@ private:
     double unit_ = 1;                   ///< the length that sizes_ are multiples of
     double squared_unit_ = 1;           ///< its square
     double area2_per_squared_sum_ = 0;  ///< twice the area bound of a triangle, over the squared sum of h
-    double off_centre_ = 0;             ///< height of the off-centre over the shortest edge, in lengths of that edge
     AngleQueue narrow_;
     /// A triangle of the newest vertex that is narrow, and its squared shortest edge.
     struct NarrowTriangle {

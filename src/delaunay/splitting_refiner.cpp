@@ -36,7 +36,7 @@ unsigned edge_between(const Tri& t, Index a, Index b) {
 }  // namespace
 
 SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
-                                   const ConstrainedRefineOptions& options, double share_of_part)
+                                   const ConstrainedRefineOptions& options, const RefinementWay& way)
     : Refiner(options.refine, std::move(domain.points), std::move(domain.tris)),
       lines_(lines),
       sizes_of_fields_(sizes),
@@ -51,8 +51,9 @@ SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, 
     extent_ = core::bounding_box(points_);
     const double bound = core::radians(std::max(options.refine.min_angle_deg, min_lens_angle_deg));
     const double c = core::cos_reproducible(2 * bound);
-    squared_lens_ = c * c;
-    part_length_ = share_of_part * 2 * core::cos_reproducible(bound) / core::sin_reproducible(bound);
+    squared_lens_ = way.diametral_circles ? 0 : c * c;
+    off_centre_ *= way.off_centre_share;
+    part_length_ = way.part_share * 2 * core::cos_reproducible(bound) / core::sin_reproducible(bound);
     give_sizes();
 }
 
@@ -358,13 +359,15 @@ void SplittingRefiner::fill_and_queue(Index vertex, Index a, Index b, std::uint3
     }
 }
 
-RefineStats SplittingRefiner::count_leftovers() const {
+RefineStats SplittingRefiner::count_leftovers(double min_angle_deg) const {
+    const double sine = core::sin_reproducible(core::radians(min_angle_deg));
     RefineStats stats;
     for (const Tri& tri : tris_) {
         const TriangleShape s = shape_of(tri);
         const unsigned e = s.shortest();
         stats.oversized += is_oversized(tri, s);
-        if (!is_narrow(s.squared[0], s.squared[1], s.squared[2], s.squared[e] * (1 + rounding), s.area2)) continue;
+        const double shortest = s.squared[e] * (1 + rounding);
+        if (!is_angle_below(sine * sine, s.squared[0], s.squared[1], s.squared[2], shortest, s.area2)) continue;
         ++stats.below_bound;
         const Point middle = (1.0 / 3) * (points_[tri.v[0]] + points_[tri.v[1]] + points_[tri.v[2]]);
         stats.exempt +=

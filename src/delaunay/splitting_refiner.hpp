@@ -22,6 +22,17 @@ struct SplittableDomain {
     std::size_t frozen_begin, frozen_end;  ///< constrained edges between two of these vertices are frozen
 };
 
+/// One of the ways to refine. All of them keep the same bounds, but which one makes the fewest triangles is a matter of
+/// chance.
+struct RefinementWay {
+    /// Opposite a vertex, edges of lines are divided into parts of this share of the greatest length that the angle
+    /// bound admits. 0.9 leaves room for vertices that do not stand opposite the very middle.
+    double part_share = 0.9;
+    double off_centre_share = 1;     ///< off-centres stand at this share of the height that the angle bound admits
+    bool diametral_circles = false;  ///< whether edges are encroached upon in their diametral circle, not in their lens
+    double more_angle_deg = 0;       ///< the angle bound is raised by this, as far as that is admitted
+};
+
 /// Splits lines and inserts vertices until every triangle meets its bounds.
 ///
 ///        p encroaches upon a-b                  a-b is split instead
@@ -35,10 +46,9 @@ struct SplittableDomain {
 /// triangular mesh generation, Comput. Geom. 22 (2002), section 3.4.2 on diametral lenses.
 class SplittingRefiner : public Refiner<SplittingRefiner> {
 public:
-    /// Keeps references to the lines, the size fields and the options. Opposite a vertex, edges are divided into parts
-    /// of `share_of_part` of the greatest length that the angle bound admits.
+    /// Keeps references to the lines, the size fields and the options.
     SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
-                     const ConstrainedRefineOptions& options, double share_of_part);
+                     const ConstrainedRefineOptions& options, const RefinementWay& way);
 
     /// Refines. May be called once only.
     void refine();
@@ -48,8 +58,8 @@ public:
     const Tris& tris() const { return tris_; }
     /// Returns the index of the size field of a triangle.
     std::uint32_t field_of(Index t) const { return fields_.empty() ? 0 : fields_[t]; }
-    /// Returns the numbers of triangles beyond the bounds.
-    RefineStats count_leftovers() const;
+    /// Returns the numbers of triangles beyond the bounds, with this bound of the angles.
+    RefineStats count_leftovers(double min_angle_deg) const;
     /// Returns the circumcentres that a frozen edge kept out, in the coordinates of the domain.
     const std::vector<Point>& kept_out() const { return kept_out_; }
 
@@ -91,10 +101,11 @@ private:
     std::vector<std::uint32_t> fields_;
     std::size_t frozen_begin_, frozen_end_;
     bool may_split_;
-    double scale_ = 1;                           ///< the coordinates of the refiner over those of the domain
-    Box extent_;                                 ///< the box round all vertices
-    double part_length_;                         ///< the length of parts of an edge over the distance of a vertex
-    double squared_lens_;                        ///< squared cosine of the angle at which points on a lens see its edge
+    double scale_ = 1;     ///< the coordinates of the refiner over those of the domain
+    Box extent_;           ///< the box round all vertices
+    double part_length_;   ///< the length of parts of an edge over the distance of a vertex
+    double squared_lens_;  ///< squared cosine of the angle at which points on a lens see its edge;
+                           ///< 0 for diametral circles
     std::deque<QueuedEdge> long_or_encroached_;  ///< a stack
     std::vector<Point> kept_out_;
 };

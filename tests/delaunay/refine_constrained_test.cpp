@@ -241,6 +241,22 @@ TEST(RefineConstrained, ChanceDoesNotDoubleSmallMeshes) {
     EXPECT_EQ(count_below(r, 28), 0u);
 }
 
+TEST(RefineConstrained, OneSplitDoesNotRunRoundAStar) {
+    // Where one side of a spike is split, its other side has to be, then that of the next spike, and so on round the
+    // star: 187 triangles where Triangle makes 101.
+    PlanarGraph graph;
+    graph.add_loop({{0, 0}, {10, 0}, {10, 10}, {0, 10}});
+    std::vector<Point> star;
+    for (int i = 0; i < 22; ++i) {
+        const double turn = M_PI * i / 11, radius = i % 2 == 0 ? 2.8 : 1.4594;
+        star.push_back(Point{6.9597, 5.4596} + radius * Point{std::cos(turn), std::sin(turn)});
+    }
+    graph.add_loop(star);
+    const Refined r = refine_and_check(graph, SizeField(1000), {.refine = {.min_angle_deg = 30}});
+    EXPECT_LE(r.refinement.triangles.size(), 130u);
+    EXPECT_EQ(r.refinement.stats.below_bound, r.refinement.stats.exempt);
+}
+
 TEST(RefineConstrained, HighAnglesNeedFewTriangles) {
     // At 33 degrees the outline of a tank used to make five times the triangles that 32 degrees need, five of them
     // below the bound.
