@@ -49,6 +49,7 @@ private:
     bool in_run_ = false;      ///< the row before holds coordinates
     /// Whether a comment, and whether a text or a separator, stands between the last coordinates and this row.
     bool comment_between_ = false, text_between_ = false;
+    std::size_t comma_separated_line_ = 0, decimal_comma_line_ = 0;  ///< the last ones; 0: none
 
     void read_numbers(std::size_t i) {
         const TextRow& row = rows_[i];
@@ -77,6 +78,7 @@ private:
             document_.has_leading_zeros = false;
         }
         document_.csv |= row.has_separators;
+        require_one_meaning_of_commas(row);
         if (row.has_decimal_commas && document_.notes.empty())
             document_.notes.push_back(fmt::format("line {}: decimal commas read as points", row.line));
         CoordinateSection& section = document_.sections.back();
@@ -85,6 +87,17 @@ private:
         has_points_ = true;
         in_run_ = true;
         comment_between_ = text_between_ = false;
+    }
+
+    /// Throws InputError where commas separate numbers in some rows and are decimal signs in others. Commas within quotes
+    /// and between semicolons are clear in each row.
+    void require_one_meaning_of_commas(const TextRow& row) {
+        if (row.has_comma_separators) comma_separated_line_ = row.line;
+        if (row.has_decimal_commas && !row.has_separators) decimal_comma_line_ = row.line;
+        if (comma_separated_line_ > 0 && decimal_comma_line_ > 0)
+            throw InputError({file_, row.line, {}},
+                             fmt::format("commas separate numbers on line {}, but are decimal signs on line {}",
+                                         comma_separated_line_, decimal_comma_line_));
     }
 
     void read_other(std::size_t i) {

@@ -40,7 +40,8 @@ Field make_field(std::string text) {
     return field;
 }
 
-/// Returns whether a text is a number where the comma is the decimal sign: "12", "-0,5", "1,0e-3".
+/// Returns whether a text is a number where the comma is the decimal sign: "12", "-0,5", "1,0e-3", "-,5". Whether ",5" is
+/// one cannot be said without other numbers.
 bool fits_decimal_comma(std::string_view s) {
     std::size_t i = !s.empty() && (s[0] == '+' || s[0] == '-') ? 1 : 0;
     const auto skip_digits = [&] {
@@ -48,7 +49,7 @@ bool fits_decimal_comma(std::string_view s) {
         while (i < s.size() && is_digit(s[i])) ++i;
         return i > start;
     };
-    if (!skip_digits()) return false;
+    if (!skip_digits() && !(i < s.size() && s[i] == ',')) return false;
     if (i < s.size() && s[i] == ',') {
         ++i;
         if (!skip_digits()) return false;
@@ -65,6 +66,7 @@ bool fits_decimal_comma(std::string_view s) {
 struct SplitLine {
     std::vector<std::string> texts;
     bool has_separators = false;
+    bool has_comma_separators = false;
 };
 
 /// Returns the length of the quoted text at the start of s, with its quotes, or 0 if there is none. The closing quote
@@ -92,6 +94,7 @@ SplitLine split(std::string_view s, bool comma_separates) {
             if (after_separator || result.texts.empty()) result.texts.emplace_back();
             after_separator = true;
             result.has_separators = true;
+            result.has_comma_separators |= s[i] == ',';
             ++i;
         } else if (const std::size_t length = quoted_length(s.substr(i)); length > 0) {
             result.texts.emplace_back(trimmed(s.substr(i + 1, length - 2)));
@@ -107,11 +110,12 @@ SplitLine split(std::string_view s, bool comma_separates) {
     return result;
 }
 
-/// Returns whether the commas in the fields of a line, of which there must be some, are decimal signs.
+/// Returns whether the commas in the fields of a line, of which there must be some, are decimal signs. A comma in front
+/// of the digits is one only where another field says so: "1 ,5" may be a pair of whole numbers.
 bool uses_decimal_commas(const std::vector<std::string>& texts) {
-    const auto has_comma = [](const std::string& text) { return text.find(',') != std::string::npos; };
+    const auto has_clear_comma = [](const std::string& text) { return text.find(',', 1) != std::string::npos; };
     return texts.size() >= 2 && std::all_of(texts.begin(), texts.end(), fits_decimal_comma) &&
-           std::any_of(texts.begin(), texts.end(), has_comma);
+           std::any_of(texts.begin(), texts.end(), has_clear_comma);
 }
 
 /// Returns a line without the quotes that enclose it as a whole: "1.0 0.0" in quotes is a pair of numbers.
@@ -139,6 +143,7 @@ FieldList read_fields(std::string_view line) {
             }
     }
     result.has_separators = parts.has_separators;
+    result.has_comma_separators = parts.has_comma_separators;
     for (std::string& text : parts.texts) result.fields.push_back(make_field(std::move(text)));
     return result;
 }

@@ -25,8 +25,9 @@ struct Field {
 /// The fields of one line.
 struct FieldList {
     std::vector<Field> fields;
-    bool has_separators = false;      ///< fields are separated by commas or semicolons
-    bool has_decimal_commas = false;  ///< commas were read as decimal points
+    bool has_separators = false;        ///< fields are separated by commas or semicolons
+    bool has_comma_separators = false;  ///< fields are separated by commas
+    bool has_decimal_commas = false;    ///< commas were read as decimal points
 };
 
 /// Splits a line into fields. White space separates fields; so does one comma or semicolon with white space round it.

@@ -100,6 +100,7 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     }
     row.has_remark = row.number_count < fields.size();
     row.has_separators = list.has_separators;
+    row.has_comma_separators = list.has_comma_separators;
     row.has_decimal_commas = list.has_decimal_commas;
     if (row.number_count >= 2) {
         row.kind = RowKind::numbers;

@@ -26,13 +26,14 @@ struct TextRow {
     RowKind kind = RowKind::blank;
     std::size_t number_count = 0;              ///< how many numbers the row starts with
     std::array<double, max_columns> values{};  ///< the first of these numbers
-    bool has_fractions = false;       ///< one of these numbers is not written as a whole number: "17" and "17." are
-    bool has_leading_zeros = false;   ///< one of these numbers is written like "0012"
-    bool has_remark = false;          ///< text follows the numbers
-    bool has_decimal_points = false;  ///< both of the first two numbers are written with a decimal point
-    bool has_separators = false;      ///< fields are separated by commas or semicolons (CSV)
-    bool has_decimal_commas = false;  ///< "0,5" was read as 0.5
-    std::vector<std::string> names;   ///< fields of a row without coordinates, in lower case: names of columns, perhaps
+    bool has_fractions = false;         ///< one of these numbers is not written as a whole number: "17" and "17." are
+    bool has_leading_zeros = false;     ///< one of these numbers is written like "0012"
+    bool has_remark = false;            ///< text follows the numbers
+    bool has_decimal_points = false;    ///< both of the first two numbers are written with a decimal point
+    bool has_separators = false;        ///< fields are separated by commas or semicolons (CSV)
+    bool has_comma_separators = false;  ///< fields are separated by commas
+    bool has_decimal_commas = false;    ///< "0,5" was read as 0.5
+    std::vector<std::string> names;  ///< fields of a row without coordinates, in lower case: names of columns, perhaps
     /// Trimmed UTF-8 text of `text` and `comment` rows, and of `numbers` rows with a remark or without fractions.
     std::string text;
     /// Why a `text` row can only be a damaged pair of coordinates; empty where it need not be one.

@@ -45,6 +45,23 @@ TEST(Reader, EveryFormatGivesTheSameLoop) {
     }
 }
 
+TEST(Reader, DecimalCommasWithoutALeadingZero) {
+    // "-,05" was once read as the two numbers "-" and 05, so that the y of the row before it ended up in x.
+    const Element e = read("title\n1,0 ,0\n0,5 ,06\n0,0 0,0\n0,5 -,05\n").elements[0];
+    EXPECT_EQ(e.points, (std::vector<Point>{{1, 0}, {0.5, 0.06}, {0, 0}, {0.5, -0.05}}));
+    EXPECT_TRUE(has_repair(e, "decimal commas"));
+    // Commas separate whole numbers here.
+    EXPECT_EQ(read("title\n9 ,0\n5 ,3\n0 ,0\n5 ,-3\n").elements[0].points,
+              (std::vector<Point>{{9, 0}, {5, 3}, {0, 0}, {5, -3}}));
+}
+
+TEST(Reader, CommasMeanOneThingInAFile) {
+    for (const char* text :
+         {"title\n1,0 0,0\n0,5, 0,06\n0,0 0,0\n0,5 -0,05\n", "title\n1,0\n5,3\n0,5 0,06\n0,0\n5,-3\n"})
+        EXPECT_THROW(read(text), InputError) << text;
+    EXPECT_NO_THROW(read("title\n\"1\",\"0\"\n\"0,5\",\"0,06\"\n\"0\",\"0\"\n\"0,5\",\"-0,05\"\n"));
+}
+
 TEST(Reader, NamesTheFormat) {
     EXPECT_EQ(read(fixtures::selig).elements[0].format, "selig");
     EXPECT_EQ(read(fixtures::no_title).elements[0].format, "xy");
