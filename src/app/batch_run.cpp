@@ -46,7 +46,7 @@ std::string fingerprint(MeshCase mesh_case) {
     mesh_case.progress = ProgressShown::automatic;
     mesh_case.options.threads = 0;
     std::uint64_t hash = hashed(0xcbf29ce484222325u, dump_case(mesh_case));
-    for (const RunFile& file : files_read(mesh_case)) {
+    for (const RunFile& file : files_of_case(mesh_case)) {
         std::error_code ignored;
         if (fs::is_regular_file(file.path, ignored)) hash = hashed(hash, read_file(file.path));
     }

@@ -153,7 +153,7 @@ std::vector<RunFile> require_files(const std::vector<BatchJob>& jobs) {
     };
     std::set<std::filesystem::path> inputs, written, folders;
     for (const BatchJob& job : jobs)
-        for (const RunFile& file : files_read(job.mesh_case)) inputs.insert(plain(file.path));
+        for (const RunFile& file : files_of_case(job.mesh_case)) inputs.insert(plain(file.path));
     std::vector<RunFile> files;
     for (const BatchJob& job : jobs) {
         if (job.mesh_case.outputs.empty()) throw UsageError("no output: give -o 'FOLDER/{name}.EXTENSION'");

@@ -42,7 +42,7 @@ void convert(const ConvertArguments& arguments) {
     std::vector<RunFile> outputs;
     for (const std::filesystem::path& file : output_files(arguments.to, arguments.options))
         outputs.push_back({file, "OUT"});
-    require_distinct(files_of_mesh(arguments.from), outputs);
+    require_distinct(files_of_mesh(arguments.from, arguments.from_format), outputs);
     const SignalGuard guard(outputs);
     Mesh mesh = read_mesh(arguments.from, {.format = arguments.from_format});
     const std::string name = input_name(arguments.from);

@@ -174,7 +174,7 @@ void family(const FamilyArguments& arguments, const MeshCase& mesh_case) {
         outputs.insert(outputs.end(), more.begin(), more.end());
     }
     check_folder_writable(table);
-    require_distinct(files_read(mesh_case), outputs);
+    require_distinct(files_of_case(mesh_case), outputs);
     const SignalGuard guard(outputs);
 
     const Geometry geometry = read_geometry(mesh_case.inputs, mesh_case.options.geometry);

@@ -120,9 +120,7 @@ void flow(const FlowArguments& arguments) {
         set_by_name(conditions_option_table(), name, value, conditions);
     validate(conditions);
     const std::vector<RunFile> outputs = files_written(arguments);
-    std::vector<RunFile> inputs;
-    for (const std::string& input : mesh_case.inputs) inputs.push_back({input, "INPUT"});
-    require_distinct(inputs, outputs);
+    require_distinct(files_of_case(mesh_case), outputs);
     for (const RunFile& output : outputs) check_folder_writable(output.path);
     if (!arguments.picture.empty()) check_picture_format(arguments.picture);
     const SignalGuard guard(outputs);

@@ -46,7 +46,7 @@ void add_plot_command(CLI::App& app) {
         require_format(arguments->mesh, arguments->mesh_format, "--input-format");
         require_format(arguments->picture, arguments->format, "--format");
         const std::vector<RunFile> outputs{{arguments->picture, "option --output"}};
-        require_distinct(files_of_mesh(arguments->mesh), outputs);
+        require_distinct(files_of_mesh(arguments->mesh, arguments->mesh_format), outputs);
         const SignalGuard guard(outputs);
         plot_mesh(read_mesh(arguments->mesh, {.format = arguments->mesh_format}), arguments->picture, options);
     });

@@ -81,14 +81,6 @@ MeshCase case_of_command_line(const GivenOptions& options, const std::vector<std
     return mesh_case;
 }
 
-std::vector<RunFile> files_read(const MeshCase& mesh_case) {
-    std::vector<RunFile> files;
-    for (const std::string& input : mesh_case.inputs) files.push_back({input, "INPUT"});
-    if (!mesh_case.case_file.empty()) files.push_back({mesh_case.case_file, "INPUT"});
-    if (!mesh_case.background.empty()) files.push_back({mesh_case.background, "option --background"});
-    return files;
-}
-
 void require_inputs(const MeshCase& mesh_case) {
     if (std::count_if(mesh_case.inputs.begin(), mesh_case.inputs.end(), is_standard_stream) > 1)
         throw UsageError("INPUT: '-' is given twice, but standard input can be read only once");

@@ -32,9 +32,6 @@ using OptionText = std::pair<const Option<MeshCase>*, std::string>;
 MeshCase case_of_command_line(const GivenOptions& options, const std::vector<std::string>& inputs,
                               const std::vector<OptionText>& further);
 
-/// Returns the files that the case reads, each with the option that names it.
-std::vector<RunFile> files_read(const MeshCase& mesh_case);
-
 /// Throws UsageError where standard input is asked for what it cannot give.
 void require_inputs(const MeshCase& mesh_case);
 

@@ -39,7 +39,7 @@ void require_outputs(const MeshCase& mesh_case) {
     }
     if (!mesh_case.wall_data.empty()) check_folder_writable(mesh_case.wall_data);
     if (!mesh_case.report.empty()) check_folder_writable(mesh_case.report);
-    require_distinct(files_read(mesh_case), files_written(mesh_case));
+    require_distinct(files_of_case(mesh_case), files_written(mesh_case));
 }
 
 void write_outputs(const MeshCase& mesh_case, const MeshResult& result) {

@@ -91,13 +91,29 @@ void require_format(const std::string& file, const std::string& format, const st
         throw UsageError(fmt::format("'-' has no extension that tells the format: give {} NAME", option));
 }
 
-std::vector<RunFile> files_of_mesh(const std::string& mesh) {
+std::vector<RunFile> files_of_mesh(const std::string& mesh, const std::string& format) {
     std::vector<RunFile> files{{mesh, "MESH"}};
+    const std::string known = format.empty() && is_folder(mesh) ? "openfoam" : format;  // no other format is a folder
     try {
-        for (const fs::path& part : output_files(mesh))
+        for (const fs::path& part : output_files(mesh, {.format = known})) {
             if (part != fs::path(mesh)) files.push_back({part, "MESH"});
+            std::error_code ignored;
+            for (const fs::directory_entry& entry : fs::directory_iterator(part, ignored))
+                files.push_back({entry.path(), "MESH"});
+        }
     } catch (const UsageError&) {
-        // The name tells no format, so reading it fails, or it is a folder that reading recognises by its contents.
+        // The name tells no format, so reading it fails.
+    }
+    return files;
+}
+
+std::vector<RunFile> files_of_case(const MeshCase& mesh_case) {
+    std::vector<RunFile> files;
+    for (const std::string& input : mesh_case.inputs) files.push_back({input, "INPUT"});
+    if (!mesh_case.case_file.empty()) files.push_back({mesh_case.case_file, "INPUT"});
+    if (!mesh_case.background.empty()) {
+        const std::vector<RunFile> background = files_of_mesh(mesh_case.background, "");
+        files.insert(files.end(), background.begin(), background.end());
     }
     return files;
 }

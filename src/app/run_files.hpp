@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "app/case.hpp"
+
 namespace lamina::app {
 
 /// A file that a run reads or writes.
@@ -26,8 +28,12 @@ void require_distinct(std::span<const RunFile> inputs, std::span<const RunFile> 
 /// Throws UsageError where the file is standard input or output and no format is given; `option` would give it.
 void require_format(const std::string& file, const std::string& format, const std::string& option);
 
-/// Returns the files of a mesh that is read: those that its format consists of, if the name tells the format.
-std::vector<RunFile> files_of_mesh(const std::string& mesh);
+/// Returns the files of a mesh that is read: those that its format consists of. The format is the one of this name or, if
+/// that is empty, the one that the name of the mesh tells.
+std::vector<RunFile> files_of_mesh(const std::string& mesh, const std::string& format);
+
+/// Returns the files that a run reads: its inputs, the case file that names them, and the background mesh.
+std::vector<RunFile> files_of_case(const MeshCase& mesh_case);
 
 /// While it lives, the signals INT, TERM and HUP remove the temporary files of the outputs, and the folders that were
 /// created for them and are still empty, before they end the process.

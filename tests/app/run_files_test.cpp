@@ -100,6 +100,30 @@ TEST(RunFiles, OtherCommandsReplaceNoInputEither) {
     expect_untouched(folder, {"convert", "n.node", "n.ele"}, "would replace the input");
     fs::create_symlink("m.vtu", folder / "m.png");
     expect_untouched(folder, {"plot", "m.vtu", "-o", "m.png"}, "would replace the input");
+
+    write_airfoil(folder, "a.dat");
+    folder.write("case.toml", "input = 'a.dat'\n");
+    expect_untouched(folder, {"flow", "case.toml", "-o", "case.toml"}, "would replace the input");
+    expect_untouched(folder, {"flow", "case.toml", "-o", "a.dat"}, "would replace the input");
+}
+
+// Formats that consist of several files: none of them may be replaced while the mesh is read.
+TEST(RunFiles, NoFileOfAMeshIsReplaced) {
+    const TemporaryFolder folder;
+    const std::string poly_mesh = "case/constant/polyMesh", replaced = "would replace the input";
+    const ProgramRun made = run_lamina(
+        folder, {"mesh", "naca:0012:80", "--far-field", "4", "-o", "m.ugrid", "-o", "m.su2", "-o", poly_mesh});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    for (const std::string& mesh : {poly_mesh, std::string("case")}) {
+        expect_untouched(folder, {"convert", mesh, poly_mesh + "/points", "--format", "su2"}, replaced);
+        expect_untouched(folder, {"plot", mesh, "-o", poly_mesh + "/points", "--format", "png"}, replaced);
+    }
+    EXPECT_EQ(run_lamina(folder, {"convert", "case", "case/m.su2"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"convert", "case", "case/m.su2"}).exit_code, 0);  // a second time
+
+    expect_untouched(folder, {"convert", "m.ugrid", "m.mapbc", "--format", "su2"}, replaced);
+    fs::rename(folder / "m.ugrid", folder / "m.mesh");
+    expect_untouched(folder, {"convert", "m.mesh", "m.mapbc", "--input-format", "ugrid", "--format", "su2"}, replaced);
 }
 
 // The folders above a polyMesh folder are created while it is written.
