@@ -2,7 +2,9 @@
 // output where one is written.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,8 +19,13 @@ LAMINA_EXPORT bool is_standard_stream(const std::filesystem::path& file);
 /// Returns the name of a file that is read as messages show it: "standard input" for "-".
 LAMINA_EXPORT std::string input_name(const std::filesystem::path& file);
 
-/// Returns the whole file as bytes. Throws IoError.
-LAMINA_EXPORT std::string read_file(const std::filesystem::path& file);
+/// Texts of airfoils and of options are refused beyond this size, which some ten million points do not reach.
+inline constexpr std::size_t max_text_bytes = std::size_t{1} << 30;
+
+/// Returns the whole file as bytes. Throws IoError; so it does where the file is larger than `max_bytes` (but for a
+/// mebibyte) or, as a device without an end, than the memory that is free.
+LAMINA_EXPORT std::string read_file(const std::filesystem::path& file,
+                                    std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
 
 /// Writes the text to a temporary file beside `file` and renames it, so that a failure leaves no half-written file. A
 /// device, a pipe or standard output is written to directly. Throws IoError.

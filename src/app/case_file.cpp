@@ -54,7 +54,7 @@ OptionValue value_of(const toml::node& node, const std::string& origin) {
 }
 
 toml::table parse(const std::filesystem::path& file) {
-    const std::string text = read_file(file);
+    const std::string text = read_file(file, max_text_bytes);
     try {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {

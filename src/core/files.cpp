@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include <lamina/error.hpp>
+#include <lamina/limits.hpp>
 
 #include "core/atomic_file.hpp"
 
@@ -20,16 +21,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string read_standard_input() {
-    std::string bytes;
+/// Reads a stream block by block, since a pipe cannot tell its size, and devices have no end. `read(to, bytes)` returns
+/// how many bytes it has read.
+template <class Read>
+std::string read_blocks(const std::string& name, std::size_t max_bytes, const Read& read) {
     constexpr std::size_t block = std::size_t{1} << 20;
-    errno = 0;
+    std::size_t next_look = 256 * block;
+    std::string bytes;
     for (std::size_t got = block; got > 0;) {
         const std::size_t before = bytes.size();
+        if (before > max_bytes) throw IoError(name, "cannot read: is larger than " + memory_text(max_bytes));
+        if (before >= next_look) {
+            next_look *= 2;
+            // A text that grows is copied once in a while, and then takes its room twice.
+            if (const auto free = free_memory(); free && *free < next_look)
+                throw IoError(name, "cannot read: is larger than " + memory_text(before) + ", and only " +
+                                        memory_text(*free / block * block) + " of memory are free");
+        }
         bytes.resize(before + block);
-        got = std::fread(bytes.data() + before, 1, block, stdin);
+        got = read(bytes.data() + before, block);
         bytes.resize(before + got);
     }
+    return bytes;
+}
+
+std::string read_standard_input(std::size_t max_bytes) {
+    errno = 0;
+    std::string bytes = read_blocks(input_name("-"), max_bytes,
+                                    [](char* to, std::size_t size) { return std::fread(to, 1, size, stdin); });
     if (std::ferror(stdin) != 0)
         throw IoError(input_name("-"), std::string("cannot read: ") + std::strerror(errno ? errno : EIO));
     return bytes;
@@ -56,21 +75,16 @@ void check_folder_writable(const fs::path& file) {
     if (fs::exists(file, ignored)) require_access(file, W_OK);
 }
 
-std::string read_file(const fs::path& file) {
-    if (is_standard_stream(file)) return read_standard_input();
+std::string read_file(const fs::path& file, std::size_t max_bytes) {
+    if (is_standard_stream(file)) return read_standard_input(max_bytes);
     std::error_code ignored;
     if (fs::is_directory(file, ignored)) throw IoError(file.string(), "cannot read: is a directory");
     errno = 0;
     std::ifstream in(file, std::ios::binary);
-    std::string bytes;
-    // The file is read block by block, since a pipe cannot tell its size.
-    constexpr std::size_t block = std::size_t{1} << 20;
-    while (in) {
-        const std::size_t before = bytes.size();
-        bytes.resize(before + block);
-        in.read(bytes.data() + before, block);
-        bytes.resize(before + static_cast<std::size_t>(in.gcount()));
-    }
+    std::string bytes = read_blocks(file.string(), max_bytes, [&](char* to, std::size_t size) {
+        in.read(to, static_cast<std::streamsize>(size));
+        return static_cast<std::size_t>(in.gcount());
+    });
     if (!in.eof()) throw IoError(file.string(), std::string("cannot read: ") + std::strerror(errno ? errno : EIO));
     return bytes;
 }

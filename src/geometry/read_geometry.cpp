@@ -72,7 +72,7 @@ std::string meant_section(const std::string& input) {
 /// Returns the contents of an airfoil file. An error says where the name was probably meant to be a section.
 std::string contents_of(const std::string& input) {
     try {
-        return read_file(input);
+        return read_file(input, max_text_bytes);
     } catch (const IoError& error) {
         const std::string section = meant_section(input);
         if (section.empty()) throw;
@@ -89,7 +89,7 @@ namespace lamina {
 using namespace geometry;
 
 std::vector<Element> read_airfoil(const std::filesystem::path& file) {
-    return make_geometry(parse_airfoil(read_file(file), file.string()), {}).elements;
+    return make_geometry(parse_airfoil(read_file(file, max_text_bytes), file.string()), {}).elements;
 }
 
 std::vector<Element> read_input(const std::string& input, const GeometryOptions& options) {

@@ -1,4 +1,4 @@
-// A read-only file is not replaced.
+// A read-only file is not replaced, and a file without an end is not read.
 #include <lamina/files.hpp>
 
 #include <unistd.h>
@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,17 @@ TEST(CheckFolderWritable, RefusesReadOnlyFiles) {
     EXPECT_EXIT(end_as_another_user(fs::perms::owner_read | fs::perms::others_read), testing::ExitedWithCode(5),
                 "cannot write: Permission denied");
     EXPECT_EXIT(end_as_another_user(fs::perms::all), testing::ExitedWithCode(0), "");
+}
+
+TEST(ReadFile, RefusesWhatIsTooLarge) {
+    const test::TemporaryFolder folder;
+    const std::string text(3'000'000, 'x');
+    const std::filesystem::path file = folder.write("large.dat", text);
+    EXPECT_EQ(read_file(file), text);
+    EXPECT_EQ(read_file(file, text.size()), text);
+    constexpr std::size_t mebibyte = 1 << 20;
+    EXPECT_THROW(read_file(file, mebibyte), IoError);
+    EXPECT_THROW(read_file("/dev/zero", mebibyte), IoError);
 }
 
 }  // namespace
