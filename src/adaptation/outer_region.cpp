@@ -157,11 +157,12 @@ OuterRegion find_outer_region(const Mesh& mesh, std::span<const char> isotropic)
     OuterRegion region;
     region.far_field = far_field_of(mesh, *outermost);
     loops.erase(outermost);
-    for (const VertexLoop& loop : loops) {
+    for (VertexLoop& loop : loops) {
+        std::reverse(loop.begin(), loop.end());
         VertexLoop& border = region.borders.emplace_back();
-        for (auto v = loop.rbegin(); v != loop.rend(); ++v) {
+        for (const VertexId v : loop) {
             border.push_back(VertexId(region.points.size()));
-            region.points.push_back(mesh.points[v->index()]);
+            region.points.push_back(mesh.points[v.index()]);
         }
     }
     std::vector<char> outside(mesh.points.size(), 0);
