@@ -2,6 +2,7 @@
 // of its boundary that are no segments.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,13 @@
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
+
+/// Returns the length of the shortest edges into which refinement splits lines, given their coordinates and the extent
+/// of the domain: rounding must not bend lines much, and sixth powers of lengths must not vanish.
+inline double shortest_edge(double magnitude, double extent) {
+    constexpr double share_of_magnitude = 0x1p-40, share_of_extent = 0x1p-120;
+    return std::max(share_of_magnitude * magnitude, share_of_extent * extent);
+}
 
 /// Two lines, u-v and u-w, that meet at less than 60 degrees. The triangles between them lie counter-clockwise from v
 /// to w.

@@ -20,6 +20,7 @@
 #include "core/predicates.hpp"
 #include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
+#include "delaunay/border_lines.hpp"
 
 namespace lamina::delaunay {
 
@@ -71,6 +72,9 @@ private:
     bool faces_in_corner(Point p, Index corner, Index far) const;
 };
 
+/// Returns the larger coordinate of p.
+double magnitude(Point p) { return std::max(std::abs(p.x), std::abs(p.y)); }
+
 double ChannelSurvey::along(Index t, unsigned e) {
     // The ends themselves may be corners, where the distance is 0.
     constexpr double margin = 1e-3;
@@ -103,8 +107,8 @@ double ChannelSurvey::between(Place from, Place to, int depth) {
     return between(from, middle, depth - 1) + between(middle, to, depth - 1);
 }
 
-/// Returns the distance from a place on the edge to what lies opposite; infinite if the budget is spent, or if the
-/// distance is too small for refinement, which stops where vertices cannot be told apart.
+/// Returns the distance from a place on the edge to what lies opposite, but no less than the length to which refinement
+/// splits edges; infinite if the budget is spent.
 double ChannelSurvey::distance_from(Point p) {
     double nearest = HUGE_VAL;
     entrances_ = {};
@@ -125,15 +129,17 @@ double ChannelSurvey::distance_from(Point p) {
                     {core::distance_to_segment(p, point(a), point(b)), tri.n[e].triangle(), tri.n[e].edge()});
         }
     }
-    constexpr double min_roundings = 1000;
-    const double rounding = core::epsilon * std::max(std::abs(p.x), std::abs(p.y));
-    return nearest > min_roundings * rounding ? nearest : HUGE_VAL;
+    return std::max(nearest, shortest_edge(magnitude(p), length_));
 }
 
-/// Returns the distance from p to a constrained edge; infinite if that does not count.
+/// Returns the distance from p to a constrained edge; infinite if that does not count. In a corner it does not count
+/// where it is so small that vertices on both sides cannot be told apart: refinement soon stops there.
 double ChannelSurvey::distance_to_border(Point p, Index a, Index b) const {
-    if (is_end(a) ? !faces_in_corner(p, a, b) : is_end(b) && !faces_in_corner(p, b, a)) return HUGE_VAL;
-    return core::distance_to_segment(p, point(a), point(b));
+    constexpr double min_roundings = 1000;
+    const double d = core::distance_to_segment(p, point(a), point(b));
+    if (!is_end(a) && !is_end(b)) return d;
+    const bool counts = is_end(a) ? faces_in_corner(p, a, b) : faces_in_corner(p, b, a);
+    return counts && d > min_roundings * core::epsilon * magnitude(p) ? d : HUGE_VAL;
 }
 
 /// Returns whether the edge from `corner`, an end of this edge, to `far` counts as opposite to the place p. In sharp

@@ -13,10 +13,6 @@ namespace {
 
 /// Edges of lines are at most this share of h, which lets triangles of the right size stand on them.
 constexpr double border_share = 1;
-/// No edge of a line becomes shorter than this share of its coordinates, so that rounding does not bend lines much.
-constexpr double min_length_share = 0x1p-40;
-/// Nor does it become shorter than this share of the extent, so that sixth powers of lengths do not vanish.
-constexpr double min_extent_share = 0x1p-120;
 /// Lenses have the width that this angle bound asks for, even where the bound is lower.
 constexpr double min_lens_angle_deg = 20;
 /// Vertices nearer to an edge than this share of its length do not say yet where to split it.
@@ -267,8 +263,7 @@ void SplittingRefiner::give_up(Index t, Point p) {
 /// Returns whether an edge is too short to be split.
 bool SplittingRefiner::is_too_short(Point a, Point b) const {
     const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-    const double min_length = std::max(min_length_share * magnitude, min_extent_share * core::longer_side(extent_));
-    return distance(a, b) < 2 * min_length;
+    return distance(a, b) < 2 * shortest_edge(magnitude, core::longer_side(extent_));
 }
 
 /// Splits edge e of triangle t, which is an edge of a line. Returns false, and changes nothing, if the edge is too

@@ -89,5 +89,25 @@ TEST(EstimateForAngles, IsFiniteWhereTheNumberIsHuge) {
     EXPECT_EQ(estimate(0, true).triangles(), 2);
 }
 
+TEST(EstimateForAngles, ChannelsAsNarrowAsRoundingAskForBillions) {
+    // Refinement goes on until edges are as short as it may split them, so such a run must not be let pass.
+    for (const double width : {1e-13, 1e-15, 1e-20, 1e-60}) {
+        for (const double slope : {0.0, 0.3, 1.0}) {
+            const double w = slope > 0 ? std::max(width, 1e-15) : width;
+            const PlanarGraph strip = loop({{0, 0}, {1, slope}, {1, slope + w}, {0, w}});
+            const ConstrainedTriangulation coarse = triangulate(strip.points, strip.segments);
+            const RefinementEstimate estimate =
+                estimate_triangles(strip.points, coarse, SizeField(10), {.refine = {.min_angle_deg = 20}});
+            EXPECT_GT(estimate.least_by_angles, 1e9) << width << " " << slope;
+            EXPECT_TRUE(std::isfinite(estimate.by_angles));
+        }
+    }
+    // In a corner of 1e-28 radians it ends at once.
+    const PlanarGraph corner = loop({{0, 0}, {1, 0.3}, {2, std::nextafter(0.6, 1)}});
+    const ConstrainedTriangulation coarse = triangulate(corner.points, corner.segments);
+    EXPECT_LT(estimate_triangles(corner.points, coarse, SizeField(10), {.refine = {.min_angle_deg = 20}}).triangles(),
+              1000);
+}
+
 }  // namespace
 }  // namespace lamina::test
