@@ -78,10 +78,19 @@ void require_known_arguments(const CLI::App& app) {
     throw UsageError("unknown option " + extra + unknown_option_hint(app, extra) + help_hint(app));
 }
 
+/// Makes empty values errors, such as those of shell variables that are not set: no option has an empty value.
+void refuse_empty_values(CLI::App& app) {
+    for (CLI::App* command : app.get_subcommands({}))
+        for (CLI::Option* option : command->get_options())
+            if (option->get_items_expected_max() > 0)
+                option->check([](const std::string& text) { return text.empty() ? "the value is empty" : ""; }, "");
+}
+
 }  // namespace
 
 void run_arguments(CLI::App& app, std::vector<std::string> arguments) {
     arguments = with_options_for_words(std::move(arguments));
+    refuse_empty_values(app);
     require_known_command(app, arguments.front());
     std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes
     try {

@@ -30,6 +30,7 @@ constexpr OtherWord mesh_words[] = {
     {"domain", "far-field"},
     {"domainsize", "far-field"},
     {"extent", "far-field"},
+    {"far", "far-field"},
     {"fardistance", "far-field"},
     {"farfielddistance", "far-field"},
     {"farfieldradius", "far-field"},
@@ -73,6 +74,11 @@ constexpr OtherWord mesh_words[] = {
     {"stretching", "growth"},
     {"stretchingratio", "growth"},
     {"jmax", "layers"},
+    {"boundarylayers", "layers"},
+    {"inflation", "layers"},
+    {"inflationlayers", "layers"},
+    {"layercount", "layers"},
+    {"prismlayers", "layers"},
     {"maxlayers", "layers"},
     {"n", "layers"},
     {"nl", "layers"},
@@ -100,6 +106,9 @@ constexpr OtherWord mesh_words[] = {
     {"markers", "names"},
     {"tags", "names"},
     {"clmax", "far-size"},
+    {"cellsize", "far-size"},
+    {"elementsize", "far-size"},
+    {"meshsize", "far-size"},
     {"maxsize", "far-size"},
     {"meshsizemax", "far-size"},
     {"sizemax", "far-size"},
@@ -117,9 +126,15 @@ constexpr OtherWord mesh_words[] = {
     {"quality", "min-angle"},
     {"minimumangle", "min-angle"},
     {"quadlayers", "layer-topology"},
+    {"hex", "layer-topology"},
+    {"quads", "layer-topology"},
+    {"structured", "layer-topology"},
     {"recombine", "layer-topology"},
     {"topology", "layer-topology"},
     {"cores", "threads"},
+    {"ncores", "threads"},
+    {"ncpu", "threads"},
+    {"nprocs", "threads"},
     {"j", "threads"},
     {"jobs", "threads"},
     {"np", "threads"},
@@ -128,6 +143,9 @@ constexpr OtherWord mesh_words[] = {
     {"nthreads", "threads"},
     {"out", "output"},
     {"outfile", "output"},
+    {"maxcells", "max-triangles"},
+    {"maxelements", "max-triangles"},
+    {"memory", "max-memory"},
     {"outputfile", "output"},
     {"json", "report"},
     {"log", "report"},
@@ -136,6 +154,7 @@ constexpr OtherWord mesh_words[] = {
     {"v", "progress"},
     {"silent", "quiet"},
     {"config", "", "a case file is an input: lamina mesh case.toml"},
+    {"seed", "", "nothing is random: equal inputs give equal meshes"},
     {"aoa", "alpha"},
     {"alfa", "alpha"},
     {"angleofattack", "alpha"},
@@ -170,6 +189,24 @@ constexpr OtherWord mesh_words[] = {
     {"translate", "", "--transform ELEMENT:shift:DX,DY moves a section"},
 };
 
+constexpr OtherWord flow_words[] = {
+    {"aoa", "alpha"},
+    {"angleofattack", "alpha"},
+    {"incidence", "alpha"},
+    {"re", "reynolds"},
+    {"reynoldsnumber", "reynolds"},
+    {"nu", "viscosity"},
+    {"speed", "velocity"},
+    {"uinf", "velocity"},
+    {"cp", "picture"},
+    {"plot", "picture"},
+    {"csv", "output"},
+    {"out", "output"},
+    {"table", "output"},
+    {"format", "", "tables are CSV, and the extension of a picture says its format"},
+    {"naca", "", "a NACA section is an input: lamina flow naca:0012"},
+};
+
 constexpr OtherWord delaunay_words[] = {
     {"area", "max-area"},        {"quality", "min-angle"},     {"minimumangle", "min-angle"},
     {"convexhull", "keep-hull"}, {"nosteiner", "keep-border"}, {"out", "output"},
@@ -201,13 +238,16 @@ constexpr OtherWord command_words[] = {
     {"create", "mesh"},       {"generate", "mesh"}, {"grid", "mesh"},         {"make", "mesh"},
     {"run", "mesh"},          {"inspect", "info"},  {"describe", "info"},     {"quality", "check"},
     {"validate", "check"},    {"verify", "check"},  {"stats", "check"},       {"view", "plot"},
+    {"chk", "check"},         {"cp", "flow"},       {"panel", "flow"},        {"polar", "flow"},
+    {"potential", "flow"},    {"solve", "flow"},    {"xfoil", "flow"},        {"pslg", "delaunay"},
     {"draw", "plot"},         {"show", "plot"},     {"picture", "plot"},      {"export", "convert"},
     {"translate", "convert"}, {"cdt", "delaunay"},  {"triangle", "delaunay"}, {"triangulate", "delaunay"},
     {"refine", "delaunay"},
 };
 
 std::span<const OtherWord> words_of_command(const std::string& command) {
-    if (command == "mesh" || command == "family") return mesh_words;
+    if (command == "mesh" || command == "family" || command == "batch") return mesh_words;
+    if (command == "flow") return flow_words;
     if (command == "delaunay") return delaunay_words;
     if (command == "check") return check_words;
     if (command == "plot") return plot_words;

@@ -41,8 +41,10 @@ Element read_naca(const std::string& input, std::size_t default_points) {
     if (parts.size() == 2) {
         const std::string& s = parts[1];
         const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), points);
+        const std::vector<std::string> trailing_edges{"sharp", "blunt", "extended"};
         if (error != std::errc() || end != s.data() + s.size())
-            throw UsageError(fmt::format("{}: '{}' is not a number of points", input, s));
+            throw UsageError(fmt::format("{}: '{}' is neither a number of points nor sharp, blunt or extended{}", input,
+                                         s, did_you_mean(closest_word(s, trailing_edges))));
     } else if (parts.size() != 1) {
         throw UsageError(fmt::format("{}: expected naca:DIGITS[:POINTS][:blunt|:extended|:sharp]", input));
     }

@@ -70,6 +70,20 @@ TEST(BadInput, NumbersOutOfRange) {
     for (const auto& option : wrong) expect_refused(folder, mesh_naca_with(option), usage, option.front().substr(2));
 }
 
+// As those of shell variables that are not set.
+TEST(BadInput, EmptyValues) {
+    const TemporaryFolder folder;
+    folder.write("a.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
+    expect_refused(folder, mesh_naca_with({"--first-height", ""}), usage, "--first-height: the value is empty");
+    expect_refused(folder, {"mesh", "", "-o", "out.su2"}, usage, "INPUT: the value is empty");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", ""}, usage, "--output: the value is empty");
+    expect_refused(folder, {"info", ""}, usage, "INPUT: the value is empty");
+    expect_refused(folder, {"flow", "naca:0012", "--alpha", ""}, usage, "--alpha: the value is empty");
+    expect_refused(folder, {"delaunay", "a.node", "--min-angle", ""}, usage, "--min-angle: the value is empty");
+    expect_refused(folder, {"delaunay", "a.node", "--max-area="}, usage, "--max-area");
+    expect_refused(folder, {"check", "a.node", "--wall", ""}, usage, "--wall: the value is empty");
+}
+
 TEST(BadInput, WakesAndSizeSources) {
     const TemporaryFolder folder;
     for (const char* outline : {"", "1,2,3,4", "-9,-9,9,-9,0", "-9,-9,9,-9,0,x", "-9,-9,0,9,9,-9", "2,-1,3,-1,3,1"})

@@ -38,6 +38,12 @@ TEST(Hints, OptionsOfMeshUnderOtherNames) {
         {"-2", "every mesh is two-dimensional"},
         {"--json", "did you mean --report?"},
         {"--require-delaunay", "it belongs to lamina check"},
+        {"--far", "did you mean --far-field?"},
+        {"--inflation-layers", "did you mean --layers?"},
+        {"--quads", "did you mean --layer-topology?"},
+        {"--max-cells", "did you mean --max-triangles?"},
+        {"--ncores", "did you mean --threads?"},
+        {"--seed", "equal inputs give equal meshes"},
     };
     for (const auto& [option, hint] : options) {
         expect_refused(folder, {"mesh", "naca:0012", option, "-o", "a.su2"}, usage,
@@ -56,6 +62,8 @@ TEST(Hints, OptionsOfOtherCommands) {
     expect_refused(folder, {"delaunay", "a.poly", "--maxarea", "1"}, usage, "--max-area?");
     expect_refused(folder, {"check", "a.su2", "--minangle", "1"}, usage, "--min-angle?");
     expect_refused(folder, {"plot", "a.su2", "--zoom", "1"}, usage, "--window?");
+    expect_refused(folder, {"flow", "naca:0012", "--aoa", "1"}, usage, "--alpha?");
+    expect_refused(folder, {"flow", "naca:0012", "--re=1e6"}, usage, "--reynolds?");
     expect_refused(folder, {"convert", "a.su2", "-o", "a.vtu"}, usage, "the second argument is the output");
 }
 
@@ -76,6 +84,7 @@ TEST(Hints, Commands) {
     expect_refused(folder, {"mehs", "naca:0012"}, usage, "did you mean lamina mesh?");
     expect_refused(folder, {"generate"}, usage, "did you mean lamina mesh?");
     expect_refused(folder, {"triangulate"}, usage, "did you mean lamina delaunay?");
+    expect_refused(folder, {"xfoil"}, usage, "did you mean lamina flow?");
     expect_refused(folder, {"naca:0012"}, usage, "did you mean lamina mesh naca:0012?");
     expect_refused(folder, {"help", "mehs"}, usage, "did you mean lamina mesh?");
     expect_refused(folder, {"xyzzy"}, usage, "known: mesh, family, sizes, batch, check");
@@ -99,6 +108,8 @@ TEST(Hints, SectionsWithoutTheirColon) {
     expect_refused(folder, {"mesh", "naca23012:300", "-o", "a.su2"}, io_failed, "did you mean 'naca:23012:300'?");
     expect_refused(folder, {"mesh", "NACA", "0012", "-o", "a.su2"}, io_failed, "did you mean 'naca:0012'?");
     expect_refused(folder, {"info", "2412"}, io_failed, "did you mean 'naca:2412'?");
+    expect_refused(folder, {"info", "naca:0012:Blunt"}, usage, "did you mean 'blunt'?");
+    expect_refused(folder, {"info", "naca:0012:many"}, usage, "'many' is neither a number of points nor");
     const ProgramRun missing = run_lamina(folder, {"mesh", "wing.dat", "-o", "a.su2"});
     EXPECT_EQ(missing.err.find("did you mean"), std::string::npos) << missing.err;
 }
