@@ -25,6 +25,7 @@ constexpr double gradation = 0.12;        ///< growth of the spacing per unit of
 constexpr double gap_share = 0.5;         ///< spacing over the distance to the next element
 constexpr double max_turning_deg = 6;     ///< of the outline from the middle of a panel to that of the next one
 constexpr double max_panels = 300;        ///< per element; beyond that all spacings grow alike
+constexpr double max_all_panels = 3000;   ///< of all elements: memory is that of their square, and time of their cube
 
 constexpr double least_base = 1e-4;      ///< bases shorter than this share of the extent count as sharp
 constexpr double min_rounded_deg = 90;   ///< a trailing edge with a larger interior angle counts as rounded
@@ -252,12 +253,13 @@ std::vector<double> panel_spacing(const OutlineCurve& curve, std::size_t element
     return spacing;
 }
 
-/// Places nodes so that panels take equal shares of the integral of ds / spacing between two corners.
-std::vector<Point> place_nodes(const OutlineCurve& curve, std::span<const double> spacing) {
+/// Places nodes so that panels take equal shares of the integral of ds / spacing between two corners. All spacings grow
+/// alike where there would be more than `most` panels.
+std::vector<Point> place_nodes(const OutlineCurve& curve, std::span<const double> spacing, double most) {
     std::vector<double> panels{0};  // the integral, per end of a part
     for (std::size_t i = 0; i < curve.parts.size(); ++i)
         panels.push_back(panels.back() + 0.5 * (curve.s[i + 1] - curve.s[i]) * (1 / spacing[i] + 1 / spacing[i + 1]));
-    const double scale = std::min(1.0, max_panels / panels.back());
+    const double scale = std::min(1.0, most / panels.back());
     std::vector<Point> nodes{curve.ends.front()};
     for (std::size_t k = 0; k + 1 < curve.corners.size(); ++k) {
         const std::size_t first = curve.corners[k], last = curve.corners[k + 1];
@@ -278,6 +280,7 @@ std::vector<Point> place_nodes(const OutlineCurve& curve, std::span<const double
 
 std::vector<Contour> make_contours(const Geometry& geometry) {
     const surface::ClearanceSearch walls(geometry);
+    const double most = std::min(max_panels, max_all_panels / static_cast<double>(geometry.elements.size()));
     std::vector<Contour> contours;
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         const Element& element = geometry.elements[e];
@@ -286,7 +289,7 @@ std::vector<Contour> make_contours(const Geometry& geometry) {
         OutlineCurve curve = make_curve(outline, extent);
         select_corners(curve);
         const std::vector<double> spacing = panel_spacing(curve, e, extent, walls, geometry.elements.size() == 1);
-        contours.push_back({place_nodes(curve, spacing), outline.blunt, outline.rounded, extent});
+        contours.push_back({place_nodes(curve, spacing, most), outline.blunt, outline.rounded, extent});
     }
     return contours;
 }

@@ -11,6 +11,7 @@
 #include <lamina/surface.hpp>
 #include <lamina/threads.hpp>
 
+#include "flow/contour.hpp"
 #include "flow/mapped_section.hpp"
 #include "flow/sample_configurations.hpp"
 #include "support/shapes.hpp"
@@ -232,6 +233,24 @@ TEST(Flow, ConditionsOutOfRangeAreRefused) {
     EXPECT_THROW(solve_flow(given, {.alpha_deg = NAN}), OptionError);
     EXPECT_THROW(solve_flow(given, {.reynolds = 0}), OptionError);
     EXPECT_THROW(solve_flow(given, {.chord = -1}), OptionError);
+}
+
+// The system of equations grows with the square of the number of panels, and its solution with the cube: sixty sections
+// with as many panels each as one of them would ask for 3 GB and minutes.
+TEST(Flow, ManyElementsShareTheirPanels) {
+    const Geometry one = read_geometry(std::vector<std::string>{"naca:0012:200"});
+    Geometry many;
+    for (int i = 0; i < 60; ++i) {
+        Element& element = many.elements.emplace_back(one.elements[0]);
+        for (Point& p : element.points) p = p + Point{0, 1.0 * i};
+    }
+    const auto panels = [](const Geometry& geometry) {
+        std::size_t sum = 0;
+        for (const flow::Contour& contour : flow::make_contours(geometry)) sum += contour.nodes.size() - 1;
+        return sum;
+    };
+    EXPECT_GT(panels(one), 100u);
+    EXPECT_LE(panels(many), 3060u);
 }
 
 }  // namespace
