@@ -425,11 +425,19 @@ struct LayerCells {
     /// One per triangle: its layer, counted from 1 at the wall. It is that of the triangle's highest corner with
     /// LayerTopology::delaunay, and that of the grid cell that the triangle is part of with the others.
     std::vector<std::uint16_t> triangle_layer;
-    std::vector<std::uint16_t> quad_layer;    ///< one per quad: its layer from the wall, from 1 on
+    std::vector<std::uint16_t> quad_layer;  ///< one per quad: its layer from the wall, from 1 on
+    /// One per triangle of a grid: the column that it is part of, between two neighbouring rays, with the
+    /// number of the first of them among the rays of all elements; no_column behind bases. Empty for
+    /// LayerTopology::delaunay.
+    std::vector<std::uint32_t> triangle_column;
+    std::vector<std::uint32_t> quad_column;   ///< the same, one per quad
     std::vector<std::size_t> first_triangle;  ///< of each piece, then the end; empty where there is no layer
     DecompositionStats decomposition;         ///< for LayerTopology::delaunay
     /// Whether cells of a grid would have crossed each other, so that all cells are those of LayerTopology::delaunay.
     bool grid_refused = false;
+
+    /// The column of a cell that stands between no rays.
+    static constexpr std::uint32_t no_column = 0xffffffffu;
 
     /// Returns the number of pieces.
     std::size_t pieces() const { return first_triangle.empty() ? 0 : first_triangle.size() - 1; }

@@ -180,6 +180,10 @@ struct MeshResult {
     ReferenceConditions conditions;             ///< the chord that lengths count, and the flow
     std::optional<Flow> flow;                   ///< what decided with CaseOptions::use_flow
     FlowDecisions decisions;                    ///< what it decided
+    /// The columns of the cells of the layer (LayerCells::triangle_column), first of its triangles, which come first in
+    /// the mesh, then of the quads. Empty for Delaunay layers and without layers.
+    std::vector<std::uint32_t> columns;
+    std::vector<VertexId> column_origins;         ///< per column: the vertex that its first ray begins at
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     BorderSteps border_steps;                     ///< of the layer's outer border
     std::size_t thinned_rays = 0;                 ///< rays shortened so that triangles beyond keep the bound on angles

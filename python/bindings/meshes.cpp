@@ -63,7 +63,8 @@ void require_promised_angles(const MeshResult& result) {
         at);
 }
 
-/// Makes a mesh. Returns it with its warnings and the facts about the run.
+/// Makes a mesh. Returns it with its warnings, the facts about the run, and the columns of the layer: of its cells, and
+/// the vertices at which they begin.
 nb::tuple generate(const nb::list& given_sections, const OptionValues& values, const std::optional<Background>& sizes,
                    const nb::object& callback) {
     MeshRequest request = make_request(values);
@@ -81,7 +82,9 @@ nb::tuple generate(const nb::list& given_sections, const OptionValues& values, c
     raise_signals();
     nb::list warnings = warnings_of(result.warnings);
     nb::dict facts = facts_of(result);
-    return nb::make_tuple(shared(std::move(result.mesh)), warnings, facts);
+    const nb::tuple columns = nb::make_tuple(owning_array<std::uint32_t>(std::move(result.columns)),
+                                             owning_array<std::uint32_t>(std::move(result.column_origins)));
+    return nb::make_tuple(shared(std::move(result.mesh)), warnings, facts, columns);
 }
 
 SharedMesh read(const std::string& file, const std::string& format) {

@@ -132,11 +132,12 @@ class Mesh:
 
     @classmethod
     def _from(cls, data: _lamina.Mesh, warnings: list[MeshWarning] | None = None,
-              facts: dict[str, Any] | None = None) -> Mesh:
+              facts: dict[str, Any] | None = None, columns: tuple[np.ndarray, np.ndarray] | None = None) -> Mesh:
         mesh = cls.__new__(cls)
         mesh._data = data
         mesh._warnings = warnings or []
         mesh._facts = facts or {}
+        mesh._columns = columns or (np.empty(0, dtype=np.uint32), np.empty(0, dtype=np.uint32))
         return mesh
 
     @cached_property
@@ -178,6 +179,26 @@ class Mesh:
     def layer(self) -> np.ndarray:
         """Per cell: the number of its layer from the wall, from 1; 0 outside the layer."""
         return self._data.layer()
+
+    @cached_property
+    def column(self) -> np.ndarray:
+        """Per cell: the column of the layer that it is part of, an index into `column_origin`; -1 for other cells,
+        those behind bases among them. Columns stand between neighbouring rays, in the order of the outline, body by body.
+        Empty for meshes from files, without layers, and with layer_topology="delaunay"."""
+        of_layer = self._columns[0].astype(np.int64)
+        if len(of_layer) == 0:
+            return np.empty(0, dtype=np.int64)
+        of_layer[of_layer == 2**32 - 1] = -1
+        triangles = len(of_layer) - len(self.quads)
+        column = np.full(len(self), -1)
+        column[:triangles] = of_layer[:triangles]
+        column[len(self.triangles):] = of_layer[triangles:]
+        return column
+
+    @property
+    def column_origin(self) -> np.ndarray:
+        """Per column: the vertex that its first ray begins at, on a wall or on a wake; several at a fan of rays."""
+        return self._columns[1]
 
     @cached_property
     def piece(self) -> np.ndarray:
@@ -290,12 +311,14 @@ class Mesh:
             name: np.array(getattr(self, name))
             for name in ("points", "triangles", "quads", "region", "piece", "layer", "constraints")}
         arrays["markers"] = [(name, kind, np.array(edges)) for name, kind, edges in self._markers]
-        return {"arrays": arrays, "warnings": self._warnings, "facts": self._facts}
+        return {"arrays": arrays, "warnings": self._warnings, "facts": self._facts,
+                "columns": tuple(np.array(part) for part in self._columns)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._data = _data_of_arrays(**state["arrays"])
         self._warnings = state["warnings"]
         self._facts = state["facts"]
+        self._columns = state["columns"]
 
 
 def _data_of_arrays(points, triangles, quads, markers, region, piece, layer, constraints) -> _lamina.Mesh:

@@ -61,5 +61,5 @@ def make_mesh(sections: Sections, progress: Callable[[str, RunEstimate | None], 
     sizes = None
     if options.get("background") is not None and not isinstance(options["background"], (str, os.PathLike)):
         sizes = _background_arrays(options.pop("background"))
-    data, found, facts = _lamina.generate(given, option_values(options), sizes, progress)
-    return Mesh._from(data, [MeshWarning._from(warning) for warning in found], facts)
+    data, found, facts, columns = _lamina.generate(given, option_values(options), sizes, progress)
+    return Mesh._from(data, [MeshWarning._from(warning) for warning in found], facts, columns)

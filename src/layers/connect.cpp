@@ -90,6 +90,12 @@ public:
         }
     }
 
+    /// Says that the cells added since the last call are part of the column with this number.
+    void number_column(std::uint32_t number) {
+        cells_.triangle_column.resize(cells_.triangles.size(), number);
+        cells_.quad_column.resize(cells_.quads.size(), number);
+    }
+
     LayerCells take() { return std::move(cells_); }
 
 private:
@@ -221,12 +227,16 @@ std::vector<Item> joined(const std::vector<LayerCells>& blocks, std::vector<Item
 
 LayerCells connect_layer(const Layer& layer, GridCells form) {
     std::vector<LayerCells> blocks;
-    for (std::size_t e = 0; e < layer.rays.size(); ++e) {
+    std::size_t first_ray = 0;  // of the element, among the rays of all
+    for (std::size_t e = 0; e < layer.rays.size(); first_ray += layer.rays[e].size(), ++e) {
         if (layer.rays[e].empty()) continue;
         const CellColumns columns(layer.rays[e], layer.borders[e]);
         const auto connect = [&](std::size_t begin, std::size_t end) {
             Connector connector(layer, form);
-            for (std::size_t i = begin; i < end; ++i) connector.add(columns[i]);
+            for (std::size_t i = begin; i < end; ++i) {
+                connector.add(columns[i]);
+                connector.number_column(static_cast<std::uint32_t>(first_ray + i));
+            }
             return connector.take();
         };
         for (LayerCells& block : core::parallel_blocks(columns.size(), columns_per_block, connect))
@@ -235,6 +245,7 @@ LayerCells connect_layer(const Layer& layer, GridCells form) {
     for (const LayerCore& core : layer.cores) {
         Connector connector(layer, form);
         connector.add(core);
+        connector.number_column(LayerCells::no_column);
         blocks.push_back(connector.take());
     }
     LayerCells cells;
@@ -242,6 +253,8 @@ LayerCells connect_layer(const Layer& layer, GridCells form) {
     cells.quads = joined(blocks, &LayerCells::quads);
     cells.triangle_layer = joined(blocks, &LayerCells::triangle_layer);
     cells.quad_layer = joined(blocks, &LayerCells::quad_layer);
+    cells.triangle_column = joined(blocks, &LayerCells::triangle_column);
+    cells.quad_column = joined(blocks, &LayerCells::quad_column);
     return cells;
 }
 

@@ -104,6 +104,15 @@ void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOpt
     if (const auto* y_plus = std::get_if<YPlus>(&options.first_height)) result.y_plus = *y_plus;
 }
 
+/// Records which column each cell of the layer belongs to, and where columns stand.
+void record_columns(const Layer& layer, const LayerCells& cells, MeshResult& result) {
+    if (cells.triangle_column.empty() && cells.quad_column.empty()) return;
+    result.columns = cells.triangle_column;
+    result.columns.insert(result.columns.end(), cells.quad_column.begin(), cells.quad_column.end());
+    for (const std::vector<Ray>& rays : layer.rays)
+        for (const Ray& ray : rays) result.column_origins.push_back(ray.origin);
+}
+
 void require_valid(const MeshCheck& check) {
     if (check.valid()) return;
     const MeshDefect& first = check.defects.front();
@@ -182,6 +191,7 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
     clock.begin("assembly");
     result.threads = thread_count();
     summarize_layer(layer, cells, options.layer, result);
+    record_columns(layer, cells, result);
     summarize_refinement(decoupling.subdomains, refinements, result);
     result.mesh = assemble(plan.geometry, layer, std::move(cells), std::move(decoupling), std::move(refinements),
                            options.assemble);

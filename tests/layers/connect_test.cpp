@@ -231,6 +231,8 @@ TEST(Connect, DoesNotDependOnThreads) {
                                        [](const Quad& p, const Quad& q) { return std::equal(p.v, p.v + 4, q.v); }));
                 EXPECT_EQ(many.triangle_layer, one.triangle_layer);
                 EXPECT_EQ(many.quad_layer, one.quad_layer);
+                EXPECT_EQ(many.triangle_column, one.triangle_column);
+                EXPECT_EQ(many.quad_column, one.quad_column);
             });
         }
     }

@@ -51,6 +51,31 @@ def test_quads_come_last():
     assert (mesh.region[len(mesh.triangles):] == 0).all()
 
 
+@pytest.mark.parametrize("topology", ["layered", "quads"])
+def test_columns(topology):
+    mesh = lamina.mesh("naca:0012", first_height=1e-4, layers=12, layer_topology=topology)
+    column, layer = mesh.column, mesh.layer
+    assert column.shape == (len(mesh),) and ((column >= 0) == (layer > 0)).all()
+    assert column.max() == len(mesh.column_origin) - 1
+    # The first cells of the columns stand on the wall, in its order; those of a fan have one vertex there.
+    on_wall = dict(zip(mesh.wall.vertex.tolist(), range(len(mesh.wall))))
+    places = [on_wall[vertex] for vertex in mesh.column_origin.tolist()]
+    steps = np.diff(places + places[:1]) % len(on_wall)
+    assert set(steps.tolist()) == {0, 1} and int(steps.sum()) == len(on_wall)
+    cells = [tuple(c) for c in mesh.triangles.tolist()] + [tuple(c) for c in mesh.quads.tolist()]
+    for cell in np.flatnonzero(layer == 1).tolist():
+        origin = int(mesh.column_origin[column[cell]])
+        following = int(mesh.column_origin[(column[cell] + 1) % len(mesh.column_origin)])
+        standing = set(cells[cell]) & set(on_wall)
+        assert standing <= {origin, following} and (standing or topology == "layered")
+    # Each column has each of its layers from the wall up.
+    for number in range(0, len(mesh.column_origin), 7):
+        layers = np.unique(layer[column == number])
+        assert np.array_equal(layers, np.arange(1, len(layers) + 1))
+    assert np.array_equal(pickle.loads(pickle.dumps(mesh)).column, column)
+    assert len(lamina.mesh("naca:0012", layer_topology="delaunay", layers=5).column) == 0
+
+
 def test_markers(small):
     assert small.marker_kinds == {"airfoil": "wall", "farfield": "far_field"}
     edges = small.markers["airfoil"]
