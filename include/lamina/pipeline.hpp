@@ -60,8 +60,9 @@ struct CaseOptions {
     /// Divides the lengths that no option holds: spacings and wakes that the flow decides on, slowest growth along
     /// walls, numbers of layers up to least heights. One of what refined() changes.
     double fineness = 1;
-    WorkLimits limits{};   ///< generate_mesh() refuses what is beyond them, before the work
-    unsigned threads = 0;  ///< number of threads; 0: one per core. Never changes the mesh
+    bool inlet_outlet = false;  ///< whether the far field is two markers: split_far_field()
+    WorkLimits limits{};        ///< generate_mesh() refuses what is beyond them, before the work
+    unsigned threads = 0;       ///< number of threads; 0: one per core. Never changes the mesh
 };
 
 /// Returns the table of the options of all stages, with names, ranges and help. The defaults of CaseOptions are those
@@ -111,6 +112,11 @@ LAMINA_EXPORT SizedBodies sized_bodies(const Geometry& geometry, const Reference
 /// same order. Throws MeshError from 2^32 vertices on.
 LAMINA_EXPORT Mesh assemble(const Geometry& geometry, const Layer& layer, LayerCells cells, Decoupling decoupling,
                             std::vector<Refinement> refinements, const AssembleOptions& options = {});
+
+/// Divides the markers that are far fields into `inlet`, where a uniform flow at this angle enters, and `outlet`, the
+/// rest. Either is left out where it has no edge. Throws OptionError where another marker has
+/// one of these names.
+LAMINA_EXPORT void split_far_field(Mesh& mesh, double alpha_deg);
 
 /// Wall-clock seconds of the stages. The decomposition and triangulation of the layer and the refinement run at the
 /// same time: their common time is divided among them in proportion to the time of the threads.

@@ -46,7 +46,8 @@ MarkerKind kind_of_name(std::string_view name) {
     for (const char c : name)
         if (std::isalpha(static_cast<unsigned char>(c)))
             letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (letters == "farfield" || letters == "far") return MarkerKind::far_field;
+    if (letters == "farfield" || letters == "far" || letters == "inlet" || letters == "outlet")
+        return MarkerKind::far_field;
     if (letters == "symmetry" || letters == "symmetryplane") return MarkerKind::symmetry;
     if (letters == "wall" || letters == "airfoil") return MarkerKind::wall;
     return MarkerKind::other;

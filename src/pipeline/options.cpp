@@ -35,6 +35,9 @@ OptionTable<CaseOptions> make_pipeline_rows() {
                 "this",
                 positive_numbers, member_at(&CaseOptions::fineness))
         .library_only = true;
+    files.flag("inlet-outlet",
+               "the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet",
+               true, member_at(&CaseOptions::inlet_outlet));
     run.count("threads", "N", "number of threads; 0: one per core; never changes the mesh", numbers_from_to(0, 1024),
               member_at(&CaseOptions::threads));
     run.count("max-triangles", "N",

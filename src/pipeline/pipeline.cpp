@@ -195,6 +195,7 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
     summarize_refinement(decoupling.subdomains, refinements, result);
     result.mesh = assemble(plan.geometry, layer, std::move(cells), std::move(decoupling), std::move(refinements),
                            options.assemble);
+    if (options.inlet_outlet) split_far_field(result.mesh, result.conditions.alpha_deg);
     require_made_within(options.limits, result.mesh);
     seconds.assembly += clock.lap();
 
