@@ -34,11 +34,12 @@ OWNERS["solution"] = "io"
 OWNERS["solution_sizes"] = "adaptation"
 OWNERS["triangle_files"] = "io"
 OWNERS["presets"] = "pipeline"
+OWNERS["solver_case"] = "cases"
 
 # The colours of docs/images/stages.dot.
 COLOURS = {"geometry": "#cfe3f7", "surface": "#d8ecd0", "layers": "#fbe3c0", "sizing": "#f3d3e2",
            "decoupling": "#e0d8f0", "pipeline": "#e8e8e8", "mesh": "#d4efef", "io": "#f4efc4", "plot": "#f0dccf",
-           "adaptation": "#dfe7c8"}
+           "adaptation": "#dfe7c8", "cases": "#dfe8cf"}
 
 
 def dependencies():

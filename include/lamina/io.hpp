@@ -27,6 +27,9 @@ struct MeshFormat {
 /// Returns all formats of this build, in the order of the guide's table.
 LAMINA_EXPORT std::vector<MeshFormat> mesh_formats();
 
+/// The thickness of OpenFOAM's meshes, which are one cell thick, in units of the mesh.
+inline constexpr double openfoam_span = 1;
+
 /// Options of write_mesh().
 struct WriteOptions {
     std::string format{};        ///< a name, or an extension without its dot; empty: by the extension of the file
@@ -63,6 +66,9 @@ LAMINA_EXPORT SizedMesh read_sizes(const std::filesystem::path& file);
 /// minutes of meshing: UsageError for an unknown format and for one that standard output cannot carry, IoError where
 /// the folder does not exist or is not writable.
 LAMINA_EXPORT void check_writable(const std::filesystem::path& file, const WriteOptions& options = {});
+
+/// Returns the name of the format that write_mesh() writes the file in; empty where there is no such format.
+LAMINA_EXPORT std::string format_name(const std::filesystem::path& file, const WriteOptions& options = {});
 
 /// Returns the files that write_mesh() creates or replaces: one, several, or the folder of a format that is a folder.
 /// Throws UsageError for an unknown format.

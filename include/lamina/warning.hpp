@@ -26,6 +26,7 @@ enum class WarningCode {
     swapped_columns,           ///< a section stands upright: the columns of x and y are probably swapped
     reversed_flow,             ///< a section has its nose at its rear end: the flow probably comes from the right
     crossing_tail_cut,         ///< surfaces that cross near the trailing edge were cut off at the crossing
+    unsuited_to_solver,        ///< the solver that the mesh is written for cannot use its cells
     flow_estimated,            ///< the panel method failed, and the flow is that along flat plates
 };
 

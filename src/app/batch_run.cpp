@@ -26,6 +26,7 @@
 #include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
+#include "app/run_files.hpp"
 #include "app/stopwatch.hpp"
 
 namespace lamina::app {

@@ -23,7 +23,7 @@ std::vector<std::string> choices_in(const std::string& value) {
 }
 
 bool names_file(const std::string& value) {
-    constexpr std::array<std::string_view, 6> files{"FILE", "STEM", "INPUT", "MESH", "IN", "OUT"};
+    constexpr std::array<std::string_view, 7> files{"FILE", "DIR", "STEM", "INPUT", "MESH", "IN", "OUT"};
     return std::find(files.begin(), files.end(), value) != files.end();
 }
 

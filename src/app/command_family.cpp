@@ -19,7 +19,7 @@
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/mesh_command_options.hpp"
-#include "app/mesh_outputs.hpp"
+#include "app/mesh_run.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/run_files.hpp"
@@ -94,13 +94,13 @@ std::string table_file(const FamilyArguments& arguments, const MeshCase& mesh_ca
 
 /// Makes and writes the mesh of one level.
 void make_member(const Geometry& geometry, ProgressPrinter& progress, Member& member, std::size_t& warnings) {
-    const MeshResult result =
+    MeshResult result =
         generate_mesh(geometry, member.mesh_case.options, [&](const auto& event) { progress.begin(event); });
-    print_warnings(result.warnings);
+    const MeshDestination destination = destination_of_outputs(member.mesh_case);
+    report_warnings(member.mesh_case, destination, result);
     warnings += result.warnings.size();
-    require_promised_angles(result.check, member.mesh_case.allow_defects);
     progress.begin({"writing"});
-    write_outputs(member.mesh_case, result);
+    write_outputs(member.mesh_case, destination, result);
     member.vertices = result.mesh.points.size();
     member.cells = result.mesh.triangles.size() + result.mesh.quads.size();
     for (const Marker& marker : result.mesh.markers)
@@ -169,8 +169,9 @@ void family(const FamilyArguments& arguments, const MeshCase& mesh_case) {
     std::vector<RunFile> outputs{{table, "option --table"}};
     for (int level = 0; level < arguments.levels; ++level) {
         const MeshCase at = case_of_level(mesh_case, level);
-        require_outputs(at);
-        const std::vector<RunFile> more = files_written(at);
+        const MeshDestination destination = destination_of_outputs(at);
+        require_outputs(at, destination);
+        const std::vector<RunFile> more = files_written(at, destination);
         outputs.insert(outputs.end(), more.begin(), more.end());
     }
     check_folder_writable(table);
@@ -223,7 +224,11 @@ void add_family_command(CLI::App& app) {
         "Walls are resampled on every level (--surface resample). h is the root of the mean area of the cells, the "
         "length that Richardson extrapolation takes.\n\n" +
         format_help());
-    command->callback([options, arguments] { family(*arguments, case_of_command_line(*options)); });
+    command->callback([options, arguments] {
+        MeshCase mesh_case = case_of_command_line(*options);
+        prefer_quads_for_openfoam(mesh_case);
+        family(*arguments, mesh_case);
+    });
 }
 
 }  // namespace lamina::app

@@ -10,6 +10,7 @@ void add_mesh_command(CLI::App& app);
 void add_family_command(CLI::App& app);
 void add_sizes_command(CLI::App& app);
 void add_batch_command(CLI::App& app);
+void add_case_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
 void add_convert_command(CLI::App& app);

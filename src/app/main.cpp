@@ -85,6 +85,7 @@ int main(int argc, char** argv) {
         add_family_command(app);
         add_sizes_command(app);
         add_batch_command(app);
+        add_case_command(app);
         add_check_command(app);
         add_plot_command(app);
         add_convert_command(app);

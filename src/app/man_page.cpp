@@ -75,6 +75,7 @@ std::string example(std::string_view lines) { return fmt::format(".PP\n.nf\n{}\n
 constexpr const char* examples =
     "lamina mesh naca:0012 --y-plus 1 --reynolds 6e6 -o naca0012.su2\n"
     "lamina mesh slat.dat main.dat flap.dat --layers auto -o highlift.cgns --report highlift.json\n"
+    "lamina case openfoam naca:0012:extended --reynolds 6e6 --alpha 10 -o naca0012\n"
     "lamina mesh case.toml --growth 1.1 -o finer.vtu\n"
     "lamina check finer.vtu --require-delaunay\n"
     "lamina mesh naca:2412 -o - --format su2 | lamina check - --input-format su2";

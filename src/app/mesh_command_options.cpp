@@ -55,9 +55,11 @@ bool has_reynolds(const GivenOptions& options, const std::vector<OptionText>& fu
 
 }  // namespace
 
-GivenOptions add_mesh_options(CLI::App& command) {
+GivenOptions add_mesh_options(CLI::App& command, const std::vector<std::string_view>& left_out) {
     GivenOptions options;
-    for (const Option<MeshCase>& option : mesh_options()) options.emplace_back(&option, add_option(command, option));
+    for (const Option<MeshCase>& option : mesh_options())
+        if (std::find(left_out.begin(), left_out.end(), option.name) == left_out.end())
+            options.emplace_back(&option, add_option(command, option));
     return options;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,15 +12,14 @@
 #include <lamina/pipeline.hpp>
 
 #include "app/case.hpp"
-#include "app/run_files.hpp"
 
 namespace lamina::app {
 
 /// The options of the table, each with the option of CLI11 that reads it from the command line.
 using GivenOptions = std::vector<std::pair<const Option<MeshCase>*, CLI::Option*>>;
 
-/// Adds every option of `lamina mesh` to a command, INPUT among them.
-GivenOptions add_mesh_options(CLI::App& command);
+/// Adds the options of `lamina mesh` to a command, INPUT among them, but for those of these names.
+GivenOptions add_mesh_options(CLI::App& command, const std::vector<std::string_view>& left_out = {});
 
 /// Returns the case that the command line describes. Its options override those of the case file.
 MeshCase case_of_command_line(const GivenOptions& options);

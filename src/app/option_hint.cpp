@@ -242,11 +242,11 @@ constexpr OtherWord command_words[] = {
     {"potential", "flow"},    {"solve", "flow"},    {"xfoil", "flow"},        {"pslg", "delaunay"},
     {"draw", "plot"},         {"show", "plot"},     {"picture", "plot"},      {"export", "convert"},
     {"translate", "convert"}, {"cdt", "delaunay"},  {"triangle", "delaunay"}, {"triangulate", "delaunay"},
-    {"refine", "delaunay"},
+    {"setup", "case"},        {"solve", "case"},    {"refine", "delaunay"},
 };
 
 std::span<const OtherWord> words_of_command(const std::string& command) {
-    if (command == "mesh" || command == "family" || command == "batch") return mesh_words;
+    if (command == "mesh" || command == "family" || command == "batch" || command == "case") return mesh_words;
     if (command == "flow") return flow_words;
     if (command == "delaunay") return delaunay_words;
     if (command == "check") return check_words;

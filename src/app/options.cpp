@@ -134,6 +134,10 @@ void assign(const Option<MeshCase>& option, MeshCase& mesh_case, const OptionVal
     mesh_case.given.push_back(option.name);
 }
 
+bool is_given(const MeshCase& mesh_case, const std::string& name) {
+    return std::find(mesh_case.given.begin(), mesh_case.given.end(), name) != mesh_case.given.end();
+}
+
 void require_consistent(const MeshCase& mesh_case) {
     require_consistent(mesh_options(), mesh_case.given);
     validate(mesh_case.options);

@@ -29,6 +29,9 @@ std::string help_text(const Option<MeshCase>& option);
 /// Sets the option and notes that it was given. `origin` says where, for errors. Throws UsageError "origin: reason".
 void assign(const Option<MeshCase>& option, MeshCase& mesh_case, const OptionValue& value, const std::string& origin);
 
+/// Returns whether a case file or the command line gave the option of this name.
+bool is_given(const MeshCase& mesh_case, const std::string& name);
+
 /// Throws UsageError where options were given that exclude or need each other, or whose values do not go together.
 void require_consistent(const MeshCase& mesh_case);
 

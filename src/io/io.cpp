@@ -38,6 +38,14 @@ std::vector<fs::path> output_files(const fs::path& file, const WriteOptions& opt
     return find_format(file, options.format).files(file);
 }
 
+std::string format_name(const fs::path& file, const WriteOptions& options) {
+    try {
+        return find_format(file, options.format).name;
+    } catch (const UsageError&) {
+        return {};
+    }
+}
+
 std::vector<MeshFormat> mesh_formats() {
     std::vector<MeshFormat> formats;
     for (const FormatRow& row : format_table())

@@ -4,7 +4,7 @@
 //
 //    b'------a'       A side face stands on the edge a -> b of its owner, the cell on the left of the edge. Its corners
 //    |       |        are a, b, b', a', so that its normal points out of the owner. The points a, b ... with z = 0 are
-//    b-------a        numbered as in the mesh; the points a', b' ... with z = 1 follow.
+//    b-------a        numbered as in the mesh; the points a', b' ... with z = openfoam_span follow.
 //
 // Internal faces come first, in upper-triangular order: by owner (the lower of the two cells), then by neighbour. The
 // patches follow: the faces of each marker in the order of its edges, then the back (z = 0) of all cells, then the
@@ -19,6 +19,7 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
+#include <lamina/io.hpp>
 
 #include "core/atomic_file.hpp"
 #include "core/parallel.hpp"
@@ -140,8 +141,9 @@ private:
 
     void write_points(std::ostream& out) const {
         const std::size_t n = mesh_.points.size();
+        const std::string front = fmt::format("{})", openfoam_span);
         write_list(out, 2 * n, [&](LineText& line, std::size_t i) {
-            line.tight("(") << mesh_.points[i < n ? i : i - n] << (i < n ? "0)" : "1)");
+            line.tight("(") << mesh_.points[i < n ? i : i - n] << (i < n ? std::string_view("0)") : front);
         });
     }
     void write_faces(std::ostream& out, std::size_t faces) const {

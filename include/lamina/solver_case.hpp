@@ -1,0 +1,90 @@
+// Cases of flow solvers: a mesh with everything that a solver needs beside it, ready to run. The files are templates
+// under share/cases/ with placeholders; the library carries them with it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lamina/conditions.hpp>
+#include <lamina/export.hpp>
+#include <lamina/mesh.hpp>
+#include <lamina/option.hpp>
+#include <lamina/point.hpp>
+#include <lamina/warning.hpp>
+
+namespace lamina {
+
+/// The solvers that cases are written for.
+enum class FlowSolver {
+    openfoam,  ///< simpleFoam of OpenFOAM: incompressible, steady
+    su2,       ///< SU2_CFD: compressible, steady
+};
+
+/// Turbulence models of cases.
+enum class TurbulenceModel {
+    spalart_allmaras,  ///< Spalart-Allmaras
+    k_omega_sst,       ///< Menter's k-omega SST of 2003
+};
+
+/// Options of cases.
+struct SolverCaseOptions {
+    TurbulenceModel turbulence = TurbulenceModel::spalart_allmaras;  ///< the model that closes the equations
+    bool overwrite = false;  ///< whether files of the folder that have the name of a file of the case are replaced
+};
+
+/// Returns the table of these options, with names, ranges and help.
+LAMINA_EXPORT const OptionTable<SolverCaseOptions>& solver_case_option_table();
+
+/// Returns the solvers by their names on the command line: "openfoam", "su2".
+LAMINA_EXPORT const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers();
+
+/// The half-width of the far field, in chords, that suits the conditions that the solver has for it.
+/// OpenFOAM's far field carries the vortex of the lift; SU2's is a uniform stream.
+LAMINA_EXPORT double far_field_for(FlowSolver solver);
+
+/// The flow that a case computes, and what its coefficients count. Lengths are in units of the mesh.
+struct SolverConditions {
+    ReferenceConditions reference{};      ///< chord, angle of attack, Reynolds number (required) and Mach number
+    std::optional<double> velocity{};     ///< of the free stream, in units of the mesh per second; empty: 1
+    std::optional<Point> moment_point{};  ///< empty: a quarter of the chord behind the foremost vertex of the walls
+    bool wall_functions = false;          ///< whether the first cells lie in the logarithmic layer
+};
+
+/// A file of a case beside the mesh.
+struct SolverCaseFile {
+    std::filesystem::path name;  ///< within the folder of the case: "system/controlDict"
+    std::string text;            ///< its contents
+    bool executable = false;     ///< whether it is a script to run
+};
+
+/// Returns the files of a case without the mesh. They do not depend on the machine. Walls of the mesh are its markers
+/// of the kind wall, and its far field is all markers of that kind. Throws OptionError where the Reynolds number is
+/// missing, and MeshError where the mesh has no wall or no far field.
+LAMINA_EXPORT std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh,
+                                                            const SolverConditions& conditions,
+                                                            const SolverCaseOptions& options = {});
+
+/// Returns WarningCode::unsuited_to_solver where most cells of the mesh's layer are triangles: simpleFoam diverges on
+/// them within 35 iterations, and SU2 with the scheme of its case, too.
+LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh);
+
+/// Returns the names of all files of a case in this folder. The first is the mesh, or the folder that it is in.
+LAMINA_EXPORT std::vector<std::filesystem::path> solver_case_outputs(FlowSolver solver,
+                                                                     const std::filesystem::path& folder,
+                                                                     const SolverCaseOptions& options = {});
+
+/// Throws what write_solver_case() would throw for the folder, so that it is found before minutes of meshing:
+/// UsageError where a file of the case exists and SolverCaseOptions::overwrite is not set, IoError where the folder
+/// cannot be written to.
+LAMINA_EXPORT void check_solver_case_writable(FlowSolver solver, const std::filesystem::path& folder,
+                                              const SolverCaseOptions& options = {});
+
+/// Writes mesh and case into a folder, which is created if it is missing. Each file appears as a whole or not at all.
+/// Throws as solver_case_files() and check_solver_case_writable() do, and IoError.
+LAMINA_EXPORT void write_solver_case(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
+                                     const std::filesystem::path& folder, const SolverCaseOptions& options = {});
+
+}  // namespace lamina

@@ -1,0 +1,110 @@
+// lamina case: makes a mesh and writes it with everything that a flow solver needs beside it.
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/option_builders.hpp>
+#include <lamina/solver_case.hpp>
+
+#include "app/commands.hpp"
+#include "app/mesh_command_options.hpp"
+#include "app/mesh_run.hpp"
+#include "app/options.hpp"
+#include "app/presets.hpp"
+#include "app/table_option.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+struct CaseArguments {
+    std::string solver, folder, turbulence;
+    bool overwrite = false;
+    GivenOptions mesh;
+};
+
+FlowSolver solver_of_name(const std::string& name) {
+    std::vector<std::string> names;
+    for (const auto& [known, solver] : flow_solvers()) {
+        if (known == name) return solver;
+        names.push_back(known);
+    }
+    throw UsageError("SOLVER: " + unknown_choice(name, names));
+}
+
+/// The y+ from which on walls get wall functions: the end of the viscous sublayer.
+constexpr double least_y_plus_of_wall_functions = 5;
+
+SolverConditions solver_conditions(const MeshResult& result, const CaseOptions& options) {
+    return {.reference = result.conditions,
+            .velocity = options.conditions.velocity,
+            .wall_functions = result.y_plus && result.y_plus->y_plus > least_y_plus_of_wall_functions};
+}
+
+MeshDestination destination_of_case(FlowSolver solver, const MeshCase& mesh_case, const SolverCaseOptions& options) {
+    const std::string folder = mesh_case.outputs.front();
+    MeshDestination destination;
+    for (const auto& file : solver_case_outputs(solver, folder, options))
+        destination.files.push_back({file, "option --output " + folder});
+    destination.require_writable = [=] { check_solver_case_writable(solver, folder, options); };
+    destination.warnings = [=](const Mesh& mesh) { return find_solver_warnings(solver, mesh); };
+    destination.write = [=, &mesh_case](const MeshResult& result) {
+        write_solver_case(solver, result.mesh, solver_conditions(result, mesh_case.options), folder, options);
+    };
+    return destination;
+}
+
+/// Sets what the solver prefers where neither a case file nor the command line says otherwise.
+void apply_preferences(FlowSolver solver, MeshCase& mesh_case) {
+    // Cells far away cost iterations and change little: docs/decisions/0038.
+    constexpr double gradation = 0.13;
+    prefer_quads(mesh_case);
+    CaseOptions& options = mesh_case.options;
+    if (!is_given(mesh_case, "far-field")) options.far_field.size = Length{far_field_for(solver)};
+    // Some presets have one of their own.
+    if (!is_given(mesh_case, "gradation") && options.sizing.gradation == SizingOptions{}.gradation)
+        options.sizing.gradation = gradation;
+}
+
+void make_case(const CaseArguments& arguments) {
+    const FlowSolver solver = solver_of_name(arguments.solver);
+    SolverCaseOptions options;
+    set_by_name(solver_case_option_table(), "turbulence", arguments.turbulence, options);
+    options.overwrite = arguments.overwrite;
+    MeshCase mesh_case = case_of_command_line(arguments.mesh);
+    if (arguments.folder.empty()) throw UsageError("no output: give -o DIR");
+    mesh_case.outputs = {arguments.folder};
+    mesh_case.format.clear();
+    apply_preferences(solver, mesh_case);
+    require_consistent(mesh_case);
+    if (const FlowConditions& flow = mesh_case.options.conditions; !flow.reynolds && !flow.velocity)
+        throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
+    run_mesh(mesh_case, destination_of_case(solver, mesh_case, options));
+}
+
+}  // namespace
+
+void add_case_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("case", "make a mesh and a case of a flow solver, ready to run");
+    auto arguments = std::make_shared<CaseArguments>();
+    command
+        ->add_option("SOLVER", arguments->solver,
+                     "openfoam: simpleFoam, run by DIR/Allrun; su2: SU2_CFD, run with DIR/case.cfg")
+        ->required()
+        ->type_name("openfoam|su2");
+    command->add_option("-o,--output", arguments->folder, "folder to write the mesh and the case into")
+        ->type_name("DIR")
+        ->group("Case");
+    add_table_option(*command, solver_case_option_table(), "turbulence", arguments->turbulence)->group("Case");
+    command
+        ->add_flag("--overwrite", arguments->overwrite,
+                   help_with_range(find_row(solver_case_option_table(), "overwrite")))
+        ->group("Case");
+    arguments->mesh = add_mesh_options(*command, {"output", "format", "wall-distance"});
+    command->callback([arguments] { make_case(*arguments); });
+}
+
+}  // namespace lamina::app

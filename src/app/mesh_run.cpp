@@ -1,0 +1,121 @@
+#include "app/mesh_run.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/solver_case.hpp>
+
+#include "app/mesh_command_options.hpp"
+#include "app/options.hpp"
+#include "app/progress.hpp"
+#include "app/report.hpp"
+#include "app/standard_output.hpp"
+#include "app/stopwatch.hpp"
+#include "app/summary.hpp"
+
+namespace lamina::app {
+
+namespace {
+
+bool is_for_openfoam(const MeshCase& mesh_case) {
+    return std::any_of(mesh_case.outputs.begin(), mesh_case.outputs.end(), [&](const std::string& output) {
+        return format_name(output, write_options(mesh_case)) == "openfoam";
+    });
+}
+
+bool holds_quads(const std::string& output, const MeshCase& mesh_case) {
+    const std::vector<MeshFormat> formats = mesh_formats();
+    const std::string name = format_name(output, write_options(mesh_case));
+    return std::any_of(formats.begin(), formats.end(),
+                       [&](const MeshFormat& format) { return format.name == name && format.quads; });
+}
+
+}  // namespace
+
+WriteOptions write_options(const MeshCase& mesh_case) {
+    return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance};
+}
+
+MeshDestination destination_of_outputs(const MeshCase& mesh_case) {
+    MeshDestination destination;
+    if (mesh_case.outputs.empty()) throw UsageError("no output: give -o FILE");
+    for (const std::string& output : mesh_case.outputs) {
+        require_format(output, mesh_case.format, "--format");
+        for (const std::filesystem::path& file : output_files(output, write_options(mesh_case)))
+            destination.files.push_back({file, "option --output " + output});
+    }
+    destination.require_writable = [&mesh_case] {
+        for (const std::string& output : mesh_case.outputs) check_writable(output, write_options(mesh_case));
+    };
+    destination.warnings = [&mesh_case](const Mesh& mesh) {
+        return is_for_openfoam(mesh_case) ? find_solver_warnings(FlowSolver::openfoam, mesh) : std::vector<Warning>{};
+    };
+    destination.write = [&mesh_case](const MeshResult& result) {
+        for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, write_options(mesh_case));
+    };
+    return destination;
+}
+
+std::vector<RunFile> files_written(const MeshCase& mesh_case, const MeshDestination& destination) {
+    std::vector<RunFile> files = destination.files;
+    if (!mesh_case.wall_data.empty()) files.push_back({mesh_case.wall_data, "option --wall-data"});
+    if (!mesh_case.report.empty()) files.push_back({mesh_case.report, "option --report"});
+    return files;
+}
+
+void require_outputs(const MeshCase& mesh_case, const MeshDestination& destination) {
+    destination.require_writable();
+    if (!mesh_case.wall_data.empty()) check_folder_writable(mesh_case.wall_data);
+    if (!mesh_case.report.empty()) check_folder_writable(mesh_case.report);
+    require_distinct(files_of_case(mesh_case), files_written(mesh_case, destination));
+}
+
+void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
+    std::vector<Warning> of_readers = destination.warnings(result.mesh);
+    std::move(of_readers.begin(), of_readers.end(), std::back_inserter(result.warnings));
+    print_warnings(result.warnings);
+    require_promised_angles(result.check, mesh_case.allow_defects);
+}
+
+double write_outputs(const MeshCase& mesh_case, const MeshDestination& destination, const MeshResult& result) {
+    Stopwatch watch;
+    destination.write(result);
+    if (!mesh_case.wall_data.empty()) write_wall_data(result.mesh, mesh_case.wall_data);
+    const double seconds = watch.lap();
+    if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(mesh_report(mesh_case, result, seconds)));
+    return seconds;
+}
+
+void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination) {
+    require_inputs(mesh_case);
+    require_outputs(mesh_case, destination);
+    const std::vector<RunFile> outputs = files_written(mesh_case, destination);
+    const SignalGuard guard(outputs);
+    const CaseOptions options = options_with_files(mesh_case);
+    ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
+    MeshResult result = generate_mesh(mesh_case.inputs, options, [&](const auto& event) { progress.begin(event); });
+    report_warnings(mesh_case, destination, result);
+
+    progress.begin({"writing"});
+    const double write_seconds = write_outputs(mesh_case, destination, result);
+    if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, result, write_seconds), outputs);
+    require_no_warnings(result.warnings, mesh_case.strict);
+}
+
+void prefer_quads(MeshCase& mesh_case) {
+    if (!is_given(mesh_case, "layer-topology")) mesh_case.options.layer.topology = LayerTopology::quads;
+}
+
+void prefer_quads_for_openfoam(MeshCase& mesh_case) {
+    if (is_for_openfoam(mesh_case) &&
+        std::all_of(mesh_case.outputs.begin(), mesh_case.outputs.end(),
+                    [&](const std::string& output) { return holds_quads(output, mesh_case); }))
+        prefer_quads(mesh_case);
+}
+
+}  // namespace lamina::app

@@ -1,0 +1,55 @@
+// A run that makes a mesh: what `lamina mesh`, `lamina family` and `lamina case` have in common.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <lamina/io.hpp>
+#include <lamina/pipeline.hpp>
+#include <lamina/warning.hpp>
+
+#include "app/case.hpp"
+#include "app/run_files.hpp"
+
+namespace lamina::app {
+
+/// Where the mesh of a run goes, beside its report and its table of wall data.
+struct MeshDestination {
+    std::vector<RunFile> files;                                 ///< that are written
+    std::function<void()> require_writable;                     ///< throws where they certainly cannot be written
+    std::function<std::vector<Warning>(const Mesh&)> warnings;  ///< about what the readers make of the mesh
+    std::function<void(const MeshResult&)> write;               ///< writes them
+};
+
+/// Returns how a case writes its mesh files.
+WriteOptions write_options(const MeshCase& mesh_case);
+
+/// Returns the destination that the outputs of `lamina mesh` name. Throws UsageError where there are none. The
+/// destination refers to the case.
+MeshDestination destination_of_outputs(const MeshCase& mesh_case);
+
+/// Returns the files that a run writes, each with the option that names it: those of the mesh, and those beside it.
+std::vector<RunFile> files_written(const MeshCase& mesh_case, const MeshDestination& destination);
+
+/// Throws where an output certainly cannot be written, before the work begins.
+void require_outputs(const MeshCase& mesh_case, const MeshDestination& destination);
+
+/// Adds what the readers of the mesh make of it to the warnings of the result, prints them, and throws where angles are
+/// not as promised.
+void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result);
+
+/// Writes the mesh, the table of its walls and the report of the run, as the case asks. Returns the seconds that the
+/// mesh and the table took. Throws the errors of write_mesh().
+double write_outputs(const MeshCase& mesh_case, const MeshDestination& destination, const MeshResult& result);
+
+/// Makes the mesh, writes it and the files beside it, and prints warnings and the summary.
+void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination);
+
+/// Sets the cells of the layer to quadrilaterals, which cell-centred solvers need, unless a case file or the command
+/// line chooses them.
+void prefer_quads(MeshCase& mesh_case);
+
+/// Does so where the mesh is written for OpenFOAM and every format holds quadrilaterals.
+void prefer_quads_for_openfoam(MeshCase& mesh_case);
+
+}  // namespace lamina::app

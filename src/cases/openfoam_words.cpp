@@ -1,0 +1,71 @@
+// What the files of OpenFOAM's case say about this flow and this mesh.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <lamina/io.hpp>
+
+#include "cases/words.hpp"
+
+namespace lamina::cases {
+
+namespace {
+
+std::string number(double value) { return fmt::format("{}", value); }
+std::string vector(double x, double y) { return fmt::format("({} {} 0)", x, y); }
+
+/// Returns the lines of a boundary condition behind its first one, as deep as those of a patch.
+std::string condition(const std::string& type, const std::string& value) {
+    return fmt::format("type            {};\n        value           {};", type, value);
+}
+
+/// Adds what the turbulence models need: conditions upstream and at walls.
+void add_turbulence(const CaseFlow& flow, Words& words) {
+    const double nu = flow.viscosity;
+    const bool sst = flow.turbulence == TurbulenceModel::k_omega_sst;
+    // Spalart-Allmaras: nuTilda / nu = 3 upstream, and nut follows by the model's function fv1.
+    constexpr double chi = 3, cubed = chi * chi * chi, cv1_cubed = 7.1 * 7.1 * 7.1;
+    // SST: as NASA's Turbulence Modeling Resource recommends at Mach 0.15; k is a share of the velocity squared.
+    constexpr double k_share = 4e-7, sst_ratio = 0.009;
+    const double k = k_share * flow.velocity * flow.velocity;
+    const double nu_t = sst ? sst_ratio * nu : chi * nu * cubed / (cubed + cv1_cubed);
+    words["RAS_MODEL"] = sst ? "kOmegaSST" : "SpalartAllmaras";
+    words["TURBULENCE_FIELDS"] = sst ? "k omega" : "nuTilda";
+    words["NU_TILDA"] = number(chi * nu);
+    words["NU_T"] = number(nu_t);
+    words["K"] = number(k);
+    words["OMEGA"] = number(k / (sst_ratio * nu));
+    // OpenFOAM's condition for omega asks the wall for a wall function; the one for low Reynolds numbers leaves nut 0.
+    const char* resolved = sst ? "nutLowReWallFunction" : "fixedValue";
+    words["NU_T_WALL"] = condition(flow.wall_functions ? "nutUSpaldingWallFunction" : resolved, "uniform 0");
+    words["K_WALL"] = flow.wall_functions ? condition("kqRWallFunction", "uniform " + number(k))
+                                          : condition("fixedValue", "uniform 0");
+}
+
+}  // namespace
+
+Words openfoam_words(const CaseFlow& flow) {
+    const double u = flow.velocity * flow.direction.x, v = flow.velocity * flow.direction.y;
+    const std::string far_fields = fmt::format("{}", fmt::join(flow.far_fields, "|"));
+    Words words;
+    words["TITLE"] = fmt::format("Reynolds number {}, angle of attack {} degrees, chord {}", flow.reynolds,
+                                 flow.alpha_deg, flow.chord);
+    words["FAR_FIELD"] = flow.far_fields.size() > 1 ? "\"(" + far_fields + ")\"" : far_fields;
+    words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
+    words["VELOCITY_VECTOR"] = vector(u, v);
+    words["VELOCITY"] = number(flow.velocity);
+    words["NU"] = number(flow.viscosity);
+    words["CHORD"] = number(flow.chord);
+    words["AREA"] = number(flow.chord * openfoam_span);
+    words["ALPHA"] = number(flow.alpha_deg);
+    words["DRAG_DIRECTION"] = vector(flow.direction.x, flow.direction.y);
+    words["LIFT_DIRECTION"] = vector(-flow.direction.y, flow.direction.x);
+    // Lift acts a quarter of the chord behind the nose of a thin section.
+    words["VORTEX_X"] = number(flow.moment_point.x);
+    words["VORTEX_Y"] = number(flow.moment_point.y);
+    words["MAX_ITERATIONS"] = "8000";
+    words["MOMENT_POINT"] = vector(flow.moment_point.x, flow.moment_point.y);
+    add_turbulence(flow, words);
+    return words;
+}
+
+}  // namespace lamina::cases

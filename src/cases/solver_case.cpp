@@ -1,0 +1,212 @@
+// Cases of flow solvers: which files there are, and what they say.
+#include <lamina/solver_case.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
+#include <lamina/files.hpp>
+#include <lamina/io.hpp>
+
+#include "cases/templates.hpp"
+#include "cases/words.hpp"
+#include "core/reproducible_math.hpp"
+
+namespace lamina::cases {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What the solvers differ in.
+struct SolverEntry {
+    FlowSolver solver;
+    const char* program;  ///< that solves
+    const char* name;     ///< on the command line, and of the folder of its templates
+    const char* format;   ///< of its mesh (io.hpp)
+    const char* mesh;     ///< name of the mesh within the case; empty: the case is the name
+    double far_field;     ///< far_field_for()
+    Words (*words)(const CaseFlow&);
+};
+
+constexpr std::array solver_entries{
+    SolverEntry{FlowSolver::openfoam, "simpleFoam", "openfoam", "openfoam", "", 100, openfoam_words},
+    SolverEntry{FlowSolver::su2, "SU2_CFD", "su2", "su2", "mesh.su2", 500, su2_words},
+};
+
+const SolverEntry& entry_of(FlowSolver solver) {
+    return *std::find_if(solver_entries.begin(), solver_entries.end(),
+                         [&](const SolverEntry& entry) { return entry.solver == solver; });
+}
+
+fs::path mesh_file(const SolverEntry& entry, const fs::path& folder) {
+    return *entry.mesh == '\0' ? folder : folder / entry.mesh;
+}
+
+/// Returns whether the case has this file: fields of the other turbulence model are left out.
+bool belongs_to_case(std::string_view name, TurbulenceModel turbulence) {
+    if (name == "0/nuTilda") return turbulence == TurbulenceModel::spalart_allmaras;
+    if (name == "0/k" || name == "0/omega") return turbulence == TurbulenceModel::k_omega_sst;
+    return true;
+}
+
+std::vector<std::string> names_of_markers(const Mesh& mesh, MarkerKind kind) {
+    std::vector<std::string> names;
+    for (const Marker& marker : mesh.markers)
+        if (marker.kind == kind) names.push_back(marker.name);
+    return names;
+}
+
+/// Returns the foremost vertex of the walls, the lowest of several.
+Point foremost_wall_vertex(const Mesh& mesh) {
+    Point foremost{HUGE_VAL, HUGE_VAL};
+    for (const Marker& marker : mesh.markers) {
+        if (marker.kind != MarkerKind::wall) continue;
+        for (const Segment& edge : marker.edges) {
+            const Point p = mesh.points[edge.a.index()];
+            if (std::pair(p.x, p.y) < std::pair(foremost.x, foremost.y)) foremost = p;
+        }
+    }
+    return foremost;
+}
+
+CaseFlow case_flow(const Mesh& mesh, const SolverConditions& conditions, const SolverCaseOptions& options) {
+    const auto& [chord, alpha_deg, reynolds, mach] = conditions.reference;
+    if (!reynolds) throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
+    constexpr double default_mach = 0.15;
+    CaseFlow flow;
+    flow.chord = chord;
+    flow.alpha_deg = alpha_deg;
+    flow.reynolds = *reynolds;
+    flow.mach = mach.value_or(default_mach);
+    flow.velocity = conditions.velocity.value_or(1);
+    flow.viscosity = flow.velocity * chord / *reynolds;
+    const double alpha = core::radians(alpha_deg);
+    flow.direction = {core::cos_reproducible(alpha), core::sin_reproducible(alpha)};
+    flow.wall_functions = conditions.wall_functions;
+    flow.turbulence = options.turbulence;
+    flow.walls = names_of_markers(mesh, MarkerKind::wall);
+    flow.far_fields = names_of_markers(mesh, MarkerKind::far_field);
+    if (flow.walls.empty()) throw MeshError("a case needs a mesh with a marker that is a wall");
+    if (flow.far_fields.empty()) throw MeshError("a case needs a mesh with a marker that is a far field");
+    flow.moment_point = conditions.moment_point.value_or(foremost_wall_vertex(mesh) + Point{0.25 * chord, 0});
+    return flow;
+}
+
+/// Returns the folders above a file that do not exist, the outermost one first.
+std::vector<fs::path> missing_folders(const fs::path& file) {
+    std::vector<fs::path> missing;
+    std::error_code ignored;
+    for (fs::path above = file.parent_path(); !above.empty() && !fs::exists(above, ignored);
+         above = above.parent_path())
+        missing.insert(missing.begin(), above);
+    return missing;
+}
+
+void create_folders_above(const fs::path& file) {
+    std::error_code failed;
+    fs::create_directories(file.parent_path(), failed);
+    if (failed) throw IoError(file.parent_path().string(), "cannot be created: " + failed.message());
+}
+
+void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
+    const fs::path path = folder / file.name;
+    create_folders_above(path);
+    write_file(path, file.text);
+    if (!file.executable) return;
+    std::error_code failed;
+    const auto all = fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec;
+    fs::permissions(path, all, fs::perm_options::add, failed);
+    if (failed) throw IoError(path.string(), "cannot be made executable: " + failed.message());
+}
+
+}  // namespace
+
+}  // namespace lamina::cases
+
+namespace lamina {
+
+using namespace cases;
+
+const std::vector<std::pair<std::string, FlowSolver>>& flow_solvers() {
+    static const std::vector<std::pair<std::string, FlowSolver>> names = [] {
+        std::vector<std::pair<std::string, FlowSolver>> list;
+        for (const SolverEntry& entry : solver_entries) list.emplace_back(entry.name, entry.solver);
+        return list;
+    }();
+    return names;
+}
+
+double far_field_for(FlowSolver solver) { return entry_of(solver).far_field; }
+
+std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
+                                              const SolverCaseOptions& options) {
+    const SolverEntry& entry = entry_of(solver);
+    const Words words = entry.words(case_flow(mesh, conditions, options));
+    std::vector<SolverCaseFile> files;
+    for (const Template& file : templates())
+        if (file.solver == entry.name && belongs_to_case(file.name, options.turbulence))
+            files.push_back({fs::path(file.name), fill_in(file.text, words), file.text.starts_with("#!")});
+    return files;
+}
+
+std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh) {
+    if (mesh.region.empty()) return {};
+    const auto triangles_end = mesh.region.begin() + static_cast<std::ptrdiff_t>(mesh.triangles.size());
+    const auto triangles = std::count(mesh.region.begin(), triangles_end, Region::layer);
+    if (triangles <= std::count(triangles_end, mesh.region.end(), Region::layer)) return {};
+    return {
+        {.code = WarningCode::unsuited_to_solver,
+         .number = static_cast<double>(triangles),
+         .unit = "triangles",
+         .message = fmt::format("{} thin triangles make up the layer, on which {} diverges: let --layer-topology be "
+                                "quads",
+                                triangles, entry_of(solver).program)}};
+}
+
+std::vector<fs::path> solver_case_outputs(FlowSolver solver, const fs::path& folder, const SolverCaseOptions& options) {
+    const SolverEntry& entry = entry_of(solver);
+    std::vector<fs::path> outputs = output_files(mesh_file(entry, folder), {.format = entry.format});
+    for (const Template& file : templates())
+        if (file.solver == entry.name && belongs_to_case(file.name, options.turbulence))
+            outputs.push_back(folder / fs::path(file.name));
+    return outputs;
+}
+
+void check_solver_case_writable(FlowSolver solver, const fs::path& folder, const SolverCaseOptions& options) {
+    std::error_code ignored;
+    if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
+        throw IoError(folder.string(), "cannot write: is a file, not a folder");
+    const std::vector<fs::path> files = solver_case_outputs(solver, folder, options);
+    for (const fs::path& file : files)
+        if (!options.overwrite && fs::exists(file, ignored))
+            throw UsageError(file.string() + " exists: give another folder, or --overwrite");
+    for (const fs::path& file : files) {
+        const std::vector<fs::path> missing = missing_folders(file);
+        // A mesh that is a folder of files is looked at by its format.
+        if (!missing.empty())
+            check_folder_writable(missing.front());
+        else if (file == files.front())
+            check_writable(mesh_file(entry_of(solver), folder), {.format = entry_of(solver).format});
+        else
+            check_folder_writable(file);
+    }
+}
+
+void write_solver_case(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions, const fs::path& folder,
+                       const SolverCaseOptions& options) {
+    check_solver_case_writable(solver, folder, options);
+    const std::vector<SolverCaseFile> files = solver_case_files(solver, mesh, conditions, options);
+    const SolverEntry& entry = entry_of(solver);
+    const fs::path file = mesh_file(entry, folder);
+    create_folders_above(output_files(file, {.format = entry.format}).front());
+    write_mesh(mesh, file, {.format = entry.format});
+    for (const SolverCaseFile& part : files) write_case_file(part, folder);
+}
+
+}  // namespace lamina

@@ -1,0 +1,34 @@
+// What takes the place of the placeholders in the files of a case.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <lamina/point.hpp>
+#include <lamina/solver_case.hpp>
+
+#include "cases/templates.hpp"
+
+namespace lamina::cases {
+
+/// The flow of a case with nothing left open.
+struct CaseFlow {
+    double chord = 1;
+    double alpha_deg = 0;
+    double reynolds = 0;
+    double mach = 0;
+    double velocity = 1;
+    double viscosity = 0;  ///< kinematic: velocity x chord / Reynolds number
+    Point direction;       ///< of the free stream, of length 1
+    Point moment_point;
+    bool wall_functions = false;
+    TurbulenceModel turbulence = TurbulenceModel::spalart_allmaras;
+    std::vector<std::string> walls;       ///< names of the markers, one or more
+    std::vector<std::string> far_fields;  ///< likewise
+};
+
+/// Return the words for the files of each solver.
+Words openfoam_words(const CaseFlow& flow);
+Words su2_words(const CaseFlow& flow);
+
+}  // namespace lamina::cases

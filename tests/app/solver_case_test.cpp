@@ -1,0 +1,158 @@
+// lamina case: what it writes, what it refuses, and that OpenFOAM runs it where it is installed.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <lamina/io.hpp>
+#include <lamina/mesh.hpp>
+
+#include "app/program.hpp"
+
+namespace lamina::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// Returns the arguments for a case with some 5,000 cells.
+Words small_case(const std::string& solver, const Words& more = {}) {
+    Words words{"case",     solver, "naca:0012",     "--reynolds", "1e6",         "--alpha",  "4",
+                "-o",       "c",    "--quiet",       "--use-flow", "no",          "--y-plus", "2",
+                "--growth", "1.4",  "--spacing-max", "0.05",       "--gradation", "0.4"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+TEST(SolverCaseCommand, WritesAMeshInQuadsAndTheCase) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(folder, small_case("openfoam", {"--report", "r.json"}));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    for (const char* file : {"Allrun", "Allclean", "0/U", "0/p", "0/nut", "0/nuTilda", "constant/transportProperties",
+                             "constant/turbulenceProperties", "system/controlDict", "system/fvSchemes",
+                             "system/fvSolution", "constant/polyMesh/faces"})
+        EXPECT_TRUE(fs::exists(folder / "c" / file)) << file;
+    const Mesh mesh = read_mesh(folder / "c");
+    EXPECT_TRUE(check_mesh(mesh).valid());
+    EXPECT_GT(mesh.quads.size(), mesh.triangles.size() / 4);
+    const auto report = nlohmann::json::parse(folder.read("r.json"));
+    EXPECT_EQ(report["warnings"].size(), 0u);
+    EXPECT_NE(folder.read("c/Allrun").find("alpha=4 "), std::string::npos);
+}
+
+TEST(SolverCaseCommand, WritesSu2WithAFarFieldForAUniformStream) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_lamina(folder, small_case("su2", {"--mach", "0.2", "--inlet-outlet"}));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const std::string text = folder.read("c/case.cfg");
+    for (const char* line : {"\nMACH_NUMBER= 0.2\n", "\nAOA= 4\n", "\nREYNOLDS_NUMBER= 1000000\n",
+                             "\nMARKER_FAR= ( inlet, outlet )\n", "\nMARKER_HEATFLUX= ( airfoil, 0.0 )\n"})
+        EXPECT_NE(text.find(line), std::string::npos) << line;
+    const Mesh mesh = read_mesh(folder / "c/mesh.su2");
+    double farthest = 0;
+    for (const Point p : mesh.points) farthest = std::max(farthest, std::abs(p.y));
+    EXPECT_NEAR(farthest, 500, 1);
+}
+
+TEST(SolverCaseCommand, OptionsOfTheMeshOverrideWhatTheSolverPrefers) {
+    const TemporaryFolder folder;
+    const ProgramRun run =
+        run_lamina(folder, small_case("openfoam", {"--layer-topology", "layered", "--far-field", "20", "--turbulence",
+                                                   "komega-sst", "--velocity", "30", "--viscosity", "3e-5"}));
+    EXPECT_EQ(run.exit_code, usage) << run.err;  // the Reynolds number is given, too
+
+    Words words =
+        small_case("openfoam", {"--layer-topology", "layered", "--far-field", "20", "--turbulence", "komega-sst"});
+    const ProgramRun triangles = run_lamina(folder, words);
+    ASSERT_EQ(triangles.exit_code, 0) << triangles.err;
+    EXPECT_NE(triangles.err.find("simpleFoam diverges"), std::string::npos) << triangles.err;
+    EXPECT_TRUE(read_mesh(folder / "c").quads.empty());
+    EXPECT_TRUE(fs::exists(folder / "c/0/omega"));
+    EXPECT_FALSE(fs::exists(folder / "c/0/nuTilda"));
+}
+
+TEST(SolverCaseCommand, MeshesForOpenFoamHaveQuadsUnlessToldOtherwise) {
+    const TemporaryFolder folder;
+    const Words mesh{"mesh", "naca:0012", "--quiet", "--far-field", "10", "--format", "openfoam", "-o", "c"};
+    const ProgramRun quads = run_lamina(folder, mesh);
+    ASSERT_EQ(quads.exit_code, 0) << quads.err;
+    EXPECT_EQ(quads.err, "");
+    EXPECT_FALSE(read_mesh(folder / "c").quads.empty());
+    Words asked = mesh;
+    asked.insert(asked.end(), {"--layer-topology", "delaunay"});
+    const ProgramRun triangles = run_lamina(folder, asked);
+    EXPECT_NE(triangles.err.find("simpleFoam diverges"), std::string::npos) << triangles.err;
+    EXPECT_TRUE(read_mesh(folder / "c").quads.empty());
+}
+
+TEST(SolverCaseCommand, RefusesWhatItCannotDo) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"case", "fluent", "naca:0012", "--reynolds", "1e6", "-o", "c"}, usage, "SOLVER");
+    expect_refused(folder, {"case", "openfoam", "naca:0012", "--reynolds", "1e6"}, usage, "-o DIR");
+    expect_refused(folder, {"case", "openfoam", "naca:0012", "-o", "c"}, usage, "option --reynolds");
+    expect_refused(folder, {"case", "openfoam", "--reynolds", "1e6", "-o", "c"}, usage, "INPUT");
+    expect_refused(folder, {"case", "openfoam", "naca:0012", "--reynolds", "1e6", "-o", "c", "--turbulence", "ke"},
+                   usage, "option --turbulence");
+    // Files of an earlier case stay as they are, and so do inputs.
+    ASSERT_EQ(run_lamina(folder, small_case("su2")).exit_code, 0);
+    expect_refused(folder, small_case("su2"), usage, "exists");
+    EXPECT_EQ(run_lamina(folder, small_case("su2", {"--overwrite"})).exit_code, 0);
+    fs::rename(folder / "c", folder / "d");
+    expect_refused(
+        folder, {"case", "su2", "naca:0012", "--reynolds", "1e6", "-o", "d", "--overwrite", "--report", "d/case.cfg"},
+        usage, "is written by");
+}
+
+/// Returns the values of a column of a function object's file.
+std::vector<double> column_of(const fs::path& file, const std::string& name) {
+    std::ifstream in(file);
+    std::vector<double> values;
+    std::size_t column = 0;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line.starts_with("#") ? line.substr(1) : line);
+        std::string word;
+        for (std::size_t i = 0; words >> word; ++i) {
+            if (line.starts_with("#") && word == name) column = i;
+            if (!line.starts_with("#") && i == column) values.push_back(std::stod(word));
+        }
+    }
+    return values;
+}
+
+// First order, then one block of second order: enough to see that files fit each other and residuals fall.
+TEST(SolverCaseCommand, OpenFoamRunsTheCase) {
+    if (std::system("command -v simpleFoam >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "simpleFoam is not in PATH: nothing says here that OpenFOAM runs the case";
+    for (const char* turbulence : {"sa", "komega-sst"}) {
+        const TemporaryFolder folder;
+        const ProgramRun made = run_lamina(folder, small_case("openfoam", {"--turbulence", turbulence}));
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        const Mesh mesh = read_mesh(folder / "c");
+        EXPECT_LT(mesh.triangles.size() + mesh.quads.size(), 6000u);
+        const std::string command = "ITERATIONS=350 '" + (folder / "c/Allrun").string() + "' > /dev/null 2>&1";
+        const int code = std::system(command.c_str());
+        // 2: so few iterations are not enough for a steady state.
+        ASSERT_TRUE(WIFEXITED(code) && (WEXITSTATUS(code) == 0 || WEXITSTATUS(code) == 2))
+            << folder.read("c/log.simpleFoam");
+        const auto result = nlohmann::json::parse(folder.read("c/result.json"));
+        EXPECT_EQ(result["iterations"], 350);
+        EXPECT_NEAR(result["CL"], 0.43, 0.06);
+        EXPECT_GT(result["CD"], 0.005);
+        EXPECT_LT(result["CD"], 0.03);
+        EXPECT_GT(result["y_plus"]["airfoil"]["largest"], 0.2);
+        EXPECT_LT(result["y_plus"]["airfoil"]["largest"], 10);
+        const fs::path residuals = folder / "c/postProcessing/residuals/150/solverInfo.dat";
+        for (const char* field : {"Ux_initial", "p_initial"}) {
+            const std::vector<double> values = column_of(residuals, field);
+            ASSERT_EQ(values.size(), 200u);
+            EXPECT_LT(values.back(), 0.1 * values.front()) << turbulence << " " << field;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina::test

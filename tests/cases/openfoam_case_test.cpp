@@ -1,0 +1,174 @@
+// The files of OpenFOAM's case: that they say the flow that was asked for, and that nothing is destroyed.
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <regex>
+
+#include <gtest/gtest.h>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+
+#include "cases/case_fixtures.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lamina {
+namespace {
+
+using test::case_mesh;
+using test::numbers_in;
+using test::some_conditions;
+using test::TemporaryFolder;
+using test::text_of;
+using test::value_of;
+
+std::vector<SolverCaseFile> openfoam_files(const SolverConditions& conditions, const SolverCaseOptions& options = {}) {
+    return solver_case_files(FlowSolver::openfoam, case_mesh(), conditions, options);
+}
+
+TEST(SolverCase, NoPlaceholderIsLeft) {
+    const std::regex placeholder("@[A-Z_]+@");
+    for (const auto& [name, solver] : flow_solvers())
+        for (const auto turbulence : {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst})
+            for (const bool wall_functions : {false, true}) {
+                SolverConditions conditions = some_conditions();
+                conditions.wall_functions = wall_functions;
+                for (const SolverCaseFile& file :
+                     solver_case_files(solver, case_mesh(), conditions, {.turbulence = turbulence})) {
+                    EXPECT_FALSE(std::regex_search(file.text, placeholder)) << name << " " << file.name;
+                    EXPECT_EQ(file.executable, file.text.starts_with("#!")) << file.name;
+                }
+            }
+}
+
+TEST(OpenFoamCase, ViscosityMakesTheReynoldsNumber) {
+    for (const std::optional<double> velocity : {std::optional<double>{}, std::optional(30.0)}) {
+        SolverConditions conditions = some_conditions();
+        conditions.velocity = velocity;
+        const auto files = openfoam_files(conditions);
+        const double nu = std::stod(value_of(text_of(files, "constant/transportProperties"), "nu"));
+        const std::string control = text_of(files, "system/controlDict");
+        const double speed = std::stod(value_of(control, "magUInf"));
+        EXPECT_EQ(speed, velocity.value_or(1));
+        EXPECT_NEAR(speed * 2 / nu, 4e6, 1e-6);
+        EXPECT_EQ(std::stod(value_of(control, "lRef")), 2);
+        EXPECT_EQ(std::stod(value_of(control, "Aref")), 2 * openfoam_span);
+        // nuTilda is 3 nu upstream, which makes nut 0.21 nu by the model.
+        EXPECT_NEAR(numbers_in(value_of(text_of(files, "0/nuTilda"), "internalField")).at(0) / nu, 3, 1e-12);
+        EXPECT_NEAR(numbers_in(value_of(text_of(files, "0/nut"), "internalField")).at(0) / nu, 0.2104, 1e-4);
+    }
+}
+
+TEST(OpenFoamCase, DragFollowsTheStreamAndLiftIsUpwardsAcrossIt) {
+    for (const double alpha : {-90.0, -7.0, 0.0, 10.0, 90.0}) {
+        const auto files = openfoam_files(some_conditions(alpha));
+        const std::string control = text_of(files, "system/controlDict");
+        const auto drag = numbers_in(value_of(control, "dragDir")), lift = numbers_in(value_of(control, "liftDir"));
+        const auto stream = numbers_in(value_of(text_of(files, "0/U"), "internalField"));
+        const double radians = alpha * std::numbers::pi / 180;
+        EXPECT_NEAR(drag.at(0), std::cos(radians), 1e-15);
+        EXPECT_NEAR(drag.at(1), std::sin(radians), 1e-15);
+        EXPECT_EQ(drag, stream);  // at the speed 1
+        EXPECT_EQ(lift.at(0), -drag.at(1));
+        EXPECT_EQ(lift.at(1), drag.at(0));
+        // Moments are about a quarter of the chord behind the foremost vertex, (-1, 0).
+        EXPECT_NEAR(numbers_in(value_of(control, "CofR")).at(0), -0.5, 1e-12);
+    }
+}
+
+/// Returns the names of the patches of a field, in their order.
+std::vector<std::string> patches_of(const std::string& text) {
+    std::vector<std::string> names;
+    const std::regex block("\n    ([^ \n]+)\n    \\{");
+    for (std::sregex_iterator match(text.begin(), text.end(), block), end; match != end; ++match)
+        names.push_back((*match)[1]);
+    return names;
+}
+
+TEST(OpenFoamCase, EveryFieldHasEveryPatch) {
+    for (const auto turbulence : {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst}) {
+        const bool sst = turbulence == TurbulenceModel::k_omega_sst;
+        std::vector<std::string> fields;
+        for (const SolverCaseFile& file : openfoam_files(some_conditions(), {.turbulence = turbulence})) {
+            if (!file.name.string().starts_with("0/")) continue;
+            fields.push_back(file.name.filename().string());
+            // All walls are in the group `wall`.
+            EXPECT_EQ(patches_of(file.text), (std::vector<std::string>{"wall", "farfield", "frontAndBack"}))
+                << file.name;
+        }
+        std::sort(fields.begin(), fields.end());
+        EXPECT_EQ(fields, sst ? (std::vector<std::string>{"U", "k", "nut", "omega", "p"})
+                              : (std::vector<std::string>{"U", "nuTilda", "nut", "p"}));
+    }
+}
+
+TEST(OpenFoamCase, InletAndOutletBothHaveTheFarFieldsConditions) {
+    Mesh mesh = case_mesh();
+    Marker& far = mesh.markers[1];
+    far.name = "inlet";
+    const auto half = static_cast<std::ptrdiff_t>(far.edges.size() / 2);
+    Marker outlet{"outlet", MarkerKind::far_field, {far.edges.begin() + half, far.edges.end()}};
+    far.edges.resize(static_cast<std::size_t>(half));
+    mesh.markers.push_back(outlet);
+    const auto files = solver_case_files(FlowSolver::openfoam, mesh, some_conditions());
+    EXPECT_EQ(patches_of(text_of(files, "0/U")).at(1), "\"(inlet|outlet)\"");
+    EXPECT_NE(text_of(files, "Allrun").find("far_fields=\"inlet outlet\""), std::string::npos);
+}
+
+TEST(OpenFoamCase, WallFunctionsWhereTheFirstCellsAreHigh) {
+    SolverConditions conditions = some_conditions();
+    EXPECT_EQ(text_of(openfoam_files(conditions), "0/nut").find("WallFunction"), std::string::npos);
+    conditions.wall_functions = true;
+    EXPECT_NE(text_of(openfoam_files(conditions), "0/nut").find("nutUSpaldingWallFunction"), std::string::npos);
+}
+
+TEST(SolverCase, RefusesWhatNoCaseCanBeMadeOf) {
+    SolverConditions conditions = some_conditions();
+    conditions.reference.reynolds.reset();
+    EXPECT_THROW(openfoam_files(conditions), OptionError);
+    for (const std::size_t missing : {0u, 1u}) {
+        Mesh mesh = case_mesh();
+        mesh.markers[missing].kind = MarkerKind::other;
+        EXPECT_THROW(solver_case_files(FlowSolver::openfoam, mesh, some_conditions()), MeshError);
+    }
+}
+
+TEST(SolverCase, WarnsOfThinTriangles) {
+    EXPECT_TRUE(find_solver_warnings(FlowSolver::openfoam, case_mesh()).empty());
+    const Mesh triangles = test::annulus();
+    const auto warnings = find_solver_warnings(FlowSolver::openfoam, triangles);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].code, WarningCode::unsuited_to_solver);
+    EXPECT_EQ(warnings[0].number, std::count(triangles.region.begin(), triangles.region.end(), Region::layer));
+}
+
+TEST(SolverCase, FilesAreThoseAnnouncedAndNothingElseIsTouched) {
+    namespace fs = std::filesystem;
+    for (const auto& [name, solver] : flow_solvers()) {
+        const TemporaryFolder folder;
+        fs::create_directories(folder / "case/system");
+        folder.write("case/system/notes", "mine");
+        const fs::path path = folder / "case";
+        write_solver_case(solver, case_mesh(), some_conditions(), path);
+        for (const fs::path& file : solver_case_outputs(solver, path)) EXPECT_TRUE(fs::exists(file)) << file;
+        EXPECT_EQ(folder.read("case/system/notes"), "mine");
+        const fs::path mesh = solver == FlowSolver::openfoam ? path : path / "mesh.su2";
+        EXPECT_EQ(mesh_hash(read_mesh(mesh)), mesh_hash(case_mesh()));
+
+        // Any one file of the case is enough to refuse the folder.
+        for (const fs::path& file : solver_case_outputs(solver, path)) {
+            const fs::path copy = folder / "copy" / fs::relative(file, path);
+            fs::create_directories(copy.parent_path());
+            fs::copy(file, copy, fs::copy_options::recursive);
+            EXPECT_THROW(write_solver_case(solver, case_mesh(), some_conditions(), folder / "copy"), UsageError);
+            fs::remove_all(folder / "copy");
+        }
+        EXPECT_NO_THROW(write_solver_case(solver, case_mesh(), some_conditions(), path, {.overwrite = true}));
+        if (solver == FlowSolver::openfoam) {
+            EXPECT_NE(fs::status(path / "Allrun").permissions() & fs::perms::owner_exec, fs::perms::none);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina

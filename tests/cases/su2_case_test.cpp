@@ -1,0 +1,73 @@
+// The file of SU2's case. SU2 is not at hand where tests run, so names of options are compared with those of its own
+// template of a configuration.
+#include <map>
+#include <regex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <lamina/files.hpp>
+
+#include "cases/case_fixtures.hpp"
+
+namespace lamina {
+namespace {
+
+using test::case_mesh;
+using test::some_conditions;
+
+/// Returns the options of a configuration by their names. Fails where one is given twice.
+std::map<std::string, std::string> su2_options(const std::string& text) {
+    std::map<std::string, std::string> options;
+    std::istringstream lines(text);
+    const std::regex assignment("([A-Z0-9_-]+)= (.*)");
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty() || line.starts_with('%')) continue;
+        std::smatch parts;
+        EXPECT_TRUE(std::regex_match(line, parts, assignment)) << line;
+        EXPECT_TRUE(options.emplace(parts[1], parts[2]).second) << line;
+    }
+    return options;
+}
+
+std::map<std::string, std::string> options_of_case(const SolverConditions& conditions,
+                                                   const SolverCaseOptions& options = {}) {
+    return su2_options(test::text_of(solver_case_files(FlowSolver::su2, case_mesh(), conditions, options), "case.cfg"));
+}
+
+TEST(Su2Case, EveryOptionIsOneOfSu2) {
+    std::istringstream words(read_file(LAMINA_SOURCE_DIR "/tests/cases/su2_options.txt"));
+    std::set<std::string> known;
+    for (std::string line; std::getline(words, line);)
+        if (!line.starts_with('#')) known.insert(line);
+    EXPECT_GT(known.size(), 60u);
+    for (const auto turbulence : {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst})
+        for (const auto& [name, value] : options_of_case(some_conditions(), {.turbulence = turbulence}))
+            EXPECT_TRUE(known.contains(name)) << name;
+}
+
+TEST(Su2Case, SaysTheFlow) {
+    SolverConditions conditions = some_conditions();
+    auto options = options_of_case(conditions);
+    EXPECT_EQ(std::stod(options["AOA"]), 10);
+    EXPECT_EQ(std::stod(options["REYNOLDS_NUMBER"]), 4e6);
+    EXPECT_EQ(std::stod(options["REYNOLDS_LENGTH"]), 2);
+    EXPECT_EQ(std::stod(options["REF_LENGTH"]), 2);
+    EXPECT_EQ(std::stod(options["REF_AREA"]), 2);
+    EXPECT_EQ(std::stod(options["MACH_NUMBER"]), 0.15);
+    EXPECT_EQ(options["MARKER_HEATFLUX"], "( wall, 0.0 )");
+    EXPECT_EQ(options["MARKER_FAR"], "( farfield )");
+    EXPECT_EQ(options["MESH_FILENAME"], "mesh.su2");
+    EXPECT_EQ(options["MARKER_WALL_FUNCTIONS"], "( wall, NO_WALL_FUNCTION )");
+    conditions.reference.mach = 0.2;
+    conditions.wall_functions = true;
+    options = options_of_case(conditions, {.turbulence = TurbulenceModel::k_omega_sst});
+    EXPECT_EQ(std::stod(options["MACH_NUMBER"]), 0.2);
+    EXPECT_EQ(options["KIND_TURB_MODEL"], "SST");
+    EXPECT_EQ(options["MARKER_WALL_FUNCTIONS"], "( wall, STANDARD_WALL_FUNCTION )");
+    // NASA's page on the 2D bump says 0.000387 for Mach 0.2.
+    EXPECT_NEAR(std::stod(options["FREESTREAM_TURBULENCEINTENSITY"]), 3.873e-4, 1e-7);
+}
+
+}  // namespace
+}  // namespace lamina
