@@ -162,11 +162,15 @@ public:
         constexpr double widening = 4;
         error_ = vertices / wanted_ - 1;
         const double at = std::log(factor_), miss = std::log(vertices / wanted_);
-        (miss > 0 ? low_ : high_) = {at, miss, true};
+        End &here = miss > 0 ? low_ : high_, &other = miss > 0 ? high_ : low_;
+        // An end that stays would hold the secant back (Illinois method).
+        if (last_ == &here) other.miss *= 0.5;
+        last_ = &here;
+        here = {at, miss, true};
         if (!low_.known || !high_.known) {
-            // As many vertices as the inverse square of the factor, and some that do not depend on it.
-            const double step = std::clamp(0.7 * miss, -std::log(widening), std::log(widening));
-            factor_ = std::exp(at + step);
+            // As many vertices as the inverse square of the factor, and some that do not depend on it: steps double.
+            step_ = std::clamp(step_ == 0 ? 0.7 * miss : 2 * step_, -std::log(widening), std::log(widening));
+            factor_ = std::exp(at + step_);
             return;
         }
         // The secant, kept off both ends.
@@ -180,7 +184,9 @@ private:
         bool known = false;
     };
     double wanted_, factor_, error_ = HUGE_VAL;
-    End low_, high_;  ///< logarithms of factors with too many and too few vertices
+    double step_ = 0;            ///< the last one, while only one end is known
+    End low_, high_;             ///< logarithms of factors with too many and too few vertices
+    const End* last_ = nullptr;  ///< the one that was replaced last
 };
 
 [[noreturn]] void refuse_number(const SolutionSizeOptions& options, std::size_t vertices) {
