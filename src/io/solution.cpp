@@ -83,6 +83,7 @@ using namespace io;
 Solution read_solution(const std::filesystem::path& solution, const std::vector<std::string>& fields,
                        const std::filesystem::path& mesh) {
     std::vector<FieldRequest> requests;
+    requests.reserve(fields.size());
     for (const std::string& name : fields) requests.push_back(parse_field(name));
     std::error_code ignored;
     if (std::filesystem::is_directory(solution, ignored)) return read_openfoam_solution(solution, requests, mesh);

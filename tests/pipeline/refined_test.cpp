@@ -16,7 +16,7 @@ namespace {
 /// The growth of these options round a chord of 1.
 LayerGrowth growth_of(const CaseOptions& options) { return layer_growth(options.layer, {}); }
 
-CaseOptions options_with(GrowthLaw law, std::uint32_t layers) {
+CaseOptions options_of_law(GrowthLaw law, std::uint32_t layers) {
     CaseOptions options;
     options.layer.growth_law = law;
     options.layer.layers = layers;
@@ -27,7 +27,7 @@ CaseOptions options_with(GrowthLaw law, std::uint32_t layers) {
 
 TEST(Refined, TwoNewLayersLieInOneOldOne) {
     for (const GrowthLaw law : {GrowthLaw::geometric, GrowthLaw::polynomial, GrowthLaw::exponential}) {
-        const CaseOptions options = options_with(law, 30);
+        const CaseOptions options = options_of_law(law, 30);
         const LayerGrowth before = growth_of(options), after = growth_of(refined(options, 2));
         ASSERT_EQ(after.layers, 60u);
         for (std::uint32_t n = 1; n <= 30; ++n)
@@ -44,7 +44,7 @@ TEST(Refined, KeepsTheHeightOfAllLayersWhereNumbersAreRounded) {
     for (const GrowthLaw law : {GrowthLaw::geometric, GrowthLaw::polynomial, GrowthLaw::exponential})
         for (const std::uint32_t layers : {7u, 20u, 31u})
             for (const double ratio : {0.5, std::sqrt(0.5), std::sqrt(2.0), 1.7}) {
-                const CaseOptions options = options_with(law, layers);
+                const CaseOptions options = options_of_law(law, layers);
                 const LayerGrowth before = growth_of(options), after = growth_of(refined(options, ratio));
                 EXPECT_NEAR(*after.layers, ratio * layers, 0.5);
                 const double height = layer_height(before, layers);
