@@ -25,6 +25,14 @@ double room_between(const Box& inner, const Box& outer) {
                      outer.upper.y - inner.upper.y});
 }
 
+/// Throws OptionError where the far field is so wide that coordinates there do not resolve the bodies: sizes round the
+/// bodies could not be told from those far away.
+void require_resolved(const Box& bodies, const FarField& far_field, const char* option) {
+    constexpr double max_extents = 1e12;
+    if (!(core::longer_side(far_field.box()) <= max_extents * core::longer_side(bodies)))
+        throw OptionError(option, "is more than 1e12 times as wide as the configuration");
+}
+
 /// Returns the distance of the box of the bodies from the far field; negative where the far field does not enclose it.
 double room_around(const Box& bodies, const FarField& far_field) {
     double room = room_between(bodies, far_field.box());
@@ -85,12 +93,16 @@ Box FarField::box() const {
 FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions& options) {
     validate(options);
     FarField far_field{options.shape, bodies.center(), in_units(options.size, chord)};
-    if (options.shape != FarFieldShape::outline) return far_field;
+    if (options.shape != FarFieldShape::outline) {
+        require_resolved(bodies, far_field, "far_field");
+        return far_field;
+    }
     far_field.outline = options.outline;
     for_each_edge(far_field.outline, [&](Point a, Point along) {
         if (!(orient2d(a, a + along, far_field.center) > 0))
             throw OptionError("far_field_outline", "does not enclose the middle of the configuration");
     });
+    require_resolved(bodies, far_field, "far_field_outline");
     return far_field;
 }
 
