@@ -182,8 +182,9 @@ class Mesh:
 
     @cached_property
     def column(self) -> np.ndarray:
-        """Per cell: the column of the layer that it is part of, an index into `column_origin`; -1 for other cells,
-        those behind bases among them. Columns stand between neighbouring rays, in the order of the outline, body by body.
+        """Per cell: the column of the layer that it is part of, an index into `column_origin`; -1 for other cells.
+
+        Columns stand between neighbouring rays, in the order of the outline. Cells behind bases are part of none.
         Empty for meshes from files, without layers, and with layer_topology="delaunay"."""
         of_layer = self._columns[0].astype(np.int64)
         if len(of_layer) == 0:
