@@ -118,6 +118,8 @@ def mesh(
     use_flow: bool | None = None,
     # the base of a blunt trailing edge is a marker of its own, NAME_base
     base_marker: bool | None = None,
+    # the far field is two markers: inlet, where a uniform flow at the angle of attack enters, and outlet
+    inlet_outlet: bool | None = None,
     # number of threads; 0: one per core; never changes the mesh; >= 0 and <= 1024 [0]
     threads: int | None = None,
     # largest number of triangles; a run that needs more, by estimate, is refused before the work; >= 1 and <=
