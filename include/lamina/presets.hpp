@@ -9,8 +9,10 @@
 
 namespace lamina {
 
-/// The words for no preset, and for the one that suits the other options.
-inline constexpr const char *no_preset = "none", *automatic_preset = "auto";
+/// The word for no preset.
+inline constexpr const char* no_preset = "none";
+/// The word for the preset that suits the other options.
+inline constexpr const char* automatic_preset = "auto";
 
 /// The names of the options that say the Reynolds number, with which the automatic preset is "rans".
 inline constexpr const char* reynolds_options[] = {"reynolds", "velocity"};
