@@ -23,6 +23,7 @@
 
 #include "app/case_file.hpp"
 #include "app/mesh_command_options.hpp"
+#include "app/mesh_run.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
@@ -67,22 +68,11 @@ Json quality_of(const MeshResult& result) {
             {"median_first_height", result.check.walls.median_first_height}};
 }
 
-/// Writes the files of a case, and returns their names.
-Json write_files(const MeshCase& mesh_case, const MeshResult& result) {
-    Stopwatch watch;
-    Json files = Json::array();
-    for (const std::string& output : mesh_case.outputs) {
-        write_mesh(result.mesh, output, {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance});
-        files.push_back(output);
-    }
-    if (!mesh_case.wall_data.empty()) {
-        write_wall_data(result.mesh, mesh_case.wall_data);
-        files.push_back(mesh_case.wall_data);
-    }
-    if (!mesh_case.report.empty()) {
-        write_file(mesh_case.report, to_text(mesh_report(mesh_case, result, watch.lap())));
-        files.push_back(mesh_case.report);
-    }
+/// Returns the names of the files that a case asks for.
+Json names_of_files(const MeshCase& mesh_case) {
+    Json files = mesh_case.outputs;
+    for (const std::string& file : {mesh_case.wall_data, mesh_case.report})
+        if (!file.empty()) files.push_back(file);
     return files;
 }
 
@@ -93,10 +83,13 @@ void make_mesh(const MeshCase& mesh_case, unsigned jobs, bool strict, Json& reco
     if (!mesh_case.options.limits.max_memory_bytes && options.limits.max_memory_bytes)
         *options.limits.max_memory_bytes /= jobs;  // what is free is for all that run at a time
     if (options.threads == 0) options.threads = 1;
-    const MeshResult result = generate_mesh(mesh_case.inputs, options);
+    const MeshDestination destination = destination_of_outputs(mesh_case);
+    MeshResult result = generate_mesh(mesh_case.inputs, options);
+    add_warnings_of_readers(destination, result);
     record["warnings"] = warnings_report(result.warnings);
     require_promised_angles(result.check, mesh_case.allow_defects);
-    record["files"] = write_files(mesh_case, result);
+    write_outputs(mesh_case, destination, result);
+    record["files"] = names_of_files(mesh_case);
     record["points"] = result.mesh.points.size();
     record["triangles"] = result.mesh.triangles.size();
     record["quadrilaterals"] = result.mesh.quads.size();

@@ -20,6 +20,7 @@
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/mesh_command_options.hpp"
+#include "app/mesh_run.hpp"
 #include "app/options.hpp"
 #include "app/run_files.hpp"
 #include "app/standard_output.hpp"
@@ -127,22 +128,11 @@ std::vector<BatchJob> jobs_of(const GivenOptions& options, const std::string& in
         for (std::string& output : job.mesh_case.outputs) output = filled_in(output, job);
         job.mesh_case.wall_data = filled_in(job.mesh_case.wall_data, job);
         job.mesh_case.report = filled_in(job.mesh_case.report, job);
+        prefer_quads_for_openfoam(job.mesh_case);
         require_consistent(job.mesh_case);
         jobs.push_back(std::move(job));
     }
     return jobs;
-}
-
-/// Returns the files that a job writes, each with the option that names it.
-std::vector<RunFile> files_of(const BatchJob& job) {
-    const MeshCase& mesh_case = job.mesh_case;
-    std::vector<RunFile> files;
-    for (const std::string& output : mesh_case.outputs)
-        for (const std::filesystem::path& file : output_files(output, {.format = mesh_case.format}))
-            files.push_back({file, "option --output"});
-    if (!mesh_case.wall_data.empty()) files.push_back({mesh_case.wall_data, "option --wall-data"});
-    if (!mesh_case.report.empty()) files.push_back({mesh_case.report, "option --report"});
-    return files;
 }
 
 /// Returns the files of all jobs. Throws where a file would be written twice or replace an input, and where one
@@ -151,13 +141,14 @@ std::vector<RunFile> require_files(const std::vector<BatchJob>& jobs) {
     const auto plain = [](const std::filesystem::path& path) {
         return std::filesystem::absolute(path).lexically_normal();
     };
-    std::set<std::filesystem::path> inputs, written, folders;
+    std::set<std::filesystem::path> inputs, written;
     for (const BatchJob& job : jobs)
         for (const RunFile& file : files_of_case(job.mesh_case)) inputs.insert(plain(file.path));
     std::vector<RunFile> files;
     for (const BatchJob& job : jobs) {
         if (job.mesh_case.outputs.empty()) throw UsageError("no output: give -o 'FOLDER/{name}.EXTENSION'");
-        for (const RunFile& file : files_of(job)) {
+        const MeshDestination destination = destination_of_outputs(job.mesh_case);
+        for (const RunFile& file : files_written(job.mesh_case, destination)) {
             if (is_standard_stream(file.path)) throw UsageError(file.role + ": a batch writes files, not '-'");
             if (inputs.contains(plain(file.path)))
                 throw UsageError(fmt::format("{}: '{}' would replace an input", file.role, file.path.string()));
@@ -166,9 +157,11 @@ std::vector<RunFile> require_files(const std::vector<BatchJob>& jobs) {
                     fmt::format("{}: '{}' would be written twice: put {{name}} and what is swept into the "
                                 "name, as in 'out/{{name}}_{{reynolds}}.su2'",
                                 file.role, file.path.string()));
-            if (folders.insert(plain(file.path).parent_path()).second) check_folder_writable(file.path);
             files.push_back(file);
         }
+        destination.require_writable();
+        for (const std::string& file : {job.mesh_case.wall_data, job.mesh_case.report})
+            if (!file.empty()) check_folder_writable(file);
     }
     return files;
 }

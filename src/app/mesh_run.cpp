@@ -75,9 +75,13 @@ void require_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
     require_distinct(files_of_case(mesh_case), files_written(mesh_case, destination));
 }
 
-void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
+void add_warnings_of_readers(const MeshDestination& destination, MeshResult& result) {
     std::vector<Warning> of_readers = destination.warnings(result.mesh);
     std::move(of_readers.begin(), of_readers.end(), std::back_inserter(result.warnings));
+}
+
+void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result) {
+    add_warnings_of_readers(destination, result);
     print_warnings(result.warnings);
     require_promised_angles(result.check, mesh_case.allow_defects);
 }

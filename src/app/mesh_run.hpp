@@ -1,4 +1,5 @@
-// A run that makes a mesh: what `lamina mesh`, `lamina family` and `lamina case` have in common.
+// A run that makes a mesh: what `lamina mesh`, `lamina family`, `lamina batch` and `lamina case` have
+// in common.
 #pragma once
 
 #include <functional>
@@ -34,8 +35,10 @@ std::vector<RunFile> files_written(const MeshCase& mesh_case, const MeshDestinat
 /// Throws where an output certainly cannot be written, before the work begins.
 void require_outputs(const MeshCase& mesh_case, const MeshDestination& destination);
 
-/// Adds what the readers of the mesh make of it to the warnings of the result, prints them, and throws where angles are
-/// not as promised.
+/// Adds what the readers of the mesh make of it to the warnings of the result.
+void add_warnings_of_readers(const MeshDestination& destination, MeshResult& result);
+
+/// Does so, prints all warnings, and throws where angles are not as promised.
 void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result);
 
 /// Writes the mesh, the table of its walls and the report of the run, as the case asks. Returns the seconds that the

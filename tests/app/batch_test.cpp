@@ -46,6 +46,20 @@ std::vector<std::string> table_without_times(const TemporaryFolder& folder, cons
     return lines;
 }
 
+TEST(Batch, MeshesForOpenFoamHaveQuadsUnlessToldOtherwise) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "out/naca_0012");
+    const std::vector<std::string> arguments{"naca:0012", "--format", "openfoam", "-o", "out/{name}", "--summary", "s"};
+    EXPECT_EQ(run_batch(folder, arguments).exit_code, 0);
+    EXPECT_GT(journal(folder, "s.jsonl")["naca_0012"]["quadrilaterals"], 0);
+    std::vector<std::string> layered = arguments;
+    layered.insert(layered.end(), {"--layer-topology", "layered"});
+    EXPECT_EQ(run_batch(folder, layered).exit_code, 0);
+    const Json record = Json::parse(lines_of(folder.read("s.jsonl")).back());
+    EXPECT_EQ(record["quadrilaterals"], 0);
+    EXPECT_EQ(record["warnings"].at(0).at("code"), "unsuited_to_solver");
+}
+
 TEST(Batch, OneBadFileDoesNotStopTheRest) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "out");
