@@ -13,6 +13,7 @@
 
 #include "adaptation/outer_region.hpp"
 #include "adaptation/vertex_patches.hpp"
+#include "core/reproducible_math.hpp"
 
 namespace lamina::adaptation {
 
@@ -67,7 +68,7 @@ FieldShape shape_of(const Mesh& mesh, const SolutionField& field, const OuterVer
         const double curvature = largest_curvature(hessians[v]),
                      difference = curvature * vertices.edge[v] * vertices.edge[v];
         if (vertices.area[v] == 0 || !(difference > rounding * largest)) continue;
-        shape.size[v] = 1 / std::cbrt(curvature);
+        shape.size[v] = 1 / core::pow_reproducible(curvature, 1.0 / 3);
         triangles += vertices.area[v] / (shape.size[v] * shape.size[v]);
         squared += square_error * vertices.area[v] * difference * difference;
     }
@@ -161,7 +162,7 @@ public:
     void note(double vertices) {
         constexpr double widening = 4;
         error_ = vertices / wanted_ - 1;
-        const double at = std::log(factor_), miss = std::log(vertices / wanted_);
+        const double at = core::log_reproducible(factor_), miss = core::log_reproducible(vertices / wanted_);
         End &here = miss > 0 ? low_ : high_, &other = miss > 0 ? high_ : low_;
         // An end that stays would hold the secant back (Illinois method).
         if (last_ == &here) other.miss *= 0.5;
@@ -169,13 +170,14 @@ public:
         here = {at, miss, true};
         if (!low_.known || !high_.known) {
             // As many vertices as the inverse square of the factor, and some that do not depend on it: steps double.
-            step_ = std::clamp(step_ == 0 ? 0.7 * miss : 2 * step_, -std::log(widening), std::log(widening));
-            factor_ = std::exp(at + step_);
+            step_ = std::clamp(step_ == 0 ? 0.7 * miss : 2 * step_, -core::log_reproducible(widening),
+                               core::log_reproducible(widening));
+            factor_ = core::exp_reproducible(at + step_);
             return;
         }
         // The secant, kept off both ends.
         const double share = std::clamp(low_.miss / (low_.miss - high_.miss), 0.1, 0.9);
-        factor_ = std::exp(low_.at + share * (high_.at - low_.at));
+        factor_ = core::exp_reproducible(low_.at + share * (high_.at - low_.at));
     }
 
 private:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -145,6 +146,13 @@ std::string family_summary(const std::vector<Member>& members, const std::string
     return text + summary_line("wrote", table);
 }
 
+/// Returns ratio^power by products, so that every machine has the same bits.
+double whole_power(double ratio, int power) {
+    double product = 1;
+    for (int k = 0; k < std::abs(power); ++k) product *= ratio;
+    return power < 0 ? 1 / product : product;
+}
+
 /// Returns the members of the family, the coarsest first, none of them made.
 std::vector<Member> plan_members(const FamilyArguments& arguments, const MeshCase& mesh_case,
                                  const Geometry& geometry) {
@@ -153,7 +161,7 @@ std::vector<Member> plan_members(const FamilyArguments& arguments, const MeshCas
     const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(geometry));
     std::vector<Member> members;
     for (int level = 0; level < arguments.levels; ++level) {
-        const double divisor = std::pow(arguments.ratio, level - base);
+        const double divisor = whole_power(arguments.ratio, level - base);
         members.push_back({level, divisor, case_of_level(mesh_case, level)});
         members.back().mesh_case.options = refined(options, divisor, conditions);
     }

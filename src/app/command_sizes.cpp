@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,14 +74,19 @@ void sizes(const SizesArguments& arguments) {
     validate(options);
     std::vector<RunFile> inputs{{arguments.solution, "SOLUTION"}};
     if (!arguments.mesh.empty()) inputs.push_back({arguments.mesh, "option --mesh"});
+    std::optional<MeshCase> mesh_case;
+    if (!arguments.case_file.empty()) {
+        mesh_case = case_of_inputs({arguments.case_file});
+        require_consistent(*mesh_case);
+        const std::vector<RunFile> of_case = files_of_case(*mesh_case);
+        inputs.insert(inputs.end(), of_case.begin(), of_case.end());
+    }
     const std::vector<RunFile> outputs{{arguments.output, "option --output"}};
     require_distinct(inputs, outputs);
     check_folder_writable(arguments.output);
     VertexCount count;
-    if (!arguments.case_file.empty()) {
-        const MeshCase mesh_case = case_of_inputs({arguments.case_file});
-        require_consistent(mesh_case);
-        count = count_by_case(mesh_case);
+    if (mesh_case) {
+        count = count_by_case(*mesh_case);
         options.keep_borders = false;
     }
     const SignalGuard guard(outputs);

@@ -50,6 +50,12 @@ TEST(SizesCommand, RefusesWhatItCannotUse) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_lamina(folder, {"mesh", "naca:0012", "--far-field", "10", "-o", "first.vtu"}).exit_code, 0);
     write_solution(folder, "first.vtu");
+    folder.write("case.toml", "input = \"naca:0012\"\n");
+    expect_refused(
+        folder,
+        {"sizes", "solution.vtu", "--field", "size", "--vertices", "14000", "--case", "case.toml", "-o", "case.toml"},
+        usage, "would replace");
+    EXPECT_EQ(folder.read("case.toml"), "input = \"naca:0012\"\n");
     expect_refused(folder, {"sizes", "solution.vtu", "--vertices", "14000", "-o", "s.vtu"}, usage, "--field");
     expect_refused(folder, {"sizes", "solution.vtu", "--field", "size", "-o", "s.vtu"}, usage, "--vertices");
     expect_refused(folder, {"sizes", "solution.vtu", "--field", "q", "--vertices", "14000", "-o", "s.vtu"}, usage, "q");
