@@ -67,6 +67,8 @@ picture separators-k-rule k-rule -1.3,0.3,0.1,1.3
 "$lamina" mesh naca:0012 --reynolds 6e6 --alpha 10 --quiet -o "$scratch/guided.vtu"
 picture flow-wake guided -0.2,1.9,-0.5,0.7
 picture flow-tail guided 0.8,1.2,-0.12,0.18
+"$lamina" mesh naca:0012:blunt --reynolds 6e6 --alpha 4 --quiet -o "$scratch/guided-base.vtu"
+picture flow-base guided-base 0.95,1.07,-0.06,0.06
 "$lamina" mesh naca:0012 --reynolds 6e6 --alpha 10 --wake-layers yes --quiet -o "$scratch/wake-layers.vtu"
 picture wake-layers wake-layers 0.7,3.2,-0.35,0.75
 picture wake-layers-tail wake-layers 0.97,1.06,-0.03,0.04
