@@ -65,10 +65,10 @@ struct SizedMesh {
     std::vector<Point> points;        ///< vertices
     std::vector<Triangle> triangles;  ///< indices into points
     std::vector<double> sizes;        ///< one per point, in units of the input, positive
-    /// Where set, the mesh decides on sizes beyond the layers as solution_sizes() means it: sizes grow by this much per
-    /// unit of distance from walls, borders and sources, in place of SizingOptions::gradation, and the wakes that the
-    /// flow before the mesh finds are left to it. Walls, layers and the edges of their borders stay as they are without
-    /// it, but where it asks for shorter edges.
+    /// Growth of sizes per unit of distance from walls, borders and sources, in place of SizingOptions::gradation. A
+    /// background mesh that has one, such as that of solution_sizes(), decides on all sizes beyond the layers: the wakes
+    /// that the flow before the mesh finds are left out. Walls, layers and the edges of their borders stay as they are
+    /// without it, but where it asks for shorter edges.
     std::optional<double> gradation{};
 };
 

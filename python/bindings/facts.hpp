@@ -1,4 +1,4 @@
-// What is known about a mesh and the run that made it, as dictionaries.
+// Functions that describe a mesh, and the run that made it, as dictionaries.
 #pragma once
 
 #include <vector>

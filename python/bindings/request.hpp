@@ -1,4 +1,4 @@
-// What mesh() is asked for: the options of the library, and those that the module has beside them.
+// The arguments of mesh(): the options of the library, and those that the module has beside them.
 #pragma once
 
 #include <string>

@@ -28,7 +28,7 @@ struct BatchSettings {
     bool strict = false;            ///< whether warnings make a job fail
 };
 
-/// What became of the jobs.
+/// The numbers of jobs by their outcome.
 struct BatchOutcome {
     std::size_t done = 0;    ///< number of jobs that were done now
     std::size_t kept = 0;    ///< number of those that were done by an earlier run

@@ -14,7 +14,7 @@
 
 namespace lamina::app {
 
-/// Where the mesh of a run goes, beside its report and its table of wall data.
+/// The destination of the mesh of a run. The report and the table of wall data are no part of it.
 struct MeshDestination {
     std::vector<RunFile> files;                                 ///< that are written
     std::function<void()> require_writable;                     ///< throws where they certainly cannot be written

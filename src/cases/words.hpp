@@ -1,4 +1,4 @@
-// What takes the place of the placeholders in the files of a case.
+// The words that take the place of the placeholders in the files of a case.
 #pragma once
 
 #include <string>

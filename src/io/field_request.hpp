@@ -8,7 +8,7 @@
 
 namespace lamina::io {
 
-/// What is read of an array.
+/// The part of an array that a field takes.
 enum class FieldPart {
     scalar,     ///< its only component
     component,  ///< one of several

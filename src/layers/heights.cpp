@@ -50,15 +50,15 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
     const std::vector<double> front = heights_of_isotropy(set, unstretched, least, growth.fineness);
     const std::vector<double> max_spacings =
         least.empty() ? std::vector<double>(front.size(), HUGE_VAL) : largest_spacings(set, front, growth.fineness);
-    constexpr double extra = 2;  // times the front: more layers than are kept there on narrow columns
-    const auto heights_on = [&](std::size_t i, double fronts) {
-        return heights_up_to(fronts * front[i], set.lines[i].opening, max_spacings[i], unstretched);
-    };
+    constexpr double fronts = 2;  // so far: narrow columns may keep more layers than their own
+    std::vector<std::vector<double>> heights;
+    heights.reserve(front.size());
+    for (std::size_t i = 0; i < front.size(); ++i)
+        heights.push_back(heights_up_to(fronts * front[i], set.lines[i].opening, max_spacings[i], unstretched));
     std::vector<std::uint32_t> layers;
     layers.reserve(front.size());
     for (std::size_t i = 0; i < front.size(); ++i)
-        layers.push_back(set.lines[i].place == RayPlace::wake_end ? 0
-                                                                  : layers_up_to(front[i], heights_on(i, 1)).layers);
+        layers.push_back(set.lines[i].place == RayPlace::wake_end ? 0 : layers_up_to(front[i], heights[i]).layers);
     if (std::any_of(layers.begin(), layers.end(), [](auto n) { return n >= max_automatic_layers; }))
         throw OptionError("layers", fmt::format("more than {} layers up to isotropy: give a larger growth, a thickness "
                                                 "or their number",
@@ -68,9 +68,8 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
         std::vector<ColumnEnd> ends;
         ends.reserve(front.size());
         for (std::size_t i = 0; i < front.size(); ++i) {
-            const std::vector<double> heights = heights_on(i, extra);
-            const double last = layers[i] > 0 ? heights[layers[i]] - heights[layers[i] - 1] : 0.0;
-            ends.push_back({front[i], last, layer_count(heights)});
+            const std::uint32_t n = layers[i];
+            ends.push_back({front[i], n > 0 ? heights[i][n] - heights[i][n - 1] : 0.0, layer_count(heights[i])});
         }
         keep_counts_on_narrow_columns(set, ends, layers);
         limit_count_differences(set, layers);
@@ -79,10 +78,9 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
     std::vector<HeightColumn> columns;
     columns.reserve(layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const std::vector<double> heights = heights_on(i, extra);
-        const double stretch = stretch_of_layers(front[i], heights, layers[i]);
+        const double stretch = stretch_of_layers(front[i], heights[i], layers[i]);
         columns.push_back({table.size(), layers[i], ray_growth, stretch, 1, max_spacings[i], set.lines[i].opening});
-        table.insert(table.end(), heights.begin(), heights.begin() + layers[i] + 1);
+        table.insert(table.end(), heights[i].begin(), heights[i].begin() + layers[i] + 1);
         stretch_heights(stretch, std::span(table).subspan(columns.back().first));
     }
     return LayerHeights(std::move(table), std::move(columns));
