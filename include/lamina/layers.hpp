@@ -167,12 +167,19 @@ struct RayLine {
     double least_height = 0;          ///< that of its column: LayerGrowth::least_heights or WakePoint
 };
 
+/// What makes a column of layers end at a given height: layer n > above is `factor` to the power of n - above times as
+/// high as the growth law makes it. Layers up to `above` keep their heights.
+struct Stretch {
+    double factor = 1;        ///< within max_stretch of 1; 1 where nothing is stretched
+    std::uint32_t above = 0;  ///< at least 1 where anything is stretched: the first layer never is
+};
+
 /// The column of heights on one ray: a part of LayerHeights::table().
 struct HeightColumn {
     std::size_t first = 0;          ///< index in the table where the column begins
     std::uint32_t layers = 0;       ///< number of layers requested
     double growth = 0;              ///< as Ray::growth
-    double stretch = 1;             ///< as Ray::stretch
+    Stretch stretch;                ///< as Ray::stretch
     double slant = 1;               ///< as Ray::slant
     double max_spacing = HUGE_VAL;  ///< as Ray::max_spacing
     double opening = 1;             ///< as Ray::opening
@@ -291,8 +298,8 @@ LAMINA_EXPORT void validate(const BorderOptions& options);
 /// the edges.
 inline constexpr double max_slant = 2;
 
-/// On a ray that is cut short, the growth differs from the requested growth by at most this factor.
-inline constexpr double max_stretch = 1.019;
+/// Where the layers of a ray are stretched, their growth differs from the requested growth by at most this factor.
+inline constexpr double max_stretch = 1.04;
 
 /// A line of layer points that leaves the wall.
 struct Ray {
@@ -303,10 +310,9 @@ struct Ray {
     double growth;            ///< r of GrowthLaw on this ray; e^(a/N) for the exponential law
     std::size_t first_point;  ///< Layer::points[first_point + n] lies at the top of layer n + 1
     double height_limit;      ///< no point lies beyond this height; infinite where nothing is in the way
-    /// The growth law gives the ratio of each spacing to the one below; the ray's own ratio is `stretch` times that.
-    /// `stretch` is 1 on rays with all the layers of a requested number. On the others it is within max_stretch of 1,
-    /// and lets the layers end at the limit or, where no number is requested, at the height of isotropy.
-    double stretch = 1;
+    /// Rays with all the layers of a requested number are not stretched. The upper halves of others are, so that they
+    /// end at the limit or, where no number is requested, at the height of isotropy.
+    Stretch stretch;
     /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
     /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
     double slant = 1;

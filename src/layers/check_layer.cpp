@@ -193,10 +193,10 @@ private:
         for (double& height : heights) height *= ray.slant;
         if (!(ray.slant >= 1 && ray.slant <= max_slant))
             report(fmt::format("ray has a slant of {}", ray.slant), origin);
-        if (ray.stretch != 1 && std::isinf(ray.height_limit) && growth.layers)
+        if (ray.stretch.factor != 1 && std::isinf(ray.height_limit) && growth.layers)
             report("ray is stretched without a limit", origin);
-        if (!(ray.stretch <= max_stretch && ray.stretch * max_stretch >= 1 - 1e-12))
-            report(fmt::format("ray is stretched by {}", ray.stretch), origin);
+        if (!(ray.stretch.factor <= max_stretch && ray.stretch.factor * max_stretch >= 1 - 1e-12))
+            report(fmt::format("ray is stretched by {}", ray.stretch.factor), origin);
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {
             const VertexId v = ray.vertex(n);
             if (distance(at(v), origin + heights[n] * ray.direction) > 1e-11 * heights[n] + rounding)

@@ -7,7 +7,15 @@
 //   .  __|           |__  .          . /                 \ .
 //         fixed heights                   fitted heights
 //
-// A growth that differs by some per mille, the less the more layers there are, makes a layer end at the limit.
+// A growth that differs by some per mille, the less the more layers there are, makes a layer end at the limit. It
+// differs in the upper half of the layers alone. Cells near the wall are a thousand times as long as high, so where their
+// ends differ in height by one more per mille from row to row, the middles of neighbouring rows shift against each other
+// by more than the rows are high, and faces are far from orthogonal:
+//
+//      _________________              _________________
+//     |_________________|            |_________________|        Left: rows whose ends differ by more from row to row.
+//     |_____.-----------|            |_________________|        Right: rows that differ alike, as rows of the same
+//     |-----____________|            |_________________|        heights do everywhere.
 #include "layers/fit_heights.hpp"
 
 #include <algorithm>
@@ -19,25 +27,24 @@ namespace lamina::layers {
 
 namespace {
 
-/// Returns the height of layer n of a column whose spacings are stretched.
-double stretched_height(std::span<const double> heights, std::uint32_t n, double stretch) {
-    double height = 0, factor = 1;
-    for (std::uint32_t k = 0; k < n; ++k) {
-        height += factor * (heights[k + 1] - heights[k]);
-        factor *= stretch;
+/// Returns the last layer below those that are stretched: half of the layers keep their heights, and so does the first.
+std::uint32_t last_unstretched(std::uint32_t layers) { return std::max(layers / 2, std::uint32_t{1}); }
+
+/// Returns the height of the topmost of n layers if they are stretched.
+double stretched_height(std::span<const double> heights, std::uint32_t n, double factor) {
+    const std::uint32_t kept = std::min(last_unstretched(n), n);
+    double height = heights[kept], product = 1;
+    for (std::uint32_t k = kept; k < n; ++k) {
+        product *= factor;
+        height += product * (heights[k + 1] - heights[k]);
     }
     return height;
 }
 
-/// Bounds of a stretch.
-struct StretchBounds {
+/// Returns the largest factor up to max_stretch with which layer n ends at or below the height; 1 / max_stretch if there
+/// is none.
+double max_factor_below(double height, std::span<const double> heights, std::uint32_t n) {
     double low = 1 / max_stretch, high = max_stretch;
-};
-
-/// Returns the largest stretch within the bounds with which layer n ends at or below the height; the lower bound if
-/// there is none.
-double max_stretch_below(double height, std::span<const double> heights, std::uint32_t n, const StretchBounds& bounds) {
-    double low = bounds.low, high = bounds.high;
     if (stretched_height(heights, n, high) <= height) return high;
     for (int halving = 0; halving < 48; ++halving) {
         const double middle = 0.5 * (low + high);
@@ -46,60 +53,60 @@ double max_stretch_below(double height, std::span<const double> heights, std::ui
     return low;
 }
 
-/// Returns the better of two: either the layers that fit as they are grow towards the height, or they shrink until one
-/// more fits.
-StretchedLayers layers_within(double height, std::span<const double> heights, const StretchBounds& bounds) {
-    const auto first_above = std::upper_bound(heights.begin(), heights.end(), height);
-    const auto fitting = static_cast<std::uint32_t>(first_above - heights.begin()) - 1;
-    if (fitting == 0 || heights[fitting] == height) return {fitting, 1};
-    const double grown = max_stretch_below(height, heights, fitting, bounds);
-    if (fitting + std::size_t{1} == heights.size()) return {fitting, grown};
-    const double shrunk = max_stretch_below(height, heights, fitting + 1, bounds);
-    const bool one_more = stretched_height(heights, fitting + 1, shrunk) <= height;
-    const bool shrunk_less = grown == bounds.high || grown * shrunk > 1;
-    return one_more && shrunk_less ? StretchedLayers{fitting + 1, shrunk} : StretchedLayers{fitting, grown};
-}
-
 }  // namespace
 
-void stretch_heights(double stretch, std::span<double> heights) {
-    double height_below = heights[0], height = 0, factor = 1;
-    for (double& h : heights.subspan(1)) {
-        height += factor * (h - height_below);
-        factor *= stretch;
+void stretch_heights(const Stretch& stretch, std::span<double> heights) {
+    if (stretch.factor == 1 || heights.size() <= stretch.above) return;
+    double height_below = heights[stretch.above], height = height_below, product = 1;
+    for (double& h : heights.subspan(stretch.above + std::size_t{1})) {
+        product *= stretch.factor;
+        height += product * (h - height_below);
         height_below = h;
         h = height;
     }
 }
 
 StretchedLayers layers_up_to(double height, std::span<const double> heights) {
-    return layers_within(height, heights, {});
+    // Either the layers that fit as they are grow towards the height, or they shrink until one more fits.
+    const auto first_above = std::upper_bound(heights.begin(), heights.end(), height);
+    const auto fitting = static_cast<std::uint32_t>(first_above - heights.begin()) - 1;
+    if (fitting == 0 || heights[fitting] == height) return {fitting, {}};
+    const double grown = max_factor_below(height, heights, fitting);
+    const StretchedLayers as_many{fitting, {grown, last_unstretched(fitting)}};
+    if (fitting + std::size_t{1} == heights.size()) return as_many;
+    const double shrunk = max_factor_below(height, heights, fitting + 1);
+    const bool one_more = stretched_height(heights, fitting + 1, shrunk) <= height;
+    const bool shrunk_less = grown == max_stretch || grown * shrunk > 1;
+    if (!one_more || !shrunk_less) return as_many;
+    return {fitting + 1, {shrunk, last_unstretched(fitting + 1)}};
 }
 
-double stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n) {
-    if (n < 2 || heights[n] == height) return 1;
-    return max_stretch_below(height, heights, n, {});
+Stretch stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n) {
+    if (n < 2 || heights[n] == height) return {};
+    return {max_factor_below(height, heights, n), last_unstretched(n)};
 }
 
 LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> limits) {
+    std::vector<std::vector<double>> refitted(limits.size());
     std::vector<HeightColumn> columns(limits.size());
-    std::vector<double> extra(limits.size(), 1.0);  // stretch beside the one that a column has already
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             columns[i] = heights.column(i);
             if (limits[i] >= heights.full_height(i)) continue;
-            const double own = columns[i].stretch;
-            extra[i] = layers_within(limits[i], heights.of(i), {1 / (max_stretch * own), max_stretch / own}).stretch;
-            columns[i].stretch = std::clamp(own * extra[i], 1 / max_stretch, max_stretch);
+            const Stretch own = columns[i].stretch;
+            std::vector<double> column(heights.of(i).begin(), heights.of(i).end());
+            stretch_heights({1 / own.factor, own.above}, column);
+            columns[i].stretch = layers_up_to(limits[i], column).stretch;
+            if (own.factor == 1 && columns[i].stretch.factor == 1) continue;
+            stretch_heights(columns[i].stretch, column);
+            refitted[i] = std::move(column);
         }
     });
     std::vector<double> table = heights.table();
     for (std::size_t i = 0; i < limits.size(); ++i) {
-        if (extra[i] == 1) continue;
+        if (refitted[i].empty()) continue;
         columns[i].first = table.size();
-        const std::span<const double> fixed = heights.of(i);
-        table.insert(table.end(), fixed.begin(), fixed.end());
-        stretch_heights(extra[i], std::span(table).subspan(columns[i].first));
+        table.insert(table.end(), refitted[i].begin(), refitted[i].end());
     }
     return LayerHeights(std::move(table), std::move(columns));
 }

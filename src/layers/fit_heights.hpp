@@ -7,22 +7,23 @@
 
 namespace lamina::layers {
 
-/// Multiplies the n-th spacing, n >= 0, by stretch^n. heights[0] = 0 is the wall.
-void stretch_heights(double stretch, std::span<double> heights);
+/// Stretches a column. heights[0] = 0 is the wall.
+void stretch_heights(const Stretch& stretch, std::span<double> heights);
 
 /// A number of layers, and the stretch with which they end at a given height.
 struct StretchedLayers {
     std::uint32_t layers;
-    double stretch;
+    Stretch stretch;
 };
 
 /// Returns the layers that end at `height` with the stretch that is nearest to 1, or, where that would take more than
-/// max_stretch, end next to it below. heights: those of unstretched layers, heights[0] = 0 and heights[1] <= height.
+/// max_stretch, end next to it below. The lower half of the layers is not stretched. heights: those of unstretched
+/// layers, heights[0] = 0 and heights[1] <= height.
 StretchedLayers layers_up_to(double height, std::span<const double> heights);
 
-/// Returns the largest stretch up to max_stretch with which n layers end at `height` or below; 1 / max_stretch if there
-/// is none, and 1 for one layer, whose height no stretch changes.
-double stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n);
+/// Returns the largest stretch, by up to max_stretch, with which n layers end at `height` or below; by 1 / max_stretch if
+/// there is none, and none for one layer, whose height no stretch changes.
+Stretch stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n);
 
 /// Returns the heights, where the columns of rays that are cut short are stretched. A ray is cut short if its limit is
 /// below the height of all its layers. Its stretch makes a layer end at the limit, or, where that would take more than

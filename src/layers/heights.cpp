@@ -78,7 +78,7 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
     std::vector<HeightColumn> columns;
     columns.reserve(layers.size());
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        const double stretch = stretch_of_layers(front[i], heights[i], layers[i]);
+        const Stretch stretch = stretch_of_layers(front[i], heights[i], layers[i]);
         columns.push_back({table.size(), layers[i], ray_growth, stretch, 1, max_spacings[i], set.lines[i].opening});
         table.insert(table.end(), heights[i].begin(), heights[i].begin() + layers[i] + 1);
         stretch_heights(stretch, std::span(table).subspan(columns.back().first));

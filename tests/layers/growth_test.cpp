@@ -148,7 +148,7 @@ TEST(GrowthLaw, PlacesLayersAtTheirHeights) {
             SCOPED_TRACE(static_cast<int>(law));
             const Layer layer = checked_layer(outline, options);
             for (const Ray& ray : layer.rays[0]) {
-                if (ray.layers < ray.requested || ray.stretch != 1) continue;
+                if (ray.layers < ray.requested || ray.stretch.factor != 1) continue;
                 double height = 0;
                 LayerOptions own = options;
                 if (layers::growth_law_entry(law).by_spacing) own.growth = ray.growth;
@@ -181,7 +181,7 @@ void expect_smooth_heights(const Layer& layer, double growth = 1) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
             if (ray.layers < ray.requested || next.layers < next.requested) continue;
-            if (ray.stretch != 1 || next.stretch != 1) continue;
+            if (ray.stretch.factor != 1 || next.stretch.factor != 1) continue;
             const auto height = [&](const Ray& r) {
                 return distance(layer.points[r.origin.index()], layer.points[r.tip().index()]);
             };

@@ -43,7 +43,8 @@ void expect_heights(const Layer& layer, const LayerOptions& options) {
                 if (n == 1) {
                     ASSERT_NEAR(spacing / (ray.slant * test::first_height(options)), 1, 1e-9 + rounding);
                 } else {
-                    ASSERT_NEAR(spacing / spacing_below, options.growth * ray.stretch, 1e-9 + 4 * rounding);
+                    const double stretch = n > ray.stretch.above ? ray.stretch.factor : 1;
+                    ASSERT_NEAR(spacing / spacing_below, options.growth * stretch, 1e-9 + 4 * rounding);
                 }
                 spacing_below = spacing;
             }
