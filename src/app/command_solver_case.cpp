@@ -10,6 +10,7 @@
 #include <lamina/solver_case.hpp>
 
 #include "app/commands.hpp"
+#include "app/family_run.hpp"
 #include "app/mesh_command_options.hpp"
 #include "app/mesh_run.hpp"
 #include "app/options.hpp"
@@ -24,6 +25,7 @@ struct CaseArguments {
     std::string solver, folder, turbulence;
     bool overwrite = false;
     GivenOptions mesh;
+    std::shared_ptr<FamilyArguments> family;
 };
 
 FlowSolver solver_of_name(const std::string& name) {
@@ -82,7 +84,12 @@ void make_case(const CaseArguments& arguments) {
     require_consistent(mesh_case);
     if (const FlowConditions& flow = mesh_case.options.conditions; !flow.reynolds && !flow.velocity)
         throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
-    run_mesh(mesh_case, destination_of_case(solver, mesh_case, options));
+    if (arguments.family->levels == 1) {
+        run_mesh(mesh_case, destination_of_case(solver, mesh_case, options));
+        return;
+    }
+    run_family(*arguments.family, mesh_case,
+               [&](const MeshCase& level) { return destination_of_case(solver, level, options); });
 }
 
 }  // namespace
@@ -95,7 +102,9 @@ void add_case_command(CLI::App& app) {
                      "openfoam: simpleFoam, run by DIR/Allrun; su2: SU2_CFD, run with DIR/case.cfg")
         ->required()
         ->type_name("openfoam|su2");
-    command->add_option("-o,--output", arguments->folder, "folder to write the mesh and the case into")
+    command
+        ->add_option("-o,--output", arguments->folder,
+                     "folder to write the mesh and the case into; of several levels: {level} stands for the number")
         ->type_name("DIR")
         ->group("Case");
     add_table_option(*command, solver_case_option_table(), "turbulence", arguments->turbulence)->group("Case");
@@ -103,6 +112,9 @@ void add_case_command(CLI::App& app) {
         ->add_flag("--overwrite", arguments->overwrite,
                    help_with_range(find_row(solver_case_option_table(), "overwrite")))
         ->group("Case");
+    arguments->family = add_family_options(*command, 1);
+    for (const char* const name : {"--ratio", "--base-level", "--table"})
+        command->get_option(name)->needs(command->get_option("--levels"));
     arguments->mesh = add_mesh_options(*command, {"output", "format", "wall-distance"});
     command->callback([arguments] { make_case(*arguments); });
 }

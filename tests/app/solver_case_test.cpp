@@ -1,4 +1,5 @@
 // lamina case: what it writes, what it refuses, and that OpenFOAM runs it where it is installed.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -56,6 +57,23 @@ TEST(SolverCaseCommand, WritesSu2WithAFarFieldForAUniformStream) {
     double farthest = 0;
     for (const Point p : mesh.points) farthest = std::max(farthest, std::abs(p.y));
     EXPECT_NEAR(farthest, 500, 1);
+}
+
+TEST(SolverCaseCommand, WritesAFamilyOfCases) {
+    const TemporaryFolder folder;
+    Words words = small_case("openfoam", {"--levels", "2", "--base-level", "1"});
+    *std::find(words.begin(), words.end(), "c") = "c{level}";
+    const ProgramRun run = run_lamina(folder, words);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const Mesh coarse = read_mesh(folder / "c0"), fine = read_mesh(folder / "c1");
+    EXPECT_TRUE(check_mesh(coarse).valid() && check_mesh(fine).valid());
+    EXPECT_GT(fine.points.size(), 1.5 * static_cast<double>(coarse.points.size()));
+    for (const char* file : {"c0/Allrun", "c1/Allrun", "cfamily.csv"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
+
+    const ProgramRun again = run_lamina(folder, words);
+    EXPECT_EQ(again.exit_code, usage) << "the cases are there already";
+    EXPECT_EQ(run_lamina(folder, small_case("su2", {"--levels", "2"})).exit_code, usage) << "one folder for both";
+    EXPECT_EQ(run_lamina(folder, small_case("su2", {"--ratio", "2"})).exit_code, usage) << "a ratio of one level";
 }
 
 TEST(SolverCaseCommand, OptionsOfTheMeshOverrideWhatTheSolverPrefers) {
