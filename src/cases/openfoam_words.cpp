@@ -18,6 +18,15 @@ std::string condition(const std::string& type, const std::string& value) {
     return fmt::format("type            {};\n        value           {};", type, value);
 }
 
+/// Returns the entries that sample the faces of each wall.
+std::string wall_surfaces(const std::vector<std::string>& walls) {
+    std::string entries;
+    for (const std::string& wall : walls)
+        entries +=
+            fmt::format("{}            {} {{ type patch; patches ({}); }}", entries.empty() ? "" : "\n", wall, wall);
+    return entries;
+}
+
 /// Adds what the turbulence models need: conditions upstream and at walls.
 void add_turbulence(const CaseFlow& flow, Words& words) {
     const double nu = flow.viscosity;
@@ -51,6 +60,8 @@ Words openfoam_words(const CaseFlow& flow) {
                                  flow.alpha_deg, flow.chord);
     words["FAR_FIELD"] = flow.far_fields.size() > 1 ? "\"(" + far_fields + ")\"" : far_fields;
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
+    words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, " "));
+    words["WALL_SURFACES"] = wall_surfaces(flow.walls);
     words["VELOCITY_VECTOR"] = vector(u, v);
     words["VELOCITY"] = number(flow.velocity);
     words["NU"] = number(flow.viscosity);

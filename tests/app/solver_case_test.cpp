@@ -1,6 +1,7 @@
 // lamina case: what it writes, what it refuses, and that OpenFOAM runs it where it is installed.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -141,6 +142,45 @@ std::vector<double> column_of(const fs::path& file, const std::string& name) {
     return values;
 }
 
+/// Returns the lift coefficient that pressure and skin friction at the walls' faces have together, at a chord of 1.
+double lift_of_wall_table(const fs::path& file, const Mesh& mesh, double alpha_deg) {
+    struct Row {
+        Point at;
+        double cp, cf_x, cf_y;
+    };
+    std::vector<Row> rows;
+    std::ifstream lines(file);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "wall,x,y,cp,cf_x,cf_y,y_plus");
+    while (std::getline(lines, line)) {
+        Row row{};
+        double y_plus = 0;
+        EXPECT_EQ(std::sscanf(line.c_str(), "airfoil,%lf,%lf,%lf,%lf,%lf,%lf", &row.at.x, &row.at.y, &row.cp, &row.cf_x,
+                              &row.cf_y, &y_plus),
+                  6)
+            << line;
+        rows.push_back(row);
+    }
+    Point force{0, 0};
+    for (const Marker& marker : mesh.markers) {
+        if (marker.kind != MarkerKind::wall) continue;
+        EXPECT_EQ(rows.size(), marker.edges.size());
+        for (const auto& edge : marker.edges) {
+            // The mesh is on the left of its boundary edges, and the wall on the right.
+            const Point a = mesh.points[edge.a.index()], b = mesh.points[edge.b.index()], middle = 0.5 * (a + b);
+            const auto nearest = std::min_element(rows.begin(), rows.end(), [&](const Row& r, const Row& s) {
+                return distance(r.at, middle) < distance(s.at, middle);
+            });
+            EXPECT_LT(distance(nearest->at, middle), 1e-9);
+            force = force + nearest->cp * Point{b.y - a.y, a.x - b.x} +
+                    distance(a, b) * Point{nearest->cf_x, nearest->cf_y};
+        }
+    }
+    const double alpha = alpha_deg * std::acos(-1) / 180;
+    return force.y * std::cos(alpha) - force.x * std::sin(alpha);
+}
+
 // First order, then one block of second order: enough to see that files fit each other and residuals fall.
 TEST(SolverCaseCommand, OpenFoamRunsTheCase) {
     if (std::system("command -v simpleFoam >/dev/null 2>&1") != 0)
@@ -159,6 +199,7 @@ TEST(SolverCaseCommand, OpenFoamRunsTheCase) {
         const auto result = nlohmann::json::parse(folder.read("c/result.json"));
         EXPECT_EQ(result["iterations"], 350);
         EXPECT_NEAR(result["CL"], 0.43, 0.06);
+        EXPECT_NEAR(lift_of_wall_table(folder / "c/walls.csv", mesh, 4), result["CL"], 0.01);
         EXPECT_GT(result["CD"], 0.005);
         EXPECT_LT(result["CD"], 0.03);
         EXPECT_GT(result["y_plus"]["airfoil"]["largest"], 0.2);
