@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+"""Makes families of cases of OpenFOAM with lamina, runs them, and writes a page with tables and pictures.
+
+  solver_validation.py LAMINA FOLDER PAGE [--levels N] [--jobs N] [--iterations N] [--high-lift SLAT MAIN FLAP]
+
+FOLDER holds the cases. What is steady there already is not run again, so that an interrupted run goes on. PAGE is a
+Markdown file; pictures go into the folder images beside it. Needs simpleFoam, NumPy and matplotlib.
+"""
+import argparse
+import concurrent.futures
+import csv
+import datetime
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+# NASA's Turbulence Modeling Resource: NACA 0012 in incompressible flow and the 2-D CRM-HL, Spalart-Allmaras.
+REFERENCES = {0: (None, 0.0082), 10: (1.0786, 0.0123), 15: (1.5287, 0.0212)}
+HIGH_LIFT_REFERENCE = (3.803, 0.0605)
+SECTION, REYNOLDS = "naca:0012:extended", 6e6
+
+
+class Study:
+    """A family of cases at one angle of attack."""
+
+    def __init__(self, title, name, inputs, reynolds, alpha, reference, more=()):
+        self.title, self.name, self.alpha, self.reference = title, name, alpha, reference
+        self.arguments = [*inputs, "--reynolds", f"{reynolds:g}", "--alpha", f"{alpha:g}", *more]
+        self.inputs, self.reynolds = inputs, reynolds
+
+    def make(self, program, folder, levels):
+        """Writes the cases, the last one with what lamina makes of no further option."""
+        self.cases = [folder / f"{self.name}_{level}" for level in range(levels)]
+        self.table = folder / f"{self.name}_family.csv"
+        if not all(case.is_dir() for case in self.cases) or not self.table.exists():
+            subprocess.run([program, "case", "openfoam", *self.arguments, "--levels", str(levels), "--base-level",
+                            str(levels - 1), "-o", str(folder / f"{self.name}_{{level}}"), "--overwrite", "--quiet"],
+                           check=True)
+
+    def read(self):
+        """Reads what the runs left: one dictionary per level."""
+        with open(self.table, newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.levels = []
+        for case, row in zip(self.cases, rows):
+            level = json.loads((case / "result.json").read_text())
+            level.update(cells=int(row["cells"]), h=float(row["h_over_finest"]), mesh=mesh_check(case / "log.checkMesh"))
+            self.levels.append(level)
+
+
+def mesh_check(log):
+    """Returns what checkMesh measured, and its complaints."""
+    text = log.read_text()
+    number = lambda pattern: float(re.search(pattern + r"\s*=?:?\s*([0-9.e+-]+)", text).group(1))
+    return {"angle": number("non-orthogonality Max"), "mean_angle": number(r"average"),
+            "skewness": number("Max skewness"),
+            "complaints": sorted(set(re.findall(r"\*\*\*(.+?) found", text)))}
+
+
+def run_case(case, iterations):
+    """Runs a case unless it has a result, and returns what to say about it."""
+    if not (case / "result.json").exists():
+        subprocess.run([case / "Allclean"], check=True)
+        with open(case.with_suffix(".log"), "w") as log:
+            code = subprocess.run([case / "Allrun"], stdout=log, stderr=subprocess.STDOUT,
+                                  env={**os.environ, "ITERATIONS": str(iterations)}).returncode
+        if code not in (0, 2):  # 2: no steady state
+            raise RuntimeError(f"{case}/Allrun ended with exit code {code}: see {case.with_suffix('.log')}")
+    result = json.loads((case / "result.json").read_text())
+    return f"{case.name}: CL {result['CL']:.5f}, CD {result['CD']:.6f}, {result['iterations']} iterations"
+
+
+def order_and_limit(h, f):
+    """Returns observed order and extrapolated value of the three finest levels, or None where they do not converge
+    monotonically. Celik and others, J. Fluids Eng. 130, 2008."""
+    (h1, h2, h3), (f1, f2, f3) = h[-3:], f[-3:]
+    if (f1 - f2) * (f2 - f3) <= 0 or abs(f2 - f3) >= abs(f1 - f2):
+        return None
+    coarse, fine, wanted = h1 / h2, h2 / h3, (f1 - f2) / (f2 - f3)
+    ratio = lambda p: fine**p * (coarse**p - 1) / (fine**p - 1)
+    low, high = 1e-3, 20.0
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if ratio(middle) < wanted else (low, middle)
+    return low, f3 + (f3 - f2) / (fine**low - 1)
+
+
+def wall_table(case):
+    with open(case / "walls.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0] if name != "wall"}
+
+
+def split_sides(table):
+    """Returns the indices of the upper and the lower side of a symmetric section, each from its nose to its tail."""
+    order = np.argsort(table["x"])
+    return order[table["y"][order] > 0], order[table["y"][order] <= 0]
+
+
+def potential_flow(program, study, folder, lift):
+    """Returns the potential flow with this lift, as lamina flow computes it: x, pressure coefficient and skin friction
+    of each side. Viscosity takes lift away, so the angle is smaller."""
+    file = folder / f"{study.name}_flow.csv"
+
+    def at(alpha):
+        out = subprocess.run([program, "flow", *study.inputs, "--reynolds", f"{study.reynolds:g}", "--alpha",
+                              f"{alpha:.6g}", "-o", str(file)], check=True, capture_output=True, text=True).stdout
+        return float(re.search(r"lift coefficient ([-0-9.e]+)", out).group(1))
+
+    alpha = study.alpha
+    if alpha:
+        for _ in range(3):  # lift grows with the sine of the angle
+            alpha *= lift / at(alpha)
+    else:
+        at(0)
+    with open(file, newline="") as table:
+        rows = list(csv.DictReader(table))
+    return alpha, {side: np.array([[float(row["x"]), float(row["cp"]), float(row["skin_friction"])] for row in rows
+                                   if row["side"] == side]) for side in ("upper", "lower")}
+
+
+def draw_walls(program, studies, folder, picture):
+    """Draws pressure and skin friction of all levels over x, and beside them those of lamina flow."""
+    figure, axes = plt.subplots(2, len(studies), figsize=(4.2 * len(studies), 7), squeeze=False)
+    for column, study in enumerate(studies):
+        alpha, flow = potential_flow(program, study, folder, study.levels[-1]["CL"])
+        top, bottom = axes[0][column], axes[1][column]
+        for k, case in enumerate(study.cases):
+            table = wall_table(case)
+            colour = plt.cm.viridis(0.85 * (1 - k / max(1, len(study.cases) - 1)))
+            for n, side in enumerate(split_sides(table)):
+                label = f"{study.levels[k]['cells']:,} cells" if n == 0 else None
+                top.plot(table["x"][side], table["cp"][side], "-", color=colour, lw=1, label=label)
+                along = np.hypot(table["cf_x"], table["cf_y"]) * np.sign(table["cf_x"])
+                bottom.plot(table["x"][side], along[side], "-", color=colour, lw=1)
+        for n, values in enumerate(flow.values()):
+            top.plot(values[:, 0], values[:, 1], "k--", lw=0.8,
+                     label=f"lamina flow, {alpha:.2f} degrees" if n == 0 else None)
+            bottom.plot(values[:, 0], values[:, 2], "k--", lw=0.8)
+        top.invert_yaxis()
+        top.set_title(study.title, fontsize=10)
+        bottom.set_ylim(-0.002, 0.02 if study.alpha else 0.01)
+        bottom.set_xlabel("x / chord")
+        for axis in (top, bottom):
+            axis.grid(alpha=0.3)
+        top.legend(fontsize=7)
+    axes[0][0].set_ylabel("pressure coefficient")
+    axes[1][0].set_ylabel("skin friction coefficient")
+    figure.tight_layout()
+    figure.savefig(picture, dpi=110)
+    plt.close(figure)
+
+
+def error(value, reference):
+    return "" if reference is None else f" ({100 * (value / reference - 1):+.2f} %)"
+
+
+def table_of(study):
+    lines = [f"### {study.title}", "",
+             "| cells | h / finest | CL | CD | largest y+ | iterations |", "|---:|---:|---:|---:|---:|---:|"]
+    lift, drag = study.reference
+    for level in study.levels:
+        y_plus = max(wall["largest"] for wall in level["y_plus"].values())
+        steady = "" if level["steady"] else " (not steady)"
+        lines.append(f"| {level['cells']:,} | {level['h']:.3f} | {level['CL']:.4f}{error(level['CL'], lift)} | "
+                     f"{level['CD']:.6f}{error(level['CD'], drag)} | {y_plus:.2f} | {level['iterations']}{steady} |")
+    cells = []
+    for name, reference in (("CL", lift), ("CD", drag)):
+        limit = None
+        if len(study.levels) >= 3 and reference:
+            limit = order_and_limit([l["h"] for l in study.levels], [l[name] for l in study.levels])
+        cells.append(f"{limit[1]:.6g}{error(limit[1], reference)}, order {limit[0]:.1f}" if limit else "")
+    lines.append(f"| Richardson | 0 | {cells[0]} | {cells[1]} | | |")
+    lines.append(f"| reference | | {lift or 0} | {drag} | | |")
+    return lines + [""]
+
+
+def page(studies, picture, command, version):
+    today = datetime.date.today().isoformat()
+    lines = ["# Validation", "",
+             f"`./dev test-solvers` wrote this page on {today}, with simpleFoam ({version}), from cases of",
+             "`lamina case openfoam` with no options but those of the flow. The coarser levels are those of",
+             "`--levels`. References are those of NASA's Turbulence Modeling Resource (Spalart-Allmaras; NACA 0012",
+             "in incompressible flow).", "", "```", command, "```", "", "## Forces", ""]
+    for study in studies:
+        lines += table_of(study)
+    lines += ["An order is that of the three finest levels, where they converge monotonically. \"Not steady\": drag or",
+              "lift went on changing by more than 0.05 % within 200 iterations; the means of the last 200 are given.", "",
+              "## Walls", "",
+              "Pressure and skin friction at the faces of the walls, and the potential flow with the integral boundary",
+              "layer that lamina meshes by (`lamina flow`), at the angle that has the same lift. It ends where it finds",
+              "the flow separated.", "", f"![Pressure and skin friction](images/{picture.name})", "",
+              "## What checkMesh says", "",
+              "| case | cells | largest non-orthogonality | mean | largest skewness | complaints |",
+              "|---|---:|---:|---:|---:|---|"]
+    for study in studies:
+        for level in study.levels:
+            mesh = level["mesh"]
+            lines.append(f"| {study.title} | {level['cells']:,} | {mesh['angle']:.1f} | {mesh['mean_angle']:.1f} | "
+                         f"{mesh['skewness']:.2f} | {', '.join(mesh['complaints']) or 'none'} |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("page", type=pathlib.Path)
+    parser.add_argument("--levels", type=int, default=3)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--iterations", type=int, default=4000)
+    parser.add_argument("--high-lift", nargs=3, metavar=("SLAT", "MAIN", "FLAP"),
+                        help="the 2-D CRM-HL, too, which takes hours")
+    arguments = parser.parse_args()
+    folder = arguments.folder.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+
+    sections = [Study(f"NACA 0012, {alpha} degrees", f"naca0012_{alpha}", [SECTION], REYNOLDS, alpha, reference)
+                for alpha, reference in REFERENCES.items()]
+    studies = list(sections)
+    if arguments.high_lift:
+        studies.append(Study("CRM-HL, 16 degrees", "crmhl", arguments.high_lift, 5e6, 16, HIGH_LIFT_REFERENCE,
+                             ["--chord", "1"]))
+    for study in studies:
+        study.make(arguments.program, folder, arguments.levels)
+    # The finest take longest and go first.
+    cases = sorted((case for study in studies for case in study.cases), key=lambda case: case.name[-1], reverse=True)
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        for text in pool.map(lambda case: run_case(case, arguments.iterations), cases):
+            print(text, flush=True)
+    for study in studies:
+        study.read()
+    picture = arguments.page.parent / "images" / "validation-walls.png"
+    picture.parent.mkdir(parents=True, exist_ok=True)
+    draw_walls(arguments.program, sections, folder, picture)
+    log = (sections[0].cases[-1] / "log.simpleFoam").read_text()
+    version = "OpenFOAM " + re.search(r"OPENFOAM=(\S+)", log).group(1)
+    command = "./dev test-solvers" + (" --high-lift SLAT MAIN FLAP" if arguments.high_lift else "")
+    arguments.page.write_text(page(studies, picture, command, version))
+    print(f"wrote {arguments.page} and {picture}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
