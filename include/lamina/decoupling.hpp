@@ -3,7 +3,9 @@
 // Chrisochoides, SIAM J. Sci. Comput. 27 (2006).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +31,10 @@ struct FarFieldOptions {
     FarFieldShape shape = FarFieldShape::box;  ///< which of the other members count
     Length size = 100;                         ///< half-width of the box or radius of the circle
     std::vector<Point> outline{};              ///< corners of the polygon, counter-clockwise, in units of the input
+    /// Height of a wind tunnel, whose floor and ceiling are slip walls: the box is as high as this. Its floor is the
+    /// ground where there is one, and else the configuration is in the middle.
+    std::optional<Length> tunnel{};
+    std::optional<Length> ground{};  ///< distance of flat ground, a slip wall, below the lowest point
 };
 
 /// Returns the table of these options, with names, ranges and help.
@@ -48,13 +54,15 @@ struct FarField {
     Point center;                              ///< middle of the configuration
     double radius = 0;                         ///< half-width of the box or radius of the circle
     std::vector<Point> outline{};              ///< corners of the polygon
+    double floor = -HUGE_VAL;                  ///< y of the slip wall below: ground, or the floor of a tunnel
+    double ceiling = HUGE_VAL;                 ///< y of the slip wall above: the ceiling of a tunnel
 
     /// Returns the box round the far field.
     LAMINA_EXPORT Box box() const;
 };
 
 /// Places the far field round the box of all bodies; `chord` is the reference chord. Throws OptionError where an option
-/// is out of range, and where an outline does not enclose the middle of that box.
+/// is out of range, where an outline does not enclose the middle of that box, and where a tunnel does not enclose it.
 LAMINA_EXPORT FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions& options = {});
 
 /// How separators between subdomains are divided into segments.

@@ -69,8 +69,8 @@ struct CaseOptions {
 /// of the command line.
 LAMINA_EXPORT const OptionTable<CaseOptions>& case_option_table();
 
-/// Throws OptionError where an option of any stage is out of range, and where a y+ or the use of the flow lacks its
-/// Reynolds number.
+/// Throws OptionError where an option of any stage is out of range, where a y+ or the use of the flow lacks its Reynolds
+/// number, and where the flow is to cross the slip walls of a tunnel or the ground.
 LAMINA_EXPORT void validate(const CaseOptions& options);
 
 /// Returns the options of a mesh that is similar to that of these options, with all lengths divided by `ratio`; below 1
@@ -117,6 +117,10 @@ LAMINA_EXPORT Mesh assemble(const Geometry& geometry, const Layer& layer, LayerC
 /// rest. Either is left out where it has no edge. Throws OptionError where another marker has
 /// one of these names.
 LAMINA_EXPORT void split_far_field(Mesh& mesh, double alpha_deg);
+
+/// Takes the edges on slip walls out of the markers that are far fields, and gives them the markers `ground` (the floor
+/// where `has_ground`) and `tunnel`, of the kind symmetry. Throws OptionError where a marker has one of these names.
+LAMINA_EXPORT void mark_slip_walls(Mesh& mesh, const FarField& far_field, bool has_ground);
 
 /// Wall-clock seconds of the stages. The decomposition and triangulation of the layer and the refinement run at the
 /// same time: their common time is divided among them in proportion to the time of the threads.

@@ -87,6 +87,11 @@ def mesh(
     far_field_shape: Literal["box", "circle"] | None = None,
     # instead: corners of a convex far field, counter-clockwise, in units of the input
     far_field_outline: str | float | Sequence[float] | None = None,
+    # height of a wind tunnel with the configuration in its middle, or on its ground: floor and ceiling are slip
+    # walls; > 0
+    tunnel: float | str | None = None,
+    # distance of flat ground below the lowest point of the configuration: a slip wall; > 0
+    ground: float | str | None = None,
     # growth of the edge length per unit of distance; > 0 and <= 1 [0.1]
     gradation: float | None = None,
     # largest edge length at the outer border of the layer; else the edges of the border decide; > 0

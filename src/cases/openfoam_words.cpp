@@ -27,6 +27,14 @@ std::string wall_surfaces(const std::vector<std::string>& walls) {
     return entries;
 }
 
+/// Returns the conditions of patches of symmetry, to stand before another patch.
+std::string symmetry_patches(const std::vector<std::string>& names) {
+    std::string patches;
+    for (const std::string& name : names)
+        patches += fmt::format("{}\n    {{\n        type            symmetry;\n    }}\n    ", name);
+    return patches;
+}
+
 /// Adds what the turbulence models need: conditions upstream and at walls.
 void add_turbulence(const CaseFlow& flow, Words& words) {
     const double nu = flow.viscosity;
@@ -61,6 +69,8 @@ Words openfoam_words(const CaseFlow& flow) {
     words["FAR_FIELD"] = flow.far_fields.size() > 1 ? "\"(" + far_fields + ")\"" : far_fields;
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, " "));
+    words["SYMMETRIES"] = symmetry_patches(flow.symmetries);
+    words["VORTEX"] = flow.symmetries.empty() ? "yes" : "no";
     words["WALL_SURFACES"] = wall_surfaces(flow.walls);
     words["VELOCITY_VECTOR"] = vector(u, v);
     words["VELOCITY"] = number(flow.velocity);

@@ -92,6 +92,7 @@ CaseFlow case_flow(const Mesh& mesh, const SolverConditions& conditions, const S
     flow.turbulence = options.turbulence;
     flow.walls = names_of_markers(mesh, MarkerKind::wall);
     flow.far_fields = names_of_markers(mesh, MarkerKind::far_field);
+    flow.symmetries = names_of_markers(mesh, MarkerKind::symmetry);
     if (flow.walls.empty()) throw MeshError("a case needs a mesh with a marker that is a wall");
     if (flow.far_fields.empty()) throw MeshError("a case needs a mesh with a marker that is a far field");
     flow.moment_point = conditions.moment_point.value_or(foremost_wall_vertex(mesh) + Point{0.25 * chord, 0});

@@ -46,6 +46,7 @@ Words su2_words(const CaseFlow& flow) {
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, ", "));
     words["HEAT_FLUXES"] = walls_with(flow, "0.0");
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, ", "));
+    words["SYMMETRIES"] = flow.symmetries.empty() ? "NONE" : fmt::format("{}", fmt::join(flow.symmetries, ", "));
     words["WALL_FUNCTIONS"] =
         fmt::format("MARKER_WALL_FUNCTIONS= ( {} )",
                     walls_with(flow, flow.wall_functions ? "STANDARD_WALL_FUNCTION" : "NO_WALL_FUNCTION"));

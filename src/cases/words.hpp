@@ -25,6 +25,7 @@ struct CaseFlow {
     TurbulenceModel turbulence = TurbulenceModel::spalart_allmaras;
     std::vector<std::string> walls;       ///< names of the markers, one or more
     std::vector<std::string> far_fields;  ///< likewise
+    std::vector<std::string> symmetries;  ///< likewise, if any
 };
 
 /// Return the words for the files of each solver.

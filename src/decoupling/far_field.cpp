@@ -45,6 +45,37 @@ double room_around(const Box& bodies, const FarField& far_field) {
     return room;
 }
 
+/// Returns the far field with the slip walls that the options ask for, from upstream to downstream:
+///
+///          ceiling  ________________________
+///                  |                        |
+///           inlet  |     ,=--.__            |  outlet        the far field's half-width on either side
+///                  |________________________|
+///            floor
+FarField between_slip_walls(FarField box, const Box& bodies, double chord, const FarFieldOptions& options) {
+    const double radius = box.radius;
+    double floor = box.center.y - radius, ceiling = box.center.y + radius;
+    if (options.tunnel) {
+        const double half = 0.5 * in_units(*options.tunnel, chord);
+        floor = box.center.y - half;
+        ceiling = box.center.y + half;
+    }
+    if (options.ground) {
+        const double height = ceiling - floor;
+        floor = bodies.lower.y - in_units(*options.ground, chord);
+        if (options.tunnel) ceiling = floor + height;
+    }
+    if (!(floor < bodies.lower.y && bodies.upper.y < ceiling))
+        throw OptionError(options.tunnel ? "tunnel" : "ground", "does not enclose the configuration");
+    box.floor = floor;
+    if (options.tunnel) box.ceiling = ceiling;
+    box.shape = FarFieldShape::outline;
+    const double left = box.center.x - radius, right = box.center.x + radius;
+    box.outline = {{left, floor}, {right, floor}, {right, ceiling}, {left, ceiling}};
+    box.center.y = 0.5 * (floor + ceiling);
+    return box;
+}
+
 }  // namespace
 
 Box inscribed_box(const FarField& far_field) {
@@ -95,7 +126,7 @@ FarField place_far_field(const Box& bodies, double chord, const FarFieldOptions&
     FarField far_field{options.shape, bodies.center(), in_units(options.size, chord)};
     if (options.shape != FarFieldShape::outline) {
         require_resolved(bodies, far_field, "far_field");
-        return far_field;
+        return options.tunnel || options.ground ? between_slip_walls(far_field, bodies, chord, options) : far_field;
     }
     far_field.outline = options.outline;
     for_each_edge(far_field.outline, [&](Point a, Point along) {

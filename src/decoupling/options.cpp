@@ -35,6 +35,17 @@ OptionTable<FarFieldOptions> make_far_field_table() {
     };
     table.add({"far-field-outline", OptionKind::word, "X0,Y0,X1,Y1,...",
                "instead: corners of a convex far field, counter-clockwise, in units of the input", "", set, get});
+    const std::vector<std::string> other_shapes{"far-field-shape", "far-field-outline"};
+    table
+        .length("tunnel", "H",
+                "height of a wind tunnel with the configuration in its middle, or on its ground: floor and ceiling are "
+                "slip walls",
+                positive_numbers, member_at(&FarFieldOptions::tunnel))
+        .excludes = other_shapes;
+    table
+        .length("ground", "H", "distance of flat ground below the lowest point of the configuration: a slip wall",
+                positive_numbers, member_at(&FarFieldOptions::ground))
+        .excludes = other_shapes;
     return table.take();
 }
 
@@ -76,6 +87,8 @@ const OptionTable<DecouplingOptions>& decoupling_option_table() {
 void validate(const FarFieldOptions& options) {
     require_in_range(far_field_option_table(), options);
     if (options.shape == FarFieldShape::outline) require_convex(options.outline);
+    if (options.shape != FarFieldShape::box && (options.tunnel || options.ground))
+        throw OptionError(options.tunnel ? "tunnel" : "ground", "needs the far field to be a box");
 }
 
 void validate(const DecouplingOptions& options) { require_in_range(decoupling_option_table(), options); }

@@ -195,7 +195,9 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
     summarize_refinement(decoupling.subdomains, refinements, result);
     result.mesh = assemble(plan.geometry, layer, std::move(cells), std::move(decoupling), std::move(refinements),
                            options.assemble);
-    if (options.inlet_outlet) split_far_field(result.mesh, result.conditions.alpha_deg);
+    if (options.far_field.tunnel || options.far_field.ground)
+        mark_slip_walls(result.mesh, plan.far_field, options.far_field.ground.has_value());
+    if (options.inlet_outlet || options.far_field.tunnel) split_far_field(result.mesh, result.conditions.alpha_deg);
     require_made_within(options.limits, result.mesh);
     seconds.assembly += clock.lap();
 
@@ -272,11 +274,21 @@ FlowDecisions flow_decisions(const LayerGrowth& growth, std::span<const WallSpac
     return decisions;
 }
 
-MeshResult run(const Geometry& given, const CaseOptions& options, StageClock& clock, double geometry_seconds) {
+/// Returns the options with edges short enough for a tunnel, where they do not say how long edges may be.
+CaseOptions with_tunnel_sizes(CaseOptions options, double chord) {
+    constexpr double edges_across = 20;
+    if (options.far_field.tunnel && !options.sizing.far_size)
+        options.sizing.far_size =
+            Length{in_units(*options.far_field.tunnel, chord) / (edges_across * options.fineness), LengthUnit::input};
+    return options;
+}
+
+MeshResult run(const Geometry& given, const CaseOptions& given_options, StageClock& clock, double geometry_seconds) {
     StageSeconds seconds;
     clock.lap();
 
-    const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(given));
+    const ReferenceConditions conditions = reference_conditions(given_options.conditions, bounding_box(given));
+    const CaseOptions options = with_tunnel_sizes(given_options, conditions.chord);
     LayerGrowth growth = layer_growth(options.layer, conditions);
     growth.fineness = options.fineness;
     std::optional<Flow> flow;

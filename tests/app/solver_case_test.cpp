@@ -60,6 +60,29 @@ TEST(SolverCaseCommand, WritesSu2WithAFarFieldForAUniformStream) {
     EXPECT_NEAR(farthest, 500, 1);
 }
 
+TEST(SolverCaseCommand, TunnelsAndGroundAreSlipWallsWithoutAVortex) {
+    const TemporaryFolder folder;
+    const Words walls{"--alpha", "0", "--transform", "all:rotate:-4", "--tunnel", "3", "--ground", "1"};
+    for (const char* solver : {"openfoam", "su2"}) {
+        Words words = small_case(solver, walls);
+        words.erase(std::find(words.begin(), words.end(), "--alpha"), std::find(words.begin(), words.end(), "-o"));
+        *std::find(words.begin(), words.end(), "c") = solver;
+        const ProgramRun run = run_lamina(folder, words);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
+    for (const char* field : {"U", "p", "nut", "nuTilda"}) {
+        const std::string text = folder.read(std::string("openfoam/0/") + field);
+        for (const char* name : {"ground", "tunnel"})
+            EXPECT_NE(text.find(std::string(name) + "\n    {\n        type            symmetry;"), std::string::npos);
+        EXPECT_NE(text.find("(inlet|outlet)"), std::string::npos);
+    }
+    EXPECT_NE(folder.read("openfoam/Allrun").find("vortex=no"), std::string::npos);
+    EXPECT_NE(folder.read("su2/case.cfg").find("\nMARKER_SYM= ( ground, tunnel )\n"), std::string::npos);
+    const ProgramRun across = run_lamina(folder, small_case("su2", {"--tunnel", "3"}));
+    EXPECT_EQ(across.exit_code, usage);
+    EXPECT_NE(across.err.find("--transform"), std::string::npos) << across.err;
+}
+
 TEST(SolverCaseCommand, WritesAFamilyOfCases) {
     const TemporaryFolder folder;
     Words words = small_case("openfoam", {"--levels", "2", "--base-level", "1"});
