@@ -179,7 +179,7 @@ struct HeightColumn {
     std::size_t first = 0;          ///< index in the table where the column begins
     std::uint32_t layers = 0;       ///< number of layers requested
     double growth = 0;              ///< as Ray::growth
-    Stretch stretch;                ///< as Ray::stretch
+    Stretch stretch{};              ///< as Ray::stretch
     double slant = 1;               ///< as Ray::slant
     double max_spacing = HUGE_VAL;  ///< as Ray::max_spacing
     double opening = 1;             ///< as Ray::opening
@@ -312,7 +312,7 @@ struct Ray {
     double height_limit;      ///< no point lies beyond this height; infinite where nothing is in the way
     /// Rays with all the layers of a requested number are not stretched. The upper halves of others are, so that they
     /// end at the limit or, where no number is requested, at the height of isotropy.
-    Stretch stretch;
+    Stretch stretch{};
     /// Height along the ray over the height above the wall's edges beside it, which the growth law gives: 1 for a ray
     /// along their normals, 1.41 for one out of a cove corner of 90 degrees; at most max_slant.
     double slant = 1;

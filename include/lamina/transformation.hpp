@@ -53,6 +53,9 @@ struct Transformation {
     std::variant<Scaling, Rotation, Shift, Mirroring, FlapDeflection> change;  ///< what happens to it
 };
 
+/// Throws OptionError where a number is not finite or not in the range that its struct names.
+LAMINA_EXPORT void validate(const Transformation& transformation);
+
 /// Reads "ELEMENT:scale:S[:X,Y]", "ELEMENT:rotate:DEG[:X,Y]", "ELEMENT:shift:DX,DY", "ELEMENT:mirror[:Y]" or
 /// "ELEMENT:flap:DEG:X,Y". Centres are the origin and lines y = 0 unless the text says otherwise. Throws UsageError with
 /// the bare reason.
@@ -63,9 +66,9 @@ LAMINA_EXPORT std::string transformation_text(const Transformation& transformati
 /// Returns the geometry with its elements changed, in the order of the transformations. Outlines stay counter-clockwise
 /// and keep their first points; that of a section with a flap begins at the rearmost vertex. Each change is noted in
 /// Element::transformations. Does not check that the result is simple: check_simple() does. Throws OptionError for
-/// names that no element has, and InputError where a flap cannot be deflected: a surface is nearest to the hinge at the
-/// nose or the tail, or its parts overlap as a whole. Preconditions: the outlines are simple and counter-clockwise; the
-/// numbers are in the ranges that their structs name.
+/// numbers out of range, names that no element has, and every_element where one of several has that name. Throws
+/// InputError where a flap cannot be deflected: a surface is nearest to the hinge at the nose or the tail, or its parts
+/// overlap as a whole. Precondition: the outlines are simple and counter-clockwise.
 LAMINA_EXPORT Geometry transformed(Geometry geometry, std::span<const Transformation> transformations);
 
 /// Returns the geometry with left and right exchanged, for flow that comes from the right: x becomes the sum of the

@@ -145,14 +145,16 @@ void drop_close_second(SourcePoints& part, const Hinge& hinge) {
 
 /// Returns a surface, given from the tail to the nose, with its rear turned about the hinge.
 SourcePoints with_turned_rear(const SourcePoints& surface, const Hinge& hinge) {
-    constexpr double min_arm = 1e-9;  // of the element's length: below it the hinge lies on the surface
+    // Of the element's length. The parts stay together where the hinge lies on the surface or hardly turns.
+    constexpr double min_move = 1e-8;
     PartedSurface parts = part_at_hinge(surface, hinge);
-    const bool on_surface = distance(parts.front[0].at, hinge.at) < min_arm * hinge.length;
-    const bool opening = !on_surface && opens(parts, hinge);
+    const double move = std::min(std::abs(hinge.turn), 1.0) * distance(parts.front[0].at, hinge.at);
+    const bool together = move < min_move * hinge.length;
+    const bool opening = !together && opens(parts, hinge);
     for (SourcePoint& p : parts.rear) p.at = hinge.turned(p.at);
     SourcePoints arc;
     if (opening) arc = arc_between(parts, hinge);
-    if (!opening && !on_surface) cut_at_crossing(parts, hinge);
+    if (!opening && !together) cut_at_crossing(parts, hinge);
     parts.rear[0].is_corner |= !opening;
     drop_close_second(parts.front, hinge);
     drop_close_second(parts.rear, hinge);

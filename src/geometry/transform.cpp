@@ -95,6 +95,9 @@ void require_known_element(const Geometry& geometry, const std::string& name) {
     for (const Element& e : geometry.elements) names.push_back(e.name);
     if (std::find(names.begin(), names.end(), name) == names.end())
         throw OptionError("transform", "element " + unknown_choice(name, names));
+    if (name == every_element && names.size() > 2 && std::count(names.begin(), names.end(), name) > 1)
+        throw OptionError("transform",
+                          fmt::format("'{}' means every element, and one has this name: give --names", name));
 }
 
 }  // namespace
@@ -107,6 +110,7 @@ using namespace geometry;
 
 Geometry transformed(Geometry geometry, std::span<const Transformation> transformations) {
     for (const Transformation& transformation : transformations) {
+        validate(transformation);
         require_known_element(geometry, transformation.element);
         for (Element& e : geometry.elements)
             if (transformation.element == every_element || transformation.element == e.name)

@@ -1,8 +1,10 @@
 // Reads and writes the texts of transformations: "flap:rotate:-30:0.8,0", "all:scale:0.001".
 #include <lamina/transformation.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -21,13 +23,31 @@ constexpr const char* grammar =
     "ELEMENT:flap:DEG:X,Y";
 constexpr double max_rotation_deg = 360, max_deflection_deg = 90;
 
-/// Returns the angle that a text gives, which may not be larger than `max_deg` in either direction.
-double parse_angle(const std::string& text, double max_deg) {
-    const double angle_deg = core::parse_number(text);
-    require_text(std::abs(angle_deg) <= max_deg, text,
-                 core::concat("the angle must be from ", -max_deg, " to ", max_deg, " degrees"));
-    return angle_deg;
-}
+/// Says why the numbers of a change are refused; nothing where they are not.
+struct ChangeDefect {
+    static std::string angle(double angle_deg, double max_deg) {
+        if (std::abs(angle_deg) <= max_deg) return {};
+        return core::concat("the angle must be from ", -max_deg, " to ", max_deg, " degrees");
+    }
+    static std::string finite(std::initializer_list<double> numbers) {
+        const bool all = std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+        return all ? "" : "the numbers must be finite";
+    }
+
+    std::string operator()(const Scaling& s) const {
+        return s.factor > 0 ? finite({s.factor, s.center.x, s.center.y}) : "the factor must be > 0";
+    }
+    std::string operator()(const Rotation& r) const {
+        const std::string defect = angle(r.angle_deg, max_rotation_deg);
+        return defect.empty() ? finite({r.center.x, r.center.y}) : defect;
+    }
+    std::string operator()(const Shift& s) const { return finite({s.by.x, s.by.y}); }
+    std::string operator()(const Mirroring& m) const { return finite({m.y}); }
+    std::string operator()(const FlapDeflection& f) const {
+        const std::string defect = angle(f.angle_deg, max_deflection_deg);
+        return defect.empty() ? finite({f.hinge.x, f.hinge.y}) : defect;
+    }
+};
 
 Point parse_point(const std::string& text) {
     const std::vector<double> numbers = core::parse_numbers(text, ',');
@@ -43,17 +63,11 @@ decltype(Transformation::change) parse_change(const std::vector<std::string>& pa
     const std::string& kind = parts[1];
     const std::size_t arguments = parts.size() - 2;
     const auto center = [&] { return arguments > 1 ? parse_point(parts[3]) : Point{}; };
-    if (kind == "scale" && (arguments == 1 || arguments == 2)) {
-        const double factor = core::parse_number(parts[2]);
-        require_text(factor > 0, parts[2], "the factor must be > 0");
-        return Scaling{factor, center()};
-    }
-    if (kind == "rotate" && (arguments == 1 || arguments == 2))
-        return Rotation{parse_angle(parts[2], max_rotation_deg), center()};
+    if (kind == "scale" && (arguments == 1 || arguments == 2)) return Scaling{core::parse_number(parts[2]), center()};
+    if (kind == "rotate" && (arguments == 1 || arguments == 2)) return Rotation{core::parse_number(parts[2]), center()};
     if (kind == "shift" && arguments == 1) return Shift{parse_point(parts[2])};
     if (kind == "mirror" && arguments <= 1) return Mirroring{arguments > 0 ? core::parse_number(parts[2]) : 0};
-    if (kind == "flap" && arguments == 2)
-        return FlapDeflection{parse_angle(parts[2], max_deflection_deg), parse_point(parts[3])};
+    if (kind == "flap" && arguments == 2) return FlapDeflection{core::parse_number(parts[2]), parse_point(parts[3])};
     throw UsageError(grammar);
 }
 
@@ -80,10 +94,19 @@ namespace lamina {
 
 using namespace geometry;
 
+void validate(const Transformation& transformation) {
+    const std::string defect = std::visit(ChangeDefect{}, transformation.change);
+    if (!defect.empty())
+        throw OptionError("transform", core::concat("'", transformation_text(transformation), "': ", defect));
+}
+
 Transformation parse_transformation(const std::string& text) {
     const std::vector<std::string> parts = core::split(text, ':');
     try {
-        return {parts[0], parse_change(parts)};
+        Transformation transformation{parts[0], parse_change(parts)};
+        if (const std::string defect = std::visit(ChangeDefect{}, transformation.change); !defect.empty())
+            throw UsageError(defect);
+        return transformation;
     } catch (const UsageError& error) {
         throw UsageError("'" + text + "': " + error.what());
     }

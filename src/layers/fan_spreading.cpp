@@ -3,8 +3,8 @@
 //
 //      _____                 ___
 //     |||||||`.             ////|`-.
-//     |||||||   \           ////|   `.        front
-//     |||||||    |          ////|`.   \
+//     |||||||   \           ////|   `.         front
+//     |||||||    |          ////|`.   |
 //     |||||||____|          |///|__`.__\      fan of a corner, between the columns on the wall and those on the base
 //     wall                  wall
 //

@@ -37,6 +37,13 @@ double area(const std::vector<Point>& outline) {
     return sum;
 }
 
+double longest_edge(const std::vector<Point>& outline) {
+    double longest = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        longest = std::max(longest, distance(outline[i], outline[(i + 1) % outline.size()]));
+    return longest;
+}
+
 /// Returns the angles in degrees by which the outline turns at its vertices.
 std::vector<double> turning_deg(const std::vector<Point>& outline) {
     std::vector<double> result;
@@ -60,7 +67,7 @@ std::vector<std::vector<Point>> flapped_sections() {
 
 TEST(PlainFlap, IsSimpleAndTurnsTheTrailingEdge) {
     for (const std::vector<Point>& section : flapped_sections())
-        for (const double angle_deg : {-60.0, -20.0, -1.0, 0.01, 5.0, 10.0, 40.0})
+        for (const double angle_deg : {-60.0, -20.0, -1.0, -1e-7, 1e-9, 1e-5, 0.01, 5.0, 10.0, 40.0})
             for (const double share : {0.4, 0.75, 0.9}) {
                 const Geometry given = shapes::geometry({section});
                 const Box box = bounding_box(given);
@@ -81,9 +88,11 @@ TEST(PlainFlap, IsSimpleAndTurnsTheTrailingEdge) {
                 EXPECT_NE(std::find(result.begin(), result.end(),
                                     *std::min_element(section.begin(), section.end(), lexicographically_less)),
                           result.end());
-                // What the arc adds is about what the other side loses.
+                // What the arc adds is about what the other side loses. A vertex beside each of the four ends may go
+                // where it is hardly off its edge.
                 const double thickness = high - low, sector = std::abs(angle_deg) / 360 * shapes::full_turn;
-                EXPECT_LT(std::abs(area(result) - area(section)), thickness * thickness * sector + 1e-12);
+                const double dropped = 4 * 0.5 * 1e-5 * box.width() * longest_edge(section);
+                EXPECT_LT(std::abs(area(result) - area(section)), thickness * thickness * sector + dropped);
             }
 }
 

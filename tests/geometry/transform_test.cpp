@@ -158,6 +158,22 @@ TEST(Transformed, WarningsKeepTheirPlaces) {
     EXPECT_EQ(flipped(given).elements[0].warnings[0].at, (Point{0, 0}));
 }
 
+TEST(Transformed, NumbersOutOfRangeAreRefused) {
+    const double none = std::nan("");
+    for (const auto& change : std::initializer_list<decltype(Transformation::change)>{
+             Scaling{.factor = 0}, Scaling{.factor = 1, .center = {none, 0}}, Rotation{.angle_deg = 361},
+             Rotation{.angle_deg = none}, Shift{.by = {HUGE_VAL, 0}}, Mirroring{.y = none},
+             FlapDeflection{.angle_deg = 91}, FlapDeflection{.angle_deg = 5, .hinge = {0, none}}})
+        EXPECT_THROW(transformed(two_sections(), std::vector<Transformation>{{"all", change}}), OptionError);
+}
+
+TEST(Transformed, AllIsNotTheNameOfOneOfSeveral) {
+    Geometry geometry = two_sections();
+    geometry.elements[1].name = "all";
+    EXPECT_THROW(transformed_by(geometry, {"all:mirror"}), OptionError);
+    EXPECT_NO_THROW(transformed_by(geometry, {"body0:mirror"}));
+}
+
 TEST(Transformed, UnknownNamesAreRefused) {
     try {
         transformed_by(two_sections(), {"bod1:mirror"});
