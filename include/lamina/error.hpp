@@ -58,12 +58,14 @@ private:
 
 /// A place in the input where something is wrong. Parts that do not apply stay empty.
 struct InputPlace {
-    std::string file{};                   ///< path or name of the input
-    std::size_t line = 0;                 ///< counts from 1; 0: not tied to one line
-    std::optional<Point> at{};            ///< coordinates of the place
-    std::string element{};                ///< name of the body
-    std::vector<std::size_t> points{};    ///< indices into the points handed in
-    std::vector<std::size_t> segments{};  ///< indices into the segments handed in
+    std::string file{};                    ///< path or name of the input
+    std::size_t line = 0;                  ///< counts from 1; 0: not tied to one line
+    std::optional<Point> at{};             ///< coordinates of the place
+    std::string element{};                 ///< name of the body
+    std::vector<std::size_t> points{};     ///< indices into the points handed in
+    std::vector<std::size_t> segments{};   ///< indices into the segments handed in
+    std::vector<std::size_t> triangles{};  ///< indices into the triangles handed in
+    std::vector<std::size_t> seeds{};      ///< indices into the holes or regions handed in
 };
 
 /// Input that cannot be used.

@@ -17,6 +17,7 @@ void require_exact_range(std::span<const Point> points, const std::string& kind)
     const auto index = static_cast<std::size_t>(bad - points.begin());
     InputPlace place{.at = *bad};
     if (kind == "point") place.points = {index};
+    if (kind == "hole" || kind == "region") place.seeds = {index};
     throw InputError(place, concat(kind, " ", index, " is outside the range of exact arithmetic"));
 }
 
@@ -31,7 +32,7 @@ void require_indices_below(std::size_t points, std::span<const Triangle> triangl
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto& v = triangles[i].v;
         if (std::any_of(v, v + 3, [&](VertexId corner) { return corner.index() >= points; }))
-            throw InputError({}, concat("triangle ", i, " (", v[0].value, "-", v[1].value, "-", v[2].value,
+            throw InputError({.triangles = {i}}, concat("triangle ", i, " (", v[0].value, "-", v[1].value, "-", v[2].value,
                                         ") does not join three of the ", points, " points"));
     }
 }

@@ -61,7 +61,7 @@ void check_seed(std::span<const Point> points, const Tri& tri, Point seed, std::
         on_segment = on_segment || tri.n[e].is_constrained();
     }
     if (touched == 2 || on_segment)
-        throw InputError({.at = seed},
+        throw InputError({.at = seed, .seeds = {index}},
                          core::concat("hole ", index, " lies on a ", touched == 2 ? "vertex" : "segment"));
 }
 
