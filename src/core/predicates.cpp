@@ -356,6 +356,16 @@ double incircle_after_filter(Point a, Point b, Point c, Point d) {
     return det != 0 ? det : break_tie({a, b, c, d});
 }
 
+double compare_distances(Point p, Point a, Point b) {
+    const double to_a = squared_length(a - p), to_b = squared_length(b - p);
+    // Each square has four roundings at most: of the difference, twice, of the square and of the sum.
+    constexpr double bound = 5 * epsilon;
+    if (std::abs(to_a - to_b) > bound * (to_a + to_b)) return to_a - to_b;
+    const auto square = [](const HeadTail& t) { return expansion(t) * expansion(t); };
+    const Difference da = difference(a, p), db = difference(b, p);
+    return ((square(da.x) + square(da.y)) + -(square(db.x) + square(db.y))).sign();
+}
+
 double flattened_turn_after_filter(Point pa, Point pb, Point pc, double cut) {
     const HeadTail ax = two_diff(pa.x, cut), bx = two_diff(pb.x, cut), cx = two_diff(pc.x, cut);
     const HeadTail by = two_diff(pb.y, pa.y), cy = two_diff(pc.y, pa.y);

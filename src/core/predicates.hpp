@@ -29,6 +29,10 @@ LAMINA_EXPORT double incircle_after_filter(Point a, Point b, Point c, Point d);
 /// Returns flattened_turn() where its filter could not decide.
 LAMINA_EXPORT double flattened_turn_after_filter(Point a, Point b, Point c, double cut);
 
+/// Returns a number > 0 if a is farther from p than b, < 0 if nearer, and 0 if both are equally far. Only the sign is
+/// exact.
+LAMINA_EXPORT double compare_distances(Point p, Point a, Point b);
+
 /// Returns orient2d(), inline.
 inline double inline_orient2d(Point a, Point b, Point c) {
     const double left = (a.x - c.x) * (b.y - c.y);

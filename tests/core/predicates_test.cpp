@@ -327,6 +327,31 @@ TEST(Predicates, EndsOfTheRange) {
     EXPECT_GT(orient2d({small, small}, {small + ulp, small}, {small, small + ulp}), 0);
 }
 
+TEST(Predicates, ComparedDistances) {
+    std::mt19937_64 random(11);
+    std::uniform_int_distribution<int> exponent(-40, 40), ulps(-2, 2), small(-9, 9);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    int ties = 0;
+    for (int n = 0; n < 100000; ++n) {
+        // Points mirrored about p, then moved by a few ulps: nearly, and often exactly, as far.
+        const Point p = n % 2 == 0 ? Point{double(small(random)), double(small(random))}
+                                   : std::ldexp(1.0, exponent(random)) * Point{unit(random), unit(random)};
+        const Point d =
+            n % 4 < 2 ? Point{double(small(random)), double(small(random))} : Point{unit(random), unit(random)};
+        const Point a = p + d;
+        Point b = n % 3 == 0 ? p - d : p + perpendicular(d);
+        b.x *= 1 + ulps(random) * 0x1p-52;
+        const auto [pi, ai, bi, unused] = to_integers({p, a, b, p});
+        const auto squared = [&](const IntegerPoint& q) {
+            return Integer((q.x - pi.x) * (q.x - pi.x) + (q.y - pi.y) * (q.y - pi.y));
+        };
+        const Integer difference = squared(ai) - squared(bi);
+        ties += difference == 0;
+        ASSERT_EQ(sign_of(core::compare_distances(p, a, b)), sign_of(difference));
+    }
+    EXPECT_GT(ties, 1000);
+}
+
 TEST(Predicates, ExactRange) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double c : {0.0, -0.0, 1.0, -1e60, 1e60, 1e-60, -1e-60}) EXPECT_TRUE(in_exact_range({c, 1})) << c;

@@ -30,12 +30,15 @@ struct Connected {
 
 Connected plain(const std::vector<Point>& points) { return {points, triangulate(points).triangles}; }
 
-/// Returns a triangulation with holes, slits and dangling segments.
+/// Returns a triangulation with slits and dangling segments, without one in ten triangles: holes that touch each other
+/// and the hull in every way.
 Connected with_holes(std::uint64_t seed) {
     const PlanarGraph graph = random_planar_graph(seed).graph;
-    const ConstrainedTriangulation t =
-        triangulate(graph.points, graph.segments, {.keep = KeptRegion::inside_segments, .holes = {{5.01, 5.02}}});
-    return {graph.points, t.triangles};
+    std::vector<Triangle> triangles =
+        triangulate(graph.points, graph.segments, {.keep = KeptRegion::inside_segments}).triangles;
+    Random random(seed);
+    std::erase_if(triangles, [&](const Triangle&) { return random.below(10) == 0; });
+    return {graph.points, triangles};
 }
 
 /// Two squares with a triangular hole each, and all four meet in one point.
