@@ -39,4 +39,11 @@ inline bool is_angle_below(double squared_sine, double ab, double bc, double ca,
     return area2 * area2 * shortest < squared_sine * (ab * bc * ca);
 }
 
+/// Returns the centre of the circle through a, b and c, rounded.
+inline Point circumcentre(Point a, Point b, Point c) {
+    const Point ab = b - a, ac = c - a;
+    const double twice = 2 * cross(ab, ac), bb = squared_length(ab), cc = squared_length(ac);
+    return a + Point{(ac.y * bb - ab.y * cc) / twice, (ab.x * cc - ac.x * bb) / twice};
+}
+
 }  // namespace lamina::delaunay

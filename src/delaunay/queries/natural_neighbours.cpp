@@ -19,18 +19,11 @@
 
 #include "core/predicates.hpp"
 #include "delaunay/queries/query_index.hpp"
+#include "delaunay/triangle_shape.hpp"
 
 namespace lamina::delaunay::queries {
 
 namespace {
-
-/// Returns the centre of the circle through a, b and c.
-Point circumcentre(Point a, Point b, Point c) {
-    const Point ab = b - a, ac = c - a;
-    const double twice = 2 * cross(ab, ac);
-    const double bb = squared_length(ab), cc = squared_length(ac);
-    return a + Point{(ac.y * bb - ab.y * cc) / twice, (ab.x * cc - ac.x * bb) / twice};
-}
 
 /// An edge of the cavity's boundary, which starts at vertex a.
 struct StolenShare {
