@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <lamina/angle_bounds.hpp>
@@ -16,114 +15,9 @@
 #include <lamina/option.hpp>
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
+#include <lamina/triangulation.hpp>
 
 namespace lamina {
-
-// ---- plain triangulation ----
-
-/// The limits of a decomposition into pieces. The pieces depend on these numbers and on the points alone, never on the
-/// number of threads.
-struct DecompositionOptions {
-    unsigned depth = 6;                 ///< largest number of cuts on the way to a piece
-    std::size_t leaf_vertices = 5'000;  ///< pieces with at most this many vertices are not cut further
-};
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<DecompositionOptions>& decomposition_option_table();
-
-/// Throws OptionError where an option is out of range.
-LAMINA_EXPORT void validate(const DecompositionOptions& options);
-
-/// The numbers of pieces, cuts and fallbacks of a decomposition.
-struct DecompositionStats {
-    std::size_t pieces = 0;  ///< number of pieces
-    /// Number of vertices, summed over pieces: a vertex on a dividing path counts in every piece that it belongs to.
-    std::size_t piece_vertices = 0;
-    std::size_t largest_piece = 0;    ///< number of vertices of the largest piece
-    std::size_t crossing_cuts = 0;    ///< cuts rejected because their path crossed a segment
-    std::size_t unbalanced_cuts = 0;  ///< cuts rejected because one part was larger than 0.75 of the whole
-    std::size_t uncut = 0;            ///< pieces that should have been cut further, but for which no cut was good
-    std::size_t fallbacks = 0;        ///< regions triangulated at once because one of their pieces could not be
-};
-
-/// The time that one thread spent while points were triangulated in pieces, in seconds.
-struct TriangulationThread {
-    double cutting = 0;        ///< time in which the thread cut pieces
-    double triangulating = 0;  ///< time in which it triangulated pieces
-    double idle = 0;           ///< time in which it had nothing to do
-};
-
-/// A triangulation. The triangles hold indices into the points of the input.
-struct Triangulation {
-    std::vector<Triangle> triangles;             ///< counter-clockwise
-    DecompositionStats decomposition{};          ///< how the points were cut into pieces
-    std::vector<TriangulationThread> threads{};  ///< one entry per thread
-};
-
-/// Returns the Delaunay triangulation of distinct points in any order, in O(n log n) in practice. Cocircular points are
-/// fanned by the one tie rule (predicates.hpp), so the set of triangles is unique and does not depend on the order of
-/// the points. Sets of 50,000 points and more are divided along paths of Delaunay edges, and the pieces triangulated on
-/// several threads; the triangles and their order are the same on any number of threads. Fewer than three points, and
-/// points on one line, have no triangles. Throws InputError for duplicates (place().points) and for coordinates outside
-/// the exact range.
-/// Source: biased randomised insertion order (N. Amenta, S. Choi, G. Rote, SoCG 2003) along a Hilbert curve; cavity
-/// insertion (A. Bowyer, D. F. Watson, The Computer Journal 24 (1981)); pieces: G. E. Blelloch, G. L. Miller, J. C.
-/// Hardwick, D. Talmor, Algorithmica 24 (1999); J. K. Pardue, thesis (2015), chapter 4.
-LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points);
-
-/// Returns the same triangulation, made in the pieces that the options demand, whatever the number of points. Throws
-/// OptionError for options out of range, too.
-LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points, const DecompositionOptions& options);
-
-// ---- constrained triangulation ----
-
-/// The triangles that are kept of a constrained triangulation, before holes are cut.
-enum class KeptRegion {
-    convex_hull,       ///< all triangles
-    inside_segments,   ///< those that cannot be reached from outside the hull without crossing a segment
-    left_of_segments,  ///< those that can be reached from the left side of a segment without crossing one: segments run
-                       ///< counter-clockwise round the region and clockwise round its holes
-};
-
-/// How triangulate() treats segments that cross in their interiors.
-enum class Crossings {
-    refuse,  ///< throws an InputError that names both segments
-    insert,  ///< inserts a Steiner point at each crossing, rounded to doubles, or leads both segments through a point
-             ///< that stands within rounding of it. Segments stay planar and bend by at most 16 units in the last place
-             ///< of their largest coordinate; coordinates of crossings below 1e-60 become 0 or 1e-60
-};
-
-/// Options of constrained triangulation.
-struct ConstrainedOptions {
-    KeptRegion keep = KeptRegion::convex_hull;  ///< the triangles that are kept
-    Crossings crossings = Crossings::refuse;    ///< what happens where segments cross
-    /// One point in each hole. Triangles that can be reached from it without crossing a segment are removed. Points
-    /// outside the hull have no effect; a point on a vertex or a segment is an InputError.
-    std::vector<Point> holes{};
-};
-
-/// A constrained triangulation. Triangles and segments index the points of the input, followed by `steiner_points`.
-struct ConstrainedTriangulation {
-    std::vector<Point> steiner_points;  ///< crossings of segments
-    std::vector<Triangle> triangles;    ///< counter-clockwise
-    /// The edges of the triangles that are parts of segments: each once, directed as its segment is, in the order of
-    /// the segments and, within a segment, from its a to its b.
-    std::vector<Segment> segments;
-    std::vector<std::uint32_t> parents;    ///< for each edge the segment that it is a part of; the first of several
-    std::size_t zero_length_segments = 0;  ///< number of segments from a point to itself, which are left out
-    /// Number of segments that change nothing because they lie on earlier ones, as repeated ones do.
-    std::size_t repeated_segments = 0;
-};
-
-/// Returns the constrained Delaunay triangulation: every segment is an edge or, where it runs through points, a chain
-/// of edges; the other edges are locally Delaunay by the tie rule. Segments may overlap and repeat; those from a point
-/// to itself are left out. The set of triangles is unique: it depends on the order of neither points nor segments
-/// (except for the numbers of crossing points). Throws InputError for points as the plain triangulate() does, for
-/// segments whose ends are not both among the points, for segments that cross unless Steiner points are inserted there
-/// (place().segments), for holes outside the exact range, and for segments if all points lie on one line.
-/// Source: M. V. Anglada, Computers & Graphics 21 (1997).
-LAMINA_EXPORT ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
-                                                   const ConstrainedOptions& options = {});
 
 // ---- refinement ----
 
@@ -279,23 +173,5 @@ struct OptimizedTriangulation {
 LAMINA_EXPORT OptimizedTriangulation optimize(std::span<const Point> points, std::span<const Triangle> triangles,
                                               std::span<const Segment> segments = {},
                                               const OptimizeOptions& options = {});
-
-// ---- checks ----
-
-/// Options of check_triangulation().
-struct TriangulationCheckOptions {
-    bool require_delaunay = true;  ///< whether edges that are no constraints must be locally Delaunay by the tie rule
-};
-
-/// Returns the first 20 defects of a triangulation of these points, one line each; none if it is valid. Defects are
-/// indices out of range, clockwise or flat triangles, edges used twice in one direction, triangles that overlap round a
-/// vertex, constraints that are no edges, and edges that are not Delaunay. Exact.
-LAMINA_EXPORT std::vector<std::string> check_triangulation(std::span<const Point> points,
-                                                           std::span<const Triangle> triangles,
-                                                           std::span<const Segment> constraints = {},
-                                                           const TriangulationCheckOptions& options = {});
-
-/// Returns the smallest angle of all triangles in degrees, to 1e-12 degrees; 0 without triangles.
-LAMINA_EXPORT double smallest_angle_deg(std::span<const Point> points, std::span<const Triangle> triangles);
 
 }  // namespace lamina

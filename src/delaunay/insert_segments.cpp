@@ -203,8 +203,11 @@ private:
 
 void check_segments(std::span<const Point> points, std::span<const Segment> segments, const Tris& tris) {
     core::require_indices_below(points.size(), segments);
-    if (tris.empty() && std::any_of(segments.begin(), segments.end(), [](const Segment& s) { return s.a != s.b; }))
-        throw InputError({}, "all points lie on one line: segments cannot be inserted");
+    if (!tris.empty()) return;
+    for (std::size_t i = 0; i < segments.size(); ++i)
+        if (segments[i].a != segments[i].b)
+            throw InputError({.points = {segments[i].a.index(), segments[i].b.index()}, .segments = {i}},
+                             "all points lie on one line: segments cannot be inserted");
 }
 
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,

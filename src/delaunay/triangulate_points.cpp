@@ -187,11 +187,12 @@ void renumber_ghost_vertex(Tris& tris, Index first) {
 
 }  // namespace
 
-Tris triangulate_points(std::span<const Point> points) {
+Tris triangulate_points(std::span<const Point> points, std::span<const std::uint32_t> stand_in) {
     check_points(points);
     Box box;
     for (const Point p : points) box.include(p);
     std::vector<Index> order = brio_order(points, box);
+    if (!stand_in.empty()) std::erase_if(order, [&](Index i) { return stand_in[i] != i; });
     Tris tris = grow(points, order).tris;
     order.insert(order.begin(), ghost_vertex);  // now vertex v is the point order[v]
     for (Tri& t : tris)

@@ -13,8 +13,8 @@ namespace lamina::delaunay {
 
 /// Returns the Delaunay triangulation of distinct points, closed by ghost triangles; empty where all points lie on one
 /// line. Throws InputError for duplicates, for coordinates outside the exact range and for more points than one
-/// triangulation can number.
-LAMINA_EXPORT Tris triangulate_points(std::span<const Point> points);
+/// triangulation can number. With `stand_in` (merge_points()) points that others stand for are left out.
+LAMINA_EXPORT Tris triangulate_points(std::span<const Point> points, std::span<const std::uint32_t> stand_in = {});
 
 /// A triangulation whose vertices are numbered from 1 in the order of their insertion.
 struct OrderedTriangulation {
