@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,6 +32,9 @@ struct RefineOptions {
     /// trials up to max_min_angle_deg.
     double min_angle_deg = proved_min_angle_deg;
     std::size_t max_points = 200'000'000;  ///< number of Steiner points beyond which refine() throws MeshError
+    /// Whether refine() returns what it has at max_points (RefineStats::stopped) instead of throwing. Triangles that are
+    /// too large have been mended first, from the border inwards.
+    bool stop_at_max_points = false;
     /// Largest area of a triangle, over that of the equilateral triangle whose edge is the mean of h at its vertices.
     /// The default follows from max_circle_ratio. Where a bound of the area matters more than the mean edge, sizes of
     /// size_for_area() with a ratio nearer to 1 make fewer triangles of a given largest area, which are less regular.
@@ -64,6 +68,7 @@ struct RefineStats {
     std::size_t below_bound = 0;  ///< triangles that stayed below the angle bound
     std::size_t exempt = 0;       ///< those of them at a corner below 60 degrees between two border edges
     std::size_t oversized = 0;    ///< triangles that stayed above the size bound
+    bool stopped = false;         ///< whether refinement ended because max_points did not suffice
 
     /// Adds the numbers of another region.
     LAMINA_EXPORT RefineStats& operator+=(const RefineStats& other);
@@ -99,6 +104,10 @@ struct ConstrainedRefineOptions {
     /// Whether segments and the boundary are split where the angle or size bound demands it. If not, triangles beside
     /// long segments may stay beyond the bounds.
     bool split_segments = true;
+    /// Whether segments and the boundary are split until no vertex lies in the diametral circle of any part, so that all
+    /// triangles are Delaunay and not only constrained Delaunay (Triangle's -D). With an angle bound of 0, no smoothing
+    /// and a size that is HUGE_VAL everywhere it makes a conforming Delaunay triangulation and nothing else.
+    bool conforming = false;
     std::vector<RegionSize> regions{};  ///< where several seeds lie in one region, the first counts
 };
 
@@ -128,6 +137,37 @@ struct ConstrainedRefinement {
 /// exempt triangles: G. Miller, S. Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
 LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                                            const SizeField& size, const ConstrainedRefineOptions& options = {});
+
+/// A size at each point of the plane, in units of the input: positive, HUGE_VAL where there is no bound.
+using SizeFunction = std::function<double(Point)>;
+
+/// Refines to the sizes of any function. It is called on one thread at a time, several times a triangle. Sizes may jump.
+/// All that refine() to a size field promises holds, but no lattice speeds it up. Throws InputError, too, where the
+/// function returns a number that is not positive (place().at), and what the function throws.
+LAMINA_EXPORT ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                                           const SizeFunction& size, const ConstrainedRefineOptions& options = {});
+
+/// Returns the function that is linear in the triangles of a background mesh and has these sizes at its points; HUGE_VAL
+/// outside. The function holds a copy of the mesh. Throws InputError as TriangulationIndex does, and for sizes that are
+/// not positive or not one for each point.
+LAMINA_EXPORT SizeFunction sizes_of_mesh(std::span<const Point> points, std::span<const Triangle> triangles,
+                                         std::span<const double> sizes);
+
+/// Returns the function that bounds the areas of triangles inside each triangle of a mesh: sizes are size_for_area() of
+/// its area bound, HUGE_VAL where the bound is not positive, and outside; the smallest one on edges and vertices. So
+/// a triangle whose corners all lie in one triangle of the mesh exceeds the bound of that triangle nowhere, where
+/// RefineOptions::max_area_ratio is as given here. Throws InputError as TriangulationIndex does, and unless there is one
+/// area for each triangle.
+LAMINA_EXPORT SizeFunction sizes_of_areas(std::span<const Point> points, std::span<const Triangle> triangles,
+                                          std::span<const double> areas, double max_area_ratio);
+
+/// Returns a triangulation from elsewhere as one that refine() takes (Triangle's -r): edges that are no segments are
+/// flipped until the triangulation is constrained Delaunay. Triangles keep their number, not their order. Throws
+/// InputError for points as triangulate() does, for triangles as half_edges() does and for those that are not
+/// counter-clockwise (place().triangles), and for segments that are no edges of triangles (place().segments).
+LAMINA_EXPORT ConstrainedTriangulation constrain_triangles(std::span<const Point> points,
+                                                           std::span<const Triangle> triangles,
+                                                           std::span<const Segment> segments = {});
 
 /// The triangles that a refinement of a constrained triangulation will make, by estimate (docs/decisions/0020).
 struct RefinementEstimate {

@@ -83,6 +83,9 @@ public:
     /// Precondition: one value for each point, or InputError.
     std::vector<double> interpolate_linear(std::span<const double> values, std::span<const Point> queries) const;
 
+    /// Returns the value at one point.
+    double interpolate_linear(std::span<const double> values, Point p) const;
+
     /// Returns the values at the queries by Sibson's weights; NaN outside. They are smooth but at the vertices, and
     /// reproduce linear functions. Throws UsageError unless is_delaunay(), and InputError unless there is one value for
     /// each point.

@@ -1,10 +1,13 @@
 #include "delaunay/arguments.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
 
 #include "core/arguments.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "delaunay/triangles.hpp"
 
@@ -20,6 +23,20 @@ void check_points(std::span<const Point> points) {
 void check_points_and_segments(std::span<const Point> points, std::span<const Segment> segments) {
     check_points(points);
     core::require_indices_below(points.size(), segments);
+}
+
+void require_counter_clockwise(std::span<const Point> points, std::span<const Triangle> triangles) {
+    constexpr std::size_t grain = 1 << 14;
+    const auto bad = core::parallel_blocks(triangles.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            const auto& v = triangles[t].v;
+            if (!(orient2d(points[v[0].index()], points[v[1].index()], points[v[2].index()]) > 0)) return t;
+        }
+        return triangles.size();
+    });
+    const auto first = std::min_element(bad.begin(), bad.end());
+    if (first != bad.end() && *first < triangles.size())
+        throw InputError({.triangles = {*first}}, core::concat("triangle ", *first, " is not counter-clockwise"));
 }
 
 void check_arguments(std::span<const Point> points, const ConstrainedTriangulation& triangulation,

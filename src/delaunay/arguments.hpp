@@ -13,6 +13,9 @@ void check_points(std::span<const Point> points);
 /// Throws InputError as check_points() does, and for segments whose ends are not both among the points.
 void check_points_and_segments(std::span<const Point> points, std::span<const Segment> segments);
 
+/// Throws InputError for triangles that are not counter-clockwise. Precondition: their corners are among the points.
+void require_counter_clockwise(std::span<const Point> points, std::span<const Triangle> triangles);
+
 /// Throws OptionError for options out of range; InputError for points as check_points() does, for seeds of regions
 /// outside the exact range, and for a triangulation that does not belong to the points.
 void check_arguments(std::span<const Point> points, const ConstrainedTriangulation& triangulation,

@@ -34,13 +34,13 @@ std::vector<std::uint32_t> find_fields(const ConstrainedInput& input, std::span<
 }  // namespace
 
 ConstrainedInput make_constrained_input(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                                        const SizeField& size, std::span<const RegionSize> regions) {
+                                        RegionSizes size, std::span<const RegionSize> regions) {
     ConstrainedInput input;
     input.points.assign(points.begin(), points.end());
     input.points.insert(input.points.end(), triangulation.steiner_points.begin(), triangulation.steiner_points.end());
     input.tris = link_triangles(triangulation.triangles, triangulation.segments);
-    input.sizes.push_back(&size);
-    for (const RegionSize& region : regions) input.sizes.push_back(&region.size);
+    input.sizes.push_back(size);
+    for (const RegionSize& region : regions) input.sizes.emplace_back(region.size);
     input.fields = find_fields(input, regions);
     return input;
 }

@@ -8,6 +8,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/point.hpp>
 
+#include "delaunay/region_sizes.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -16,8 +17,8 @@ namespace lamina::delaunay {
 struct ConstrainedInput {
     std::vector<Point> points;  ///< those of the user, then those of the triangulation
     Tris tris;
-    std::vector<const SizeField*> sizes;  ///< the general field, then those of the regions
-    std::vector<std::uint32_t> fields;    ///< for each triangle the index of its size field; empty without regions
+    std::vector<RegionSizes> sizes;     ///< the general ones, then those of the regions
+    std::vector<std::uint32_t> fields;  ///< for each triangle the index of its size field; empty without regions
 
     std::uint32_t field_of(Index t) const { return fields.empty() ? 0 : fields[t]; }
 };
@@ -25,6 +26,6 @@ struct ConstrainedInput {
 /// Links the triangles and finds their size fields: 0 is the general one, and r + 1 that of region r, which is used all
 /// over the part that holds its seed. The first of several regions counts. The result refers to the size fields.
 ConstrainedInput make_constrained_input(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                                        const SizeField& size, std::span<const RegionSize> regions);
+                                        RegionSizes size, std::span<const RegionSize> regions);
 
 }  // namespace lamina::delaunay

@@ -245,7 +245,7 @@ void add_triangle(const ConstrainedInput& input, Index t, UndividedSums& sums) {
     constexpr double mean_border_edge = 0.95;
     const Tri& tri = input.tris[t];
     const Point a = input.points[tri.v[0]], b = input.points[tri.v[1]], c = input.points[tri.v[2]];
-    const SizeField& size = *input.sizes[input.field_of(t)];
+    const SizeField& size = *input.sizes[input.field_of(t)].field();
     const double h = std::min({size(a), size(b), size(c)});
     sums.min_triangles += 0.5 * cross(b - a, c - a) / (equilateral_area * h * h);
     for (unsigned e = 0; e < 3; ++e) {
@@ -310,7 +310,7 @@ using namespace delaunay;
 
 RefinementEstimate estimate_triangles(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                                       const SizeField& size, const ConstrainedRefineOptions& options) {
-    const ConstrainedInput input = make_constrained_input(points, triangulation, size, options.regions);
+    const ConstrainedInput input = make_constrained_input(points, triangulation, RegionSizes(size), options.regions);
     UndividedSums sums;
     for (Index t = 0; t < input.tris.size(); ++t) add_triangle(input, t, sums);
     const double by_lattice = sums.min_triangles * made_for_each_of_min_triangles(0);

@@ -73,7 +73,8 @@ Refinement refine(std::span<const Point> points, std::span<const Segment> segmen
     check_points_and_segments(points, segments);
     if (options.lattice) {
         LatticePatches patches = fill_with_lattice(points, segments, size, options);
-        if (!patches.empty()) return refine_with_lattice(points, segments, size, options, std::move(patches));
+        const bool fits = !options.stop_at_max_points || patches.points.size() <= options.max_points;
+        if (fits && !patches.empty()) return refine_with_lattice(points, segments, size, options, std::move(patches));
     }
     return refine_region(points, segments, size, options);
 }
@@ -83,6 +84,7 @@ RefineStats& RefineStats::operator+=(const RefineStats& other) {
     below_bound += other.below_bound;
     exempt += other.exempt;
     oversized += other.oversized;
+    stopped = stopped || other.stopped;
     return *this;
 }
 

@@ -57,7 +57,7 @@ std::vector<LatticeObstacle> crowded_vertices(const ConstrainedInput& input) {
     constexpr double reach_of_growth = 2;
     std::vector<double> size(input.points.size(), 0), nearest(input.points.size(), HUGE_VAL);
     for (Index t = 0; t < input.tris.size(); ++t) {
-        const SizeField& field = *input.sizes[input.field_of(t)];
+        const RegionSizes& field = input.sizes[input.field_of(t)];
         const Index* v = input.tris[t].v;
         for (unsigned e = 0; e < 3; ++e) {
             const Index a = v[next(e)], b = v[previous(e)];
@@ -111,12 +111,17 @@ FieldPatches fill_fields(const ConstrainedInput& input, std::span<const LatticeO
                          const RefineOptions& options) {
     FieldPatches all;
     for (std::uint32_t field = 0; field < input.sizes.size(); ++field) {
+        const SizeField* const size = input.sizes[field].field();
+        if (!size) continue;
         const std::vector<Segment> edges = edges_round_field(input, field);
         if (edges.empty()) continue;
-        const LatticePatches patches = fill_with_lattice(input.points, edges, *input.sizes[field], options, obstacles);
+        const LatticePatches patches = fill_with_lattice(input.points, edges, *size, options, obstacles);
         append(all, patches, field);
     }
-    if (all.patches.points.size() > options.max_points) fail_too_many_points(options.max_points);
+    if (all.patches.points.size() > options.max_points) {
+        if (options.stop_at_max_points) return {};
+        fail_too_many_points(options.max_points);
+    }
     return all;
 }
 
@@ -250,10 +255,11 @@ struct Outcome {
     std::size_t inserted = 0;  ///< number of vertices that the refiner inserted
 };
 
-Outcome refine_round(const FieldPatches& filled, const RefinementTask& task, const RefinementWay& way) {
+Outcome refine_round(const FieldPatches& filled, const RefinementTask& task, RefinementWay way) {
     ConstrainedRefineOptions options = task.options;
     double& min_angle = options.refine.min_angle_deg;
     min_angle = std::max(min_angle, std::min(min_angle + way.more_angle_deg, max_min_angle_deg));
+    way.diametral_circles = way.diametral_circles || options.conforming;
     SeamDomain seam = make_seam(task.input, filled);
     const std::size_t before = seam.domain.points.size();
     BorderLines lines(task.input.points, task.triangulation.segments, task.input.tris);
@@ -276,7 +282,9 @@ bool is_better(const ConstrainedRefinement& mesh, const ConstrainedRefinement& o
 
 /// Refines in other ways as well, the more the smaller the mesh is, and returns the best mesh.
 ConstrainedRefinement choose_best(Outcome best, const FieldPatches& filled, const RefinementTask& task) {
+    if (best.mesh.stats.stopped) return std::move(best.mesh);
     ConstrainedRefineOptions options = task.options;
+    options.refine.stop_at_max_points = false;
     std::size_t triangles = 0;
     for (const RefinementWay& way : other_ways) {
         triangles += best.mesh.triangles.size();
@@ -293,16 +301,9 @@ ConstrainedRefinement choose_best(Outcome best, const FieldPatches& filled, cons
     return std::move(best.mesh);
 }
 
-}  // namespace
-
-}  // namespace lamina::delaunay
-
-namespace lamina {
-
-using namespace delaunay;
-
-ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                             const SizeField& size, const ConstrainedRefineOptions& options) {
+/// Refines to these sizes.
+ConstrainedRefinement refine_to_sizes(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                                      RegionSizes size, const ConstrainedRefineOptions& options) {
     check_arguments(points, triangulation, options);
     const ConstrainedInput input = make_constrained_input(points, triangulation, size, options.regions);
     const RefinementTask task{input, triangulation, options, points.size()};
@@ -316,6 +317,24 @@ ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTri
         const double reach = 2 << attempt;
         for (const Point p : outcome.kept_out) obstacles.push_back({p, reach * size(p)});
     }
+}
+
+}  // namespace
+
+}  // namespace lamina::delaunay
+
+namespace lamina {
+
+using namespace delaunay;
+
+ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                             const SizeField& size, const ConstrainedRefineOptions& options) {
+    return refine_to_sizes(points, triangulation, RegionSizes(size), options);
+}
+
+ConstrainedRefinement refine(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                             const SizeFunction& size, const ConstrainedRefineOptions& options) {
+    return refine_to_sizes(points, triangulation, RegionSizes(size), options);
 }
 
 }  // namespace lamina

@@ -123,7 +123,7 @@ std::vector<char> FrozenRefiner::find_sharp_corners() const {
 /// Counts the triangles that stayed beyond the bounds. Narrow ones at a sharp corner of the border are exempt.
 RefineStats FrozenRefiner::count_leftovers() const {
     // A triangle is queued as long as something is wrong with it, so without a refused point none is left.
-    if (refused_ == 0) return {};
+    if (refused_ == 0 && !stopped()) return {};
     const std::vector<char> sharp = find_sharp_corners();
     RefineStats stats;
     for (const Tri& t : tris_) {
@@ -137,6 +137,7 @@ RefineStats FrozenRefiner::count_leftovers() const {
         stats.oversized += is_oversized(t, s);
     }
     count_refused(stats);
+    stats.stopped = stopped();
     return stats;
 }
 

@@ -83,7 +83,7 @@ protected:
             if (is_on_front(t)) front_.ready.push({t, tris_[t].v[0]});
         do {
             mend_all_large();
-        } while (queue_enclosed());
+        } while (!is_full() && queue_enclosed());
         mend_narrow();
     }
 
@@ -173,6 +173,9 @@ protected:
         return !(a.area2 <= side_error * (a.aa + b.aa) && core::inline_orient2d(points_[a.a], points_[b.a], p) <= 0);
     }
 
+    /// Returns whether the refinement stopped because it may make no more Steiner points.
+    bool stopped() const { return stopped_; }
+
     /// Adds a vertex and its size. Throws MeshError where there are too many.
     Index add_vertex(Point p, float size) {
         const std::size_t count = points_.size();
@@ -209,8 +212,15 @@ protected:
     Cavity cavity_;
     AdvancingFront front_;
     std::size_t refused_ = 0;
+    bool stopped_ = false;
 
 private:
+    /// Returns whether to stop because there are as many Steiner points as there may be. Each step makes one at most.
+    bool is_full() {
+        if (options_.stop_at_max_points && points_.size() - input_count_ >= options_.max_points) stopped_ = true;
+        return stopped_;
+    }
+
     Derived& derived() { return static_cast<Derived&>(*this); }
     const Derived& derived() const { return static_cast<const Derived&>(*this); }
 
@@ -259,7 +269,7 @@ private:
         const std::size_t before = points_.size();
         do {
             mend_all_large();
-        } while (mend_narrow_next() || queue_enclosed());
+        } while (!is_full() && (mend_narrow_next() || queue_enclosed()));
         if (smooths && points_.size() > before) smoother(false).mend();
     }
 
@@ -270,7 +280,7 @@ private:
 
     /// Mends large triangles until none is queued, and splits borders that have to be split before.
     void mend_all_large() {
-        while (derived().split_next() || mend_large_next()) {
+        while (!is_full() && (derived().split_next() || mend_large_next())) {
         }
     }
 

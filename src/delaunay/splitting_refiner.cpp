@@ -31,7 +31,7 @@ unsigned edge_between(const Tri& t, Index a, Index b) {
 
 }  // namespace
 
-SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
+SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const RegionSizes> sizes,
                                    const ConstrainedRefineOptions& options, const RefinementWay& way)
     : Refiner(options.refine, std::move(domain.points), std::move(domain.tris)),
       lines_(lines),
@@ -78,7 +78,7 @@ std::vector<Point> SplittingRefiner::vertices() const {
 
 double SplittingRefiner::gradation() const {
     double greatest = 0;
-    for (const SizeField* field : sizes_of_fields_) greatest = std::max(greatest, field->gradation());
+    for (const RegionSizes& sizes : sizes_of_fields_) greatest = std::max(greatest, sizes.gradation());
     return greatest;
 }
 
@@ -110,7 +110,7 @@ bool SplittingRefiner::is_too_long(Index t, Index a, Index b) const {
     const double at_ends = std::min(size_of(a), size_of(b));
     if (length > border_share * at_ends) return true;
     // The size at the middle cannot be smaller than the growth of sizes admits.
-    if (sizes_of_fields_[field_of(t)]->is_uniform()) return false;
+    if (sizes_of_fields_[field_of(t)].is_uniform()) return false;
     return length > border_share * size_at(midpoint(points_[a], points_[b]), t);
 }
 
@@ -370,6 +370,7 @@ RefineStats SplittingRefiner::count_leftovers(double min_angle_deg) const {
             std::any_of(tri.v, tri.v + 3, [&](Index v) { return lines_.in_sharp_corner(points_, v, middle); });
     }
     count_refused(stats);
+    stats.stopped = stopped();
     return stats;
 }
 

@@ -11,6 +11,7 @@
 
 #include "delaunay/border_lines.hpp"
 #include "delaunay/refiner.hpp"
+#include "delaunay/region_sizes.hpp"
 
 namespace lamina::delaunay {
 
@@ -47,7 +48,7 @@ struct RefinementWay {
 class SplittingRefiner : public Refiner<SplittingRefiner> {
 public:
     /// Keeps references to the lines, the size fields and the options.
-    SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const SizeField* const> sizes,
+    SplittingRefiner(SplittableDomain domain, BorderLines& lines, std::span<const RegionSizes> sizes,
                      const ConstrainedRefineOptions& options, const RefinementWay& way);
 
     /// Refines. May be called once only.
@@ -71,7 +72,7 @@ private:
         Index t, a, b;
     };
 
-    double size_at(Point p, Index t) const { return scale_ * (*sizes_of_fields_[field_of(t)])((1 / scale_) * p); }
+    double size_at(Point p, Index t) const { return scale_ * sizes_of_fields_[field_of(t)]((1 / scale_) * p); }
     double gradation() const;
     bool is_blocked(const CavityEdge& a, const CavityEdge& b) const;
     static constexpr bool always_counts = true;
@@ -97,7 +98,7 @@ private:
     void fill_and_queue(Index vertex, Index a, Index b, std::uint32_t left, std::uint32_t right);
 
     BorderLines& lines_;
-    std::span<const SizeField* const> sizes_of_fields_;
+    std::span<const RegionSizes> sizes_of_fields_;
     std::vector<std::uint32_t> fields_;
     std::size_t frozen_begin_, frozen_end_;
     bool may_split_;

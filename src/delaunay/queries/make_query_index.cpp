@@ -23,19 +23,6 @@ namespace {
 
 constexpr std::size_t query_grain = 1 << 14;
 
-void check_orientation(std::span<const Point> points, std::span<const Triangle> triangles) {
-    const auto bad = core::parallel_blocks(triangles.size(), query_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t) {
-            const auto& v = triangles[t].v;
-            if (!(orient2d(points[v[0].index()], points[v[1].index()], points[v[2].index()]) > 0)) return t;
-        }
-        return std::numeric_limits<std::size_t>::max();
-    });
-    const auto first = std::min_element(bad.begin(), bad.end());
-    if (first != bad.end() && *first < triangles.size())
-        throw InputError({.triangles = {*first}}, core::concat("triangle ", *first, " is not counter-clockwise"));
-}
-
 /// An edge of the boundary, with the region on its left.
 struct BoundaryEdge {
     std::uint64_t ends;  ///< its first vertex, then its second one
@@ -228,7 +215,7 @@ bool is_delaunay_triangulation(const QueryIndex& index) {
 QueryIndex make_query_index(std::span<const Point> points, std::span<const Triangle> triangles) {
     check_points(points);
     const std::vector<std::uint32_t> twins = half_edges(points.size(), triangles);
-    check_orientation(points, triangles);
+    require_counter_clockwise(points, triangles);
     QueryIndex index;
     index.point_count = points.size();
     if (triangles.empty()) return index;

@@ -29,6 +29,8 @@ void require_delaunay(const QueryIndex& index) {
         throw UsageError("this query needs the Delaunay triangulation of points, with their hull as boundary");
 }
 
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
 /// Returns a triangle or ghost that holds p; no_index where there are none, and for coordinates outside the range.
 Index find_from_jump(const QueryIndex& index, Point p) {
     if (index.tris.empty() || !in_exact_range(p)) return no_index;
@@ -49,11 +51,22 @@ double linear_value(const QueryIndex& index, const Tri& t, std::span<const doubl
     return f[near] + (weight[i] * (f[i] - f[near]) + weight[j] * (f[j] - f[near])) / sum;
 }
 
+/// Returns the value at p, which the triangle or ghost `found` holds.
+double linear_value_at(const QueryIndex& index, Index found, std::span<const double> values, Point p) {
+    if (found == no_index) return no_value;
+    Index t = found;
+    // A point on the boundary may have been found on its outer side.
+    if (!index.is_inside(t)) {
+        const PointLocation location = classify(index, t, p);
+        if (!location.triangle.valid()) return no_value;
+        t = index.places[location.triangle.index()];
+    }
+    return linear_value(index, index.tris[t], values, p);
+}
+
 void require_values(const QueryIndex& index, std::span<const double> values) {
     core::require_count(values.size(), "values", index.point_count, "points");
 }
-
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -111,18 +124,14 @@ std::vector<double> TriangulationIndex::interpolate_linear(std::span<const doubl
     require_values(data_->index, values);
     std::vector<double> result(queries.size(), no_value);
     for_each_found(data_->index, queries, [&](std::size_t i, Index found) {
-        if (found == no_index) return;
-        const QueryIndex& index = data_->index;
-        Index t = found;
-        // A point on the boundary may have been found on its outer side.
-        if (!index.is_inside(t)) {
-            const PointLocation location = classify(index, t, queries[i]);
-            if (!location.triangle.valid()) return;
-            t = index.places[location.triangle.index()];
-        }
-        result[i] = linear_value(index, index.tris[t], values, queries[i]);
+        result[i] = linear_value_at(data_->index, found, values, queries[i]);
     });
     return result;
+}
+
+double TriangulationIndex::interpolate_linear(std::span<const double> values, Point p) const {
+    require_values(data_->index, values);
+    return linear_value_at(data_->index, find_from_jump(data_->index, p), values, p);
 }
 
 std::vector<double> TriangulationIndex::interpolate_sibson(std::span<const double> values,
