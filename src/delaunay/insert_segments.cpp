@@ -24,6 +24,7 @@ namespace {
 struct SegmentInput {
     std::span<const Point> points;
     std::span<const Segment> segments;
+    Index ghost = ghost_vertex;  ///< the number of the vertex at infinity
 };
 
 std::string segment_name(const SegmentInput& input, std::size_t i) { return core::segment_name(input.segments, i); }
@@ -68,21 +69,20 @@ struct Departure {
 class DepartureSearch {
 public:
     DepartureSearch(const SegmentInput& input, const Tris& tris, Index first, Index at, Index target)
-        : points_(input.points), tris_(tris), at_(at), target_(target), t_(first) {}
+        : points_(input.points), tris_(tris), ghost_(input.ghost), at_(at), target_(target), t_(first) {}
 
     /// Looks at the next triangle. Returns whether the departure is known.
     bool step(Departure& departure) {
         const Tri& tri = tris_[t_];
         const unsigned i = tri.v[0] == at_ ? 0 : tri.v[1] == at_ ? 1 : 2;
         const Index u = tri.v[next(i)], w = tri.v[previous(i)];
-        if (u != ghost_vertex) {
+        if (u != ghost_) {
             const double at_u = core::inline_orient2d(points_[at_], points_[u], points_[target_]);
             if (at_u == 0 && dot(points_[u] - points_[at_], points_[target_] - points_[at_]) > 0) {
                 departure = {at_, u, Link(t_, previous(i))};
                 return true;
             }
-            if (w != ghost_vertex && at_u > 0 &&
-                core::inline_orient2d(points_[at_], points_[w], points_[target_]) < 0) {
+            if (w != ghost_ && at_u > 0 && core::inline_orient2d(points_[at_], points_[w], points_[target_]) < 0) {
                 departure = {at_, no_index, Link(t_, i)};
                 return true;
             }
@@ -94,13 +94,9 @@ public:
 private:
     std::span<const Point> points_;
     const Tris& tris_;
+    Index ghost_;
     Index at_, target_;
     Index t_;  ///< the triangle to look at
-};
-
-/// The ends of a constrained edge.
-struct PieceEnds {
-    Index c, d;
 };
 
 /// Inserts one segment after another into a triangulation.
@@ -110,7 +106,7 @@ public:
         : input_(input), tris_(tris), at_vertex_(at_vertex), polygons_(input.points, tris, at_vertex) {}
 
     /// Inserts a segment, and appends its pieces. Returns false where it crosses a constrained edge, which crossed()
-    /// then gives.
+    /// then gives; the pieces before and behind it have been inserted.
     bool insert(std::size_t segment, std::vector<SegmentPiece>& pieces) {
         const auto parent = static_cast<Index>(segment);
         Index from = input_.segments[segment].a.value, to = input_.segments[segment].b.value;
@@ -126,7 +122,10 @@ public:
                 constrain_edge(tris_, edge.triangle(), edge.edge());
             } else {
                 end = collect_crossed(departure.exit, departure.at, forward ? to : from);
-                if (end == no_index) return false;
+                if (end == no_index) {
+                    pieces.insert(pieces.end(), at_far_end_.rbegin(), at_far_end_.rend());
+                    return false;
+                }
                 polygons_.fill();
             }
             if (forward)
@@ -139,7 +138,7 @@ public:
         return true;
     }
 
-    PieceEnds crossed() const { return crossed_; }
+    CrossedEdge crossed() const { return crossed_; }
 
 private:
     /// Returns how the segment a-b leaves a or, where many edges meet at a, one of its ends. So hubs of n segments do
@@ -195,7 +194,7 @@ private:
     Tris& tris_;
     std::vector<Index>& at_vertex_;
     CrossedPolygons polygons_;
-    PieceEnds crossed_{};
+    CrossedEdge crossed_{};
     std::vector<SegmentPiece> at_far_end_;  ///< pieces of the present segment, from its end on
 };
 
@@ -239,6 +238,15 @@ std::optional<std::vector<SegmentPiece>> insert_planar_segments(std::span<const 
     for (std::size_t i = 0; i < segments.size(); ++i)
         if (!inserter.insert(i, pieces)) return std::nullopt;
     return pieces;
+}
+
+std::optional<CrossedEdge> insert_segment(std::span<const Point> points, Segment segment, Tris& tris,
+                                          std::vector<Index>& at_vertex, Index ghost,
+                                          std::vector<SegmentPiece>& pieces) {
+    const SegmentInput input{points, {&segment, 1}, ghost};
+    SegmentInserter inserter(input, tris, at_vertex);
+    if (inserter.insert(0, pieces)) return std::nullopt;
+    return inserter.crossed();
 }
 
 void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris) {

@@ -40,6 +40,17 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
 std::optional<std::vector<SegmentPiece>> insert_planar_segments(std::span<const Point> points,
                                                                 std::span<const Segment> segments, Tris& tris);
 
+/// The ends of a constrained edge that a segment crosses.
+struct CrossedEdge {
+    Index c, d;
+};
+
+/// Inserts one segment into a triangulation whose vertex at infinity has the number `ghost`, and appends its pieces.
+/// Where it crosses a constrained edge, returns that edge; its pieces before and behind have been inserted then.
+std::optional<CrossedEdge> insert_segment(std::span<const Point> points, Segment segment, Tris& tris,
+                                          std::vector<Index>& at_vertex, Index ghost,
+                                          std::vector<SegmentPiece>& pieces);
+
 /// Makes every segment a constrained edge. Throws InputError as insert_and_split_segments() does, and where a segment
 /// runs through a vertex.
 LAMINA_EXPORT void insert_segments(std::span<const Point> points, std::span<const Segment> segments, Tris& tris);

@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
 #include "delaunay/queries/query_index.hpp"
+#include "delaunay/walk.hpp"
 
 namespace lamina::delaunay::queries {
 
@@ -16,14 +17,6 @@ namespace {
 
 /// Queries of one block, which one thread answers.
 constexpr std::size_t queries_per_block = 4096;
-
-/// Returns whether p lies strictly on the right of edge e of t.
-bool is_beyond(const QueryIndex& index, const Tri& t, unsigned e, Point p) {
-    return core::inline_orient2d(index.vertices[t.v[next(e)]], index.vertices[t.v[previous(e)]], p) < 0;
-}
-
-/// Which corner of a triangle a vertex is.
-unsigned corner_of(const Tri& t, Index v) { return t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2; }
 
 Point nearest_in_box(const Box& box, Point p) {
     return {std::clamp(p.x, box.lower.x, box.upper.x), std::clamp(p.y, box.lower.y, box.upper.y)};
@@ -49,36 +42,12 @@ Index vertex_near(const QueryIndex& index, Point p) {
 }
 
 Index walk_to(const QueryIndex& index, Index start, Point p) {
-    const Tri* const tris = index.tris.data();
-    unsigned e = 0;
-    while (!is_beyond(index, tris[start], e, p))
-        if (++e == 3) return start;
-    Link across = tris[start].n[e];
-    // A walk that always tries the same edge first may run in circles where the triangulation is not Delaunay. So does
-    // none that chooses at random for ever; in most triangulations no choice is needed, and choosing costs time.
-    constexpr unsigned many_steps = 50;
-    std::uint32_t random = 1;
-    for (unsigned steps = 0;; ++steps) {
-        const Tri& t = tris[across.triangle()];
-        const unsigned k = across.edge();
-        if (index.is_ghost(t)) return across.triangle();
-        unsigned first = next(k), second = previous(k);
-        if (steps > many_steps) {
-            random = random * 1664525u + 1013904223u;
-            if (random >> 31) std::swap(first, second);
-        }
-        if (is_beyond(index, t, first, p))
-            across = t.n[first];
-        else if (is_beyond(index, t, second, p))
-            across = t.n[second];
-        else
-            return across.triangle();
-    }
+    return walk(index.vertices.data(), index.tris.data(), start, p);
 }
 
 PointLocation classify(const QueryIndex& index, Index found, Point p) {
     const Tri& t = index.tris[found];
-    if (index.is_ghost(t)) return {};
+    if (is_growing_ghost(t)) return {};
     unsigned touched[3], count = 0;
     for (unsigned e = 0; e < 3; ++e)
         if (core::inline_orient2d(index.vertices[t.v[next(e)]], index.vertices[t.v[previous(e)]], p) == 0)
@@ -168,7 +137,7 @@ void for_each_found(const QueryIndex& index, std::span<const Point> queries,
             if (!dense || recent == no_index) recent = index.at_vertex[vertex_near(index, p)];
             const Index found = walk_to(index, recent, p);
             answer(i, found);
-            recent = index.is_ghost(index.tris[found]) ? no_index : found;
+            recent = is_growing_ghost(index.tris[found]) ? no_index : found;
         }
     });
 }

@@ -16,6 +16,7 @@
 #include "delaunay/queries/query_index.hpp"
 #include "delaunay/regions.hpp"
 #include "delaunay/triangulate_points.hpp"
+#include "delaunay/walk.hpp"
 
 namespace lamina::delaunay::queries {
 
@@ -196,7 +197,7 @@ bool is_delaunay_triangulation(const QueryIndex& index) {
     const auto bad = core::parallel_blocks(index.tris.size(), query_grain, [&](std::size_t begin, std::size_t end) {
         for (Index t = static_cast<Index>(begin); t < end; ++t) {
             const Tri& tri = index.tris[t];
-            if (!index.is_inside(t) && !index.is_ghost(tri)) return true;
+            if (!index.is_inside(t) && !is_growing_ghost(tri)) return true;
             if (!index.is_inside(t)) continue;
             const Point* const p = index.vertices.data();
             for (const Link n : tri.n) {

@@ -20,6 +20,7 @@
 #include "core/predicates.hpp"
 #include "delaunay/queries/query_index.hpp"
 #include "delaunay/triangle_shape.hpp"
+#include "delaunay/walk.hpp"
 
 namespace lamina::delaunay::queries {
 
@@ -81,7 +82,7 @@ private:
     Point centre_of(const Tri& t) const { return circumcentre(relative(t.v[0]), relative(t.v[1]), relative(t.v[2])); }
     bool holds_p(const Tri& t) const {
         const Point* const v = index_.vertices.data();
-        return !index_.is_ghost(t) && incircle(v[t.v[0]], v[t.v[1]], v[t.v[2]], p_) > 0;
+        return !is_growing_ghost(t) && incircle(v[t.v[0]], v[t.v[1]], v[t.v[2]], p_) > 0;
     }
 
     /// Adds up the areas.
@@ -117,7 +118,7 @@ NaturalNeighbours on_edge_between(const QueryIndex& index, Index a, Index b, Poi
 
 NaturalNeighbours natural_neighbours_at(const QueryIndex& index, Index found, Point p) {
     const Tri& t = index.tris[found];
-    if (index.is_ghost(t)) return {};
+    if (is_growing_ghost(t)) return {};
     unsigned touched = 0, edge = 0, sum = 0;
     for (unsigned e = 0; e < 3; ++e) {
         if (core::inline_orient2d(index.vertices[t.v[next(e)]], index.vertices[t.v[previous(e)]], p) != 0) continue;
@@ -126,7 +127,7 @@ NaturalNeighbours natural_neighbours_at(const QueryIndex& index, Index found, Po
         sum += e;
     }
     if (touched == 2) return {{VertexId{index.point_ids[t.v[3 - sum]]}}, {1.0}};
-    if (touched == 1 && index.is_ghost(index.tris[t.n[edge].triangle()]))
+    if (touched == 1 && is_growing_ghost(index.tris[t.n[edge].triangle()]))
         return on_edge_between(index, t.v[next(edge)], t.v[previous(edge)], p);
     const SibsonCavity cavity(index, found, p);
     NaturalNeighbours result;

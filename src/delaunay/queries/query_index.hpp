@@ -49,9 +49,6 @@ struct QueryIndex {
     VerticesAlongCurve along_curve;   ///< key i is that of vertex i + 1
     bool is_delaunay = false;
 
-    bool is_ghost(const Tri& t) const {
-        return t.v[0] == growing_ghost_vertex || t.v[1] == growing_ghost_vertex || t.v[2] == growing_ghost_vertex;
-    }
     bool is_inside(Index t) const { return triangle_ids[t] != no_index; }
 };
 

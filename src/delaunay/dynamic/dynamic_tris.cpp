@@ -1,0 +1,255 @@
+// Insertion by cavities and segments. A cavity stops at constrained edges; that it is star-shaped all the same follows
+// from the triangulation being constrained Delaunay: beyond the end e of a segment no triangle on the ray from the new
+// point through e holds the point in its circle, so the cavity does not reach behind the segment.
+#include "delaunay/dynamic/dynamic_tris.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <lamina/predicates.hpp>
+
+#include "core/bounding_box.hpp"
+#include "core/predicates.hpp"
+#include "core/random.hpp"
+#include "delaunay/brio.hpp"
+#include "delaunay/walk.hpp"
+
+namespace lamina::delaunay::dynamic {
+
+namespace {
+
+constexpr Index infinity = growing_ghost_vertex;
+
+}  // namespace
+
+DynamicTris::DynamicTris() {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    vertices_.push_back({nan, nan});
+    alive_.push_back(0);
+    at_vertex_.push_back(no_index);
+}
+
+Index DynamicTris::append(std::span<const Point> points) {
+    const auto first = static_cast<Index>(vertices_.size());
+    vertices_.insert(vertices_.end(), points.begin(), points.end());
+    alive_.resize(vertices_.size(), 0);
+    at_vertex_.resize(vertices_.size(), no_index);
+    return first;
+}
+
+void DynamicTris::drop_last() {
+    vertices_.pop_back();
+    alive_.pop_back();
+    at_vertex_.pop_back();
+}
+
+/// Returns a triangle at a vertex that is no ghost.
+Index DynamicTris::triangle_at(Index v) const {
+    Index t = at_vertex_[v];
+    // Two ghosts at most are neighbours round a vertex.
+    while (is_growing_ghost(tris_[t])) t = tris_[t].n[next(corner_of(tris_[t], v))].triangle();
+    return t;
+}
+
+Index DynamicTris::walk_from(Index near, Point p) const {
+    return walk(vertices_.data(), tris_.data(), triangle_at(near), p);
+}
+
+Index DynamicTris::sample_near(Point p, Index hint) const {
+    Index best = is_alive(hint) ? hint : 0;
+    const auto tries = static_cast<std::size_t>(std::cbrt(static_cast<double>(vertices_.size())));
+    for (std::size_t i = 0; i < tries; ++i) {
+        const auto v = static_cast<Index>(1 + core::splitmix64(i) % (vertices_.size() - 1));
+        if (!alive_[v]) continue;
+        if (best == 0 || squared_length(vertices_[v] - p) < squared_length(vertices_[best] - p)) best = v;
+    }
+    // Where most vertices were removed the sample may hold none.
+    return best != 0 ? best : static_cast<Index>(std::find(alive_.begin(), alive_.end(), 1) - alive_.begin());
+}
+
+std::optional<Index> DynamicTris::find(Point p, Index near) const {
+    const Tri& t = tris_[walk_from(near, p)];
+    for (const Index v : t.v)
+        if (v != infinity && vertices_[v] == p) return v;
+    return std::nullopt;
+}
+
+Index DynamicTris::insert(Index v, Index near) {
+    const Point p = vertices_[v];
+    const Index t = walk_from(near, p);
+    for (const Index w : tris_[t].v)
+        if (w != infinity && vertices_[w] == p) return w;
+    // A constrained edge that p lies on is cut: it is released until p is in, and then both its parts are constrained.
+    Index a = no_index, b = no_index;
+    for (unsigned e = 0; e < 3 && !is_growing_ghost(tris_[t]); ++e) {
+        const Index from = tris_[t].v[next(e)], to = tris_[t].v[previous(e)];
+        if (!tris_[t].n[e].is_constrained() || core::inline_orient2d(vertices_[from], vertices_[to], p) != 0) continue;
+        a = from;
+        b = to;
+        release_edge(tris_, t, e);
+    }
+    const RelativeTriangle relative = relative_to(vertices_.data(), tris_[t], p);
+    find_cavity<true>(vertices_.data(), tris_.data(), t, relative, p, cavity_);
+    fill_cavity(tris_, cavity_, v, [&](Index made, const CavityEdge& from, const CavityEdge&) {
+        at_vertex_[from.a] = made;
+        at_vertex_[v] = made;
+    });
+    if (a != no_index) {
+        for (const Index end : {a, b}) {
+            const Link edge = find_edge(tris_, at_vertex_, v, end);
+            constrain_edge(tris_, edge.triangle(), edge.edge());
+        }
+    }
+    alive_[v] = 1;
+    ++alive_count_;
+    return v;
+}
+
+/// Makes a triangle of three vertices, which do not lie on one line, and its ghosts.
+void DynamicTris::make_first_triangle(Index a, Index b, Index c) {
+    if (orient2d(vertices_[a], vertices_[b], vertices_[c]) < 0) std::swap(b, c);
+    tris_.resize(4);
+    set_triangle(0, a, b, c);
+    const Index v[3] = {a, b, c};
+    for (unsigned e = 0; e < 3; ++e) {
+        set_triangle(1 + e, v[previous(e)], v[next(e)], infinity);
+        connect(tris_, 0, e, Link(1 + e, 2));
+    }
+    // Edge 0 of a ghost runs from v[e+1] to infinity; its neighbour is the ghost across edge e + 2.
+    for (unsigned e = 0; e < 3; ++e) connect(tris_, 1 + e, 0, Link(1 + previous(e), 1));
+}
+
+std::vector<Index> DynamicTris::insert_without_triangles(std::span<const Index> vertices) {
+    // Those alive come first among equal points, then the others in their order.
+    std::vector<Index> all;
+    for (Index v = 1; v < vertices_.size(); ++v)
+        if (alive_[v]) all.push_back(v);
+    const std::size_t old_count = all.size();
+    all.insert(all.end(), vertices.begin(), vertices.end());
+    std::vector<std::size_t> order(all.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
+        const Point p = vertices_[all[i]], q = vertices_[all[k]];
+        return p == q ? i < k : lexicographically_less(p, q);
+    });
+    std::vector<Index> found(vertices.size());
+    std::vector<Index> distinct;
+    for (const std::size_t i : order) {
+        const bool is_new = distinct.empty() || vertices_[distinct.back()] != vertices_[all[i]];
+        if (is_new) distinct.push_back(all[i]);
+        if (i >= old_count) found[i - old_count] = distinct.back();
+    }
+    for (const Index v : distinct) {
+        alive_count_ += !alive_[v];
+        alive_[v] = 1;
+    }
+    std::vector<Point> points;
+    for (const Index v : distinct) points.push_back(vertices_[v]);
+    std::vector<Index> sequence = brio_order(points, core::bounding_box(points));
+    for (Index& i : sequence) i = distinct[i];
+    for (std::size_t k = 2; k < sequence.size(); ++k) {
+        if (orient2d(vertices_[sequence[0]], vertices_[sequence[1]], vertices_[sequence[k]]) == 0) continue;
+        std::swap(sequence[2], sequence[k]);
+        tris_.reserve(2 * sequence.size());
+        make_first_triangle(sequence[0], sequence[1], sequence[2]);
+        for (std::size_t i = 3; i < sequence.size(); ++i) {
+            --alive_count_;
+            insert(sequence[i], sequence[i - 1]);
+        }
+        break;
+    }
+    return found;
+}
+
+bool DynamicTris::has_constrained_edge(Index v) const {
+    if (tris_.empty()) return false;
+    const Index first = at_vertex_[v];
+    Index t = first;
+    do {
+        const unsigned i = corner_of(tris_[t], v);
+        if (tris_[t].n[next(i)].is_constrained()) return true;
+        t = tris_[t].n[next(i)].triangle();
+    } while (t != first);
+    return false;
+}
+
+std::optional<CrossedEdge> DynamicTris::insert_segment(Segment segment, std::vector<SegmentPiece>& pieces) {
+    const std::size_t before = pieces.size();
+    const auto crossed = delaunay::insert_segment(vertices_, segment, tris_, at_vertex_, infinity, pieces);
+    if (!crossed) return std::nullopt;
+    std::vector<Link> inserted;
+    for (std::size_t i = before; i < pieces.size(); ++i)
+        if (!pieces[i].repeats)
+            inserted.push_back(find_edge(tris_, at_vertex_, pieces[i].segment.a.value, pieces[i].segment.b.value));
+    release(inserted);
+    pieces.resize(before);
+    return crossed;
+}
+
+std::optional<std::vector<Link>> DynamicTris::find_constrained_way(Index a, Index b) const {
+    std::vector<Link> way;
+    Index at = a;
+    while (at != b) {
+        const Index first = at_vertex_[at];
+        Index t = first, reached = no_index;
+        do {
+            const unsigned i = corner_of(tris_[t], at);
+            const Index w = tris_[t].v[next(i)];
+            const Link across = tris_[t].n[previous(i)];
+            if (w != infinity && across.is_constrained() &&
+                core::inline_orient2d(vertices_[at], vertices_[w], vertices_[b]) == 0 &&
+                dot(vertices_[w] - vertices_[at], vertices_[b] - vertices_[at]) > 0) {
+                way.emplace_back(t, previous(i));
+                reached = w;
+                break;
+            }
+            t = tris_[t].n[next(i)].triangle();
+        } while (t != first);
+        // The last edge may not end beyond b.
+        if (reached == no_index ||
+            (reached != b && dot(vertices_[b] - vertices_[reached], vertices_[b] - vertices_[a]) < 0))
+            return std::nullopt;
+        at = reached;
+    }
+    return way;
+}
+
+void DynamicTris::release(std::span<const Link> edges) {
+    for (const Link edge : edges) {
+        release_edge(tris_, edge.triangle(), edge.edge());
+        to_check_.push_back(edge);
+    }
+    flip_until_delaunay();
+}
+
+/// Flips the edges of to_check_, and those round them, until all are locally Delaunay.
+void DynamicTris::flip_until_delaunay() {
+    while (!to_check_.empty()) {
+        const Link edge = to_check_.back();
+        to_check_.pop_back();
+        const Index t = edge.triangle();
+        const Tri& tri = tris_[t];
+        const Link across = tri.n[edge.edge()];
+        const Index n = across.triangle();
+        if (across.is_constrained() || is_growing_ghost(tri) || is_growing_ghost(tris_[n])) continue;
+        const Index opposite = tris_[n].v[across.edge()];
+        if (core::inline_incircle_perturbed(vertices_[tri.v[0]], vertices_[tri.v[1]], vertices_[tri.v[2]],
+                                            vertices_[opposite]) <= 0)
+            continue;
+        flip_edge(tris_, t, edge.edge());
+        for (const Index v : tris_[t].v) at_vertex_[v] = t;
+        for (const Index v : tris_[n].v) at_vertex_[v] = n;
+        for (const Link around : {Link(t, 0), Link(t, 2), Link(n, 0), Link(n, 1)}) to_check_.push_back(around);
+    }
+}
+
+void DynamicTris::set_triangle(Index t, Index a, Index b, Index c) {
+    tris_[t].v[0] = a;
+    tris_[t].v[1] = b;
+    tris_[t].v[2] = c;
+    for (const Index v : tris_[t].v) at_vertex_[v] = t;
+}
+
+}  // namespace lamina::delaunay::dynamic
