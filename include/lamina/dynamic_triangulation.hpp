@@ -26,7 +26,7 @@ public:
     /// Makes a triangulation without points.
     DynamicTriangulation();
     /// Makes that of points and segments between them. Throws as the functions that insert them do. The points have the
-    /// numbers 0, 1, 2, ...; equal ones too, of which all but the first are removed at once (contains()).
+    /// numbers 0, 1, 2, ...; of equal ones all but one count as removed (contains()).
     explicit DynamicTriangulation(std::span<const Point> points, std::span<const Segment> segments = {});
     /// Copies all data.
     DynamicTriangulation(const DynamicTriangulation& other);

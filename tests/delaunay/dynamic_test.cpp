@@ -219,7 +219,7 @@ TEST(Dynamic, CopiesAreIndependentAndErrorsChangeNothing) {
     EXPECT_EQ(d.size(), 49u);
     const DynamicTriangulation equal_points(std::vector<Point>{{0, 0}, {1, 0}, {0, 1}, {1, 0}});
     EXPECT_EQ(equal_points.size(), 3u);
-    EXPECT_FALSE(equal_points.contains(VertexId{3u}));
+    EXPECT_NE(equal_points.contains(VertexId{1u}), equal_points.contains(VertexId{3u}));
 }
 
 }  // namespace

@@ -21,20 +21,72 @@ namespace lamina {
 using namespace delaunay;
 using namespace delaunay::dynamic;
 
-/// Vertex v of the triangles is point v - 1.
+/// Vertices are numbered in the order of their insertion, so that what is near in the plane is near in memory. Here they
+/// get the numbers of points.
 class DynamicTriangulation::Data : public DynamicTris {
 public:
-    Index recent = 0;  ///< a vertex near which the next change is likely; it may have been removed
+    std::vector<Point> points;              ///< by the numbers of points
+    std::vector<Index> vertex_of;           ///< for each point its vertex
+    std::vector<Index> point_of{no_index};  ///< for each vertex its point
+    Index recent = 0;                       ///< a vertex near which the next change is likely; it may have been removed
 
-    void require_room(std::size_t points) const {
-        if (points + vertices().size() > max_triangles / 2)
-            throw InputError({}, "these are more points than one triangulation can number");
+    VertexId id(Index vertex) const { return VertexId{point_of[vertex]}; }
+    Index vertex(VertexId point) const { return vertex_of[point.index()]; }
+    bool contains(VertexId point) const {
+        return point.valid() && point.index() < points.size() && is_alive(vertex(point));
     }
     void require_contained(VertexId point) const {
-        if (!point.valid() || !is_alive(static_cast<Index>(point.index() + 1)))
+        if (!contains(point))
             throw InputError({.points = {point.index()}}, core::concat("there is no point ", point.value));
     }
+    void require_room(std::size_t more) const {
+        if (more + points.size() > max_triangles / 2)
+            throw InputError({}, "these are more points than one triangulation can number");
+    }
+
+    /// Appends points and, in this order of theirs, vertices for them. Returns the first vertex.
+    Index append_in_order(std::span<const Point> more, std::span<const Index> order) {
+        const std::size_t first_point = points.size();
+        points.insert(points.end(), more.begin(), more.end());
+        std::vector<Point> ordered;
+        ordered.reserve(more.size());
+        for (const Index i : order) ordered.push_back(more[i]);
+        const Index first = append(ordered);
+        vertex_of.resize(points.size());
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            const std::size_t point = first_point + order[k];
+            point_of.push_back(static_cast<Index>(point));
+            vertex_of[point] = static_cast<Index>(first + k);
+        }
+        return first;
+    }
+    void drop_last_point() {
+        drop_last();
+        points.pop_back();
+        vertex_of.pop_back();
+        point_of.pop_back();
+    }
 };
+
+namespace delaunay::dynamic {
+
+namespace {
+
+/// Returns an order in which to insert points among so many others. The others take the part of the random rounds of a
+/// BRIO where they are more.
+std::vector<Index> insertion_order(std::span<const Point> points, std::size_t others) {
+    const Box box = core::bounding_box(points);
+    if (others < points.size()) return brio_order(points, box);
+    constexpr unsigned curve_bits = 20;
+    const CurveOrder along_curve(points, HilbertCurve<curve_bits>(box));
+    std::vector<Index> order(points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(along_curve[i]);
+    return order;
+}
+
+}  // namespace
+
+}  // namespace delaunay::dynamic
 
 DynamicTriangulation::DynamicTriangulation() : data_(std::make_unique<Data>()) {}
 
@@ -59,32 +111,32 @@ VertexId DynamicTriangulation::insert(Point p) {
     if (data.tris().empty()) return insert(std::span<const Point>(&p, 1)).front();
     core::require_exact_range({&p, 1}, "point");
     data.require_room(1);
-    const Index near = data.sample_near(p, data.recent), v = data.append({&p, 1});
+    const Index near = data.sample_near(p, data.recent), only[1] = {0};
+    const Index v = data.append_in_order({&p, 1}, only);
     data.recent = data.insert(v, near);
-    if (data.recent != v) data.drop_last();
-    return VertexId{data.recent - 1};
+    const VertexId id = data.id(data.recent);
+    if (data.recent != v) data.drop_last_point();
+    return id;
 }
 
 std::vector<VertexId> DynamicTriangulation::insert(std::span<const Point> points) {
     core::require_exact_range(points, "point");
-    data_->require_room(points.size());
+    Data& data = *data_;
+    data.require_room(points.size());
     std::vector<VertexId> ids(points.size());
     if (points.empty()) return ids;
-    Data& data = *data_;
-    const Index first = data.append(points);
+    const std::vector<Index> order = insertion_order(points, data.alive_count());
+    const Index first = data.append_in_order(points, order);
     if (data.tris().empty()) {
-        std::vector<Index> vertices(points.size());
-        for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = static_cast<Index>(first + i);
-        const std::vector<Index> found = data.insert_without_triangles(vertices);
-        for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = VertexId{found[i] - 1};
+        const std::vector<Index> found = data.insert_without_triangles(first);
+        for (std::size_t k = 0; k < order.size(); ++k) ids[order[k]] = data.id(found[k]);
         data.recent = found.back();
         return ids;
     }
-    const std::vector<Index> order = brio_order(points, core::bounding_box(points));
     Index near = data.sample_near(points[order[0]], data.recent);
-    for (const Index i : order) {
-        near = data.insert(first + i, near);
-        ids[i] = VertexId{near - 1};
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        near = data.insert(static_cast<Index>(first + k), near);
+        ids[order[k]] = data.id(near);
     }
     data.recent = near;
     return ids;
@@ -94,22 +146,20 @@ void DynamicTriangulation::remove(VertexId point) { remove(std::span<const Verte
 
 void DynamicTriangulation::remove(std::span<const VertexId> points) {
     Data& data = *data_;
-    std::vector<Point> places;
+    std::vector<Index> vertices;
     for (const VertexId point : points) {
         data.require_contained(point);
-        if (data.has_constrained_edge(static_cast<Index>(point.index() + 1)))
-            throw InputError({.at = this->points()[point.index()], .points = {point.index()}},
+        vertices.push_back(data.vertex(point));
+        if (data.has_constrained_edge(vertices.back()))
+            throw InputError({.at = data.points[point.index()], .points = {point.index()}},
                              core::concat("point ", point.value, " is an end of a segment's edge"));
-        places.push_back(this->points()[point.index()]);
     }
-    if (points.empty()) return;
-    std::vector<VertexId> sorted(points.begin(), points.end());
-    std::sort(sorted.begin(), sorted.end());
-    if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
-        throw InputError({.points = {twice->index()}}, core::concat("point ", twice->value, " is to be removed twice"));
-    constexpr unsigned curve_bits = 20;
-    const CurveOrder order(places, HilbertCurve<curve_bits>(core::bounding_box(places)));
-    for (std::size_t i = 0; i < points.size(); ++i) data.remove(static_cast<Index>(points[order[i]].index() + 1));
+    // Vertices inserted one after another are near to each other.
+    std::sort(vertices.begin(), vertices.end());
+    if (const auto twice = std::adjacent_find(vertices.begin(), vertices.end()); twice != vertices.end())
+        throw InputError({.points = {data.id(*twice).index()}},
+                         core::concat("point ", data.id(*twice).value, " is to be removed twice"));
+    for (const Index v : vertices) data.remove(v);
 }
 
 std::vector<Segment> DynamicTriangulation::insert(Segment segment) {
@@ -121,23 +171,23 @@ std::vector<Segment> DynamicTriangulation::insert(Segment segment) {
         throw InputError({.points = {segment.a.index(), segment.b.index()}},
                          "all points lie on one line: segments cannot be inserted");
     std::vector<SegmentPiece> pieces;
-    const Segment inner{VertexId{segment.a.index() + 1}, VertexId{segment.b.index() + 1}};
-    if (const auto crossed = data.insert_segment(inner, pieces))
-        throw InputError({.points = {segment.a.index(), segment.b.index(), crossed->c - std::size_t{1},
-                                     crossed->d - std::size_t{1}}},
-                         core::concat("segment ", segment.a.value, "-", segment.b.value, " crosses the edge ",
-                                      crossed->c - 1, "-", crossed->d - 1));
+    const Segment inner{VertexId{data.vertex(segment.a)}, VertexId{data.vertex(segment.b)}};
+    if (const auto crossed = data.insert_segment(inner, pieces)) {
+        const VertexId c = data.id(crossed->c), d = data.id(crossed->d);
+        throw InputError({.points = {segment.a.index(), segment.b.index(), c.index(), d.index()}},
+                         core::concat("segment ", segment.a.value, "-", segment.b.value, " crosses the edge ", c.value,
+                                      "-", d.value));
+    }
     for (const SegmentPiece& piece : pieces)
-        edges.push_back({VertexId{piece.segment.a.index() - 1}, VertexId{piece.segment.b.index() - 1}});
+        edges.push_back({data.id(piece.segment.a.value), data.id(piece.segment.b.value)});
     return edges;
 }
 
 void DynamicTriangulation::remove(Segment segment) {
     Data& data = *data_;
     for (const VertexId end : {segment.a, segment.b}) data.require_contained(end);
-    const auto way = data.tris().empty() ? std::nullopt
-                                         : data.find_constrained_way(static_cast<Index>(segment.a.index() + 1),
-                                                                     static_cast<Index>(segment.b.index() + 1));
+    const auto way =
+        data.tris().empty() ? std::nullopt : data.find_constrained_way(data.vertex(segment.a), data.vertex(segment.b));
     if (!way || way->empty())
         throw InputError(
             {.points = {segment.a.index(), segment.b.index()}},
@@ -145,11 +195,9 @@ void DynamicTriangulation::remove(Segment segment) {
     data.release(*way);
 }
 
-std::span<const Point> DynamicTriangulation::points() const { return data_->vertices().subspan(1); }
+std::span<const Point> DynamicTriangulation::points() const { return data_->points; }
 
-bool DynamicTriangulation::contains(VertexId point) const {
-    return point.valid() && point.index() < points().size() && data_->is_alive(static_cast<Index>(point.index() + 1));
-}
+bool DynamicTriangulation::contains(VertexId point) const { return data_->contains(point); }
 
 std::size_t DynamicTriangulation::size() const { return data_->alive_count(); }
 
@@ -157,7 +205,7 @@ std::optional<VertexId> DynamicTriangulation::find(Point p) const {
     if (!in_exact_range(p)) return std::nullopt;
     if (!data_->tris().empty()) {
         const auto v = data_->find(p, data_->sample_near(p, data_->recent));
-        return v ? std::optional(VertexId{*v - 1}) : std::nullopt;
+        return v ? std::optional(data_->id(*v)) : std::nullopt;
     }
     for (std::size_t i = 0; i < points().size(); ++i)
         if (points()[i] == p && contains(VertexId{i})) return VertexId{i};
@@ -166,18 +214,21 @@ std::optional<VertexId> DynamicTriangulation::find(Point p) const {
 
 std::vector<Triangle> DynamicTriangulation::triangles() const {
     std::vector<Triangle> triangles;
+    triangles.reserve(data_->tris().size());
     for (const Tri& t : data_->tris())
-        if (!is_growing_ghost(t))
-            triangles.push_back({VertexId{t.v[0] - 1}, VertexId{t.v[1] - 1}, VertexId{t.v[2] - 1}});
+        if (!is_growing_ghost(t)) triangles.push_back({data_->id(t.v[0]), data_->id(t.v[1]), data_->id(t.v[2])});
     return triangles;
 }
 
 std::vector<Segment> DynamicTriangulation::segments() const {
     std::vector<Segment> segments;
     for (const Tri& t : data_->tris())
-        for (unsigned e = 0; e < 3; ++e)
-            if (t.n[e].is_constrained() && t.v[next(e)] < t.v[previous(e)])
-                segments.push_back({VertexId{t.v[next(e)] - 1}, VertexId{t.v[previous(e)] - 1}});
+        for (unsigned e = 0; e < 3; ++e) {
+            if (!t.n[e].is_constrained()) continue;
+            // Both triangles at the edge hold it, one in each direction.
+            const VertexId a = data_->id(t.v[next(e)]), b = data_->id(t.v[previous(e)]);
+            if (a < b) segments.push_back({a, b});
+        }
     std::sort(segments.begin(), segments.end());
     return segments;
 }

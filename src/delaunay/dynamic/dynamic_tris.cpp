@@ -10,10 +10,8 @@
 
 #include <lamina/predicates.hpp>
 
-#include "core/bounding_box.hpp"
 #include "core/predicates.hpp"
 #include "core/random.hpp"
-#include "delaunay/brio.hpp"
 #include "delaunay/walk.hpp"
 
 namespace lamina::delaunay::dynamic {
@@ -121,50 +119,51 @@ void DynamicTris::make_first_triangle(Index a, Index b, Index c) {
     for (unsigned e = 0; e < 3; ++e) connect(tris_, 1 + e, 0, Link(1 + previous(e), 1));
 }
 
-std::vector<Index> DynamicTris::insert_without_triangles(std::span<const Index> vertices) {
-    // Those alive come first among equal points, then the others in their order.
-    std::vector<Index> all;
+std::vector<Index> DynamicTris::insert_without_triangles(Index first) {
+    std::vector<Index> order;
     for (Index v = 1; v < vertices_.size(); ++v)
-        if (alive_[v]) all.push_back(v);
-    const std::size_t old_count = all.size();
-    all.insert(all.end(), vertices.begin(), vertices.end());
-    std::vector<std::size_t> order(all.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
-        const Point p = vertices_[all[i]], q = vertices_[all[k]];
-        return p == q ? i < k : lexicographically_less(p, q);
+        if (alive_[v] || v >= first) order.push_back(v);
+    const std::vector<Index> sequence = order;
+    std::sort(order.begin(), order.end(), [&](Index v, Index w) {
+        return vertices_[v] == vertices_[w] ? v < w : lexicographically_less(vertices_[v], vertices_[w]);
     });
-    std::vector<Index> found(vertices.size());
-    std::vector<Index> distinct;
-    for (const std::size_t i : order) {
-        const bool is_new = distinct.empty() || vertices_[distinct.back()] != vertices_[all[i]];
-        if (is_new) distinct.push_back(all[i]);
-        if (i >= old_count) found[i - old_count] = distinct.back();
+    std::vector<Index> found(vertices_.size() - first);
+    Index at = no_index;
+    for (const Index v : order) {
+        if (at == no_index || vertices_[at] != vertices_[v]) at = v;
+        if (v >= first) found[v - first] = at;
+        alive_count_ += at == v && !alive_[v];
+        alive_[v] = at == v;
     }
-    for (const Index v : distinct) {
-        alive_count_ += !alive_[v];
-        alive_[v] = 1;
-    }
-    std::vector<Point> points;
-    for (const Index v : distinct) points.push_back(vertices_[v]);
-    std::vector<Index> sequence = brio_order(points, core::bounding_box(points));
-    for (Index& i : sequence) i = distinct[i];
-    for (std::size_t k = 2; k < sequence.size(); ++k) {
-        if (orient2d(vertices_[sequence[0]], vertices_[sequence[1]], vertices_[sequence[k]]) == 0) continue;
-        std::swap(sequence[2], sequence[k]);
-        tris_.reserve(2 * sequence.size());
-        make_first_triangle(sequence[0], sequence[1], sequence[2]);
-        for (std::size_t i = 3; i < sequence.size(); ++i) {
-            --alive_count_;
-            insert(sequence[i], sequence[i - 1]);
-        }
-        break;
-    }
+    insert_all(sequence);
     return found;
 }
 
+/// Triangulates those of the vertices that are alive, unless they lie on one line.
+void DynamicTris::insert_all(std::span<const Index> sequence) {
+    std::vector<Index> line;
+    std::size_t k = 0;
+    for (; k < sequence.size(); ++k) {
+        if (!alive_[sequence[k]]) continue;
+        line.push_back(sequence[k]);
+        if (line.size() > 2 && orient2d(vertices_[line[0]], vertices_[line[1]], vertices_[line.back()]) != 0) break;
+    }
+    if (k == sequence.size()) return;
+    tris_.reserve(2 * sequence.size());
+    make_first_triangle(line[0], line[1], line.back());
+    Index near = line.back();
+    line.pop_back();
+    const auto insert_alive = [&](Index v) {
+        --alive_count_;
+        near = insert(v, near);
+    };
+    for (std::size_t i = 2; i < line.size(); ++i) insert_alive(line[i]);
+    for (++k; k < sequence.size(); ++k)
+        if (alive_[sequence[k]]) insert_alive(sequence[k]);
+}
+
 bool DynamicTris::has_constrained_edge(Index v) const {
-    if (tris_.empty()) return false;
+    if (tris_.empty() || !had_segments_) return false;
     const Index first = at_vertex_[v];
     Index t = first;
     do {
@@ -176,6 +175,7 @@ bool DynamicTris::has_constrained_edge(Index v) const {
 }
 
 std::optional<CrossedEdge> DynamicTris::insert_segment(Segment segment, std::vector<SegmentPiece>& pieces) {
+    had_segments_ = true;
     const std::size_t before = pieces.size();
     const auto crossed = delaunay::insert_segment(vertices_, segment, tris_, at_vertex_, infinity, pieces);
     if (!crossed) return std::nullopt;

@@ -38,9 +38,9 @@ public:
     /// Makes the vertex part of the triangulation, near a vertex that is alive. Returns the vertex, or the one that is
     /// there already. Precondition: there are triangles.
     Index insert(Index v, Index near);
-    /// Makes vertices alive and, if they and those alive do not all lie on one line, the first triangles. Returns for
-    /// each the vertex that is there. Precondition: there are no triangles.
-    std::vector<Index> insert_without_triangles(std::span<const Index> vertices);
+    /// Makes the vertices from `first` on alive and, if they and those alive do not all lie on one line, triangles.
+    /// Returns for each of them the vertex that is there. Precondition: there are no triangles.
+    std::vector<Index> insert_without_triangles(Index first);
     /// Removes a vertex that is alive and an end of no constrained edge.
     void remove(Index v);
     /// Returns whether the vertex is an end of a constrained edge.
@@ -68,16 +68,24 @@ private:
         Index before = 0, after = 0;
         bool is_cut = false;
     };
-    struct Ear;
+    /// An ear that may be cut off. Those with the smallest height come first.
+    struct Ear {
+        double height;
+        Index corner, before, after;
+        friend bool operator<(const Ear& l, const Ear& r) {
+            return l.height != r.height ? l.height > r.height : l.corner > r.corner;
+        }
+    };
 
     Index triangle_at(Index v) const;
     Index walk_from(Index near, Point p) const;
+    void insert_all(std::span<const Index> sequence);
     void make_first_triangle(Index a, Index b, Index c);
-    std::vector<Index> collect_star(Index v, std::vector<StarCorner>& star) const;
-    std::optional<Ear> make_ear(const std::vector<StarCorner>& star, Index corner, Point removed) const;
-    Index cut_ears(std::vector<StarCorner>& star, Point removed, std::size_t least_corners, std::vector<Index>& places);
-    void close_inner(const std::vector<StarCorner>& star, Index first, std::vector<Index>& places);
-    void close_hull(const std::vector<StarCorner>& star, std::vector<Index>& places);
+    void collect_star(Index v);
+    void add_ear(Index corner, Point removed);
+    Index cut_ears(Point removed, std::size_t least_corners);
+    void close_inner(Index first);
+    void close_hull();
     void set_triangle(Index t, Index a, Index b, Index c);
     void flip_until_delaunay();
     void free_place(Index t);
@@ -85,10 +93,15 @@ private:
     std::vector<Point> vertices_;
     std::vector<char> alive_;
     std::size_t alive_count_ = 0;
+    bool had_segments_ = false;  ///< whether an edge may be constrained
     Tris tris_;
     std::vector<Index> at_vertex_;
     Cavity cavity_;
     std::vector<Link> to_check_;  ///< edges that may not be locally Delaunay
+    // Scratch space of remove().
+    std::vector<StarCorner> star_;  ///< the polygon round the vertex, counter-clockwise
+    std::vector<Index> places_;     ///< the triangles round it, whose places new ones take
+    std::vector<Ear> ears_;         ///< a heap; some have been cut off or changed
 };
 
 }  // namespace lamina::delaunay::dynamic

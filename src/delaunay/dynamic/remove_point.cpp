@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <queue>
+#include <utility>
 
 #include "core/predicates.hpp"
 #include "delaunay/dynamic/dynamic_tris.hpp"
@@ -21,67 +21,57 @@
 
 namespace lamina::delaunay::dynamic {
 
-/// An ear that may be cut off. Those with the smallest height come first.
-struct DynamicTris::Ear {
-    double height;
-    Index corner, before, after;
-    friend bool operator<(const Ear& l, const Ear& r) {
-        return l.height != r.height ? l.height > r.height : l.corner > r.corner;
-    }
-};
-
-/// Lists the polygon round a vertex, counter-clockwise; infinity, if it is a corner, comes last. Returns the triangles.
-std::vector<Index> DynamicTris::collect_star(Index v, std::vector<StarCorner>& star) const {
-    std::vector<Index> places;
+/// Lists the triangles round a vertex and the corners of their polygon; infinity, if it is one, comes last.
+void DynamicTris::collect_star(Index v) {
+    star_.clear();
+    places_.clear();
     const Index first = at_vertex_[v];
     Index t = first;
     do {
         const unsigned i = corner_of(tris_[t], v);
-        star.push_back({tris_[t].v[next(i)], tris_[t].n[i]});
-        places.push_back(t);
+        star_.push_back({tris_[t].v[next(i)], tris_[t].n[i]});
+        places_.push_back(t);
         t = tris_[t].n[next(i)].triangle();
     } while (t != first);
     const auto at_infinity =
-        std::find_if(star.begin(), star.end(), [](const StarCorner& c) { return c.vertex == growing_ghost_vertex; });
-    if (at_infinity != star.end()) std::rotate(star.begin(), at_infinity + 1, star.end());
-    const auto count = static_cast<Index>(star.size());
-    for (Index i = 0; i < count; ++i) {
-        star[i].before = (i + count - 1) % count;
-        star[i].after = (i + 1) % count;
+        std::find_if(star_.begin(), star_.end(), [](const StarCorner& c) { return c.vertex == growing_ghost_vertex; });
+    if (at_infinity != star_.end()) std::rotate(star_.begin(), at_infinity + 1, star_.end());
+    const auto last = static_cast<Index>(star_.size() - 1);
+    for (Index i = 0; i <= last; ++i) {
+        star_[i].before = i == 0 ? last : i - 1;
+        star_[i].after = i == last ? 0 : i + 1;
     }
-    return places;
 }
 
-/// Returns the ear of a corner, if it may be cut off.
-std::optional<DynamicTris::Ear> DynamicTris::make_ear(const std::vector<StarCorner>& star, Index corner,
-                                                      Point removed) const {
-    const StarCorner& c = star[corner];
-    const Index va = star[c.before].vertex, vb = c.vertex, vc = star[c.after].vertex;
-    if (va == growing_ghost_vertex || vb == growing_ghost_vertex || vc == growing_ghost_vertex) return std::nullopt;
+/// Adds the ear of a corner to the heap, if it may be cut off.
+void DynamicTris::add_ear(Index corner, Point removed) {
+    const StarCorner& c = star_[corner];
+    const Index va = star_[c.before].vertex, vb = c.vertex, vc = star_[c.after].vertex;
+    if (va == growing_ghost_vertex || vb == growing_ghost_vertex || vc == growing_ghost_vertex) return;
     const Point a = vertices_[va], b = vertices_[vb], p = vertices_[vc];
-    if (core::inline_orient2d(a, b, p) <= 0 || core::inline_orient2d(a, p, removed) < 0) return std::nullopt;
+    if (core::inline_orient2d(a, b, p) <= 0 || core::inline_orient2d(a, p, removed) < 0) return;
     const double height = core::rounded_incircle(a, b, p, removed).det / cross(b - a, p - a);
-    return Ear{std::isnan(height) ? HUGE_VAL : height, corner, c.before, c.after};
+    ears_.push_back({std::isnan(height) ? HUGE_VAL : height, corner, c.before, c.after});
+    std::push_heap(ears_.begin(), ears_.end());
 }
 
 /// Cuts ears off until `least_corners` are left or no corner is convex. New triangles take their places from the end of
-/// `places`. Returns a corner that is left.
-Index DynamicTris::cut_ears(std::vector<StarCorner>& star, Point removed, std::size_t least_corners,
-                            std::vector<Index>& places) {
-    std::vector<Ear> ears;
-    for (Index i = 0; i < star.size(); ++i)
-        if (const auto ear = make_ear(star, i, removed)) ears.push_back(*ear);
-    std::priority_queue<Ear> queue({}, std::move(ears));
-    std::size_t left = star.size();
-    Index corner = static_cast<Index>(star.size() - 1);
-    while (left > least_corners && !queue.empty()) {
-        const Ear ear = queue.top();
-        queue.pop();
-        StarCorner& cut = star[ear.corner];
+/// places_. Returns a corner that is left.
+Index DynamicTris::cut_ears(Point removed, std::size_t least_corners) {
+    std::size_t left = star_.size();
+    auto corner = static_cast<Index>(left - 1);
+    if (left <= least_corners) return corner;
+    ears_.clear();
+    for (Index i = 0; i < star_.size(); ++i) add_ear(i, removed);
+    while (left > least_corners && !ears_.empty()) {
+        const Ear ear = ears_.front();
+        std::pop_heap(ears_.begin(), ears_.end());
+        ears_.pop_back();
+        StarCorner& cut = star_[ear.corner];
         if (cut.is_cut || cut.before != ear.before || cut.after != ear.after) continue;
-        StarCorner &before = star[ear.before], &after = star[ear.after];
-        const Index t = places.back();
-        places.pop_back();
+        StarCorner &before = star_[ear.before], &after = star_[ear.after];
+        const Index t = places_.back();
+        places_.pop_back();
         set_triangle(t, before.vertex, cut.vertex, after.vertex);
         connect(tris_, t, 2, before.outer);
         connect(tris_, t, 0, cut.outer);
@@ -91,19 +81,19 @@ Index DynamicTris::cut_ears(std::vector<StarCorner>& star, Point removed, std::s
         before.after = ear.after;
         after.before = ear.before;
         corner = ear.before;
-        --left;
-        for (const Index changed : {ear.before, ear.after})
-            if (const auto next_ear = make_ear(star, changed, removed)) queue.push(*next_ear);
+        if (--left == least_corners) break;
+        add_ear(ear.before, removed);
+        add_ear(ear.after, removed);
     }
     return corner;
 }
 
 /// Makes the last triangle of a polygon that has three corners left, of which `first` is one.
-void DynamicTris::close_inner(const std::vector<StarCorner>& star, Index first, std::vector<Index>& places) {
-    const StarCorner &a = star[first], &b = star[a.after], &c = star[b.after];
+void DynamicTris::close_inner(Index first) {
+    const StarCorner &a = star_[first], &b = star_[a.after], &c = star_[b.after];
     assert(c.after == first);
-    const Index t = places.back();
-    places.pop_back();
+    const Index t = places_.back();
+    places_.pop_back();
     set_triangle(t, a.vertex, b.vertex, c.vertex);
     connect(tris_, t, 2, a.outer);
     connect(tris_, t, 0, b.outer);
@@ -114,18 +104,18 @@ void DynamicTris::close_inner(const std::vector<StarCorner>& star, Index first, 
 ///
 ///      x0 --- x1 --- x2     The polygon's edge from the last x to infinity belongs to the ghost beyond it, and so does
 ///      |      |      |      that from infinity to x0.
-void DynamicTris::close_hull(const std::vector<StarCorner>& star, std::vector<Index>& places) {
-    const StarCorner& at_infinity = star.back();
+void DynamicTris::close_hull() {
+    const StarCorner& at_infinity = star_.back();
     Link before = at_infinity.outer;  // across infinity -> x0
-    for (Index i = at_infinity.after; star[i].after + 1 != star.size(); i = star[i].after) {
-        const Index t = places.back();
-        places.pop_back();
-        set_triangle(t, star[i].vertex, star[star[i].after].vertex, growing_ghost_vertex);
-        connect(tris_, t, 2, star[i].outer);
+    for (Index i = at_infinity.after; star_[i].after + 1 != star_.size(); i = star_[i].after) {
+        const Index t = places_.back();
+        places_.pop_back();
+        set_triangle(t, star_[i].vertex, star_[star_[i].after].vertex, growing_ghost_vertex);
+        connect(tris_, t, 2, star_[i].outer);
         connect(tris_, t, 1, before);
         before = Link(t, 0);
     }
-    const Link last = star[at_infinity.before].outer;  // across the last x -> infinity
+    const Link last = star_[at_infinity.before].outer;  // across the last x -> infinity
     connect(tris_, before.triangle(), before.edge(), last);
 }
 
@@ -145,32 +135,26 @@ void DynamicTris::remove(Index v) {
     alive_[v] = 0;
     --alive_count_;
     if (tris_.empty()) return;
-    std::vector<StarCorner> star;
-    std::vector<Index> places = collect_star(v, star);
+    collect_star(v);
     at_vertex_[v] = no_index;
     const Point removed = vertices_[v];
-    if (star.back().vertex != growing_ghost_vertex) {
-        close_inner(star, cut_ears(star, removed, 3, places), places);
+    if (star_.back().vertex != growing_ghost_vertex) {
+        close_inner(cut_ears(removed, 3));
     } else {
-        const std::size_t all = places.size();
-        cut_ears(star, removed, 2, places);
+        const std::size_t all = places_.size();
+        cut_ears(removed, 2);
         // Ghosts on both sides of the chain: nothing but a line is left.
-        const bool only_line = places.size() == all && is_growing_ghost(tris_[star.front().outer.triangle()]);
-        if (only_line) {
+        if (places_.size() == all && is_growing_ghost(tris_[star_.front().outer.triangle()])) {
             tris_.clear();
-            to_check_.clear();
             std::fill(at_vertex_.begin(), at_vertex_.end(), no_index);
             return;
         }
-        close_hull(star, places);
+        close_hull();
     }
     flip_until_delaunay();
-    assert(places.size() == 2);
-    std::sort(places.begin(), places.end());
-    while (!places.empty()) {
-        free_place(places.back());
-        places.pop_back();
-    }
+    assert(places_.size() == 2);
+    if (places_[0] < places_[1]) std::swap(places_[0], places_[1]);
+    for (const Index place : places_) free_place(place);
 }
 
 }  // namespace lamina::delaunay::dynamic
