@@ -68,7 +68,10 @@ struct LayerOptions {
     std::optional<std::uint32_t> layers = 30;
     std::optional<Length> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
     double max_ray_angle_deg = 5;       ///< largest angle between neighbouring rays
-    CornerRays corners = CornerRays::fan;             ///< the rays at sharp convex corners
+    CornerRays corners = CornerRays::fan;  ///< the rays at sharp convex corners
+    /// Number of rays of each fan. Every other vertex then has one ray, whatever the angle to its neighbours, so that
+    /// walls with equal numbers of vertices and fans have equal numbers of rays. Empty: as max_ray_angle_deg asks.
+    std::optional<std::uint32_t> fan_rays{};
     LayerTopology topology = LayerTopology::layered;  ///< how points are joined to cells
     bool wake_layers = false;                         ///< whether layers up to isotropy go on along LayerGrowth::wakes
 };

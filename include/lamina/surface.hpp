@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,12 @@ struct SurfaceOptions {
     SurfaceTreatment treatment = SurfaceTreatment::automatic;  ///< whether points are kept or replaced
     /// Wall vertices per element, about; all spacings below keep their proportions. Makes `automatic` resample.
     std::optional<std::size_t> points{};
+    /// Whether each element gets exactly `points` vertices. Makes `points` a promise; the edges are shared out among the
+    /// stretches between corners by the integrals of ds / spacing. Needs `points`, and no treatment `keep`.
+    bool exact_points = false;
+    /// Number of equal edges of the base of each element that has one (docs/glossary.md). Needs `exact_points`. Empty:
+    /// as for the other stretches.
+    std::optional<std::size_t> base_edges{};
     /// The points are smoothed first; each moves by at most this length. Empty: no smoothing.
     std::optional<Length> smooth{};
     double max_turning_deg = 10;  ///< largest turning at a vertex between two corners
@@ -58,6 +65,8 @@ struct SpacingLimits {
     /// sharp corners equals it, between a quarter of sharp_corner_spacing and corner_spacing.
     std::optional<double> fan_spacing{};
     std::vector<double> fan_spacings{};  ///< one per element, in place of fan_spacing; empty: no element has its own
+    /// Number of equal parts of each fan. The lengths above are those over rays that are max_turning_deg apart.
+    std::optional<std::uint32_t> fan_parts{};
     std::vector<WallSpacing> walls{};  ///< spacings of stretches of resampled walls; they grow by the gradation beside
 };
 
@@ -66,7 +75,8 @@ struct SpacingLimits {
 /// chord length, through the points between corners and divides it into a whole number of edges that take equal shares
 /// of the integral of ds / spacing; corners stay vertices exactly. Where the resampled outline would cross itself or
 /// another one, the given points stay vertices, and the straight edges between them are divided instead of the spline;
-/// an element that still crosses is kept as given. Mirrored or reversed input gives mirrored points, up to rounding.
+/// an element that still crosses is kept as given, which is an error where
+/// an exact number of vertices is asked for. Mirrored or reversed input gives mirrored points, up to rounding.
 /// `chord` is the reference chord; empty: the extent in x of the geometry. Precondition: check_simple(); the result
 /// passes it, too. Throws OptionError for options out of range.
 /// Source: J. F. Thompson, B. K. Soni, N. P. Weatherill, Handbook of Grid Generation (1999), chapters 3 and 30; C. de

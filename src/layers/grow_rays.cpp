@@ -87,7 +87,7 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
     rays.heights = make_heights(rays.set, rays.growth);
     require_sensible_scale(bounding_box(geometry), rays.growth, rays.heights);
     rays.limits = height_limits(rays.set, rays.heights);
-    for (int insertion = 0; insertion < max_insertions; ++insertion)
+    for (int insertion = 0; insertion < max_insertions && !options.fan_rays; ++insertion)
         if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.heights, rays.limits), rays)) break;
     fit_and_count_layers(rays);
 }

@@ -53,9 +53,10 @@ Point tilted(Point direction, double tilt) { return tilt == 0 ? direction : unit
 Point first_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_before : v.bisector, v.tilt[0]); }
 Point last_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_after : v.bisector, v.tilt[1]); }
 
-/// Adds the ray or the fan of a vertex. The angles of a fan are counted from the bisector, not from one side to the
+/// Adds the ray or the fan of a vertex, which has `fan_rays` rays, or as many as max_angle asks for. The angles of a fan are counted from the bisector, not from one side to the
 /// other, so that mirrored input gives mirrored rays.
-void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_angle, std::vector<RayLine>& rays) {
+void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_angle,
+                     std::optional<std::uint32_t> fan_rays, std::vector<RayLine>& rays) {
     const auto add = [&](Point direction) {
         rays.push_back({at.at, direction, at.place, at.opening, at.least_height});
     };
@@ -64,7 +65,7 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     const double half = 0.5 * (vertex.turning + vertex.tilt[1] - vertex.tilt[0]);
     if (half < least_half_fan) return;
     const double middle = 0.5 * (vertex.tilt[0] + vertex.tilt[1]);
-    const std::size_t parts = angle_parts(2 * half, max_angle);
+    const std::size_t parts = fan_rays ? *fan_rays - 1 : angle_parts(2 * half, max_angle);
     for (std::size_t k = 1; k < parts; ++k) {
         const double share = (2.0 * static_cast<double>(k) - static_cast<double>(parts)) / static_cast<double>(parts);
         add(unit(core::rotated(vertex.bisector, middle + share * half)));
@@ -84,17 +85,17 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, const LayerOptions& options,
                                const LayerGrowth& growth, std::span<const double> heights) {
     const double min_fan_turning_deg =
-        smooth ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
+        smooth && !options.fan_rays ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
     smooth_normals(outline, growth, vertices);
     const double max_angle = core::radians(options.max_ray_angle_deg);
-    if (!heights.empty()) spread_fans(outline, heights, max_angle, vertices);
+    if (!heights.empty() && !options.fan_rays) spread_fans(outline, heights, max_angle, vertices);
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
-        add_vertex_rays(outline[i], vertices[i], max_angle, rays);
-        if (outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
+        add_vertex_rays(outline[i], vertices[i], max_angle, options.fan_rays, rays);
+        if (options.fan_rays || outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};

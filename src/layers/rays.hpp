@@ -16,7 +16,8 @@ namespace lamina::layers {
 /// origin. On an outline that is smooth but at its corners (Element::smooth), blunter corners have fans, too: refining
 /// rays would divide the edges beside them into far shorter ones. Vertices of a wake have one ray on either side, and
 /// its edges no refining rays, so that both sides keep the same vertices. With heights of the front, one per vertex,
-/// fans are spread (fan_spreading.hpp). Source: thesis 3 and 3.1.
+/// fans are spread (fan_spreading.hpp). With options.fan_rays each fan has this number of rays, only sharp corners have
+/// fans, and there are neither refining rays nor spread fans. Source: thesis 3 and 3.1.
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, const LayerOptions& options,
                                const LayerGrowth& growth, std::span<const double> heights = {});
 

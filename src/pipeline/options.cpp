@@ -132,6 +132,7 @@ void validate(const CaseOptions& options) {
 SpacingLimits spacing_limits(const CaseOptions& options, const LayerGrowth& growth) {
     SpacingLimits limits;
     limits.max_turning_deg = options.layer.max_ray_angle_deg;
+    if (options.layer.fan_rays) limits.fan_parts = *options.layer.fan_rays - 1;
     // The layer's border over a fan of rays has edges of height x ray angle, and grows no faster than its gradation.
     // Where the wall's spacing exceeds this, border edges are divided, and the rows below fan out to the division
     // points.

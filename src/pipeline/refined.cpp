@@ -25,6 +25,8 @@ void refine_surface(double ratio, SurfaceOptions& surface) {
         throw OptionError("surface", "must be auto or resample: points that are kept make no similar mesh");
     surface.treatment = SurfaceTreatment::resample;
     if (surface.points) surface.points = std::max<std::size_t>(3, std::llround(ratio * double(*surface.points)));
+    if (surface.base_edges)
+        surface.base_edges = std::max<std::size_t>(1, std::llround(ratio * double(*surface.base_edges)));
     surface.max_ratio = core::pow_reproducible(surface.max_ratio, 1 / ratio);
     for (double* length :
          {&surface.max_turning_deg, &surface.gradation, &surface.max_spacing, &surface.sharp_corner_spacing,
@@ -71,6 +73,8 @@ void refine_layer(double ratio, const ReferenceConditions& conditions, LayerOpti
         layer.growth = core::pow_reproducible(layer.growth, step);
     }
     layer.max_ray_angle_deg = std::min(layer.max_ray_angle_deg / ratio, 90.0);
+    if (layer.fan_rays)
+        layer.fan_rays = static_cast<std::uint32_t>(1 + std::max(1L, std::lround(ratio * (*layer.fan_rays - 1.0))));
 }
 
 void refine_sizing(double ratio, SizingOptions& sizing) {

@@ -242,7 +242,8 @@ Decision decide(const Element& e, std::size_t index, const ResamplingRequest& re
     };
     if (options.treatment == SurfaceTreatment::keep) return all(EdgeTreatment::keep, "as requested");
     if (options.points)
-        return all(EdgeTreatment::spline, fmt::format("about {} points are requested", *options.points));
+        return all(EdgeTreatment::spline, fmt::format("{} {} points are requested",
+                                                      options.exact_points ? "exactly" : "about", *options.points));
     if (options.treatment == SurfaceTreatment::resample) return all(EdgeTreatment::spline, "as requested");
     if (options.leading_edge_spacing || options.trailing_edge_spacing)
         return all(EdgeTreatment::spline, "a spacing is requested");

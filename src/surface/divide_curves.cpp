@@ -3,7 +3,9 @@
 #include "surface/divide_curves.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/reproducible_math.hpp"
@@ -42,13 +44,16 @@ struct EdgeCount {
     double first_length, last_length;  ///< lengths of the first and the last edge
 };
 
-/// Counts the edges of a curve: at least min_edges and as many as its spacings ask for; an even number if is_even.
-EdgeCount count_edges(const CurveSamples& samples, double min_edges, bool is_even) {
+/// Returns the number of edges of a curve: at least min_edges and as many as its spacings ask for; an even number if
+/// is_even.
+double needed_edges(double integral, double min_edges, bool is_even) {
     constexpr double slack = 1e-6;  // of an edge, so that rounding does not decide
-    const double integral = integrate(samples);
-    double edges = std::max(std::ceil(integral - slack), min_edges);
-    if (is_even) edges = 2 * std::ceil(0.5 * edges - 0.25);
+    const double edges = std::max(std::ceil(integral - slack), min_edges);
+    return is_even ? 2 * std::ceil(0.5 * edges - 0.25) : edges;
+}
 
+/// Divides a curve, along which the integral of ds / spacing is `integral`, into this number of edges.
+EdgeCount measure_edges(const CurveSamples& samples, double integral, double edges) {
     const double edge = integral / edges, length = samples.back().arc_length;
     EdgeCount count{integral, edges, length, length};
     double done = 0;
@@ -95,27 +100,36 @@ struct DivisionPlan {
 
     /// Returns the number of edges of all curves.
     double edges() const {
-        double sum = 0;
-        for (const EdgeCount& c : counts) sum += c.edges;
-        return sum;
+        return std::accumulate(counts.begin(), counts.end(), 0.0, [](double sum, auto& c) { return sum + c.edges; });
     }
 };
 
-DivisionPlan make_plan(std::span<const OutlineCurve> curves, SampledOutline outline, const SpacingRule& rule) {
+/// Returns the least number of edges of a curve that is not kept. An outline has at least three edges.
+std::size_t least_edges_of_curve(std::span<const OutlineCurve> curves) {
+    return curves.size() == 1 ? 3 : curves.size() == 2 ? 2 : 1;
+}
+
+/// Plans the edges of the curves: as many as their spacings ask for, or those of `edges`, one number for each curve.
+DivisionPlan make_plan(std::span<const OutlineCurve> curves, SampledOutline outline, const SpacingRule& rule,
+                       std::span<const double> edges = {}) {
     constexpr int max_rounds = 30;
-    // An outline has at least three edges.
-    const double min_edges = curves.size() == 1 ? 3 : curves.size() == 2 ? 2 : 1;
+    const auto min_edges = static_cast<double>(least_edges_of_curve(curves));
+    const auto count = [&](std::size_t i, const CurveSamples& samples) {
+        if (curves[i].is_kept) {
+            const auto kept = static_cast<double>(curves[i].kept_edges);
+            const double edge = samples.back().arc_length / kept;
+            return EdgeCount{integrate(samples), kept, edge, edge};
+        }
+        const bool is_even = std::abs(outline.turning[i]) > 0.5 * core::pi;
+        const double integral = integrate(samples);
+        return measure_edges(samples, integral, edges.empty() ? needed_edges(integral, min_edges, is_even) : edges[i]);
+    };
     DivisionPlan plan{std::move(outline.samples), std::vector<EdgeCount>(curves.size())};
     std::vector<bool> is_changed(curves.size(), true);
     limit_gradation(curves, plan.samples, rule.gradation);
     for (int round = 1;; ++round) {
         for (std::size_t i = 0; i < curves.size(); ++i) {
-            if (!is_changed[i]) continue;
-            const CurveSamples& samples = plan.samples[i];
-            const double length = samples.back().arc_length;
-            const bool is_even = std::abs(outline.turning[i]) > 0.5 * core::pi;
-            plan.counts[i] =
-                curves[i].is_kept ? EdgeCount{1, 1, length, length} : count_edges(samples, min_edges, is_even);
+            if (is_changed[i]) plan.counts[i] = count(i, plan.samples[i]);
         }
         if (curves.size() == 1 || round == max_rounds) break;
         is_changed.assign(curves.size(), false);
@@ -179,7 +193,66 @@ DividedCurves place_all_points(std::span<const OutlineCurve> curves, const Divis
     return result;
 }
 
+/// Returns the samples with the spacings of curves that are not kept multiplied by a factor.
+SampledOutline scaled(const SampledOutline& outline, std::span<const OutlineCurve> curves, double factor) {
+    SampledOutline result = outline;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        if (curves[i].is_kept) continue;
+        for (CurveSample& sample : result.samples[i]) sample.spacing *= factor;
+    }
+    return result;
+}
+
+/// Returns the integrals of ds / spacing along the curves, with these spacings limited in their growth; for kept curves
+/// their numbers of edges.
+std::vector<double> graded_integrals(SampledOutline outline, std::span<const OutlineCurve> curves, double gradation) {
+    limit_gradation(curves, outline.samples, gradation);
+    std::vector<double> integrals;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        integrals.push_back(curves[i].is_kept ? static_cast<double>(curves[i].kept_edges)
+                                              : integrate(outline.samples[i]));
+    return integrals;
+}
+
+double sum_of(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+/// Returns whole numbers of edges in proportion to the integrals, `edges` together: each curve that is not kept gets the
+/// whole part of its share, at least min_edges, and those with the largest remainders one more (of equal ones the first).
+std::vector<double> shared_out(std::span<const double> integrals, std::span<const OutlineCurve> curves, double edges,
+                               double min_edges) {
+    std::vector<double> counts(integrals.begin(), integrals.end()), remainders(integrals.size(), -HUGE_VAL);
+    double kept = 0;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        if (curves[i].is_kept) kept += integrals[i];
+    const double scale = (edges - kept) / (sum_of(integrals) - kept);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        if (curves[i].is_kept) continue;
+        counts[i] = std::max(std::floor(scale * integrals[i]), min_edges);
+        remainders[i] = scale * integrals[i] - counts[i];
+    }
+    // Short curves that have min_edges take edges from the others, where the sum is too large.
+    for (double left = edges - sum_of(counts); left != 0;) {
+        const double step = left > 0 ? 1 : -1;
+        std::size_t best = curves.size();
+        for (std::size_t i = 0; i < curves.size(); ++i) {
+            if (curves[i].is_kept || counts[i] + step < min_edges) continue;
+            if (best == curves.size() || step * remainders[i] > step * remainders[best]) best = i;
+        }
+        assert(best < curves.size());
+        counts[best] += step;
+        remainders[best] -= step;
+        left -= step;
+    }
+    return counts;
+}
+
 }  // namespace
+
+std::size_t least_edges(std::span<const OutlineCurve> curves) {
+    std::size_t sum = 0;
+    for (const OutlineCurve& curve : curves) sum += curve.is_kept ? curve.kept_edges : least_edges_of_curve(curves);
+    return sum;
+}
 
 DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known) {
     return place_all_points(curves, make_plan(curves, sample_spacings(curves, rule, known), rule));
@@ -189,14 +262,7 @@ DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const Spa
                                  std::size_t edges) {
     constexpr int max_doublings = 40, max_bisections = 30;
     const SampledOutline outline = sample_spacings(curves, rule, known);
-    const auto scaled_plan = [&](double factor) {
-        SampledOutline scaled = outline;
-        for (std::size_t i = 0; i < curves.size(); ++i) {
-            if (curves[i].is_kept) continue;
-            for (CurveSample& sample : scaled.samples[i]) sample.spacing *= factor;
-        }
-        return make_plan(curves, std::move(scaled), rule);
-    };
+    const auto scaled_plan = [&](double factor) { return make_plan(curves, scaled(outline, curves, factor), rule); };
     const auto target = static_cast<double>(edges);
     double coarse = 1, fine = 1;  // factors of too few and of too many edges
     for (int k = 0; k < max_doublings && scaled_plan(coarse).edges() > target; ++k) coarse *= 2;
@@ -209,6 +275,27 @@ DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const Spa
     }
     const DivisionPlan below = scaled_plan(coarse), above = scaled_plan(fine);
     return place_all_points(curves, target - below.edges() <= above.edges() - target ? below : above);
+}
+
+DividedCurves divide_curves_exactly(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known,
+                                    std::size_t edges) {
+    constexpr int max_doublings = 40, max_bisections = 40;
+    const SampledOutline outline = sample_spacings(curves, rule, known);
+    const auto integrals = [&](double factor) {
+        return graded_integrals(scaled(outline, curves, factor), curves, rule.gradation);
+    };
+    const auto target = static_cast<double>(edges);
+    double coarse = 1, fine = 1;
+    for (int k = 0; k < max_doublings && sum_of(integrals(coarse)) > target; ++k) coarse *= 2;
+    for (int k = 0; k < max_doublings && sum_of(integrals(fine)) < target; ++k) fine *= 0.5;
+    for (int k = 0; k < max_bisections; ++k) {
+        const double middle = 0.5 * (coarse + fine);
+        (sum_of(integrals(middle)) > target ? fine : coarse) = middle;
+    }
+    // Where the growth of the spacing keeps the sum above the target, however large the factor, the shares remain.
+    const std::vector<double> counts =
+        shared_out(integrals(coarse), curves, target, static_cast<double>(least_edges_of_curve(curves)));
+    return place_all_points(curves, make_plan(curves, scaled(outline, curves, coarse), rule, counts));
 }
 
 }  // namespace lamina::surface

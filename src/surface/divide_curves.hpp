@@ -29,4 +29,13 @@ DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingR
 DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known,
                                  std::size_t edges);
 
+/// Returns the least number of edges that divide_curves_exactly() can divide curves into.
+std::size_t least_edges(std::span<const OutlineCurve> curves);
+
+/// Divides curves likewise, but into exactly so many edges: all spacings are scaled so that the integrals of ds / spacing
+/// amount to that number, and each curve that is not kept gets the whole number of edges nearest to its integral, odd
+/// or even, of which the largest remainders take what is left. Precondition: edges >= least_edges(curves).
+DividedCurves divide_curves_exactly(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known,
+                                    std::size_t edges);
+
 }  // namespace lamina::surface

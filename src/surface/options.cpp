@@ -19,6 +19,13 @@ OptionTable<SurfaceOptions> make_table() {
                  at(&SurfaceOptions::treatment));
     table.count("surface-points", "N", "wall vertices per element, about; else as many as the ray angle requires",
                 numbers_from_to(3, 1e7), at(&SurfaceOptions::points));
+    // Options that need another one that has no default are checked by validate(): a flag may be given as false.
+    table.flag("surface-points-exact", "each element gets exactly so many wall vertices, or there is no mesh", true,
+               at(&SurfaceOptions::exact_points));
+    table.count(
+        "base-edges", "N",
+        "wall edges on the base of each blunt trailing edge, with surface-points-exact; else as the spacing asks",
+        numbers_from_to(1, 1e6), at(&SurfaceOptions::base_edges));
     table.number("spacing-le", "SHARE",
                  "wall spacing at the leading edge at most, in lengths of the element; makes auto resample. Where the "
                  "curvature asks for less, it gets less",
@@ -58,6 +65,12 @@ const OptionTable<SurfaceOptions>& surface_option_table() {
     return table;
 }
 
-void validate(const SurfaceOptions& options) { require_in_range(surface_option_table(), options); }
+void validate(const SurfaceOptions& options) {
+    require_in_range(surface_option_table(), options);
+    if (options.exact_points && !options.points) throw OptionError("surface_points_exact", "needs surface_points");
+    if (options.exact_points && options.treatment == SurfaceTreatment::keep)
+        throw OptionError("surface_points_exact", "needs new points: surface must be auto or resample");
+    if (options.base_edges && !options.exact_points) throw OptionError("base_edges", "needs surface_points_exact");
+}
 
 }  // namespace lamina

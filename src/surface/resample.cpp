@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <lamina/error.hpp>
+
 #include "core/bounding_box.hpp"
 #include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
@@ -210,6 +212,34 @@ SpacingRule make_spacing_rule(const ResamplingRequest& request, const ChordEnds&
     return rule;
 }
 
+/// Gives the curve along the base of an element this number of equal edges.
+void fix_base(OutlineCurves& curves, const Element& given, std::size_t edges) {
+    OutlineFeatures features;
+    find_trailing_edge(given.points, features);
+    if (!features.base) return;
+    for (std::size_t i = 0; i < curves.curves.size(); ++i) {
+        std::vector<std::size_t>& knots = curves.knots[i];
+        if (knots.front() != features.base->first || knots.back() != features.base->last) continue;
+        OutlineCurve& base = curves.curves[i];
+        const Point a = given.points[knots.front()], b = given.points[knots.back()];
+        base = {SplineCurve({{a, b}, false}), base.start_spacing, true, edges};
+        knots = {knots.front(), knots.back()};
+    }
+}
+
+/// Divides the curves into the number of edges that the options ask for. Throws OptionError for an exact number that is
+/// too small.
+DividedCurves divide_into_requested(const OutlineCurves& curves, const Element& given, const SurfaceOptions& options,
+                                    const SpacingRule& rule, SampledCurves& known) {
+    if (!options.points) return divide_curves(curves.curves, rule, known);
+    if (!options.exact_points) return divide_curves_into(curves.curves, rule, known, *options.points);
+    if (const std::size_t least = least_edges(curves.curves); *options.points < least)
+        throw OptionError("surface_points",
+                          fmt::format("exactly {} are too few for the {} of element {}: it needs {}", *options.points,
+                                      counted(curves.curves.size(), "corner"), given.name, least));
+    return divide_curves_exactly(curves.curves, rule, known, *options.points);
+}
+
 /// Sets the largest spacing at each corner. Beside a kept edge, that edge alone sets it.
 void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, const Element& given, std::size_t index,
                       const ResamplingRequest& request, const ChordEnds& ends, double scale) {
@@ -267,8 +297,9 @@ double ResamplingRequest::corner_spacing(std::size_t element, double turning, do
     if (is_given && std::abs(core::degrees(turning)) <= max_turning_deg()) return HUGE_VAL;
     if (turning <= core::radians(sharp_corner_deg)) return options.corner_spacing * extent;
     const double by_options = options.sharp_corner_spacing * extent;
-    const std::optional<double> by_fans =
+    std::optional<double> by_fans =
         limits.fan_spacings.empty() ? limits.fan_spacing : std::optional(limits.fan_spacings[element]);
+    if (by_fans && limits.fan_parts) *by_fans *= turning / (*limits.fan_parts * core::radians(limits.max_turning_deg));
     return by_fans ? std::clamp(*by_fans, 0.25 * by_options, options.corner_spacing * extent) : by_options;
 }
 
@@ -286,12 +317,12 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
         append_curves(stretch, treatment, outline_curves);
     }
     const ChordEnds ends = find_chord_ends(given.points);
+    if (options.base_edges) fix_base(outline_curves, given, *options.base_edges);
     limit_at_corners(outline_curves, outline, given, index, request, ends, scale);
     const SpacingRule rule = make_spacing_rule(request, ends, scale, index);
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;
-    DividedCurves divided =
-        options.points ? divide_curves_into(curves, rule, known, *options.points) : divide_curves(curves, rule, known);
+    DividedCurves divided = divide_into_requested(outline_curves, given, options, rule, known);
     // Where lamina decides by itself, it never takes points away from a fine outline.
     const bool decides_alone = options.treatment == SurfaceTreatment::automatic && !options.points &&
                                !options.leading_edge_spacing && !options.trailing_edge_spacing;

@@ -104,11 +104,12 @@ void limit_at_point(std::span<const OutlineCurve> curves, std::vector<CurveSampl
     }
 }
 
-/// Returns the two ends of a curve that stays one edge.
-CurveSamples samples_of_kept(const SplineCurve& line, double min_spacing) {
-    const Point a = line.at(0, 0), b = line.at(0, 1);
-    const double edge = distance(a, b), spacing = std::max(edge, min_spacing);
-    return {{0, 0, 0, a, spacing}, {0, 1, edge, b, spacing}};
+/// Returns the two ends of a curve whose edges are fixed.
+CurveSamples samples_of_kept(const OutlineCurve& line, double min_spacing) {
+    const Point a = line.curve.at(0, 0), b = line.curve.at(0, 1);
+    const double length = distance(a, b);
+    const double spacing = std::max(length / static_cast<double>(line.kept_edges), min_spacing);
+    return {{0, 0, 0, a, spacing}, {0, 1, length, b, spacing}};
 }
 
 /// Returns a curve with the bounds that hold along it.
@@ -156,7 +157,7 @@ SampledOutline sample_spacings(std::span<const OutlineCurve> curves, const Spaci
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const SplineCurve& curve = curves[i].curve;
         if (curves[i].is_kept) {
-            result.samples.push_back(samples_of_kept(curve, rule.min_spacing));
+            result.samples.push_back(samples_of_kept(curves[i], rule.min_spacing));
             result.turning.push_back(0);
             continue;
         }

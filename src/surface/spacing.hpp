@@ -41,8 +41,9 @@ struct SpacingRule {
 /// curve may have no corner.
 struct OutlineCurve {
     SplineCurve curve;
-    double start_spacing = 0;  ///< largest spacing where it starts; infinity means no bound
-    bool is_kept = false;      ///< whether it stays one edge; it is a straight line then
+    double start_spacing = 0;    ///< largest spacing where it starts; infinity means no bound
+    bool is_kept = false;        ///< whether its edges are fixed; it is a straight line then
+    std::size_t kept_edges = 1;  ///< number of equal edges, where they are fixed
 };
 
 /// A sample of a curve, with the target spacing there.
@@ -76,7 +77,7 @@ struct SampledOutline {
 };
 
 /// Returns samples of each curve with the spacing that the rule allows, before gradation. The spacing of a kept curve
-/// is its length, but no less than min_spacing. Curves that are in `known` already, by the same rule, are taken from
+/// is the length of its edges, but no less than min_spacing. Curves that are in `known` already, by the same rule, are taken from
 /// there; others are added.
 SampledOutline sample_spacings(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known);
 

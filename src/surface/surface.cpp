@@ -73,6 +73,13 @@ void restore_crossing(Geometry& geometry, const Geometry& given) {
         restore(geometry, e, given, "its smooth curve would cross that of another element");
 }
 
+/// Throws OptionError unless each element has this number of points.
+void require_number_of_points(const Geometry& geometry, std::size_t points) {
+    for (const Element& e : geometry.elements)
+        if (e.points.size() != points)
+            throw OptionError("surface_points_exact", fmt::format("element {}: {}", e.name, e.surface_notes.back()));
+}
+
 /// An element, what becomes of its points, and the edges of the new ones.
 struct Plan {
     Decision decision;
@@ -203,6 +210,7 @@ Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const S
     }
     straighten_crossing(result, plans, given, request);
     restore_crossing(result, given);
+    if (options.exact_points) require_number_of_points(result, *options.points);
     for (Element& e : result.elements) find_trailing_edge(e.points, e.features);
     return result;
 }
