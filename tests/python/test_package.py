@@ -3,9 +3,11 @@
 import inspect
 import os
 import pathlib
+import runpy
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import lamina
@@ -59,6 +61,8 @@ def test_version(program):
     assert lamina.__version__ in version
 
 
+#: What examples are called with so that they take seconds.
+ARGUMENTS = {"data_set": ["--sections", "5", "--jobs", "2"]}
 EXAMPLES = sorted((pathlib.Path(__file__).resolve().parent.parent.parent / "examples/python").glob("*.py"))
 
 
@@ -68,9 +72,32 @@ def test_there_are_examples():
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_example(example, tmp_path):
-    run = subprocess.run([sys.executable, str(example)], cwd=tmp_path, env={**os.environ, "MPLBACKEND": "Agg"},
-                         capture_output=True, text=True, timeout=120)
+    run = subprocess.run([sys.executable, str(example), *ARGUMENTS.get(example.stem, [])], cwd=tmp_path,
+                         env={**os.environ, "MPLBACKEND": "Agg"}, capture_output=True, text=True, timeout=120)
     assert run.returncode == 0, run.stderr
     assert any(tmp_path.iterdir()), "an example leaves files"
     for mesh in tmp_path.glob("*.su2"):
         assert lamina.check(lamina.read(mesh)).valid
+
+
+def test_data_set(repository, tmp_path):
+    """The archive holds walls and layers that stack, and meshes that are valid and the program's."""
+    example = runpy.run_path(str(repository / "examples/python/data_set.py"))
+    archive = tmp_path / "sections.npz"
+    subprocess.run([sys.executable, str(repository / "examples/python/data_set.py"), "--sections", "4", "--jobs", "2",
+                    "--seed", "7", "-o", str(archive)], check=True, capture_output=True, timeout=120)
+    data = np.load(archive)
+    assert list(data["name"]) == [f"cst{s:05d}" for s in range(4)] and len(data["failed"]) == 0
+    rays = example["POINTS"] + example["OPTIONS"]["fan_rays"] - 1
+    assert data["wall"].shape == (4, example["POINTS"], 2)
+    assert data["layer"].shape == (4, rays, example["LAYERS"] + 1, 2)
+    heights = np.linalg.norm(data["layer"][:, :, 1] - data["layer"][:, :, 0], axis=2)
+    assert np.allclose(heights, example["OPTIONS"]["first_height"], rtol=0.02)
+    for s, name in enumerate(data["name"]):
+        mesh = lamina.mesh(example["outline"](data["coefficients"][s]), **example["OPTIONS"])
+        part = {key: slice(data[f"first_{key[:-1]}"][s], data[f"first_{key[:-1]}"][s + 1])
+                for key in ("points", "triangles", "quads")}
+        for key, range_ in part.items():
+            assert np.array_equal(data[key][range_], getattr(mesh, key))
+        assert np.array_equal(data["wall"][s], mesh.points[mesh.wall.vertex])
+        assert mesh.quality().valid
