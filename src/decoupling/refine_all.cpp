@@ -8,12 +8,17 @@
 
 namespace lamina::decoupling {
 
-std::vector<Refinement> refine_all(std::span<const Subdomain> subdomains, core::BusyTimes* times, std::size_t kind) {
+std::vector<std::size_t> largest_first(std::span<const Subdomain> subdomains) {
     std::vector<std::size_t> order(subdomains.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return subdomains[a].estimated_triangles > subdomains[b].estimated_triangles;
     });
+    return order;
+}
+
+std::vector<Refinement> refine_all(std::span<const Subdomain> subdomains, core::BusyTimes* times, std::size_t kind) {
+    const std::vector<std::size_t> order = largest_first(subdomains);
     std::vector<Refinement> refinements(subdomains.size());
     core::parallel_for(order.size(), 1, [&](std::size_t begin, std::size_t end) {
         const core::BusyTimes::Scope busy(times, kind);

@@ -16,4 +16,7 @@ namespace lamina::decoupling {
 LAMINA_EXPORT std::vector<Refinement> refine_all(std::span<const Subdomain> subdomains, core::BusyTimes* times,
                                                  std::size_t kind);
 
+/// Returns the numbers of the subdomains, those of the largest first.
+LAMINA_EXPORT std::vector<std::size_t> largest_first(std::span<const Subdomain> subdomains);
+
 }  // namespace lamina::decoupling

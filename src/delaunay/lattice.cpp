@@ -164,12 +164,14 @@ std::vector<PatchVertices> cut_out_patches(std::vector<LatticeGrid>& grids, std:
 }
 
 /// Joins the patches of all levels. Frees the memory of each level once it is copied.
-LatticePatches join_patches(std::vector<LatticeGrid> grids, std::vector<PatchVertices> patches) {
+LatticePatches join_patches(std::vector<LatticeGrid> grids, std::vector<PatchVertices> patches, bool linked) {
     std::size_t vertices = 0;
     for (const LatticeGrid& grid : grids) vertices += count_vertices(grid);
     LatticePatches joined;
+    joined.linked = linked;
     joined.points.reserve(vertices + vertices / 2);  // refine() appends the Steiner points of the seam
     joined.triangles.reserve(3 * vertices);
+    if (linked) joined.links.reserve(9 * vertices);
     for (std::size_t l = 0; l < grids.size(); ++l) {
         append_patch(grids[l], patches[l], joined);
         grids[l] = {};
@@ -182,7 +184,7 @@ LatticePatches join_patches(std::vector<LatticeGrid> grids, std::vector<PatchVer
 
 LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const Segment> segments,
                                  const SizeField& size, const RefineOptions& options,
-                                 std::span<const LatticeObstacle> obstacles) {
+                                 std::span<const LatticeObstacle> obstacles, bool linked) {
     Box region;
     for (const Segment& s : segments) region.include(points[s.a.index()]);
     const auto [low, high] = size.range(region);
@@ -197,7 +199,7 @@ LatticePatches fill_with_lattice(std::span<const Point> points, std::span<const 
     if (bits > 1e6 + 64 * smooth.triangles_in_blocks || bits > 64 * static_cast<double>(options.max_points)) return {};
     fill_grids(grids, smooth.blocks, levels, size);
     std::vector<PatchVertices> vertices = cut_out_patches(grids, points, segments, obstacles);
-    LatticePatches patches = join_patches(std::move(grids), std::move(vertices));
+    LatticePatches patches = join_patches(std::move(grids), std::move(vertices), linked);
     // A point on the boundary or in the collar costs about as much as two triangles of a patch save.
     if (patches.triangles.size() < 3 * (patches.boundary.size() + patches.collar.size())) return {};
     return patches;

@@ -120,15 +120,68 @@ void append_row(const LatticeGrid& grid, const PatchVertices& patch, Row j, std:
     }
 }
 
+/// The triangles of a strip by the columns of their horizontal edges.
+struct StripTriangles {
+    std::vector<std::uint32_t> up, down;
+};
+
+/// Notes the neighbours of the triangles of a strip. They stand beside each other in the order in which they are added.
+///
+///         0               Edges 0 are horizontal. In this order edge 1 of up and edge 2 of down lead to the next
+///       C---D      C      triangle, and edge 2 of up and edge 1 of down to the one before.
+///      1 \ / 2   2 / \ 1
+///         B      A---B
+///                  0
+class StripLinker {
+public:
+    /// `below` are the triangles of the strip below, `here` are to become those of this one.
+    StripLinker(const StripTriangles& below, StripTriangles& here, LatticePatches& patches)
+        : below_(below), here_(here), patches_(patches) {}
+
+    /// Notes that the triangle up (i) was appended, which has a neighbour below if `linked_below`.
+    void add_up(std::size_t i, std::size_t position, bool linked_below) {
+        const std::size_t t = add(here_.up, i, position, 2);
+        last_edge_ = 1;
+        if (linked_below) connect(core::edge_link(t, 0), core::edge_link(below_.down[i], 0));
+    }
+    void add_down(std::size_t i, std::size_t position) {
+        add(here_.down, i, position, 1);
+        last_edge_ = 2;
+    }
+
+private:
+    /// Notes the last triangle, and links its edge to the triangle before, if that stands beside it.
+    std::size_t add(std::vector<std::uint32_t>& of_column, std::size_t i, std::size_t position, unsigned edge) {
+        const std::size_t t = patches_.triangles.size() - 1;
+        of_column[i] = static_cast<std::uint32_t>(t);
+        patches_.links.insert(patches_.links.end(), 3, core::no_link);
+        if (position == last_position_ + 1) connect(core::edge_link(t, edge), core::edge_link(t - 1, last_edge_));
+        last_position_ = position;
+        return t;
+    }
+    void connect(core::EdgeLink a, core::EdgeLink b) {
+        patches_.links[3 * core::triangle_of(a) + core::edge_of(a)] = b;
+        patches_.links[3 * core::triangle_of(b) + core::edge_of(b)] = a;
+    }
+
+    const StripTriangles& below_;
+    StripTriangles& here_;
+    LatticePatches& patches_;
+    std::size_t last_position_ = 0;  ///< positions begin at 2
+    unsigned last_edge_ = 0;
+};
+
 /// Appends the triangles between rows j (`here`) and j + 1 (`above`), and those of their edges across which the patch
-/// has no triangle. Boundary edges are directed with the seam on their left, against the triangle.
+/// has no triangle. Boundary edges are directed with the seam on their left, against the triangle. Where the patches are
+/// linked, notes the strip's triangles in `own`; `below` are those of the strip below.
 ///
 ///        C ------- D      row j + 1      The triangle up (i) has A = i and B = i + 1 in row j; its apex C is in
 ///       /  \      /                      column i of row j + 1, or i + 1 if row j is odd.
 ///      /    \    /                       The triangle down (i) has C = i and D = i + 1 in row j + 1; its apex B
 ///     A ----- B           row j          is in column i + 1 of row j, or i if row j is odd.
 void append_strip(const LatticeGrid& grid, const TriangleBits& bits, Row j, const std::vector<std::uint32_t>& here,
-                  const std::vector<std::uint32_t>& above, LatticePatches& patches) {
+                  const std::vector<std::uint32_t>& above, const StripTriangles& below, StripTriangles& own,
+                  LatticePatches& patches) {
     const std::size_t words = grid.words, base = static_cast<std::size_t>(j) * words;
     const std::size_t odd = (j & 1) != 0 ? 1 : 0;
     const Word* up = bits.up.data() + base;
@@ -138,14 +191,22 @@ void append_strip(const LatticeGrid& grid, const TriangleBits& bits, Row j, cons
     const auto vertex = [](const std::vector<std::uint32_t>& ids, std::size_t i) {
         return VertexId{std::size_t{ids[i]}};
     };
-    const auto boundary = [&](VertexId a, VertexId b) { patches.boundary.push_back({b, a}); };
+    StripLinker linker(below, own, patches);
+    // `edge` is the one of the triangle in column i of these triangles.
+    const auto boundary = [&](VertexId a, VertexId b, const std::vector<std::uint32_t>& of_column, std::size_t i,
+                              unsigned edge) {
+        patches.boundary.push_back({b, a});
+        if (patches.linked) patches.boundary_links.push_back(core::edge_link(of_column[i], edge));
+    };
     for (std::size_t w = 0; w < words; ++w) {
         if ((up[w] | down[w]) == 0) continue;
         const auto add_up = [&](std::size_t i) {
             patches.triangles.push_back({{vertex(here, i), vertex(here, i + 1), vertex(above, i + odd)}});
+            if (patches.linked) linker.add_up(i, 2 * i + 2 + odd, (down_here[w] >> (i % 64) & 1) != 0);
         };
         const auto add_down = [&](std::size_t i) {
             patches.triangles.push_back({{vertex(above, i + 1), vertex(above, i), vertex(here, i + 1 - odd)}});
+            if (patches.linked) linker.add_down(i, 2 * i + 3 - odd);
         };
         // The triangles form a strip, each beside the one before.
         for_bits(up[w] | down[w], w, [&](std::size_t i) {
@@ -154,21 +215,24 @@ void append_strip(const LatticeGrid& grid, const TriangleBits& bits, Row j, cons
             if ((up[w] & bit) != 0) add_up(i);
             if (odd == 0 && (down[w] & bit) != 0) add_down(i);
         });
-        for_bits(up[w] & ~down_here[w], w, [&](std::size_t i) { boundary(vertex(here, i), vertex(here, i + 1)); });
-        for_bits(down[w] & ~up_above[w], w, [&](std::size_t i) { boundary(vertex(above, i + 1), vertex(above, i)); });
+        for_bits(up[w] & ~down_here[w], w,
+                 [&](std::size_t i) { boundary(vertex(here, i), vertex(here, i + 1), own.up, i, 0); });
+        for_bits(down[w] & ~up_above[w], w,
+                 [&](std::size_t i) { boundary(vertex(above, i + 1), vertex(above, i), own.down, i, 0); });
         // On the right of up (i) lies down (i + odd), on its left down (i + odd - 1).
         const Word right_of_up = odd != 0 ? from_right(down, w, words) : down[w];
         const Word left_of_up = odd != 0 ? down[w] : from_left(down, w);
         for_bits(up[w] & ~right_of_up, w,
-                 [&](std::size_t i) { boundary(vertex(here, i + 1), vertex(above, i + odd)); });
-        for_bits(up[w] & ~left_of_up, w, [&](std::size_t i) { boundary(vertex(above, i + odd), vertex(here, i)); });
+                 [&](std::size_t i) { boundary(vertex(here, i + 1), vertex(above, i + odd), own.up, i, 1); });
+        for_bits(up[w] & ~left_of_up, w,
+                 [&](std::size_t i) { boundary(vertex(above, i + odd), vertex(here, i), own.up, i, 2); });
         // On the left of down (i) lies up (i - odd), on its right up (i + 1 - odd).
         const Word left_of_down = odd != 0 ? from_left(up, w) : up[w];
         const Word right_of_down = odd != 0 ? up[w] : from_right(up, w, words);
         for_bits(down[w] & ~left_of_down, w,
-                 [&](std::size_t i) { boundary(vertex(above, i), vertex(here, i + 1 - odd)); });
+                 [&](std::size_t i) { boundary(vertex(above, i), vertex(here, i + 1 - odd), own.down, i, 1); });
         for_bits(down[w] & ~right_of_down, w,
-                 [&](std::size_t i) { boundary(vertex(here, i + 1 - odd), vertex(above, i + 1)); });
+                 [&](std::size_t i) { boundary(vertex(here, i + 1 - odd), vertex(above, i + 1), own.down, i, 2); });
     }
 }
 
@@ -203,11 +267,14 @@ PatchVertices open_patch(LatticeGrid& grid) {
 void append_patch(const LatticeGrid& grid, const PatchVertices& patch, LatticePatches& patches) {
     const TriangleBits bits = triangle_bits(grid, patch);
     std::vector<std::uint32_t> here(64 * grid.words + 1, 0), above(here);
+    StripTriangles below, own;
+    if (patches.linked) below = own = {here, here};
     append_row(grid, patch, 0, here, patches);
     for (Row j = 0; j + 1 < grid.rows; ++j) {
         append_row(grid, patch, j + 1, above, patches);
-        append_strip(grid, bits, j, here, above, patches);
+        append_strip(grid, bits, j, here, above, below, own, patches);
         std::swap(here, above);
+        std::swap(below, own);
     }
 }
 

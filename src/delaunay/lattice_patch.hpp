@@ -7,6 +7,8 @@
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
+#include "core/edge_links.hpp"
+
 #include "delaunay/lattice_grid.hpp"
 
 namespace lamina::delaunay {
@@ -15,9 +17,12 @@ namespace lamina::delaunay {
 /// The seam is what lies between the patches and the border of the region; the collar is in it.
 struct LatticePatches {
     std::vector<Point> points;
-    std::vector<Triangle> triangles;  ///< equilateral up to rounding, counter-clockwise; they index points
-    std::vector<Segment> boundary;    ///< the boundary of the patches, with the seam on its left; indexes points
-    std::vector<VertexId> collar;     ///< the points that belong to the seam alone
+    std::vector<Triangle> triangles;   ///< equilateral up to rounding, counter-clockwise; they index points
+    std::vector<Segment> boundary;     ///< the boundary of the patches, with the seam on its left; indexes points
+    std::vector<VertexId> collar;      ///< the points that belong to the seam alone
+    bool linked = false;               ///< whether the next two members are filled
+    core::EdgeLinks links{};           ///< the neighbours of the triangles; no_link on the boundary
+    core::EdgeLinks boundary_links{};  ///< for each segment of the boundary the edge of the patch behind it
     bool empty() const { return triangles.empty(); }
 };
 

@@ -52,8 +52,9 @@ public:
         reserve(static_cast<std::size_t>(std::min(expected, max_triangles)));
     }
 
-    /// Returns the refinement. It may be called once only, since it frees the refiner's memory as it goes.
-    Refinement refine();
+    /// Returns the refinement and stores its links, unless `links` is null. It may be called once only, since it frees the
+    /// refiner's memory as it goes.
+    Refinement refine(core::EdgeLinks* links);
 
 private:
     friend class Refiner<FrozenRefiner>;
@@ -75,7 +76,12 @@ private:
     double unscale_ = 1;  ///< its inverse, exactly
 };
 
-Refinement FrozenRefiner::refine() {
+/// Returns the link in the numbering of EdgeLink: edge e of a Tri, opposite its vertex e, begins at the next vertex.
+core::EdgeLink edge_link_of(Link link) {
+    return link.is_border() ? core::no_link : core::edge_link(link.triangle(), next(link.edge()));
+}
+
+Refinement FrozenRefiner::refine(core::EdgeLinks* links) {
     run();
     Refinement r;
     r.stats = count_leftovers();
@@ -85,6 +91,7 @@ Refinement FrozenRefiner::refine() {
         for (Point& p : points_) p = unscale_ * p;
     r.steiner_points = std::move(points_);
     r.triangles.reserve(tris_.size());
+    if (links) links->resize(3 * tris_.size());
     // Each block gives its pages back once it is copied, so that memory does not peak here.
     constexpr std::size_t block = std::size_t{1} << 16;
     for (std::size_t from = 0; from < tris_.size(); from += block) {
@@ -93,6 +100,8 @@ Refinement FrozenRefiner::refine() {
         for (std::size_t i = from; i < to; ++i) {
             const auto& v = tris_[i].v;
             r.triangles[i] = {VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}};
+            if (!links) continue;
+            for (unsigned e = 0; e < 3; ++e) (*links)[3 * i + next(e)] = edge_link_of(tris_[i].n[e]);
         }
         core::give_back_pages(&tris_[from], (to - from) * sizeof(Tri));
     }
@@ -144,8 +153,8 @@ RefineStats FrozenRefiner::count_leftovers() const {
 }  // namespace
 
 Refinement refine_region(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
-                         const RefineOptions& options) {
-    return FrozenRefiner(points, segments, size, options).refine();
+                         const RefineOptions& options, core::EdgeLinks* links) {
+    return FrozenRefiner(points, segments, size, options).refine(links);
 }
 
 double unit_scale(double extent) {
