@@ -209,10 +209,38 @@ void append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& p
     all.insert(all.end(), part.begin(), part.end());
 }
 
-void append(Adjacency& adjacency, const EdgeMatches& matches) {
-    append(adjacency.boundary, matches.boundary);
-    append(adjacency.overused, matches.overused);
-    adjacency.edges += matches.edges;
+/// Appends to an Adjacency or to EdgePairs.
+template <class Pairs>
+void append_matches(Pairs& pairs, const EdgeMatches& matches) {
+    append(pairs.boundary, matches.boundary);
+    append(pairs.overused, matches.overused);
+    pairs.edges += matches.edges;
+}
+
+/// Returns a number of buckets that makes each small enough for the cache.
+std::size_t bucket_count(std::size_t cells) {
+    constexpr std::size_t cells_per_bucket = 1 << 17, max_buckets = 256;
+    return std::min(cells / cells_per_bucket + 1, max_buckets);
+}
+
+/// Finds the twins in all buckets, which together hold all directed edges of each undirected edge in them. All lists have
+/// the same number of buckets.
+template <class Pairs>
+void match_buckets(std::span<const EdgeBuckets* const> lists, std::size_t buckets, Pairs& pairs) {
+    const auto match_bucket = [&](std::size_t bucket, std::size_t) {
+        std::size_t size = 0;
+        for (const EdgeBuckets* list : lists) size += list->start[bucket + 1] - list->start[bucket];
+        TwoWayEdgeList edges(size);
+        for (const EdgeBuckets* list : lists)
+            for (std::size_t i = list->start[bucket]; i < list->start[bucket + 1]; ++i)
+                edges.add(list->edges[i].origin, list->edges[i].target, list->edges[i].number);
+        EdgeMatches matches;
+        match(edges, pairs.twin, matches);
+        return matches;
+    };
+    for (const EdgeMatches& matches : core::parallel_blocks(buckets, 1, match_bucket)) append_matches(pairs, matches);
+    std::sort(pairs.boundary.begin(), pairs.boundary.end());
+    std::sort(pairs.overused.begin(), pairs.overused.end());
 }
 
 }  // namespace
@@ -225,8 +253,7 @@ Adjacency find_adjacency(const Mesh& mesh) {
     Adjacency adjacency;
     adjacency.twin = core::UninitializedArray<std::uint32_t>(cell_edges.size());
 
-    constexpr std::size_t cells_per_bucket = 1 << 17, max_buckets = 256;
-    const std::size_t buckets = std::min(cells / cells_per_bucket + 1, max_buckets);
+    const std::size_t buckets = bucket_count(cells);
     const auto match_block = [&](std::size_t begin, std::size_t end) {
         TwoWayEdgeList within(cell_edges.first(end) - cell_edges.first(begin));
         std::vector<SharedEdge> between;
@@ -241,25 +268,27 @@ Adjacency find_adjacency(const Mesh& mesh) {
         return result;
     };
     const std::vector<BlockMatches> blocks = core::parallel_blocks(cells, cells_per_block, match_block);
-    for (const BlockMatches& block : blocks) append(adjacency, block.matches);
-
-    const auto match_bucket = [&](std::size_t bucket, std::size_t) {
-        std::size_t size = 0;
-        for (const auto& [_, between] : blocks) size += between.start[bucket + 1] - between.start[bucket];
-        TwoWayEdgeList edges(size);
-        for (const auto& [_, between] : blocks)
-            for (std::size_t i = between.start[bucket]; i < between.start[bucket + 1]; ++i)
-                edges.add(between.edges[i].origin, between.edges[i].target, between.edges[i].number);
-        EdgeMatches matches;
-        match(edges, adjacency.twin, matches);
-        return matches;
-    };
-    for (const EdgeMatches& matches : core::parallel_blocks(buckets, 1, match_bucket)) append(adjacency, matches);
-
+    std::vector<const EdgeBuckets*> between;
+    for (const BlockMatches& block : blocks) {
+        append_matches(adjacency, block.matches);
+        between.push_back(&block.between);
+    }
+    match_buckets(between, buckets, adjacency);
     adjacency.orphans = find_orphans(owners);
-    std::sort(adjacency.boundary.begin(), adjacency.boundary.end());
-    std::sort(adjacency.overused.begin(), adjacency.overused.end());
     return adjacency;
+}
+
+EdgePairs pair_edges(std::span<const Segment> edges) {
+    if (edges.size() >= no_edge) throw MeshError("mesh too large: more than 2^32 edges between pieces");
+    std::vector<SharedEdge> all(edges.size());
+    for (std::size_t e = 0; e < edges.size(); ++e) all[e] = {edges[e].a, edges[e].b, static_cast<std::uint32_t>(e)};
+    const std::size_t buckets = bucket_count(edges.size());
+    const EdgeBuckets sorted = sort_into_buckets(all, buckets);
+    EdgePairs pairs;
+    pairs.twin = core::UninitializedArray<std::uint32_t>(edges.size());
+    const EdgeBuckets* const lists[] = {&sorted};
+    match_buckets(lists, buckets, pairs);
+    return pairs;
 }
 
 std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments) {

@@ -75,6 +75,16 @@ struct Adjacency {
 /// Precondition: all indices are in range. Throws MeshError from 2^32 directed edges on.
 LAMINA_EXPORT Adjacency find_adjacency(const Mesh& mesh);
 
+/// The pairs of opposite edges in a list of directed edges, which are numbered by their places in it.
+struct EdgePairs {
+    core::UninitializedArray<std::uint32_t> twin;   ///< per edge: the opposite edge, or no_edge
+    std::vector<std::uint32_t> boundary, overused;  ///< as in Adjacency
+    std::size_t edges = 0;                          ///< number of undirected edges
+};
+
+/// Finds the pairs in linear time. Throws MeshError from 2^32 - 1 edges on.
+LAMINA_EXPORT EdgePairs pair_edges(std::span<const Segment> edges);
+
 /// Returns for each segment the lowest directed edge between its ends, in either direction, or no_edge; takes linear
 /// time. Precondition: all indices are in range.
 LAMINA_EXPORT std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments);

@@ -2,22 +2,18 @@
 // well nested boundary loops, cells of positive area and matching edges together mean that the domain is covered once.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <lamina/mesh.hpp>
 
 #include "mesh/adjacency.hpp"
-#include "mesh/boundary.hpp"
 #include "mesh/cell_text.hpp"
 #include "mesh/check_arrays.hpp"
+#include "mesh/check_boundary.hpp"
 #include "mesh/check_cells.hpp"
-#include "mesh/check_markers.hpp"
 #include "mesh/defects.hpp"
 #include "mesh/delaunay_count.hpp"
 #include "mesh/exempt.hpp"
-#include "mesh/walls.hpp"
 
 namespace lamina::mesh {
 
@@ -43,34 +39,6 @@ long euler_characteristic(const Mesh& mesh, const Adjacency& adjacency) {
     const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
     return static_cast<long>(mesh.points.size() - adjacency.orphans.size()) - static_cast<long>(adjacency.edges) +
            static_cast<long>(cells);
-}
-
-std::size_t count_edges_without_first_layer(const Mesh& mesh, const Adjacency& adjacency) {
-    if (mesh.layer.empty()) return 0;
-    const CellEdges edges(mesh);
-    const auto is_beyond_layer_1 = [&](std::uint32_t edge) { return mesh.layer[edges.cell_of(edge)] > 1; };
-    return static_cast<std::size_t>(
-        std::count_if(adjacency.boundary.begin(), adjacency.boundary.end(), is_beyond_layer_1));
-}
-
-/// Checks sums that hold for every valid mesh. It follows from check_boundary() that they hold: this is a second,
-/// independent look.
-void check_totals(const MeshCheck& check, const BoundarySummary& boundary, DefectList& defects) {
-    // A connected plane domain with k holes has the characteristic 1 - k, one outer loop and k inner ones.
-    const long expected = 2 * static_cast<long>(boundary.outer_loops) - static_cast<long>(boundary.loops);
-    if (check.euler_characteristic != expected)
-        defects.add([&] {
-            return MeshDefect{fmt::format("Euler characteristic {} where the boundary loops ask for {}",
-                                          check.euler_characteristic, expected),
-                              {}};
-        });
-    // The tolerance is generous for the rounding errors of 1e9 cells, and too small for a cell to hide in.
-    constexpr double rounding = 1e-9;
-    if (!(std::abs(check.area - boundary.area) <= rounding * boundary.area_magnitude))
-        defects.add([&] {
-            return MeshDefect{
-                fmt::format("the cells' areas sum to {}, the boundary encloses {}", check.area, boundary.area), {}};
-        });
 }
 
 }  // namespace
@@ -111,17 +79,8 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     check.isotropic = cells.isotropic.summary();
     check.unexcused_cells = find_unexcused(mesh, adjacency, constraints, cells.narrow);
     check.isotropic.exempt = cells.narrow.size() - check.unexcused_cells.size();
-    check.walls = measure_walls(mesh, adjacency, options);
-    check.edges_without_first_layer = count_edges_without_first_layer(mesh, adjacency);
-
-    const std::vector<Segment> edges = boundary_edges(mesh, adjacency);
-    check_markers(mesh, edges, defects);
-    if (adjacency.overused.empty()) {
-        BoundarySummary boundary = check_boundary(mesh.points, edges);
-        check.boundary_loops = boundary.loops;
-        defects.append(std::move(boundary.defects));
-        if (defects.empty()) check_totals(check, boundary, defects);
-    }
+    check_whole_boundary(mesh.points, mesh.markers, find_boundary_edges(mesh, adjacency), adjacency.overused.empty(),
+                         options, check, defects);
     return finish();
 }
 

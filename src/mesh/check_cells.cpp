@@ -10,33 +10,34 @@
 #include "mesh/adjacency.hpp"
 #include "mesh/cell_text.hpp"
 #include "mesh/isotropic_cells.hpp"
+#include "mesh/triangle_shapes.hpp"
 
 namespace lamina::mesh {
 
 namespace {
 
-/// Returns a number that is > 0 for a counter-clockwise cell and 0 for a flat one. A quad is simple and
+/// Returns a number that is > 0 for a counter-clockwise quad and 0 for a flat one. A quad is simple and
 /// counter-clockwise if one of its diagonals splits it in two counter-clockwise triangles.
-double cell_orientation(const Point* p, std::size_t corners) {
+double quad_orientation(const Point* p) {
     using core::inline_orient2d;
-    if (corners == 3) return inline_orient2d(p[0], p[1], p[2]);
     return std::max(std::min(inline_orient2d(p[0], p[1], p[2]), inline_orient2d(p[0], p[2], p[3])),
                     std::min(inline_orient2d(p[0], p[1], p[3]), inline_orient2d(p[1], p[2], p[3])));
 }
 
-/// Checks the orientation and the shape of one cell, and returns its area.
-double check_cell(const Mesh& mesh, const CellEdges& edges, std::size_t cell, double min_angle_deg,
-                  CellsSummary& summary) {
+/// Reports a cell whose orientation has this sign unless the sign is positive.
+void require_positive(double sign, const Mesh& mesh, std::size_t cell, Point at, CellsSummary& summary) {
+    if (sign > 0) return;
+    summary.defects.add([&] {
+        return MeshDefect{fmt::format("{} {}", sign < 0 ? "clockwise or folded" : "flat", cell_text(mesh, cell)), at};
+    });
+}
+
+/// Checks the orientation and the shape of one quadrilateral, and returns its area.
+double check_quad(const Mesh& mesh, std::size_t cell, double min_angle_deg, CellsSummary& summary) {
     Point p[4];
-    const std::size_t corners = edges.corners(cell);
-    for (std::size_t i = 0; i < corners; ++i) p[i] = mesh.points[edges.corner(cell, i).index()];
-    if (const double sign = cell_orientation(p, corners); !(sign > 0))
-        summary.defects.add([&] {
-            return MeshDefect{fmt::format("{} {}", sign < 0 ? "clockwise or folded" : "flat", cell_text(mesh, cell)),
-                              p[0]};
-        });
-    const CellShape shape =
-        corners == 3 ? core::measure_triangle(p[0], p[1], p[2]) : measure_quad(p[0], p[1], p[2], p[3]);
+    for (std::size_t i = 0; i < 4; ++i) p[i] = mesh.points[mesh.quads[cell - mesh.triangles.size()].v[i].index()];
+    require_positive(quad_orientation(p), mesh, cell, p[0], summary);
+    const CellShape shape = measure_quad(p[0], p[1], p[2], p[3]);
     summary.area += shape.area;
     const bool isotropic = is_isotropic(mesh, cell);
     (isotropic ? summary.isotropic : summary.layer).add(shape);
@@ -44,10 +45,42 @@ double check_cell(const Mesh& mesh, const CellEdges& edges, std::size_t cell, do
     return shape.area;
 }
 
-double area_of(const Mesh& mesh, const CellEdges& edges, std::size_t cell) {
-    const auto corner = [&](std::size_t i) { return mesh.points[edges.corner(cell, i).index()]; };
-    return edges.corners(cell) == 3 ? 0.5 * cross(corner(1) - corner(0), corner(2) - corner(0))
-                                    : 0.5 * cross(corner(2) - corner(0), corner(3) - corner(1));
+/// Adds the shapes of the triangles from `first` on, which may belong to both regions.
+void add_shapes(const Mesh& mesh, std::size_t first, const TriangleShapes& shapes, double min_angle_deg,
+                CellsSummary& summary) {
+    std::size_t isotropic = 0;
+    for (std::size_t i = 0; i < shapes.size; ++i) isotropic += is_isotropic(mesh, first + i);
+    const ShapeTotals totals = add_up(shapes);
+    summary.area += totals.area;
+    if (isotropic == 0) {
+        summary.layer.add(shapes, totals);
+    } else if (isotropic == shapes.size) {
+        summary.isotropic.add(shapes, totals);
+    } else {
+        for (std::size_t i = 0; i < shapes.size; ++i)
+            (is_isotropic(mesh, first + i) ? summary.isotropic : summary.layer).add(shapes.shape(i));
+    }
+    if (isotropic == 0 || !(totals.min_angle_deg < min_angle_deg)) return;
+    for (std::size_t i = 0; i < shapes.size; ++i)
+        if (shapes.min_angle_deg[i] < min_angle_deg && is_isotropic(mesh, first + i))
+            summary.narrow.push_back(static_cast<std::uint32_t>(first + i));
+}
+
+/// Checks the orientation and the shapes of triangles, and stores their areas.
+void check_triangles(const Mesh& mesh, std::size_t begin, std::size_t end, double min_angle_deg,
+                     std::vector<double>& areas, CellsSummary& summary) {
+    TriangleShapes shapes;
+    for (std::size_t first = begin; first < end; first += TriangleShapes::capacity) {
+        const std::size_t count = std::min(TriangleShapes::capacity, end - first);
+        measure_triangles(mesh.points.data(), std::span(mesh.triangles).subspan(first, count), shapes);
+        std::copy_n(shapes.area, count, areas.data() + (first - begin));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (shapes.turn[i] > 0) continue;
+            const auto corner = [&](unsigned k) { return mesh.points[mesh.triangles[first + i].v[k].index()]; };
+            require_positive(orient2d(corner(0), corner(1), corner(2)), mesh, first + i, corner(0), summary);
+        }
+        add_shapes(mesh, first, shapes, min_angle_deg, summary);
+    }
 }
 
 /// Checks an edge between two cells. area_of_cell(cell) returns the area of a cell.
@@ -86,8 +119,10 @@ void check_block(const Mesh& mesh, const Adjacency& adjacency, std::size_t begin
                  CellsSummary& summary) {
     const CellEdges edges(mesh);
     std::vector<double> areas(end - begin);
-    for (std::size_t cell = begin; cell < end; ++cell)
-        areas[cell - begin] = check_cell(mesh, edges, cell, min_angle_deg, summary);
+    const std::size_t triangles_end = std::clamp(mesh.triangles.size(), begin, end);
+    check_triangles(mesh, begin, triangles_end, min_angle_deg, areas, summary);
+    for (std::size_t cell = triangles_end; cell < end; ++cell)
+        areas[cell - begin] = check_quad(mesh, cell, min_angle_deg, summary);
     const auto area_of_cell = [&](std::size_t cell) {
         return begin <= cell && cell < end ? areas[cell - begin] : area_of(mesh, edges, cell);
     };
@@ -96,6 +131,12 @@ void check_block(const Mesh& mesh, const Adjacency& adjacency, std::size_t begin
 }
 
 }  // namespace
+
+double area_of(const Mesh& mesh, const CellEdges& edges, std::size_t cell) {
+    const auto corner = [&](std::size_t i) { return mesh.points[edges.corner(cell, i).index()]; };
+    return edges.corners(cell) == 3 ? 0.5 * cross(corner(1) - corner(0), corner(2) - corner(0))
+                                    : 0.5 * cross(corner(2) - corner(0), corner(3) - corner(1));
+}
 
 void CellsSummary::append(CellsSummary&& part) {
     area += part.area;

@@ -31,6 +31,9 @@ struct CellsSummary {
 /// Checks all cells against this bound on the smallest angle. The result does not depend on the number of threads.
 CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, double min_angle_deg);
 
+/// Returns the area of a cell, rounded.
+double area_of(const Mesh& mesh, const CellEdges& edges, std::size_t cell);
+
 /// Summarizes the area ratios at the edges between the regions.
 TransitionSummary summarize_transition(std::vector<double> area_ratios);
 

@@ -10,25 +10,17 @@
 
 namespace lamina::mesh {
 
-std::vector<Segment> boundary_edges(const Mesh& mesh, const Adjacency& adjacency) {
-    const CellEdges edges(mesh);
-    std::vector<Segment> boundary;
-    boundary.reserve(adjacency.boundary.size());
-    for (const std::uint32_t e : adjacency.boundary) boundary.push_back({edges.origin(e), edges.target(e)});
-    std::sort(boundary.begin(), boundary.end());
-    return boundary;
-}
-
-void check_markers(const Mesh& mesh, const std::vector<Segment>& boundary, DefectList& defects) {
+void check_markers(std::span<const Point> points, std::span<const Marker> markers, const std::vector<Segment>& boundary,
+                   DefectList& defects) {
     std::vector<std::uint8_t> marked(boundary.size(), 0);
     const auto report = [&](const Segment& edge, const std::string& description) {
-        defects.add([&] { return MeshDefect{description, mesh.points[edge.a.index()]}; });
+        defects.add([&] { return MeshDefect{description, points[edge.a.index()]}; });
     };
-    for (const Marker& marker : mesh.markers) {
+    for (const Marker& marker : markers) {
         const auto is_earlier_namesake = [&](const Marker& other) {
             return &other < &marker && other.name == marker.name;
         };
-        if (std::any_of(mesh.markers.begin(), mesh.markers.end(), is_earlier_namesake))
+        if (std::any_of(markers.begin(), markers.end(), is_earlier_namesake))
             defects.add([&] { return MeshDefect{fmt::format("two markers are named '{}'", marker.name), {}}; });
         for (const Segment& edge : marker.edges) {
             const auto found = std::lower_bound(boundary.begin(), boundary.end(), edge);

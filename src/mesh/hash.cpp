@@ -16,6 +16,7 @@
 #include <lamina/mesh.hpp>
 
 #include "core/parallel.hpp"
+#include "mesh/hash.hpp"
 
 namespace lamina::mesh {
 
@@ -60,11 +61,11 @@ std::uint64_t bits(double c) { return std::bit_cast<std::uint64_t>(c + 0.0); }  
 
 /// Hashes the vertices of a cell, starting with the lexicographically smallest one.
 template <std::size_t corners>
-HashSum hash_cell(const Mesh& mesh, const VertexId (&v)[corners]) {
+HashSum hash_cell(std::span<const Point> points, const VertexId (&v)[corners]) {
     Point p[corners];
     std::size_t smallest = 0;
     for (std::size_t i = 0; i < corners; ++i) {
-        p[i] = mesh.points[v[i].index()];
+        p[i] = points[v[i].index()];
         if (lexicographically_less(p[i], p[smallest])) smallest = i;
     }
     std::uint64_t words[2 * corners];
@@ -76,14 +77,14 @@ HashSum hash_cell(const Mesh& mesh, const VertexId (&v)[corners]) {
     return murmur3(words, sizeof words);
 }
 
-HashSum hash_marker(const Mesh& mesh, const Marker& marker) {
+HashSum hash_marker(std::span<const Point> points, const Marker& marker) {
     std::vector<std::uint64_t> words(4 + 2 * ((marker.name.size() + 15) / 16), 0);
     static_assert(std::endian::native == std::endian::little,
                   "the bytes of the name are copied into the words as they lie in memory");
     std::memcpy(words.data() + 4, marker.name.data(), marker.name.size());
     HashSum sum = 0;
     for (const Segment& edge : marker.edges) {
-        const Point a = mesh.points[edge.a.index()], b = mesh.points[edge.b.index()];
+        const Point a = points[edge.a.index()], b = points[edge.b.index()];
         words[0] = bits(a.x);
         words[1] = bits(a.y);
         words[2] = bits(b.x);
@@ -94,29 +95,60 @@ HashSum hash_marker(const Mesh& mesh, const Marker& marker) {
 }
 
 template <class Cell>
-HashSum hash_cells(const Mesh& mesh, const std::vector<Cell>& cells) {
-    const auto hash_block = [&](std::size_t begin, std::size_t end) {
-        HashSum sum = 0;
-        for (std::size_t i = begin; i < end; ++i) sum += hash_cell(mesh, cells[i].v);
-        return sum;
-    };
+HashSum hash_cells(std::span<const Point> points, std::span<const Cell> cells) {
     HashSum sum = 0;
-    for (const HashSum part : core::parallel_blocks(cells.size(), std::size_t{1} << 14, hash_block)) sum += part;
+    for (const Cell& cell : cells) sum += hash_cell(points, cell.v);
     return sum;
 }
 
+std::uint64_t high_word(HashSum sum) { return static_cast<std::uint64_t>(sum >> 64); }
+
 }  // namespace
+
+void HashOfParts::add(std::span<const Point> points, std::span<const Triangle> triangles) {
+    const HashSum sum = hash_cells(points, triangles);
+    add(high_word(sum), static_cast<std::uint64_t>(sum));
+}
+
+void HashOfParts::add(std::span<const Point> points, std::span<const Quad> quads) {
+    const HashSum sum = hash_cells(points, quads);
+    add(high_word(sum), static_cast<std::uint64_t>(sum));
+}
+
+void HashOfParts::add(std::span<const Point> points, std::span<const Marker> markers) {
+    for (const Marker& marker : markers) {
+        const HashSum sum = hash_marker(points, marker);
+        add(high_word(sum), static_cast<std::uint64_t>(sum));
+    }
+}
+
+std::string HashOfParts::text() const { return fmt::format("{:016x}{:016x}", high_, low_); }
 
 }  // namespace lamina::mesh
 
 namespace lamina {
 
-using namespace mesh;
+namespace {
+
+template <class Cell>
+void add_in_parallel(std::span<const Point> points, std::span<const Cell> cells, mesh::HashOfParts& hash) {
+    const auto hash_block = [&](std::size_t begin, std::size_t end) {
+        mesh::HashOfParts part;
+        part.add(points, cells.subspan(begin, end - begin));
+        return part;
+    };
+    for (const mesh::HashOfParts& part : core::parallel_blocks(cells.size(), std::size_t{1} << 14, hash_block))
+        hash.add(part);
+}
+
+}  // namespace
 
 std::string mesh_hash(const Mesh& mesh) {
-    HashSum sum = hash_cells(mesh, mesh.triangles) + hash_cells(mesh, mesh.quads);
-    for (const Marker& marker : mesh.markers) sum += hash_marker(mesh, marker);
-    return fmt::format("{:016x}{:016x}", static_cast<std::uint64_t>(sum >> 64), static_cast<std::uint64_t>(sum));
+    mesh::HashOfParts hash;
+    add_in_parallel<Triangle>(mesh.points, mesh.triangles, hash);
+    add_in_parallel<Quad>(mesh.points, mesh.quads, hash);
+    hash.add(mesh.points, mesh.markers);
+    return hash.text();
 }
 
 }  // namespace lamina

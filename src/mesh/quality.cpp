@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace lamina::mesh {
 
@@ -20,6 +21,12 @@ std::size_t bin_of(float ratio) {
 
 double upper_end_of(std::size_t bin) {
     return std::bit_cast<float>(bits_of_one + ((static_cast<std::uint32_t>(bin) + 1) << bin_shift));
+}
+
+/// Returns the bin of an angle in QualitySummary::angle_histogram.
+std::size_t angle_bin(double min_angle_deg) {
+    constexpr std::size_t last = std::tuple_size_v<decltype(QualitySummary::angle_histogram)> - 1;
+    return std::min(last, static_cast<std::size_t>(min_angle_deg / 5));
 }
 
 }  // namespace
@@ -66,15 +73,35 @@ void QualityCollector::add(const CellShape& shape) {
     mean_ratio_sum_ += shape.mean_ratio;
     max_aspect_ = std::max(max_aspect_, shape.aspect_ratio);
     below_bound_ += shape.min_angle_deg < bound_;
-    ++angle_histogram_[std::min<std::size_t>(angle_histogram_.size() - 1,
-                                             static_cast<std::size_t>(shape.min_angle_deg / 5))];
+    ++angle_histogram_[angle_bin(shape.min_angle_deg)];
+}
+
+void QualityCollector::add(const TriangleShapes& shapes, const ShapeTotals& totals) {
+    cells_ += shapes.size;
+    min_angle_ = std::min(min_angle_, totals.min_angle_deg);
+    max_angle_ = std::max(max_angle_, totals.max_angle_deg);
+    min_angle_sum_ += totals.min_angle_sum;
+    max_angle_sum_ += totals.max_angle_sum;
+    mean_ratio_sum_ += totals.mean_ratio_sum;
+    max_aspect_ = std::max(max_aspect_, totals.max_aspect_ratio);
+    for (std::size_t i = 0; i < shapes.size; ++i) ++angle_histogram_[angle_bin(shapes.min_angle_deg[i])];
+    if (totals.min_angle_deg < bound_)
+        below_bound_ += static_cast<std::size_t>(std::count_if(shapes.min_angle_deg, shapes.min_angle_deg + shapes.size,
+                                                               [&](double angle) { return angle < bound_; }));
+}
+
+void QualityCollector::add_area_ratios(std::span<const double> ratios) {
+    if (ratios.empty()) return;
+    if (area_ratios_.empty()) area_ratios_.assign(ratio_bins, 0);
+    for (const double ratio : ratios) {
+        max_area_ratio_ = std::max(max_area_ratio_, ratio);
+        ++area_ratios_[bin_of(static_cast<float>(ratio))];
+    }
 }
 
 void QualityCollector::add_neighbours(double area, double other_area) {
-    if (area_ratios_.empty()) area_ratios_.assign(ratio_bins, 0);
     const double ratio = std::max(area, other_area) / std::min(area, other_area);
-    max_area_ratio_ = std::max(max_area_ratio_, ratio);
-    ++area_ratios_[bin_of(static_cast<float>(ratio))];
+    add_area_ratios({&ratio, 1});
 }
 
 void QualityCollector::append(const QualityCollector& part) {

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 
 #include "core/cell_shape.hpp"
+#include "mesh/triangle_shapes.hpp"
 
 namespace lamina::mesh {
 
@@ -32,6 +34,10 @@ public:
     explicit QualityCollector(double min_angle_bound_deg) : bound_(min_angle_bound_deg) {}
 
     void add(const CellShape& shape);
+    /// Adds all of these triangles, whose totals are those of add_up().
+    void add(const TriangleShapes& shapes, const ShapeTotals& totals);
+    /// Adds ratios of the areas of cells with a common edge, the larger area over the smaller one.
+    void add_area_ratios(std::span<const double> ratios);
     /// Adds the areas of two cells with a common edge.
     void add_neighbours(double area, double other_area);
     void append(const QualityCollector& part);

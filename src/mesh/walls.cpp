@@ -13,23 +13,23 @@ namespace {
 /// A directed edge of a wall, the mesh on its left.
 struct WallEdge {
     VertexId from, to;
-    std::uint32_t edge;  ///< as numbered by CellEdges
+    const BoundaryEdge* edge;
     std::size_t marker;  ///< in Mesh::markers
 };
 
 /// Returns the edges of all walls, sorted by their first vertex.
-std::vector<WallEdge> wall_edges(const Mesh& mesh, const CellEdges& edges, const Adjacency& adjacency) {
+std::vector<WallEdge> wall_edges(std::span<const Marker> markers, std::span<const BoundaryEdge> boundary) {
     std::vector<std::pair<Segment, std::size_t>> segments;  // and their markers
-    for (std::size_t m = 0; m < mesh.markers.size(); ++m)
-        if (may_be_wall(mesh.markers[m].kind))
-            for (const Segment& segment : mesh.markers[m].edges) segments.emplace_back(segment, m);
+    for (std::size_t m = 0; m < markers.size(); ++m)
+        if (may_be_wall(markers[m].kind))
+            for (const Segment& segment : markers[m].edges) segments.emplace_back(segment, m);
     std::sort(segments.begin(), segments.end());
     std::vector<WallEdge> walls;
-    for (const std::uint32_t edge : adjacency.boundary) {
-        const Segment segment{edges.origin(edge), edges.target(edge)};
+    for (const BoundaryEdge& edge : boundary) {
+        const Segment segment = edge.ends;
         const auto found = std::lower_bound(segments.begin(), segments.end(), std::pair{segment, std::size_t{0}});
         if (found != segments.end() && found->first == segment)
-            walls.push_back({segment.a, segment.b, edge, found->second});
+            walls.push_back({segment.a, segment.b, &edge, found->second});
     }
     std::sort(walls.begin(), walls.end(), [](const WallEdge& a, const WallEdge& b) { return a.from < b.from; });
     return walls;
@@ -44,14 +44,13 @@ bool is_corner_of_base(Point a, Point b, Point c) {
 }
 
 /// Compares the lengths of neighbouring edges. Vertices that several walls pass are left out.
-void measure_ratios(const Mesh& mesh, std::span<const WallEdge> walls, WallSummary& summary) {
+void measure_ratios(std::span<const Point> points, std::span<const WallEdge> walls, WallSummary& summary) {
     const auto begins_before = [](const WallEdge& edge, VertexId v) { return edge.from < v; };
     for (const WallEdge& wall : walls) {
         const auto after = std::lower_bound(walls.begin(), walls.end(), wall.to, begins_before);
         if (after == walls.end() || after->from != wall.to) continue;
         if (after + 1 != walls.end() && (after + 1)->from == wall.to) continue;
-        const Point a = mesh.points[wall.from.index()], b = mesh.points[wall.to.index()],
-                    c = mesh.points[after->to.index()];
+        const Point a = points[wall.from.index()], b = points[wall.to.index()], c = points[after->to.index()];
         if (a == b || b == c || is_corner_of_base(a, b, c)) continue;
         const double before_length = distance(a, b), after_length = distance(b, c);
         const double ratio = std::max(before_length, after_length) / std::min(before_length, after_length);
@@ -62,18 +61,6 @@ void measure_ratios(const Mesh& mesh, std::span<const WallEdge> walls, WallSumma
     }
 }
 
-/// Returns the height of a cell over one of its edges: the mean distance of its other corners from the edge's line.
-double height_over(const Mesh& mesh, const CellEdges& edges, std::uint32_t edge) {
-    const Point a = mesh.points[edges.origin(edge).index()], b = mesh.points[edges.target(edge).index()];
-    const std::size_t cell = edges.cell_of(edge), corners = edges.corners(cell), first = edge - edges.first(cell);
-    double sum = 0;
-    for (std::size_t i = 2; i < corners; ++i) {
-        const Point p = mesh.points[edges.corner(cell, (first + i) % corners).index()];
-        sum += cross(b - a, p - a);
-    }
-    return sum / (distance(a, b) * static_cast<double>(corners - 2));
-}
-
 /// The height of a cell of the first layer.
 struct FirstHeight {
     double height;
@@ -81,16 +68,12 @@ struct FirstHeight {
 };
 
 /// Returns the heights of the cells of the first layer, marker by marker.
-std::vector<std::vector<FirstHeight>> first_heights_of_markers(const Mesh& mesh, const CellEdges& edges,
+std::vector<std::vector<FirstHeight>> first_heights_of_markers(std::span<const Point> points, std::size_t markers,
                                                                std::span<const WallEdge> walls) {
-    std::vector<std::vector<FirstHeight>> heights(mesh.markers.size());
-    for (const WallEdge& wall : walls) {
-        const std::size_t cell = edges.cell_of(wall.edge);
-        const bool of_first_layer =
-            mesh.layer.empty() ? !mesh.region.empty() && mesh.region[cell] == Region::layer : mesh.layer[cell] == 1;
-        if (of_first_layer && mesh.points[wall.from.index()] != mesh.points[wall.to.index()])
-            heights[wall.marker].push_back({height_over(mesh, edges, wall.edge), wall.from});
-    }
+    std::vector<std::vector<FirstHeight>> heights(markers);
+    for (const WallEdge& wall : walls)
+        if (wall.edge->in_first_layer && points[wall.from.index()] != points[wall.to.index()])
+            heights[wall.marker].push_back({wall.edge->height, wall.from});
     return heights;
 }
 
@@ -102,9 +85,9 @@ double median_height(std::vector<FirstHeight> heights) {
     return middle->height;
 }
 
-void measure_first_heights(const Mesh& mesh, const CellEdges& edges, std::span<const WallEdge> walls,
-                           const MeshCheckOptions& options, WallSummary& summary) {
-    const std::vector<std::vector<FirstHeight>> by_marker = first_heights_of_markers(mesh, edges, walls);
+void measure_first_heights(std::span<const Point> points, std::span<const Marker> markers,
+                           std::span<const WallEdge> walls, const MeshCheckOptions& options, WallSummary& summary) {
+    const std::vector<std::vector<FirstHeight>> by_marker = first_heights_of_markers(points, markers.size(), walls);
     std::vector<FirstHeight> all;
     std::size_t all_kept = 0;
     double worst = 0;
@@ -121,10 +104,10 @@ void measure_first_heights(const Mesh& mesh, const CellEdges& edges, std::span<c
             if (!(deviation > worst)) continue;
             worst = deviation;
             summary.worst_first_height = first.height / wanted;
-            summary.worst_first_height_at = mesh.points[first.at.index()];
+            summary.worst_first_height_at = points[first.at.index()];
         }
-        summary.first_heights.push_back({mesh.markers[m].name, heights.size(), median,
-                                         static_cast<double>(kept) / static_cast<double>(heights.size())});
+        summary.first_heights.push_back(
+            {markers[m].name, heights.size(), median, static_cast<double>(kept) / static_cast<double>(heights.size())});
         all_kept += kept;
         all.insert(all.end(), heights.begin(), heights.end());
     }
@@ -136,21 +119,21 @@ void measure_first_heights(const Mesh& mesh, const CellEdges& edges, std::span<c
 
 }  // namespace
 
-std::vector<Segment> sorted_wall_edges(const Mesh& mesh) {
+std::vector<Segment> sorted_wall_edges(std::span<const Marker> markers) {
     std::vector<Segment> edges;
-    for (const Marker& marker : mesh.markers)
+    for (const Marker& marker : markers)
         if (may_be_wall(marker.kind)) edges.insert(edges.end(), marker.edges.begin(), marker.edges.end());
     std::sort(edges.begin(), edges.end());
     return edges;
 }
 
-WallSummary measure_walls(const Mesh& mesh, const Adjacency& adjacency, const MeshCheckOptions& options) {
-    const CellEdges edges(mesh);
-    const std::vector<WallEdge> walls = wall_edges(mesh, edges, adjacency);
+WallSummary measure_walls(std::span<const Point> points, std::span<const Marker> markers,
+                          std::span<const BoundaryEdge> boundary, const MeshCheckOptions& options) {
+    const std::vector<WallEdge> walls = wall_edges(markers, boundary);
     WallSummary summary;
     summary.edges = walls.size();
-    measure_ratios(mesh, walls, summary);
-    measure_first_heights(mesh, edges, walls, options, summary);
+    measure_ratios(points, walls, summary);
+    measure_first_heights(points, markers, walls, options, summary);
     return summary;
 }
 

@@ -64,7 +64,7 @@ Point worst_place(const Mesh& mesh, Region region, Badness badness) {
 
 /// Returns the place of the wall edge whose cell reaches to the highest layer.
 Point highest_first_cell(const Mesh& mesh) {
-    const std::vector<Segment> walls = mesh::sorted_wall_edges(mesh);
+    const std::vector<Segment> walls = mesh::sorted_wall_edges(mesh.markers);
     return worst_place(mesh, Region::layer, [&](std::size_t cell) {
         const auto corners = corners_of(mesh, cell);
         for (std::size_t i = 0; i < corners.size(); ++i)

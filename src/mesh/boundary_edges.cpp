@@ -1,0 +1,46 @@
+#include "mesh/boundary_edges.hpp"
+
+#include <algorithm>
+
+namespace lamina::mesh {
+
+namespace {
+
+/// Returns the height of a cell over one of its edges: the mean distance of its other corners from the edge's line.
+double height_over(const Mesh& mesh, const CellEdges& edges, std::uint32_t edge) {
+    const Point a = mesh.points[edges.origin(edge).index()], b = mesh.points[edges.target(edge).index()];
+    const std::size_t cell = edges.cell_of(edge), corners = edges.corners(cell), first = edge - edges.first(cell);
+    double sum = 0;
+    for (std::size_t i = 2; i < corners; ++i) {
+        const Point p = mesh.points[edges.corner(cell, (first + i) % corners).index()];
+        sum += cross(b - a, p - a);
+    }
+    return sum / (distance(a, b) * static_cast<double>(corners - 2));
+}
+
+}  // namespace
+
+std::vector<BoundaryEdge> find_boundary_edges(const Mesh& mesh, const Adjacency& adjacency) {
+    const CellEdges edges(mesh);
+    std::vector<BoundaryEdge> boundary;
+    boundary.reserve(adjacency.boundary.size());
+    for (const std::uint32_t e : adjacency.boundary) {
+        const std::size_t cell = edges.cell_of(e);
+        BoundaryEdge& edge = boundary.emplace_back(BoundaryEdge{{edges.origin(e), edges.target(e)}});
+        edge.in_first_layer =
+            mesh.layer.empty() ? !mesh.region.empty() && mesh.region[cell] == Region::layer : mesh.layer[cell] == 1;
+        edge.beyond_first_layer = !mesh.layer.empty() && mesh.layer[cell] > 1;
+        if (edge.in_first_layer) edge.height = height_over(mesh, edges, e);
+    }
+    return boundary;
+}
+
+std::vector<Segment> sorted_ends(std::span<const BoundaryEdge> edges) {
+    std::vector<Segment> ends;
+    ends.reserve(edges.size());
+    for (const BoundaryEdge& edge : edges) ends.push_back(edge.ends);
+    std::sort(ends.begin(), ends.end());
+    return ends;
+}
+
+}  // namespace lamina::mesh

@@ -1,0 +1,27 @@
+// The edges on the boundary of a mesh, with what is known of the cells behind them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <lamina/mesh.hpp>
+
+#include "mesh/adjacency.hpp"
+
+namespace lamina::mesh {
+
+/// A directed edge that one cell alone has, with the mesh on its left.
+struct BoundaryEdge {
+    Segment ends;
+    bool in_first_layer = false;      ///< whether the cell belongs to the first layer
+    bool beyond_first_layer = false;  ///< whether it reaches beyond it
+    double height = 0;                ///< of the cell over the edge; of cells in the first layer alone
+};
+
+/// Returns the edges that one cell alone has, in the order of Adjacency::boundary.
+std::vector<BoundaryEdge> find_boundary_edges(const Mesh& mesh, const Adjacency& adjacency);
+
+/// Returns their ends, sorted.
+std::vector<Segment> sorted_ends(std::span<const BoundaryEdge> edges);
+
+}  // namespace lamina::mesh

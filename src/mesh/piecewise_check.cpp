@@ -1,0 +1,217 @@
+#include "mesh/piecewise_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <lamina/error.hpp>
+
+#include "mesh/cell_text.hpp"
+#include "mesh/check_arrays.hpp"
+#include "mesh/check_boundary.hpp"
+#include "mesh/delaunay_count.hpp"
+#include "mesh/sharp_corners.hpp"
+
+namespace lamina::mesh {
+
+namespace {
+
+/// A triangle on the left of an edge.
+struct EdgeTriangle {
+    Point a, b, apex;
+    double area() const { return 0.5 * cross(b - a, apex - a); }
+};
+
+bool violates(const EdgeTriangle& one, const EdgeTriangle& other) {
+    return is_strictly_in_circle(one.a, one.b, one.apex, other.apex);
+}
+
+}  // namespace
+
+PiecewiseCheck::PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOptions options)
+    : shared_points_(shared_points),
+      options_(std::move(options)),
+      layer_(options_.min_angle_deg),
+      pieces_(options_.min_angle_deg),
+      in_layer_(shared_points.size(), 0) {
+    validate(options_);
+}
+
+void PiecewiseCheck::add_layer(const Mesh& layer, std::span<const Segment> constraints) {
+    check_arrays(layer, layer_.defects);
+    if (!layer_.defects.empty()) return;
+    const Adjacency adjacency = find_adjacency(layer);
+    layer_.append(check_cells(layer, adjacency, options_.min_angle_deg));
+    const CellEdges edges(layer);
+    for (const std::uint32_t e : adjacency.overused)
+        layer_.defects.add([&] {
+            return MeshDefect{fmt::format("{} of the layer shares an edge with more than one cell or with one on the "
+                                          "same side",
+                                          cell_text(layer, edges.cell_of(e))),
+                              layer.points[edges.origin(e).index()]};
+        });
+    std::fill_n(in_layer_.begin(), layer.points.size(), std::uint8_t{1});
+    for (const VertexId v : adjacency.orphans) in_layer_[v.index()] = 0;
+    cells_ += edges.cells();
+    inner_edges_ += adjacency.edges - adjacency.boundary.size();
+    const std::vector<BoundaryEdge> boundary = find_boundary_edges(layer, adjacency);
+    for (std::size_t i = 0; i < boundary.size(); ++i)
+        layer_edges_.push_back({boundary[i], area_of(layer, edges, edges.cell_of(adjacency.boundary[i]))});
+    is_layer_constraint_.clear();
+    for (const std::uint32_t e : find_edges(layer, constraints)) is_layer_constraint_.push_back(e != no_edge);
+}
+
+void PiecewiseCheck::add_piece(PieceFindings findings) {
+    cells_ += findings.triangles;
+    vertices_ += findings.inner_vertices;
+    inner_edges_ += findings.inner_edges;
+    for (const PieceBorderEdge& edge : findings.border) {
+        border_.push_back({edge.a, edge.b});
+        apexes_.push_back(edge.apex);
+    }
+    first_candidate_.push_back(candidates_.size());
+    candidates_.insert(candidates_.end(), findings.narrow.begin(), findings.narrow.end());
+    findings.cells.narrow.clear();
+    if (findings.widest.badness > widest_.badness) widest_ = findings.widest;
+    if (findings.narrowest.badness > narrowest_.badness) narrowest_ = findings.narrowest;
+    pieces_.append(std::move(findings.cells));
+}
+
+MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<const Segment> constraints,
+                                 std::span<const std::size_t> first_triangle) {
+    if (!options_.first_heights.empty() && options_.first_heights.size() != markers.size())
+        throw OptionError("first_heights", "need one entry per marker");
+    MeshCheck check;
+    DefectList defects = std::move(layer_.defects);
+    defects.append(std::move(pieces_.defects));
+    const auto finished = [&] {
+        check.defects = std::move(defects.kept);
+        check.defect_count = defects.count;
+        return std::move(check);
+    };
+    if (cells_ == 0) defects.add([] { return MeshDefect{"no cells", {}}; });
+    if (!defects.empty()) return finished();
+
+    const Seams seams = match_seams();
+    for (const std::uint32_t e : seams.pairs.overused)
+        defects.add([&] {
+            return MeshDefect{
+                fmt::format("more than two cells, or two on one side, share the edge {}", edge_text(seams.edges[e])),
+                shared_points_[seams.edges[e].a.index()]};
+        });
+    const std::size_t orphans = report_orphans(seams, defects);
+    check.area = layer_.area + pieces_.area;
+    check.euler_characteristic = static_cast<long>(shared_points_.size() - orphans + vertices_) -
+                                 static_cast<long>(inner_edges_ + seams.pairs.edges) + static_cast<long>(cells_);
+    measure_across(seams);
+    subtract_constraints(seams, constraints, defects);
+    check.interior_edges = pieces_.delaunay.edges;
+    check.delaunay_violations = pieces_.delaunay.violations;
+    check.transition = summarize_transition(std::move(pieces_.transition));
+    check.layer = layer_.layer.summary();
+    check.isotropic = pieces_.isotropic.summary();
+    find_unexcused(seams, first_triangle);
+    for (const NarrowTriangle& narrow : unexcused_)
+        check.unexcused_cells.push_back(static_cast<std::uint32_t>(narrow.cell));
+    check.isotropic.exempt = check.isotropic.angles_below_bound - unexcused_.size();
+
+    std::vector<BoundaryEdge> boundary;
+    for (const std::uint32_t e : seams.pairs.boundary)
+        boundary.push_back(e < layer_edges_.size() ? layer_edges_[e].edge : BoundaryEdge{seams.edges[e]});
+    check_whole_boundary(shared_points_, markers, boundary, seams.pairs.overused.empty(), options_, check, defects);
+    return finished();
+}
+
+PiecewiseCheck::Seams PiecewiseCheck::match_seams() const {
+    Seams seams;
+    seams.edges.reserve(layer_edges_.size() + border_.size());
+    for (const LayerEdge& edge : layer_edges_) seams.edges.push_back(edge.edge.ends);
+    seams.edges.insert(seams.edges.end(), border_.begin(), border_.end());
+    seams.pairs = pair_edges(seams.edges);
+    return seams;
+}
+
+std::size_t PiecewiseCheck::report_orphans(const Seams& seams, DefectList& defects) const {
+    std::vector<std::uint8_t> used = in_layer_;
+    for (const Segment& edge : seams.edges) used[edge.a.index()] = used[edge.b.index()] = 1;
+    std::size_t orphans = 0;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+        if (used[v]) continue;
+        ++orphans;
+        defects.add([&] { return MeshDefect{fmt::format("vertex {} belongs to no cell", v), shared_points_[v]}; });
+    }
+    return orphans;
+}
+
+void PiecewiseCheck::measure_across(const Seams& seams) {
+    const auto triangle = [&](std::size_t e) {
+        return EdgeTriangle{shared_points_[seams.edges[e].a.index()], shared_points_[seams.edges[e].b.index()],
+                            apexes_[e - layer_edges_.size()]};
+    };
+    // Edges of the layer have the lower numbers, and none has its twin in the layer.
+    for (std::size_t e = 0; e < seams.edges.size(); ++e) {
+        const std::uint32_t twin = seams.pairs.twin[e];
+        if (twin == no_edge || twin < e || twin < layer_edges_.size()) continue;
+        const EdgeTriangle other = triangle(twin);
+        if (e < layer_edges_.size()) {
+            pieces_.transition.push_back(layer_edges_[e].area / other.area());
+            continue;
+        }
+        const EdgeTriangle one = triangle(e);
+        pieces_.isotropic.add_neighbours(one.area(), other.area());
+        ++pieces_.delaunay.edges;
+        pieces_.delaunay.violations += violates(one, other);
+    }
+}
+
+void PiecewiseCheck::subtract_constraints(const Seams& seams, std::span<const Segment> constraints,
+                                          DefectList& defects) {
+    // The constraints are sorted with their smaller vertices first, each once.
+    std::vector<bool> found(constraints.size(), false);
+    for (std::size_t i = 0; i < std::min(constraints.size(), is_layer_constraint_.size()); ++i)
+        found[i] = is_layer_constraint_[i];
+    const std::size_t layer_edges = layer_edges_.size();
+    for (std::size_t e = 0; e < seams.edges.size(); ++e) {
+        const auto [a, b] = std::minmax(seams.edges[e].a, seams.edges[e].b);
+        const auto at = std::lower_bound(constraints.begin(), constraints.end(), Segment{a, b});
+        if (at == constraints.end() || *at != Segment{a, b}) continue;
+        found[static_cast<std::size_t>(at - constraints.begin())] = true;
+        const std::uint32_t twin = seams.pairs.twin[e];
+        if (e < layer_edges || twin == no_edge || twin < e) continue;
+        const auto triangle = [&](std::size_t edge) {
+            return EdgeTriangle{shared_points_[seams.edges[edge].a.index()],
+                                shared_points_[seams.edges[edge].b.index()], apexes_[edge - layer_edges]};
+        };
+        --pieces_.delaunay.edges;
+        pieces_.delaunay.violations -= violates(triangle(e), triangle(twin));
+    }
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+        if (!found[i])
+            defects.add([&] {
+                return MeshDefect{fmt::format("constraint {} is no edge of the mesh", edge_text(constraints[i])),
+                                  shared_points_[constraints[i].a.index()]};
+            });
+}
+
+void PiecewiseCheck::find_unexcused(const Seams& seams, std::span<const std::size_t> first_triangle) {
+    if (candidates_.empty()) return;
+    // The outline of the isotropic region: borders of pieces on the boundary and on the layer.
+    std::vector<Segment> outline_edges;
+    for (std::size_t e = layer_edges_.size(); e < seams.edges.size(); ++e)
+        if (const std::uint32_t twin = seams.pairs.twin[e]; twin == no_edge || twin < layer_edges_.size())
+            outline_edges.push_back(seams.edges[e]);
+    const Outline outline(shared_points_, std::move(outline_edges));
+    std::size_t piece = 0;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        while (piece + 1 < first_candidate_.size() && first_candidate_[piece + 1] <= i) ++piece;
+        const NarrowTriangle& candidate = candidates_[i];
+        if (candidate.shortest && outline.is_spanned(candidate.shortest->a, candidate.shortest->b)) continue;
+        unexcused_.push_back(candidate);
+        unexcused_.back().cell += first_triangle[piece];
+    }
+    std::sort(unexcused_.begin(), unexcused_.end(),
+              [](const NarrowTriangle& a, const NarrowTriangle& b) { return a.cell < b.cell; });
+}
+
+}  // namespace lamina::mesh

@@ -1,0 +1,258 @@
+// check_piece() and PiecewiseCheck: the same findings as check_mesh(), and every damage to what is handed over is found.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/edge_links.hpp"
+#include "mesh/adjacency.hpp"
+#include "mesh/piecewise_check.hpp"
+#include "support/sample_meshes.hpp"
+
+namespace lamina {
+namespace {
+
+using core::EdgeLink;
+using mesh::LinkedPiece;
+using mesh::PiecewiseCheck;
+
+/// A piece that owns its arrays.
+struct OwnedPiece {
+    std::vector<Point> border, inner;
+    std::vector<VertexId> ids;
+    std::vector<Triangle> triangles;
+    core::EdgeLinks links;
+};
+
+/// A mesh without a layer in two parts: the triangles on both sides of the vertical line x = `cut`. Shared vertices come
+/// first in the mesh.
+struct CutMesh {
+    std::vector<Point> shared;
+    std::vector<OwnedPiece> pieces;
+    std::vector<Marker> markers;
+    std::vector<Segment> constraints;
+};
+
+/// Links triangles by a map of their edges.
+core::EdgeLinks links_by_map(const std::vector<Triangle>& triangles) {
+    std::map<Segment, EdgeLink> edges;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (unsigned i = 0; i < 3; ++i)
+            edges[{triangles[t].v[i], triangles[t].v[(i + 1) % 3]}] = core::edge_link(t, i);
+    core::EdgeLinks links(3 * triangles.size(), core::no_link);
+    for (const auto& [ends, edge] : edges)
+        if (const auto twin = edges.find({ends.b, ends.a}); twin != edges.end())
+            links[3 * core::triangle_of(edge) + core::edge_of(edge)] = twin->second;
+    return links;
+}
+
+/// Cuts a mesh of triangles. Vertices on its boundary, on markers and on the cut are shared.
+CutMesh cut_mesh(const Mesh& mesh, double cut) {
+    const std::size_t parts = 2;
+    const auto part_of = [&](const Triangle& t) {
+        double x = 0;
+        for (const VertexId v : t.v) x += mesh.points[v.index()].x / 3;
+        return x < cut ? 0u : 1u;
+    };
+    std::vector<unsigned> users(mesh.points.size(), 0);
+    for (const Triangle& t : mesh.triangles)
+        for (const VertexId v : t.v) users[v.index()] |= 1u << part_of(t);
+    for (const Marker& marker : mesh.markers)
+        for (const Segment& edge : marker.edges) users[edge.a.index()] = users[edge.b.index()] = 3;
+    CutMesh result;
+    std::vector<VertexId> shared_id(mesh.points.size());
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+        if (users[v] != 3) continue;
+        shared_id[v] = VertexId{result.shared.size()};
+        result.shared.push_back(mesh.points[v]);
+    }
+    for (unsigned part = 0; part < parts; ++part) {
+        OwnedPiece piece;
+        std::vector<VertexId> local(mesh.points.size());
+        std::vector<bool> used(mesh.points.size(), false);
+        for (const Triangle& t : mesh.triangles)
+            if (part_of(t) == part)
+                for (const VertexId v : t.v) used[v.index()] = true;
+        for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+            if (!used[v] || !shared_id[v].valid()) continue;
+            local[v] = VertexId{piece.border.size()};
+            piece.border.push_back(mesh.points[v]);
+            piece.ids.push_back(shared_id[v]);
+        }
+        for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+            if (!used[v] || shared_id[v].valid()) continue;
+            local[v] = VertexId{piece.border.size() + piece.inner.size()};
+            piece.inner.push_back(mesh.points[v]);
+        }
+        for (const Triangle& t : mesh.triangles)
+            if (part_of(t) == part)
+                piece.triangles.push_back({{local[t.v[0].index()], local[t.v[1].index()], local[t.v[2].index()]}});
+        piece.links = links_by_map(piece.triangles);
+        result.pieces.push_back(std::move(piece));
+    }
+    result.markers = mesh.markers;
+    for (Marker& marker : result.markers)
+        for (Segment& edge : marker.edges) edge = {shared_id[edge.a.index()], shared_id[edge.b.index()]};
+    return result;
+}
+
+MeshCheck check_pieces(const CutMesh& cut) {
+    PiecewiseCheck check(cut.shared, {});
+    std::vector<std::size_t> first;
+    std::size_t next = 0;
+    for (const OwnedPiece& piece : cut.pieces) {
+        check.add_piece(mesh::check_piece(
+            {piece.border, piece.ids, piece.inner, piece.triangles, piece.links, cut.shared}, proved_min_angle_deg));
+        first.push_back(next);
+        next += piece.triangles.size();
+    }
+    return check.finish(cut.markers, cut.constraints, first);
+}
+
+/// Returns a square with a hole, with vertices moved off the grid.
+Mesh uneven_box(std::size_t n = 21) {
+    Mesh mesh = test::box_with_hole(n);
+    for (Point& p : mesh.points) {
+        const bool inside = p.x > 0 && p.y > 0 && p.x < static_cast<double>(n) && p.y < static_cast<double>(n);
+        if (inside && std::abs(p.x - static_cast<double>(n) / 2) > 1)
+            p = {p.x + 0.2 * std::sin(3 * p.x + 5 * p.y), p.y + 0.2 * std::sin(7 * p.x - 2 * p.y)};
+    }
+    return mesh;
+}
+
+TEST(PieceCheck, FindsWhatTheCheckOfTheMeshFinds) {
+    const Mesh whole = uneven_box();
+    const MeshCheck expected = check_mesh(whole);
+    ASSERT_TRUE(expected.valid());
+    ASSERT_GT(expected.delaunay_violations, 0u);
+    for (const double cut : {-1.0, 3.0, 10.5, 17.2}) {
+        CutMesh pieces = cut_mesh(whole, cut);
+        if (cut < 0) pieces.pieces.erase(pieces.pieces.begin());  // it is empty
+        const MeshCheck check = check_pieces(pieces);
+        ASSERT_TRUE(check.valid()) << check.defects.front().description;
+        EXPECT_NEAR(check.area, expected.area, 1e-9 * expected.area);
+        EXPECT_EQ(check.euler_characteristic, expected.euler_characteristic);
+        EXPECT_EQ(check.boundary_loops, expected.boundary_loops);
+        EXPECT_EQ(check.interior_edges, expected.interior_edges);
+        EXPECT_EQ(check.delaunay_violations, expected.delaunay_violations);
+        EXPECT_EQ(check.isotropic.cells, expected.isotropic.cells);
+        EXPECT_EQ(check.isotropic.min_angle_deg, expected.isotropic.min_angle_deg);
+        EXPECT_EQ(check.isotropic.max_angle_deg, expected.isotropic.max_angle_deg);
+        EXPECT_NEAR(check.isotropic.mean_min_angle_deg, expected.isotropic.mean_min_angle_deg, 1e-10);
+        EXPECT_NEAR(check.isotropic.mean_ratio, expected.isotropic.mean_ratio, 1e-12);
+        EXPECT_EQ(check.isotropic.angle_histogram, expected.isotropic.angle_histogram);
+        EXPECT_EQ(check.isotropic.angles_below_bound, expected.isotropic.angles_below_bound);
+        EXPECT_NEAR(check.isotropic.max_neighbour_area_ratio, expected.isotropic.max_neighbour_area_ratio, 1e-9);
+        EXPECT_EQ(check.walls.edges, expected.walls.edges);
+    }
+}
+
+/// Expects that the damage is found.
+void expect_found(const std::string& what, const std::function<void(CutMesh&)>& damage) {
+    CutMesh pieces = cut_mesh(uneven_box(), 10.5);
+    ASSERT_TRUE(check_pieces(pieces).valid());
+    damage(pieces);
+    const MeshCheck check = check_pieces(pieces);
+    EXPECT_FALSE(check.valid()) << what << " was not found";
+    EXPECT_GT(check.defect_count, 0u);
+    EXPECT_FALSE(check.defects.empty());
+}
+
+TEST(PieceCheck, FindsDamagedLinks) {
+    const std::size_t links = cut_mesh(uneven_box(), 10.5).pieces[0].links.size();
+    for (std::size_t k = 0; k < links; k += 7) {
+        expect_found("a link that was dropped", [&](CutMesh& cut) {
+            EdgeLink& link = cut.pieces[0].links[k];
+            if (link == core::no_link)
+                link = core::edge_link(0, 0);
+            else
+                link = core::no_link;
+        });
+        expect_found("a link to another edge", [&](CutMesh& cut) {
+            EdgeLink& link = cut.pieces[0].links[k];
+            link = link == core::edge_link(1, 1) ? core::edge_link(2, 1) : core::edge_link(1, 1);
+        });
+        expect_found("a link to itself", [&](CutMesh& cut) {
+            cut.pieces[0].links[k] = core::edge_link(k / 3, static_cast<unsigned>(k % 3));
+        });
+        expect_found("a link out of range", [&](CutMesh& cut) { cut.pieces[0].links[k] = 0xfffffff0u; });
+        expect_found("a pair that both have dropped", [&](CutMesh& cut) {
+            // Between two border vertices the edges would still be matched with those of other pieces.
+            core::EdgeLinks& all = cut.pieces[0].links;
+            const std::vector<Triangle>& triangles = cut.pieces[0].triangles;
+            const auto is_inner = [&](std::size_t i) {
+                return triangles[i / 3].v[i % 3].index() >= cut.pieces[0].border.size();
+            };
+            std::size_t at = k % (all.size() / 2);
+            while (!is_inner(at)) ++at;
+            const EdgeLink twin = std::exchange(all[at], core::no_link);
+            all[3 * core::triangle_of(twin) + core::edge_of(twin)] = core::no_link;
+        });
+    }
+    expect_found("links that are too few", [](CutMesh& cut) { cut.pieces[0].links.pop_back(); });
+    expect_found("two pairs that were exchanged", [](CutMesh& cut) {
+        core::EdgeLinks& all = cut.pieces[0].links;
+        const auto inner = [&](std::size_t from) {
+            while (all[from] == core::no_link) ++from;
+            return from;
+        };
+        const std::size_t a = inner(0), b = inner(a + 30);
+        const auto index = [](EdgeLink link) { return 3 * core::triangle_of(link) + core::edge_of(link); };
+        const std::size_t a_twin = index(all[a]), b_twin = index(all[b]);
+        std::swap(all[a], all[b]);
+        std::swap(all[a_twin], all[b_twin]);
+    });
+}
+
+TEST(PieceCheck, FindsDamagedPieces) {
+    expect_found("a triangle that was turned over",
+                 [](CutMesh& cut) { std::swap(cut.pieces[0].triangles[5].v[0], cut.pieces[0].triangles[5].v[1]); });
+    expect_found("a triangle that is missing", [](CutMesh& cut) {
+        cut.pieces[1].triangles.pop_back();
+        cut.pieces[1].links = links_by_map(cut.pieces[1].triangles);
+    });
+    expect_found("a triangle that is there twice", [](CutMesh& cut) {
+        cut.pieces[1].triangles.push_back(cut.pieces[1].triangles[3]);
+        cut.pieces[1].links = links_by_map(cut.pieces[1].triangles);
+    });
+    expect_found("a vertex out of range", [](CutMesh& cut) { cut.pieces[0].triangles[2].v[0] = VertexId{99'999u}; });
+    expect_found("a vertex of no triangle", [](CutMesh& cut) { cut.pieces[0].inner.push_back({3.5, 3.5}); });
+    expect_found("a vertex that is no number", [](CutMesh& cut) { cut.pieces[0].inner[0].x = std::nan(""); });
+    expect_found("a vertex that folds its triangles", [](CutMesh& cut) { cut.pieces[0].inner[0].x += 5; });
+    expect_found("a border vertex at another place", [](CutMesh& cut) { cut.pieces[0].border[0].x -= 1e-9; });
+    expect_found("a border vertex of another name",
+                 [](CutMesh& cut) { std::swap(cut.pieces[0].ids[0], cut.pieces[0].ids[1]); });
+    expect_found("a piece that is there twice", [](CutMesh& cut) { cut.pieces.push_back(cut.pieces[0]); });
+    expect_found("a piece that is missing", [](CutMesh& cut) { cut.pieces.pop_back(); });
+    expect_found("a shared vertex of no piece", [](CutMesh& cut) { cut.shared.push_back({100, 100}); });
+    expect_found("a marker edge that is missing", [](CutMesh& cut) { cut.markers[0].edges.pop_back(); });
+    expect_found("a constraint that is no edge", [](CutMesh& cut) {
+        cut.constraints = {{VertexId{0u}, VertexId{cut.shared.size() - 1}}};
+    });
+}
+
+/// Two covers of one square, the second by triangles with vertices of their own, whose links are right.
+TEST(PieceCheck, FindsASecondCoverWithRightLinks) {
+    expect_found("a square that is covered twice", [](CutMesh& cut) {
+        OwnedPiece& piece = cut.pieces[0];
+        const std::size_t vertices = piece.border.size() + piece.inner.size(), triangles = piece.triangles.size();
+        for (const Point p : std::vector<Point>(piece.border)) piece.inner.push_back(p);
+        for (const Point p : std::vector<Point>(piece.inner.begin(),
+                                                piece.inner.begin() + std::ptrdiff_t(vertices - piece.border.size())))
+            piece.inner.push_back(p);
+        for (std::size_t t = 0; t < triangles; ++t) {
+            Triangle copy = piece.triangles[t];
+            for (VertexId& v : copy.v) v = VertexId{v.index() + vertices};
+            piece.triangles.push_back(copy);
+        }
+        piece.links = links_by_map(piece.triangles);
+    });
+}
+
+}  // namespace
+}  // namespace lamina
