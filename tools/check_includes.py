@@ -36,6 +36,7 @@ OWNERS["triangle_files"] = "io"
 for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_triangulation triangulation voronoi".split():
     OWNERS[name] = "delaunay"
 OWNERS["presets"] = "pipeline"
+OWNERS["mesh_sink"] = "mesh"
 OWNERS["solver_case"] = "cases"
 
 # The colours of docs/images/stages.dot.

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/mesh_sink.hpp>
 #include <lamina/sizing.hpp>
 
 namespace lamina {
@@ -66,6 +68,14 @@ LAMINA_EXPORT SizedMesh read_sizes(const std::filesystem::path& file);
 /// minutes of meshing: UsageError for an unknown format and for one that standard output cannot carry, IoError where
 /// the folder does not exist or is not writable.
 LAMINA_EXPORT void check_writable(const std::filesystem::path& file, const WriteOptions& options = {});
+
+/// Opens a sink that writes the same bytes as write_mesh() does, part by part. A sink for /dev/null counts the bytes
+/// alone. Throws UsageError for formats that are written as a whole, and what check_writable() throws.
+LAMINA_EXPORT std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& file,
+                                                       const WriteOptions& options = {});
+
+/// Throws UsageError for formats that open_mesh_sink() refuses, without opening anything.
+LAMINA_EXPORT void require_streamable(const std::filesystem::path& file, const WriteOptions& options = {});
 
 /// Returns the name of the format that write_mesh() writes the file in; empty where there is no such format.
 LAMINA_EXPORT std::string format_name(const std::filesystem::path& file, const WriteOptions& options = {});

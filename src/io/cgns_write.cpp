@@ -168,7 +168,7 @@ std::size_t bytes_needed(const Mesh& mesh, CgnsVariant variant) {
 
 /// Throws UsageError for meshes that a CGNS file cannot hold.
 void require_fit(const Mesh& mesh, const fs::path& file) {
-    require_marker_names(mesh, file, "CGNS", "/", 32);
+    require_marker_names(mesh.markers, file, "CGNS", "/", 32);
     for (const CellBlock& block : cell_blocks(mesh))
         for (const Marker& marker : mesh.markers)
             if (marker.name == section_name(block))

@@ -69,6 +69,7 @@ FormatRow su2_row() {
             .write = write_one_file<write_su2>,
             .files = one_file,
             .read = read_one_file<read_su2>,
+            .open_sink = open_su2_sink,
             .one_stream = true};
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <ostream>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/mesh_sink.hpp>
 #include <lamina/solution.hpp>
 
 #include "io/field_request.hpp"
@@ -38,6 +40,8 @@ struct FormatRow {
     PointValues (*read_sizes)(const std::string& bytes, const std::filesystem::path&) = nullptr;
     /// Returns whether the path holds a mesh of this format, whatever its name. Null: the name alone decides.
     bool (*recognizes)(const std::filesystem::path&) = nullptr;
+    /// Opens a sink that writes the mesh part by part. Null: the format is written as a whole.
+    std::unique_ptr<MeshSink> (*open_sink)(const std::filesystem::path&) = nullptr;
     bool quads = true;        ///< whether the format holds quadrilaterals, too
     bool one_stream = false;  ///< whether standard input and standard output can carry it
 };
@@ -56,6 +60,10 @@ const FormatRow& find_format(const std::filesystem::path& file, const std::strin
 // the whole file as bytes, and its name for messages. They return meshes with all indices in range and finite points,
 // and throw InputError; check_mesh() judges the rest.
 
+/// Throws UsageError where the format cannot hold the names.
+void require_su2_marker_names(std::span<const Marker> markers, const std::filesystem::path& file);
+/// Opens a sink that writes what write_su2() writes.
+std::unique_ptr<MeshSink> open_su2_sink(const std::filesystem::path& file);
 void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);
 Mesh read_su2(const std::string& bytes, const std::filesystem::path& file);
 

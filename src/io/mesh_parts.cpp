@@ -53,10 +53,10 @@ MarkerKind kind_of_name(std::string_view name) {
     return MarkerKind::other;
 }
 
-void require_marker_names(const Mesh& mesh, const std::filesystem::path& file, const char* format,
+void require_marker_names(std::span<const Marker> markers, const std::filesystem::path& file, const char* format,
                           std::string_view forbidden, std::size_t max_bytes) {
     std::vector<std::string_view> names;
-    for (const Marker& marker : mesh.markers) {
+    for (const Marker& marker : markers) {
         names.push_back(marker.name);
         const bool unfit = std::any_of(marker.name.begin(), marker.name.end(), [&](char c) {
             return static_cast<unsigned char>(c) < ' ' || forbidden.find(c) != std::string_view::npos;

@@ -40,7 +40,7 @@ MarkerKind kind_of_name(std::string_view name);
 
 /// Throws UsageError unless every marker has a name of its own of at most `max_bytes` bytes, without control characters
 /// and without those in `forbidden`.
-void require_marker_names(const Mesh& mesh, const std::filesystem::path& file, const char* format,
+void require_marker_names(std::span<const Marker> markers, const std::filesystem::path& file, const char* format,
                           std::string_view forbidden, std::size_t max_bytes);
 
 /// Reverses the marker edges that no cell has in their direction but that one has in the other: some programs write

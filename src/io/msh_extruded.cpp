@@ -110,7 +110,7 @@ private:
 }  // namespace
 
 void write_msh_extruded(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out) {
-    require_marker_names(mesh, file, "MSH", "\"", 127);
+    require_marker_names(mesh.markers, file, "MSH", "\"", 127);
     ExtrudedWriter(mesh, out).write();
 }
 

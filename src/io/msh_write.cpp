@@ -243,7 +243,7 @@ private:
 }  // namespace
 
 void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out) {
-    require_marker_names(mesh, file, "MSH", "\"", 127);
+    require_marker_names(mesh.markers, file, "MSH", "\"", 127);
     constexpr std::size_t max_items = std::numeric_limits<std::int32_t>::max() / 2;
     const std::size_t items = mesh.points.size() + mesh.triangles.size() + mesh.quads.size();
     if (!variant.version_4 && variant.binary && items > max_items)

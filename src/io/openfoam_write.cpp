@@ -238,7 +238,7 @@ void check_openfoam_writable(const fs::path& file) {
 }
 
 void write_openfoam(const Mesh& mesh, const fs::path& file) {
-    require_marker_names(mesh, file, "OpenFOAM", " \"'/;{}()$#", 1000);
+    require_marker_names(mesh.markers, file, "OpenFOAM", " \"'/;{}()$#", 1000);
     for (const Marker& marker : mesh.markers)
         if (marker.name == front_and_back)
             throw UsageError(fmt::format("{}: OpenFOAM needs the name '{}' for the sides", file.string(), marker.name));

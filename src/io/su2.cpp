@@ -13,8 +13,8 @@
 
 #include "io/formats.hpp"
 #include "io/mesh_parts.hpp"
+#include "io/su2_lines.hpp"
 #include "io/text_lines.hpp"
-#include "io/text_output.hpp"
 #include "io/vtk_cell_types.hpp"
 
 namespace lamina::io {
@@ -152,22 +152,28 @@ private:
 }  // namespace
 
 void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out) {
-    require_marker_names(mesh, file, "SU2", " %", 1000);
-
+    require_su2_marker_names(mesh.markers, file);
     const std::size_t triangles = mesh.triangles.size(), cells = triangles + mesh.quads.size();
     out << "NDIME= 2\nNELEM= " << cells << '\n';
     write_lines(out, cells, [&](LineText& line, std::size_t i) {
-        line << std::size_t{i < triangles ? vtk_triangle : vtk_quad};
         if (i < triangles)
-            for (const VertexId v : mesh.triangles[i].v) line << v.index();
+            put_su2_cell(line, mesh.triangles[i], i);
         else
-            for (const VertexId v : mesh.quads[i - triangles].v) line << v.index();
-        line << i;
+            put_su2_cell(line, mesh.quads[i - triangles], i);
     });
     out << "NPOIN= " << mesh.points.size() << '\n';
-    write_lines(out, mesh.points.size(), [&](LineText& line, std::size_t i) { line << mesh.points[i] << i; });
-    out << "NMARK= " << mesh.markers.size() << '\n';
-    for (const Marker& marker : mesh.markers) {
+    write_lines(out, mesh.points.size(),
+                [&](LineText& line, std::size_t i) { put_su2_point(line, mesh.points[i], i); });
+    write_su2_markers(mesh.markers, out);
+}
+
+void require_su2_marker_names(std::span<const Marker> markers, const std::filesystem::path& file) {
+    require_marker_names(markers, file, "SU2", " %", 1000);
+}
+
+void write_su2_markers(std::span<const Marker> markers, std::ostream& out) {
+    out << "NMARK= " << markers.size() << '\n';
+    for (const Marker& marker : markers) {
         out << "MARKER_TAG= " << marker.name << "\nMARKER_ELEMS= " << marker.edges.size() << '\n';
         write_lines(out, marker.edges.size(), [&](LineText& line, std::size_t i) {
             line << std::size_t{vtk_line} << marker.edges[i].a.index() << marker.edges[i].b.index();

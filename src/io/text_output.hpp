@@ -1,6 +1,7 @@
 // Fast writing of text formats: lines are formatted in parallel and written in order.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <ostream>
@@ -10,6 +11,7 @@
 #include <lamina/point.hpp>
 
 #include "core/parallel.hpp"
+#include "core/uninitialized.hpp"
 
 namespace lamina::io {
 
@@ -69,6 +71,28 @@ private:
 /// Room for eight indices, or for an index and three coordinates.
 inline constexpr std::size_t default_line_bytes = 128;
 
+/// Returns the lines [begin, end): line i is what put_line(LineText&, i) adds, at most `max_line_bytes` bytes with its
+/// end. Runs on the calling thread.
+template <class F>
+std::string format_lines(std::size_t begin, std::size_t end, F&& put_line,
+                         std::size_t max_line_bytes = default_line_bytes) {
+    // Lines are far shorter than their longest possible length, so only a small buffer has room for that.
+    constexpr std::size_t lines_at_once = 64;
+    core::UninitializedArray<char> buffer(lines_at_once * max_line_bytes);
+    std::string text;
+    text.reserve((end - begin) * max_line_bytes / 4);
+    while (begin < end) {
+        char* at = buffer.data();
+        for (const std::size_t stop = std::min(end, begin + lines_at_once); begin < stop; ++begin) {
+            LineText line(at);
+            put_line(line, begin);
+            at = line.end_line();
+        }
+        text.append(buffer.data(), at);
+    }
+    return text;
+}
+
 /// Writes n lines. Line i is what put_line(LineText&, i) adds, at most `max_line_bytes` bytes with its end. Memory
 /// holds a bounded number of lines at a time.
 template <class F>
@@ -77,15 +101,7 @@ void write_lines(std::ostream& out, std::size_t n, F&& put_line, std::size_t max
     const std::size_t batch = grain * 4 * thread_count();
     for (std::size_t start = 0; start < n; start += batch) {
         const auto format_block = [&](std::size_t begin, std::size_t end) {
-            std::string text((end - begin) * max_line_bytes, '\0');
-            char* p = text.data();
-            for (std::size_t i = start + begin; i < start + end; ++i) {
-                LineText line(p);
-                put_line(line, i);
-                p = line.end_line();
-            }
-            text.resize(static_cast<std::size_t>(p - text.data()));
-            return text;
+            return format_lines(start + begin, start + end, put_line, max_line_bytes);
         };
         for (const std::string& text : core::parallel_blocks(std::min(batch, n - start), grain, format_block))
             out.write(text.data(), static_cast<std::streamsize>(text.size()));

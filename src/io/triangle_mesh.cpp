@@ -83,7 +83,7 @@ std::vector<fs::path> triangle_mesh_files(const fs::path& file) {
 }
 
 void write_triangle_mesh(const Mesh& mesh, const fs::path& file) {
-    require_marker_names(mesh, file, "Triangle's .poly", "", 1000);
+    require_marker_names(mesh.markers, file, "Triangle's .poly", "", 1000);
     if (!mesh.quads.empty())
         throw UsageError(fmt::format("{}: Triangle's files cannot hold quadrilaterals", file.string()));
     TriangleOutput output;
