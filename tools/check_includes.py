@@ -37,6 +37,7 @@ for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_trian
     OWNERS[name] = "delaunay"
 OWNERS["presets"] = "pipeline"
 OWNERS["mesh_sink"] = "mesh"
+OWNERS["stream"] = "pipeline"
 OWNERS["solver_case"] = "cases"
 
 # The colours of docs/images/stages.dot.

@@ -10,8 +10,8 @@
 //   decouple          decoupling.hpp   decouple           separators                   -> Decoupling, its Subdomains
 //   fill the layer    layers.hpp       fill_layer         Delaunay, or the grid        -> LayerCells
 //   refine            decoupling.hpp   refine             every Subdomain by itself    -> Refinements
+//   check             mesh.hpp         check_mesh         piece by piece as refined    -> MeshCheck
 //   assemble          this header      assemble           numbers, markers             -> Mesh
-//   check             mesh.hpp         check_mesh         before anything is written   -> MeshCheck
 //   write             io.hpp           write_mesh
 #pragma once
 
@@ -122,8 +122,8 @@ LAMINA_EXPORT void split_far_field(Mesh& mesh, double alpha_deg);
 /// where `has_ground`) and `tunnel`, of the kind symmetry. Throws OptionError where a marker has one of these names.
 LAMINA_EXPORT void mark_slip_walls(Mesh& mesh, const FarField& far_field, bool has_ground);
 
-/// Wall-clock seconds of the stages. The decomposition and triangulation of the layer and the refinement run at the
-/// same time: their common time is divided among them in proportion to the time of the threads.
+/// Wall-clock seconds of the stages. The decomposition and triangulation of the layer, the refinement and the check of
+/// its pieces run at the same time: their common time is divided among them in proportion to the time of the threads.
 struct StageSeconds {
     double flow = 0;                 ///< the flow before the mesh
     double geometry = 0;             ///< read, prepare
@@ -138,11 +138,12 @@ struct StageSeconds {
     double total = 0;                ///< the whole run
 };
 
-/// The seconds that one thread spent on each kind of work in the time that the three share.
+/// The seconds that one thread spent on each kind of work in the time that all of them share.
 struct ThreadSeconds {
     double decomposition = 0;        ///< dividing the layer into pieces
     double layer_triangulation = 0;  ///< triangulating the pieces
     double refinement = 0;           ///< refining subdomains
+    double check = 0;                ///< checking them
     double idle = 0;                 ///< waiting
 };
 

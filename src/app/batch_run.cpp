@@ -79,6 +79,7 @@ Json names_of_files(const MeshCase& mesh_case) {
 /// Makes and writes the mesh of a job, and adds what is known about it to its record.
 void make_mesh(const MeshCase& mesh_case, unsigned jobs, bool strict, Json& record) {
     require_consistent(mesh_case);
+    require_whole(mesh_case);
     CaseOptions options = options_with_files(mesh_case);
     if (!mesh_case.options.limits.max_memory_bytes && options.limits.max_memory_bytes)
         *options.limits.max_memory_bytes /= jobs;  // what is free is for all that run at a time

@@ -25,7 +25,8 @@ void add_mesh_command(CLI::App& app) {
         MeshCase mesh_case = case_of_command_line(*options);
         prefer_quads_for_openfoam(mesh_case);
         require_consistent(mesh_case);
-        if (!*dump) return run_mesh(mesh_case, destination_of_outputs(mesh_case));
+        if (!*dump)
+            return (mesh_case.stream ? stream_mesh_of_case : run_mesh)(mesh_case, destination_of_outputs(mesh_case));
         print_result(dump_case(mesh_case));
     });
 }

@@ -162,6 +162,7 @@ void run_family(const FamilyArguments& arguments, const MeshCase& mesh_case,
                 const DestinationOfLevel& destination_of_level) {
     require_arguments(arguments);
     require_consistent(mesh_case);
+    require_whole(mesh_case);
     require_inputs(mesh_case);
     require_level_marks(mesh_case);
     const std::string table = table_file(arguments, mesh_case);

@@ -8,7 +8,9 @@
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
+#include <lamina/io.hpp>
 #include <lamina/solver_case.hpp>
+#include <lamina/stream.hpp>
 
 #include "app/mesh_command_options.hpp"
 #include "app/options.hpp"
@@ -75,6 +77,10 @@ void require_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
     require_distinct(files_of_case(mesh_case), files_written(mesh_case, destination));
 }
 
+void require_whole(const MeshCase& mesh_case) {
+    if (mesh_case.stream) throw UsageError("option --stream: only 'lamina mesh' writes a mesh while it is made");
+}
+
 void add_warnings_of_readers(const MeshDestination& destination, MeshResult& result) {
     std::vector<Warning> of_readers = destination.warnings(result.mesh);
     std::move(of_readers.begin(), of_readers.end(), std::back_inserter(result.warnings));
@@ -91,11 +97,13 @@ double write_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
     destination.write(result);
     if (!mesh_case.wall_data.empty()) write_wall_data(result.mesh, mesh_case.wall_data);
     const double seconds = watch.lap();
-    if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(mesh_report(mesh_case, result, seconds)));
+    if (!mesh_case.report.empty())
+        write_file(mesh_case.report, to_text(mesh_report(mesh_case, result, facts_of(result.mesh), seconds)));
     return seconds;
 }
 
 void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination) {
+    require_whole(mesh_case);
     require_inputs(mesh_case);
     require_outputs(mesh_case, destination);
     const std::vector<RunFile> outputs = files_written(mesh_case, destination);
@@ -107,8 +115,40 @@ void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination) {
 
     progress.begin({"writing"});
     const double write_seconds = write_outputs(mesh_case, destination, result);
-    if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, result, write_seconds), outputs);
+    const Mesh& mesh = result.mesh;
+    const MeshCounts counts{mesh.points.size(), mesh.triangles.size(), mesh.quads.size()};
+    if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, result, counts, write_seconds), outputs);
     require_no_warnings(result.warnings, mesh_case.strict);
+}
+
+void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination) {
+    const auto refuse = [](const char* what) { throw UsageError(std::string("option --stream: ") + what); };
+    if (mesh_case.outputs.size() != 1) refuse("writes one mesh file: give one --output");
+    if (!mesh_case.wall_data.empty()) refuse("holds no mesh for --wall-data");
+    if (mesh_case.wall_distance) refuse("holds no mesh for --wall-distance");
+    const std::string& output = mesh_case.outputs.front();
+    require_streamable(output, write_options(mesh_case));
+    require_inputs(mesh_case);
+    require_outputs(mesh_case, destination);
+    const std::vector<RunFile> outputs = files_written(mesh_case, destination);
+    const SignalGuard guard(outputs);
+    const CaseOptions options = options_with_files(mesh_case);
+    ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
+    StreamedMesh streamed = stream_mesh(
+        mesh_case.inputs, options, [&] { return open_mesh_sink(output, write_options(mesh_case)); },
+        [&](const auto& event) { progress.begin(event); });
+    print_warnings(streamed.result.warnings);
+    require_promised_angles(streamed.result.check, mesh_case.allow_defects);
+
+    progress.begin({"writing"});
+    Stopwatch watch;
+    streamed.sink->commit();
+    const double seconds = watch.lap();
+    if (!mesh_case.report.empty())
+        write_file(mesh_case.report,
+                   to_text(mesh_report(mesh_case, streamed.result, {streamed.counts, streamed.hash}, seconds)));
+    if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, streamed.result, streamed.counts, seconds), outputs);
+    require_no_warnings(streamed.result.warnings, mesh_case.strict);
 }
 
 void prefer_quads(MeshCase& mesh_case) {

@@ -48,6 +48,13 @@ double write_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
 /// Makes the mesh, writes it and the files beside it, and prints warnings and the summary.
 void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination);
 
+/// Does so for `lamina mesh --stream`, which writes the mesh while it is made. Throws UsageError for outputs that need the
+/// whole mesh.
+void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination);
+
+/// Throws UsageError where the case asks for a mesh that is written while it is made: for commands that need all of it.
+void require_whole(const MeshCase& mesh_case);
+
 /// Sets the cells of the layer to quadrilaterals, which cell-centred solvers need, unless a case file or the command
 /// line chooses them.
 void prefer_quads(MeshCase& mesh_case);

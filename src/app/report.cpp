@@ -11,12 +11,6 @@ namespace lamina::app {
 
 namespace {
 
-std::size_t triangles_in(const Mesh& mesh, Region region) {
-    const auto first = mesh.region.begin();
-    const auto end = first + static_cast<std::ptrdiff_t>(std::min(mesh.region.size(), mesh.triangles.size()));
-    return static_cast<std::size_t>(std::count(first, end, region));
-}
-
 Json coverage_report(const LayerCoverage& coverage) {
     return {{"rays", coverage.rays},
             {"incomplete_rays", coverage.incomplete_rays},
@@ -72,12 +66,15 @@ Json seconds_report(const StageSeconds& seconds, double write_seconds) {
 }
 
 Json threads_report(const std::vector<ThreadSeconds>& threads) {
-    Json report = {
-        {"decomposition", Json::array()}, {"layer_triangulation", Json::array()}, {"refinement", Json::array()}};
+    Json report = {{"decomposition", Json::array()},
+                   {"layer_triangulation", Json::array()},
+                   {"refinement", Json::array()},
+                   {"check", Json::array()}};
     for (const ThreadSeconds& thread : threads) {
         report["decomposition"].push_back({{"busy", thread.decomposition}});
         report["layer_triangulation"].push_back({{"busy", thread.layer_triangulation}});
         report["refinement"].push_back({{"busy", thread.refinement}, {"idle", thread.idle}});
+        report["check"].push_back({{"busy", thread.check}});
     }
     return report;
 }
@@ -172,7 +169,15 @@ Json quality_report(const MeshCheck& check) {
             {"delaunay", {{"interior_edges", check.interior_edges}, {"violations", check.delaunay_violations}}}};
 }
 
-Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, double write_seconds) {
+MeshFacts facts_of(const Mesh& mesh) {
+    const auto first = mesh.region.begin();
+    const auto end = first + static_cast<std::ptrdiff_t>(std::min(mesh.region.size(), mesh.triangles.size()));
+    return {{mesh.points.size(), mesh.triangles.size(), mesh.quads.size(),
+             static_cast<std::size_t>(std::count(first, end, Region::layer))},
+            mesh_hash(mesh)};
+}
+
+Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, const MeshFacts& facts, double write_seconds) {
     Json quality = quality_report(result.check);
     quality["layer"]["border"] = border_report(result.border_steps);
     quality["layer"]["incomplete_rays"] = total_coverage(result).all.incomplete_rays;
@@ -183,11 +188,11 @@ Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, double wri
             {"threads", result.threads},
             {"input", input_report(result.geometry)},
             {"conditions", conditions_report(mesh_case, result)},
-            {"vertices", result.mesh.points.size()},
-            {"triangles", result.mesh.triangles.size()},
-            {"quads", result.mesh.quads.size()},
-            {"layer_triangles", triangles_in(result.mesh, Region::layer)},
-            {"isotropic_triangles", triangles_in(result.mesh, Region::isotropic)},
+            {"vertices", facts.counts.vertices},
+            {"triangles", facts.counts.triangles},
+            {"quads", facts.counts.quads},
+            {"layer_triangles", facts.counts.layer_triangles},
+            {"isotropic_triangles", facts.counts.triangles - facts.counts.layer_triangles},
             {"surface_vertices", result.surface_vertices},
             {"decomposition", decomposition_report(result.decomposition)},
             {"pieces",
@@ -201,7 +206,7 @@ Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, double wri
             {"seconds", seconds_report(result.seconds, write_seconds)},
             {"thread_seconds", threads_report(result.thread_seconds)},
             {"quality", quality},
-            {"hash", mesh_hash(result.mesh)}};
+            {"hash", facts.hash}};
 }
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }

@@ -8,6 +8,7 @@
 
 #include <lamina/limits.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/mesh_sink.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/warning.hpp>
 
@@ -27,9 +28,16 @@ Json decomposition_report(const DecompositionStats& stats);
 Json warnings_report(std::span<const Warning> warnings);
 Json estimate_report(const RunEstimate& estimate);
 
+/// The facts about a mesh that its report needs, and which a streamed mesh leaves behind.
+struct MeshFacts {
+    MeshCounts counts;
+    std::string hash;
+};
+MeshFacts facts_of(const Mesh& mesh);
+
 /// Returns the report of a run of `lamina mesh`. `write_seconds` is the time for writing the mesh files; "total"
 /// includes it.
-Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, double write_seconds);
+Json mesh_report(const MeshCase& mesh_case, const MeshResult& result, const MeshFacts& facts, double write_seconds);
 
 /// Returns JSON as text that ends with a newline. Bytes that are not UTF-8 are replaced.
 std::string to_text(const Json& json);

@@ -114,13 +114,13 @@ std::string quality_summary(const MeshCheck& check) {
                                            check.delaunay_violations, check.interior_edges));
 }
 
-std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, double write_seconds) {
+std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, const MeshCounts& counts,
+                         double write_seconds) {
     std::string text;
     for (const Element& element : result.geometry.elements) text += element_lines(element);
     text += conditions_summary(mesh_case, result);
-    const std::size_t quads = result.mesh.quads.size();
-    text += fmt::format("mesh: {} vertices, {} triangles, {}made in {} pieces\n", result.mesh.points.size(),
-                        result.mesh.triangles.size(), quads > 0 ? fmt::format("{} quads, ", quads) : "",
+    text += fmt::format("mesh: {} vertices, {} triangles, {}made in {} pieces\n", counts.vertices, counts.triangles,
+                        counts.quads > 0 ? fmt::format("{} quads, ", counts.quads) : "",
                         result.layer_pieces + result.inviscid_pieces);
     text += quality_summary(result.check);
     if (const ElementCoverage coverage = total_coverage(result); coverage.all.requested_cells > 0)

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <lamina/mesh.hpp>
+#include <lamina/mesh_sink.hpp>
 #include <lamina/pipeline.hpp>
 
 #include "app/case.hpp"
@@ -16,7 +17,8 @@ std::string summary_line(const std::string& label, const std::string& text);
 /// Returns the lines about the quality of a mesh.
 std::string quality_summary(const MeshCheck& check);
 
-/// Returns the summary of `lamina mesh`.
-std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, double write_seconds);
+/// Returns the summary of `lamina mesh` for a mesh of this size.
+std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, const MeshCounts& counts,
+                         double write_seconds);
 
 }  // namespace lamina::app

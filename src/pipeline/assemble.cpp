@@ -9,6 +9,7 @@
 #include <lamina/pipeline.hpp>
 
 #include "core/parallel.hpp"
+#include "pipeline/assemble.hpp"
 
 namespace lamina::pipeline {
 
@@ -31,20 +32,6 @@ std::vector<Segment> take_base(const Element& element, std::span<const Point> po
         if ((i + n - first) % n >= length) rest.push_back(wall[i]);
     wall = std::move(rest);
     return base;
-}
-
-std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, std::vector<Segment> far_field,
-                                 const AssembleOptions& options) {
-    std::vector<Marker> markers;
-    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
-        const Element& element = geometry.elements[e];
-        std::vector<Segment> wall = layer.edges.walls[e], base;
-        if (options.base_marker && element.features.base) base = take_base(element, layer.points, wall);
-        markers.push_back({element.name, MarkerKind::wall, std::move(wall)});
-        if (!base.empty()) markers.push_back({element.name + "_base", MarkerKind::wall, std::move(base)});
-    }
-    markers.push_back({"farfield", MarkerKind::far_field, std::move(far_field)});
-    return markers;
 }
 
 /// The positions in the arrays of the mesh at which the vertices and triangles of each refinement begin, followed by
@@ -113,18 +100,37 @@ void copy_refinement(const Refinement& refinement, std::span<const VertexId> bor
 
 }  // namespace
 
-}  // namespace lamina::pipeline
+std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, std::vector<Segment> far_field,
+                                 const AssembleOptions& options) {
+    std::vector<Marker> markers;
+    for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
+        const Element& element = geometry.elements[e];
+        std::vector<Segment> wall = layer.edges.walls[e], base;
+        if (options.base_marker && element.features.base) base = take_base(element, layer.points, wall);
+        markers.push_back({element.name, MarkerKind::wall, std::move(wall)});
+        if (!base.empty()) markers.push_back({element.name + "_base", MarkerKind::wall, std::move(base)});
+    }
+    markers.push_back({"farfield", MarkerKind::far_field, std::move(far_field)});
+    return markers;
+}
 
-namespace lamina {
+Mesh layer_mesh(const Layer& layer, const LayerCells& cells) {
+    Mesh mesh;
+    mesh.points = layer.points;
+    mesh.triangles = cells.triangles;
+    mesh.quads = cells.quads;
+    mesh.layer = cells.triangle_layer;
+    mesh.layer.insert(mesh.layer.end(), cells.quad_layer.begin(), cells.quad_layer.end());
+    mesh.region.assign(mesh.triangles.size() + mesh.quads.size(), Region::layer);
+    return mesh;
+}
 
-using namespace pipeline;
-
-Mesh assemble(const Geometry& geometry, const Layer& layer, LayerCells cells, Decoupling decoupling,
-              std::vector<Refinement> refinements, const AssembleOptions& options) {
+Mesh assemble(std::vector<Marker> markers, const Layer& layer, LayerCells cells, Decoupling decoupling,
+              std::vector<Refinement> refinements) {
     const MeshOffsets offsets = mesh_offsets(refinements, decoupling.points.size(), cells.triangles.size());
     const std::size_t layer_pieces = cells.pieces();
     Mesh mesh;
-    mesh.markers = make_markers(geometry, layer, std::move(decoupling.far_field), options);
+    mesh.markers = std::move(markers);
     mesh.constraints = layer.edges.interfaces;
     mesh.points = std::move(decoupling.points);
     make_arrays(std::move(cells), offsets, mesh);
@@ -137,6 +143,17 @@ Mesh assemble(const Geometry& geometry, const Layer& layer, LayerCells cells, De
         }
     });
     return mesh;
+}
+
+}  // namespace lamina::pipeline
+
+namespace lamina {
+
+Mesh assemble(const Geometry& geometry, const Layer& layer, LayerCells cells, Decoupling decoupling,
+              std::vector<Refinement> refinements, const AssembleOptions& options) {
+    std::vector<Marker> markers = pipeline::make_markers(geometry, layer, std::move(decoupling.far_field), options);
+    return pipeline::assemble(std::move(markers), layer, std::move(cells), std::move(decoupling),
+                              std::move(refinements));
 }
 
 }  // namespace lamina

@@ -17,11 +17,7 @@ double layer_triangles(const Layer& layer) {
     return 2 * static_cast<double>(cells);
 }
 
-double triangles_of(const Mesh& mesh) {
-    return static_cast<double>(mesh.triangles.size()) + 2 * static_cast<double>(mesh.quads.size());
-}
-
-RunEstimate estimate_mesh(const Layer& layer, const SizeField& size, const FarField& far_field) {
+RunEstimate estimate_mesh(const Layer& layer, const SizeField& size, const FarField& far_field, const WorkCost& cost) {
     // Measured: the processor time and the memory that the sizes and the decoupling take for each edge of the border,
     // and how much more time a triangle of the layer takes than another one.
     constexpr double seconds_per_border_edge = 100e-6, bytes_per_border_edge = 8e3,
@@ -29,9 +25,9 @@ RunEstimate estimate_mesh(const Layer& layer, const SizeField& size, const FarFi
     const double in_layer = layer_triangles(layer);
     double border_edges = 0;
     for (const auto& border : layer.borders) border_edges += static_cast<double>(border.size());
-    RunEstimate estimate = estimate_run(
-        in_layer + estimate_triangles(layer.points, layer.borders, size, far_field), mesh_cost, thread_count(),
-        seconds_per_border_edge * border_edges + more_seconds_per_layer_triangle * in_layer);
+    RunEstimate estimate =
+        estimate_run(in_layer + estimate_triangles(layer.points, layer.borders, size, far_field), cost, thread_count(),
+                     seconds_per_border_edge * border_edges + more_seconds_per_layer_triangle * in_layer);
     estimate.memory_bytes += bytes_per_border_edge * border_edges;
     return estimate;
 }
@@ -39,7 +35,7 @@ RunEstimate estimate_mesh(const Layer& layer, const SizeField& size, const FarFi
 }  // namespace
 
 void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
-                            const Box& domain) {
+                            const Box& domain, const WorkCost& cost) {
     require_within_limits(options.sizing, bodies, domain, options.limits);
     if (!options.layer.enabled || !growth.layers) return;
     // Rays may be cut short.
@@ -47,14 +43,14 @@ void require_options_within(const CaseOptions& options, const LayerGrowth& growt
     double vertices = 0;
     for (const auto& wall : bodies.walls) vertices += static_cast<double>(wall.size());
     const double triangles = 2 * vertices * *growth.layers;
-    if (triangles > certain * allowed_triangles(options.limits, mesh_cost))
-        throw_limit_error(options.limits, estimate_run(triangles, mesh_cost, thread_count()), "layers",
+    if (triangles > certain * allowed_triangles(options.limits, cost))
+        throw_limit_error(options.limits, estimate_run(triangles, cost, thread_count()), "layers",
                           fmt::format("{} on {} wall vertices", *growth.layers, vertices));
 }
 
 RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
-                                   const FarField& far_field) {
-    const RunEstimate estimate = estimate_mesh(layer, size, far_field);
+                                   const FarField& far_field, const WorkCost& cost) {
+    const RunEstimate estimate = estimate_mesh(layer, size, far_field, cost);
     if (const double in_layer = layer_triangles(layer); in_layer > 0.5 * estimate.triangles)
         require_within(options.limits, estimate, "layers",
                        fmt::format("the mesh, with {:.2g} triangles in the layer,", in_layer));
@@ -64,15 +60,16 @@ RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& laye
     return estimate;
 }
 
-RefineOptions refine_options(const CaseOptions& options, double chord) {
+RefineOptions refine_options(const CaseOptions& options, double chord, const WorkCost& cost) {
     RefineOptions refine = options.refine;
     refine.unit_length = chord;
-    refine.max_points = allowed_points(options.limits, mesh_cost, refine.max_points);
+    refine.max_points = allowed_points(options.limits, cost, refine.max_points);
     return refine;
 }
 
-void require_made_within(const WorkLimits& limits, const Mesh& mesh) {
-    lamina::require_made_within(limits, triangles_of(mesh), mesh_cost, thread_count());
+void require_made_within(const WorkLimits& limits, std::size_t triangles, std::size_t quads, const WorkCost& cost) {
+    lamina::require_made_within(limits, static_cast<double>(triangles) + 2 * static_cast<double>(quads), cost,
+                                thread_count());
 }
 
 }  // namespace lamina::pipeline

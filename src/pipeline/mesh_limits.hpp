@@ -5,19 +5,22 @@
 
 namespace lamina::pipeline {
 
+/// The cost of stream_mesh() (docs/decisions/0045).
+inline constexpr WorkCost stream_cost{40e6, 4, 0.35e-6};
+
 /// Throws LimitError where a single option asks for far more triangles than the limits allow. It takes no time.
 void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
-                            const Box& domain);
+                            const Box& domain, const WorkCost& cost);
 
 /// Estimates the run from the layer and the size field beyond it. Throws LimitError where it would exceed the limits.
 RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
-                                   const FarField& far_field);
+                                   const FarField& far_field, const WorkCost& cost);
 
 /// Returns the options of refinement round a configuration of this reference chord, with which no subdomain goes beyond
 /// the limits. Estimates may be wrong.
-RefineOptions refine_options(const CaseOptions& options, double chord);
+RefineOptions refine_options(const CaseOptions& options, double chord, const WorkCost& cost);
 
 /// Throws LimitError where the mesh made has more triangles than allowed, since the estimate was too low.
-void require_made_within(const WorkLimits& limits, const Mesh& mesh);
+void require_made_within(const WorkLimits& limits, std::size_t triangles, std::size_t quads, const WorkCost& cost);
 
 }  // namespace lamina::pipeline

@@ -3,10 +3,13 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <lamina/stream.hpp>
 #include <lamina/threads.hpp>
 
 #include "core/busy_times.hpp"
@@ -14,9 +17,11 @@
 #include "decoupling/far_field.hpp"
 #include "decoupling/refine_all.hpp"
 #include "layers/fill.hpp"
-#include "mesh/isotropic_cells.hpp"
+#include "pipeline/assemble.hpp"
+#include "pipeline/checked_pieces.hpp"
 #include "pipeline/flow_guidance.hpp"
 #include "pipeline/mesh_limits.hpp"
+#include "pipeline/piece_streamer.hpp"
 #include "pipeline/ray_plan.hpp"
 #include "pipeline/warnings.hpp"
 
@@ -24,11 +29,13 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// Kinds of work that share the threads: those of delaunay::pieces in the layer, and the refinement of subdomains.
+/// Kinds of work that share the threads: those of delaunay::pieces in the layer, the refinement of subdomains, and the
+/// check of each.
 enum SharedWork : std::size_t {
     decomposition_work = delaunay::pieces::cutting,
     layer_work = delaunay::pieces::triangulating,
-    refinement_work
+    refinement_work,
+    check_work
 };
 
 double seconds_now() {
@@ -61,42 +68,42 @@ void record_shared_times(const core::BusyTimes& times, double elapsed, StageSeco
     ThreadSeconds sum;
     for (std::size_t i = 0; i < times.threads(); ++i) {
         const ThreadSeconds thread{times.seconds(i, decomposition_work), times.seconds(i, layer_work),
-                                   times.seconds(i, refinement_work), times.idle(i, elapsed)};
+                                   times.seconds(i, refinement_work), times.seconds(i, check_work),
+                                   times.idle(i, elapsed)};
         sum.decomposition += thread.decomposition;
         sum.layer_triangulation += thread.layer_triangulation;
         sum.refinement += thread.refinement;
+        sum.check += thread.check;
         thread_seconds.push_back(thread);
     }
-    const double all = sum.decomposition + sum.layer_triangulation + sum.refinement;
+    const double all = sum.decomposition + sum.layer_triangulation + sum.refinement + sum.check;
     const double share = all > 0 ? elapsed / all : 0;
     seconds.decomposition += share * sum.decomposition;
     seconds.layer_triangulation += share * sum.layer_triangulation;
     seconds.refinement += share * sum.refinement;
+    seconds.check += share * sum.check;
 }
 
 /// Records the results of the refinement, and how good the estimates of the numbers of triangles were.
-void summarize_refinement(std::span<const Subdomain> subdomains, std::span<const Refinement> refinements,
-                          MeshResult& result) {
-    result.inviscid_pieces = refinements.size();
-    std::size_t good_estimates = 0;
-    for (std::size_t i = 0; i < refinements.size(); ++i) {
-        result.refinement += refinements[i].stats;
-        const std::size_t made = refinements[i].triangles.size();
-        result.largest_inviscid_piece = std::max(result.largest_inviscid_piece, made);
-        const auto triangles = static_cast<double>(made);
-        good_estimates += std::abs(subdomains[i].estimated_triangles - triangles) <= 0.15 * triangles;
-    }
-    if (!refinements.empty())
+void summarize_refinement(const PiecesSummary& pieces, MeshResult& result) {
+    result.inviscid_pieces = pieces.pieces;
+    result.refinement += pieces.stats;
+    result.largest_inviscid_piece = pieces.largest;
+    if (pieces.pieces > 0)
         result.estimates_within_15_percent =
-            static_cast<double>(good_estimates) / static_cast<double>(refinements.size());
+            static_cast<double>(pieces.good_estimates) / static_cast<double>(pieces.pieces);
+    result.mean_edge_over_size = pieces.mean_edge_over_size();
 }
 
-void summarize_layer(const Layer& layer, const LayerCells& cells, const LayerOptions& options, MeshResult& result) {
+void summarize_layer(const Layer& layer, const LayerCells& cells, MeshResult& result) {
     result.layer_pieces = cells.pieces();
     result.decomposition = cells.decomposition;
     result.layer_grid_refused = cells.grid_refused;
     for (const auto& wall : layer.walls) result.surface_vertices += wall.size();
     result.layer_coverage = layer.coverage;
+}
+
+void summarize_growth(const Layer& layer, const LayerOptions& options, MeshResult& result) {
     if (!options.enabled) return;
     result.border_steps = border_steps(layer);
     for (std::size_t e = 0; e < layer.walls.size(); ++e)
@@ -124,41 +131,116 @@ void require_valid(const MeshCheck& check) {
 
 /// Returns the heights that first cells should have on each marker of the mesh. The marker of the base of an element
 /// follows that of the element.
-std::vector<double> first_heights_of_markers(const MeshResult& result) {
+std::vector<double> first_heights_of_markers(const MeshResult& result, std::span<const Marker> markers) {
     std::vector<double> heights;
     if (result.first_heights.empty()) return heights;
     std::size_t next = 0;
-    for (const Marker& marker : result.mesh.markers) {
+    for (const Marker& marker : markers) {
         if (next < result.geometry.elements.size() && marker.name == result.geometry.elements[next].name) ++next;
         heights.push_back(result.first_heights[next - 1]);
     }
     return heights;
 }
 
-/// Returns the mean length of isotropic edges over h at their middles, of evenly chosen triangles: so many that the
-/// mean is known within 0.5 %. Returns 0 where there are none.
-double mean_edge_over_size(const Mesh& mesh, const SizeField& size) {
-    constexpr std::size_t sampled_triangles = 4096;
-    const std::size_t stride = 1 + mesh.triangles.size() / sampled_triangles;
-    double sum = 0;
-    std::size_t edges = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += stride) {
-        if (!mesh::is_isotropic(mesh, t)) continue;
-        const auto& v = mesh.triangles[t].v;
-        for (unsigned e = 0; e < 3; ++e) {
-            const Point a = mesh.points[v[e].index()], b = mesh.points[v[(e + 1) % 3].index()];
-            sum += distance(a, b) / size(midpoint(a, b));
-        }
-        edges += 3;
+/// A mesh with the triangles that MeshCheck::unexcused_cells numbers. Where it is streamed, the sink holds its cells.
+struct MadeMesh {
+    MeshResult result;
+    std::vector<mesh::NarrowTriangle> unexcused{};
+    std::unique_ptr<MeshSink> sink{};
+    MeshCounts counts{};
+    std::string hash{};
+};
+
+/// Returns the positions of the triangles of each refinement in the mesh, in this order of the refinements.
+std::vector<std::size_t> first_triangles(std::span<const Refinement> refinements, std::size_t layer_triangles,
+                                         std::span<const std::size_t> order) {
+    std::vector<std::size_t> first(refinements.size()), in_order;
+    std::size_t next = layer_triangles;
+    for (std::size_t i = 0; i < refinements.size(); ++i) {
+        first[i] = next;
+        next += refinements[i].triangles.size();
     }
-    return edges > 0 ? sum / static_cast<double>(edges) : 0.0;
+    for (const std::size_t i : order) in_order.push_back(first[i]);
+    return in_order;
+}
+
+/// Returns the markers of the mesh, with the far field divided if the options ask for it.
+std::vector<Marker> markers_of(const RayPlan& plan, const CaseOptions& options, const Layer& layer,
+                               const Decoupling& decoupling) {
+    std::vector<Marker> markers = make_markers(plan.geometry, layer, decoupling.far_field, options.assemble);
+    const FarFieldOptions& outer = options.far_field;
+    if (outer.tunnel || outer.ground)
+        mark_slip_walls(decoupling.points, markers, plan.far_field, outer.ground.has_value());
+    if (options.inlet_outlet || outer.tunnel) split_far_field(decoupling.points, markers, plan.conditions.alpha_deg);
+    return markers;
+}
+
+/// What the pieces of a mesh are made of, and where their check and their times go.
+struct PiecesWork {
+    const RayPlan& plan;
+    const CaseOptions& options;
+    const Layer& layer;
+    const Decoupling& decoupling;
+    mesh::PiecewiseCheck& check;
+    core::BusyTimes& times;
+    std::span<const Marker> markers;
+
+    LayerCells fill_layer() const { return layers::fill(layer, options.layer.topology, options.decomposition, &times); }
+    PiecesSummary refine(std::span<const std::size_t> order, const PieceKeeper& keeper) const {
+        return refine_and_check(decoupling, order, options.refine.min_angle_deg, times, {refinement_work, check_work},
+                                check, keeper);
+    }
+};
+
+/// The pieces of a mesh.
+struct MadePieces {
+    LayerCells cells{};
+    PiecesSummary summary{};
+    std::vector<std::size_t> first_triangle{};  ///< of the subdomains in the mesh, in the order of the work
+    std::vector<Refinement> refinements{};      ///< empty where they have gone to a sink
+};
+
+/// Makes all pieces and keeps them. Large ones come first, so that no thread is left with a large one at the end.
+MadePieces make_pieces(const PiecesWork& work) {
+    MadePieces made;
+    made.refinements.resize(work.decoupling.subdomains.size());
+    const std::vector<std::size_t> order = decoupling::largest_first(work.decoupling.subdomains);
+    const auto keep = [&](std::size_t, std::size_t subdomain, Refinement piece) {
+        made.refinements[subdomain] = std::move(piece);
+    };
+    // Each of the first cuts of the layer occupies one thread, so the other threads refine meanwhile (thesis 6.6).
+    core::parallel_invoke([&] { made.cells = work.fill_layer(); },
+                          [&] { made.summary = work.refine(order, {.keep = keep}); });
+    made.first_triangle = first_triangles(made.refinements, made.cells.triangles.size(), order);
+    return made;
+}
+
+/// Makes all pieces and hands them to a sink in the order of their numbers, in which they are numbered.
+MadePieces stream_pieces(const PiecesWork& work, const OpenSink& open_sink, MadeMesh& mesh) {
+    MadePieces made;
+    made.cells = work.fill_layer();
+    mesh.sink = open_sink();
+    PieceStreamer streamer(work.decoupling, made.cells, *mesh.sink);
+    std::vector<std::size_t> order(work.decoupling.subdomains.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    made.summary = work.refine(order, {.begin = [&](std::size_t place) { streamer.begin(place); },
+                                       .keep = [&](std::size_t place, std::size_t,
+                                                   Refinement piece) { streamer.take(place, std::move(piece)); },
+                                       .fail = [&] { streamer.fail(); }});
+    streamer.finish(work.markers);
+    made.first_triangle = streamer.take_first_triangles();
+    mesh.counts = streamer.counts();
+    mesh.hash = streamer.hash();
+    return made;
 }
 
 /// Makes the mesh on these rays: the stages from the layer's border to the check. `seconds` holds the times so far;
-/// `announce_estimate` says whether the estimate is part of the progress.
-MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageClock& clock, StageSeconds seconds,
-                        bool announce_estimate) {
-    MeshResult result;
+/// `announce_estimate` says whether the estimate is part of the progress. Without `open_sink` the mesh is kept.
+MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const OpenSink* open_sink, StageClock& clock,
+                      StageSeconds seconds, bool announce_estimate) {
+    const WorkCost& cost = open_sink ? stream_cost : mesh_cost;
+    MadeMesh made;
+    MeshResult& result = made.result;
     result.geometry = plan.geometry;
     result.conditions = plan.conditions;
     result.thinned_rays = plan.thinned_rays;
@@ -170,78 +252,88 @@ MeshResult mesh_on_rays(const RayPlan& plan, const CaseOptions& options, StageCl
     clock.begin("sizing");
     const SizeField size = make_size_field(border_loops(layer), plan.requests.sources, options.sizing,
                                            plan.conditions.chord, plan.far_field.box());
-    result.estimate = estimate_within_limits(options, layer, size, plan.far_field);
+    result.estimate = estimate_within_limits(options, layer, size, plan.far_field, cost);
     seconds.sizing += clock.lap();
 
     clock.begin("decoupling", announce_estimate ? std::optional(result.estimate) : std::nullopt);
     Decoupling decoupling = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling,
-                                     refine_options(options, plan.conditions.chord));
+                                     refine_options(options, plan.conditions.chord, cost));
     seconds.decoupling += clock.lap();
 
-    // Each of the first cuts of the layer occupies one thread, so the other threads refine meanwhile (thesis 6.6).
-    clock.begin("layer triangulation and refinement");
-    LayerCells cells;
-    std::vector<Refinement> refinements;
+    result.threads = thread_count();
+    std::vector<Marker> markers = markers_of(plan, options, layer, decoupling);
+    const std::span<const Segment> constraints = layer.edges.interfaces;
+    // The heights are those of the layer as it is closed.
+    summarize_growth(layer, options.layer, result);
+    mesh::PiecewiseCheck check(decoupling.points, {.min_angle_deg = options.refine.min_angle_deg,
+                                                   .first_heights = first_heights_of_markers(result, markers)});
+
+    clock.begin("layer triangulation, refinement and check of pieces");
     core::BusyTimes times;
-    core::parallel_invoke(
-        [&] { cells = layers::fill(layer, options.layer.topology, options.decomposition, &times); },
-        [&] { refinements = decoupling::refine_all(decoupling.subdomains, &times, refinement_work); });
+    PiecesWork work{plan, options, layer, decoupling, check, times, markers};
+    MadePieces pieces = open_sink ? stream_pieces(work, *open_sink, made) : make_pieces(work);
     record_shared_times(times, clock.lap(), seconds, result.thread_seconds);
 
-    clock.begin("assembly");
-    result.threads = thread_count();
-    summarize_layer(layer, cells, options.layer, result);
-    record_columns(layer, cells, result);
-    summarize_refinement(decoupling.subdomains, refinements, result);
-    result.mesh = assemble(plan.geometry, layer, std::move(cells), std::move(decoupling), std::move(refinements),
-                           options.assemble);
-    if (options.far_field.tunnel || options.far_field.ground)
-        mark_slip_walls(result.mesh, plan.far_field, options.far_field.ground.has_value());
-    if (options.inlet_outlet || options.far_field.tunnel) split_far_field(result.mesh, result.conditions.alpha_deg);
-    require_made_within(options.limits, result.mesh);
-    seconds.assembly += clock.lap();
-
     clock.begin("check");
-    MeshCheckOptions check_options{.min_angle_deg = options.refine.min_angle_deg};
-    check_options.first_heights = first_heights_of_markers(result);
-    result.check = check_mesh(result.mesh, check_options);
+    Mesh of_layer = layer_mesh(layer, pieces.cells);
+    if (!of_layer.triangles.empty() || !of_layer.quads.empty()) check.add_layer(of_layer, constraints);
+    result.check = check.finish(markers, constraints, pieces.first_triangle);
     require_valid(result.check);
-    result.mean_edge_over_size = mean_edge_over_size(result.mesh, size);
-    result.warnings = find_warnings(result, options, size);
+    made.unexcused = check.unexcused();
     seconds.check += clock.lap();
+
+    clock.begin("assembly");
+    summarize_layer(layer, pieces.cells, result);
+    record_columns(layer, pieces.cells, result);
+    summarize_refinement(pieces.summary, result);
+    if (open_sink) {
+        result.mesh.markers = std::move(markers);
+    } else {
+        of_layer = {};  // so that memory does not peak here
+        result.mesh = assemble(std::move(markers), layer, std::move(pieces.cells), std::move(decoupling),
+                               std::move(pieces.refinements));
+        made.counts = {.triangles = result.mesh.triangles.size(), .quads = result.mesh.quads.size()};
+    }
+    require_made_within(options.limits, made.counts.triangles, made.counts.quads, cost);
+    result.warnings = find_warnings(
+        result, options,
+        {check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle, made.unexcused},
+        open_sink ? of_layer : result.mesh);
+    seconds.assembly += clock.lap();
     result.seconds = seconds;
-    return result;
+    return made;
 }
 
 /// Replaces the mesh by others, on shorter rays and with shorter edges of borders, for as long as fewer and fewer
 /// triangles have an angle below the bound that no sharp corner excuses. A bound above the proved one is no promise, so
 /// nothing is done for it.
-void make_room(const CaseOptions& options, RayPlan& plan, StageClock& clock, MeshResult& best) {
+void make_room(const CaseOptions& options, const OpenSink* open_sink, RayPlan& plan, StageClock& clock,
+               MadeMesh& best) {
     constexpr int max_rounds_without_gain = 2, max_rounds = 12;
     constexpr double gain = 0.9;  // the share of such triangles that a round must leave at most
     if (options.refine.min_angle_deg > proved_min_angle_deg) return;
-    MeshResult next;
-    const MeshResult* last = &best;
+    MadeMesh next;
+    const MadeMesh* last = &best;
     int rounds_without_gain = 0;
     for (int round = 0; round < max_rounds && rounds_without_gain < max_rounds_without_gain; ++round) {
-        const StageSeconds seconds = last->seconds;
-        if (!make_room_at_narrow_triangles(*last, options, plan)) return;
+        const StageSeconds seconds = last->result.seconds;
+        if (!make_room_at_narrow_triangles(last->unexcused, options, plan)) return;
         next = {};  // so that no more than two meshes are held
         clock.begin("layers, thinned");
         try {
-            next = mesh_on_rays(plan, options, clock, seconds, false);
+            next = mesh_on_rays(plan, options, open_sink, clock, seconds, false);
         } catch (const Error&) {
             return;  // the best mesh so far is valid
         }
         last = &next;
-        const auto before = static_cast<double>(best.check.isotropic.unexcused()),
-                   after = static_cast<double>(next.check.isotropic.unexcused());
+        const auto before = static_cast<double>(best.unexcused.size()),
+                   after = static_cast<double>(next.unexcused.size());
         rounds_without_gain = after <= gain * before ? 0 : rounds_without_gain + 1;
         if (after < before) {
             best = std::move(next);
             last = &best;
         } else {
-            best.seconds = next.seconds;
+            best.result.seconds = next.result.seconds;
         }
     }
 }
@@ -283,7 +375,8 @@ CaseOptions with_tunnel_sizes(CaseOptions options, double chord) {
     return options;
 }
 
-MeshResult run(const Geometry& given, const CaseOptions& given_options, StageClock& clock, double geometry_seconds) {
+MadeMesh run(const Geometry& given, const CaseOptions& given_options, const OpenSink* open_sink, StageClock& clock,
+             double geometry_seconds) {
     StageSeconds seconds;
     clock.lap();
 
@@ -308,19 +401,21 @@ MeshResult run(const Geometry& given, const CaseOptions& given_options, StageClo
     limits.walls = spacings;
     Geometry prepared = prepare_surfaces(given, options.surface, limits, conditions.chord);
     require_options_within(options, growth, sized_bodies(prepared, conditions),
-                           place_far_field(bounding_box(prepared), conditions.chord, options.far_field).box());
+                           place_far_field(bounding_box(prepared), conditions.chord, options.far_field).box(),
+                           open_sink ? stream_cost : mesh_cost);
     seconds.geometry = geometry_seconds + clock.lap();
 
     clock.begin("layers");
     RayPlan plan = plan_rays(std::move(prepared), conditions, options, growth, std::move(wakes));
     refine_walls_below_borders(given, options, limits, growth, plan);
-    MeshResult result = mesh_on_rays(plan, options, clock, seconds, true);
-    make_room(options, plan, clock, result);
+    MadeMesh made = mesh_on_rays(plan, options, open_sink, clock, seconds, true);
+    make_room(options, open_sink, plan, clock, made);
+    MeshResult& result = made.result;
     if (flow) result.warnings.insert(result.warnings.begin(), flow->warnings.begin(), flow->warnings.end());
     result.flow = std::move(flow);
     result.decisions = flow_decisions(growth, spacings, plan, options.sizing);
     result.seconds.total = clock.total();
-    return result;
+    return made;
 }
 
 }  // namespace
@@ -331,27 +426,43 @@ namespace lamina {
 
 using namespace pipeline;
 
+namespace {
+
+/// Reads the inputs, and runs all stages on them.
+MadeMesh read_and_run(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink* open_sink,
+                      const Progress& progress) {
+    validate(options);
+    MadeMesh made;
+    with_threads(options.threads, [&] {
+        StageClock clock(progress);
+        clock.begin("geometry");
+        const Geometry geometry = read_geometry(inputs, options.geometry);
+        const double geometry_seconds = clock.lap();
+        made = run(geometry, options, open_sink, clock, geometry_seconds);
+    });
+    return made;
+}
+
+}  // namespace
+
 MeshResult generate_mesh(const Geometry& geometry, const CaseOptions& options, const Progress& progress) {
     validate(options);
     MeshResult result;
     with_threads(options.threads, [&] {
         StageClock clock(progress);
-        result = run(geometry, options, clock, 0);
+        result = run(geometry, options, nullptr, clock, 0).result;
     });
     return result;
 }
 
 MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const Progress& progress) {
-    validate(options);
-    MeshResult result;
-    with_threads(options.threads, [&] {
-        StageClock clock(progress);
-        clock.begin("geometry");
-        Geometry geometry = read_geometry(inputs, options.geometry);
-        const double geometry_seconds = clock.lap();
-        result = run(geometry, options, clock, geometry_seconds);
-    });
-    return result;
+    return read_and_run(inputs, options, nullptr, progress).result;
+}
+
+StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink& open_sink,
+                         const Progress& progress) {
+    MadeMesh made = read_and_run(inputs, options, &open_sink, progress);
+    return {std::move(made.result), made.counts, std::move(made.hash), std::move(made.sink)};
 }
 
 }  // namespace lamina

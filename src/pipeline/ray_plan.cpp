@@ -39,12 +39,11 @@ void require_room_for_layers(const Geometry& geometry, const std::vector<std::ve
 
 /// Returns circles round the triangles with an angle below the bound that no sharp corner excuses. They hold the ends of
 /// the rays beside.
-std::vector<Circle> circles_round_unexcused(const MeshResult& result) {
+std::vector<Circle> circles_round_unexcused(std::span<const mesh::NarrowTriangle> narrow) {
     constexpr double reach = 1.5;  // in longest edges
     std::vector<Circle> circles;
-    for (const std::uint32_t cell : result.check.unexcused_cells) {
-        const auto corner = [&](int i) { return result.mesh.points[result.mesh.triangles[cell].v[i].index()]; };
-        const Point a = corner(0), b = corner(1), c = corner(2);
+    for (const mesh::NarrowTriangle& triangle : narrow) {
+        const auto [a, b, c] = triangle.corners;
         circles.push_back(
             {(1.0 / 3) * (a + b + c), reach * std::max({distance(a, b), distance(b, c), distance(c, a)})});
     }
@@ -120,11 +119,12 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
     }
 }
 
-bool make_room_at_narrow_triangles(const MeshResult& result, const CaseOptions& options, RayPlan& plan) {
+bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, const CaseOptions& options,
+                                   RayPlan& plan) {
     // Where no layer is left to be thinned, the borders' edges become this share of the circles' radii.
     constexpr double edge_share = 0.3;
-    if (!options.layer.enabled || result.check.unexcused_cells.empty()) return false;
-    const std::vector<Circle> places = circles_round_unexcused(result);
+    if (!options.layer.enabled || narrow.empty()) return false;
+    const std::vector<Circle> places = circles_round_unexcused(narrow);
     const std::vector<std::size_t> ends = shorten_rays(places, plan.rays);
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Point at = places[k].middle;

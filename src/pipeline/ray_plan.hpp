@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <lamina/pipeline.hpp>
 
+#include "mesh/piece_check.hpp"
 #include "pipeline/flow_guidance.hpp"
 
 namespace lamina::pipeline {
@@ -38,9 +40,10 @@ RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, cons
 void refine_walls_below_borders(const Geometry& given, const CaseOptions& options, SpacingLimits limits,
                                 const LayerGrowth& growth, RayPlan& plan);
 
-/// If the mesh has isotropic triangles whose angle is below the bound, and no sharp corner excuses them: shortens the
+/// If there are isotropic triangles whose angle is below the bound, and which no sharp corner excuses: shortens the
 /// rays that end beside them or, where no layer is left, the edges of the borders there. Returns whether it changed the
 /// plan.
-bool make_room_at_narrow_triangles(const MeshResult& result, const CaseOptions& options, RayPlan& plan);
+bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, const CaseOptions& options,
+                                   RayPlan& plan);
 
 }  // namespace lamina::pipeline

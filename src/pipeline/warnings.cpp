@@ -63,8 +63,8 @@ Point worst_place(const Mesh& mesh, Region region, Badness badness) {
 }
 
 /// Returns the place of the wall edge whose cell reaches to the highest layer.
-Point highest_first_cell(const Mesh& mesh) {
-    const std::vector<Segment> walls = mesh::sorted_wall_edges(mesh.markers);
+Point highest_first_cell(const Mesh& mesh, std::span<const Marker> markers) {
+    const std::vector<Segment> walls = mesh::sorted_wall_edges(markers);
     return worst_place(mesh, Region::layer, [&](std::size_t cell) {
         const auto corners = corners_of(mesh, cell);
         for (std::size_t i = 0; i < corners.size(); ++i)
@@ -76,10 +76,10 @@ Point highest_first_cell(const Mesh& mesh) {
 
 // ---- the layer ----
 
-void warn_of_first_layer(const MeshResult& result, std::vector<Warning>& warnings) {
+void warn_of_first_layer(const MeshResult& result, const Mesh& layer, std::vector<Warning>& warnings) {
     const std::size_t lost = result.check.edges_without_first_layer;
     if (lost == 0) return;
-    const Point at = highest_first_cell(result.mesh);
+    const Point at = highest_first_cell(layer, result.mesh.markers);
     warnings.push_back(
         {.code = WarningCode::first_layer_lost,
          .at = at,
@@ -155,12 +155,13 @@ void warn_of_first_height(const MeshResult& result, const LayerOptions& options,
                                                height, share, chord)});
 }
 
-void warn_of_large_angles(const MeshResult& result, std::vector<Warning>& warnings) {
+void warn_of_large_angles(const MeshResult& result, const WorstPlaces& worst, const Mesh& layer,
+                          std::vector<Warning>& warnings) {
     constexpr double max_isotropic = 145, max_layer = 175;
-    const auto warn = [&](const QualitySummary& quality, Region region, double bound, const std::string& where) {
-        if (quality.cells == 0 || quality.max_angle_deg <= bound) return;
-        const Point at = worst_place(result.mesh, region,
-                                     [&](std::size_t cell) { return shape_of(result.mesh, cell).max_angle_deg; });
+    const auto exceeds = [](const QualitySummary& quality, double bound) {
+        return quality.cells > 0 && quality.max_angle_deg > bound;
+    };
+    const auto warn = [&](const QualitySummary& quality, Point at, const std::string& where) {
         warnings.push_back({.code = WarningCode::large_angle,
                             .at = at,
                             .number = quality.max_angle_deg,
@@ -168,8 +169,11 @@ void warn_of_large_angles(const MeshResult& result, std::vector<Warning>& warnin
                             .message = fmt::format("a cell {} has an angle of {:.2f} degrees, at {}", where,
                                                    quality.max_angle_deg, place_text(at))});
     };
-    warn(result.check.isotropic, Region::isotropic, max_isotropic, "outside the layer");
-    warn(result.check.layer, Region::layer, max_layer, "of the layer");
+    if (exceeds(result.check.isotropic, max_isotropic)) warn(result.check.isotropic, worst.widest, "outside the layer");
+    if (exceeds(result.check.layer, max_layer))
+        warn(result.check.layer,
+             worst_place(layer, Region::layer, [&](std::size_t cell) { return shape_of(layer, cell).max_angle_deg; }),
+             "of the layer");
 }
 
 void warn_of_topology(const MeshResult& result, std::vector<Warning>& warnings) {
@@ -183,9 +187,8 @@ void warn_of_topology(const MeshResult& result, std::vector<Warning>& warnings) 
 
 // ---- the isotropic region ----
 
-void warn_of_refinement(const MeshResult& result, const CaseOptions& options, const SizeField& size,
+void warn_of_refinement(const MeshResult& result, const CaseOptions& options, const WorstPlaces& worst,
                         std::vector<Warning>& warnings) {
-    const Mesh& mesh = result.mesh;
     const auto add = [&](WarningCode code, std::size_t count, const std::string& unit, Point at,
                          const std::string& message) {
         warnings.push_back({.code = code,
@@ -194,30 +197,25 @@ void warn_of_refinement(const MeshResult& result, const CaseOptions& options, co
                             .unit = unit,
                             .message = fmt::format("{} (worst at {})", message, place_text(at))});
     };
-    const auto angle_of = [&](std::size_t cell) { return shape_of(mesh, cell).min_angle_deg; };
-    const std::vector<std::uint32_t>& narrow = result.check.unexcused_cells;
-    if (!narrow.empty()) {
-        const std::size_t worst =
-            *std::min_element(narrow.begin(), narrow.end(), [&](auto a, auto b) { return angle_of(a) < angle_of(b); });
-        add(WarningCode::small_angle, narrow.size(), "triangles", middle_of(mesh, worst),
+    const auto angle_of = [](const mesh::NarrowTriangle& t) {
+        return core::measure_triangle(t.corners[0], t.corners[1], t.corners[2]).min_angle_deg;
+    };
+    if (const std::span narrow = worst.unexcused; !narrow.empty()) {
+        const mesh::NarrowTriangle& narrowest = *std::min_element(
+            narrow.begin(), narrow.end(), [&](const auto& a, const auto& b) { return angle_of(a) < angle_of(b); });
+        const Point* p = narrowest.corners;
+        add(WarningCode::small_angle, narrow.size(), "triangles", (1.0 / 3) * (p[0] + p[1] + p[2]),
             fmt::format("{} below the bound of {} degrees, down to {:.2f}",
                         counted(narrow.size(), "triangle has an angle", "triangles have an angle"),
-                        options.refine.min_angle_deg, angle_of(worst)));
+                        options.refine.min_angle_deg, angle_of(narrowest)));
     }
     if (const std::size_t refused = result.refinement.refused; refused > 0)
-        add(WarningCode::refused_points, refused, "points",
-            worst_place(mesh, Region::isotropic, [&](std::size_t cell) { return -angle_of(cell); }),
+        add(WarningCode::refused_points, refused, "points", worst.narrowest,
             fmt::format("refinement left out {} too near to the layer's border or to a separator",
                         counted(refused, "point", "points")));
-    if (const std::size_t oversized = result.refinement.oversized; oversized > 0) {
-        const auto relative_size = [&](std::size_t cell) {
-            const double h = size(middle_of(mesh, cell));
-            return shape_of(mesh, cell).area / (h * h);
-        };
-        add(WarningCode::oversized_triangles, oversized, "triangles",
-            worst_place(mesh, Region::isotropic, relative_size),
+    if (const std::size_t oversized = result.refinement.oversized; oversized > 0)
+        add(WarningCode::oversized_triangles, oversized, "triangles", worst.oversized,
             counted(oversized, "triangle is", "triangles are") + " larger than the sizes ask for");
-    }
 }
 
 // ---- the input ----
@@ -258,18 +256,19 @@ void add_reader_warnings(const Geometry& geometry, std::vector<Warning>& warning
 
 }  // namespace
 
-std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, const SizeField& size) {
+std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, const WorstPlaces& worst,
+                                   const Mesh& layer) {
     std::vector<Warning> warnings;
     add_reader_warnings(result.geometry, warnings);
     warn_of_surfaces(result.geometry, options.surface, warnings);
     warn_of_first_height(result, options.layer, warnings);
     warn_of_topology(result, warnings);
-    warn_of_first_layer(result, warnings);
+    warn_of_first_layer(result, layer, warnings);
     warn_of_cut_rays(result, warnings);
     warn_of_thinned_layers(result, warnings);
     warn_of_transition(result, warnings);
-    warn_of_large_angles(result, warnings);
-    warn_of_refinement(result, options, size, warnings);
+    warn_of_large_angles(result, worst, layer, warnings);
+    warn_of_refinement(result, options, worst, warnings);
     return warnings;
 }
 

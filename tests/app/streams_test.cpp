@@ -33,6 +33,24 @@ TEST(Streams, AMeshOnStandardOutputHasTheBytesOfTheFile) {
     }
 }
 
+TEST(Streams, AMeshWrittenWhileItIsMadeHasTheBytesOfTheFile) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run_lamina(folder, small_mesh({"-o", "a.su2", "--report", "a.json"})).exit_code, 0);
+    const ProgramRun run =
+        run_lamina(folder, small_mesh({"--stream", "-o", "b.su2", "--report", "b.json", "--pieces-target", "50000"}));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(folder.read("a.su2"), folder.read("b.su2"));
+    EXPECT_EQ(nlohmann::json::parse(folder.read("a.json"))["hash"],
+              nlohmann::json::parse(folder.read("b.json"))["hash"]);
+    const ProgramRun out = run_lamina(folder, small_mesh({"--stream", "-o", "-", "--format", "su2"}));
+    EXPECT_EQ(out.out, folder.read("a.su2")) << out.err;
+    EXPECT_EQ(run_lamina(folder, small_mesh({"--stream", "-o", "/dev/null", "--format", "su2"})).exit_code, 0);
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.json", "a.su2", "b.json", "b.su2"}));
+    expect_refused(folder, small_mesh({"--stream", "-o", "c.vtu"}), usage, "su2");
+    expect_refused(folder, small_mesh({"--stream", "-o", "c.su2", "-o", "d.su2"}), usage, "one mesh file");
+    expect_refused(folder, small_mesh({"--stream", "-o", "c.su2", "--wall-data", "w.csv"}), usage, "--wall-data");
+}
+
 TEST(Streams, TheSummaryGoesToStandardErrorBesideAReportOrWallData) {
     const TemporaryFolder folder;
     const ProgramRun report = run_lamina(folder, small_mesh({"-o", "a.su2", "--report", "-"}));

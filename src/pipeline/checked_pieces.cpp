@@ -1,0 +1,121 @@
+#include "pipeline/checked_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/in_order.hpp"
+#include "core/parallel.hpp"
+#include "delaunay/refine_region.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+/// The facts about one piece.
+struct PieceFacts {
+    mesh::PieceFindings findings;
+    RefineStats stats;
+    double estimated_triangles = 0;
+    double edge_over_size = 0;  ///< mean
+    mesh::WorstCell oversized;
+};
+
+/// Calls f(a, b, c) for the corners of every `stride`-th triangle.
+template <class F>
+void for_triangles(const Subdomain& subdomain, const Refinement& refinement, std::size_t stride, F&& f) {
+    const auto at = [&](VertexId v) {
+        return v.index() < subdomain.points.size() ? subdomain.points[v.index()]
+                                                   : refinement.steiner_points[v.index() - subdomain.points.size()];
+    };
+    for (std::size_t t = 0; t < refinement.triangles.size(); t += stride) {
+        const VertexId* v = refinement.triangles[t].v;
+        f(at(v[0]), at(v[1]), at(v[2]));
+    }
+}
+
+/// Returns the mean length of edges over h at their middles, of `samples` evenly chosen triangles or a few more.
+double mean_edge_over_size(const Subdomain& subdomain, const Refinement& refinement, std::size_t samples) {
+    double sum = 0, edges = 0;
+    const auto add = [&](Point a, Point b) { sum += distance(a, b) / subdomain.size(midpoint(a, b)); };
+    for_triangles(subdomain, refinement, 1 + refinement.triangles.size() / samples, [&](Point a, Point b, Point c) {
+        add(a, b);
+        add(b, c);
+        add(c, a);
+        edges += 3;
+    });
+    return edges > 0 ? sum / edges : 0.0;
+}
+
+mesh::WorstCell most_oversized(const Subdomain& subdomain, const Refinement& refinement) {
+    mesh::WorstCell worst;
+    for_triangles(subdomain, refinement, 1, [&](Point a, Point b, Point c) {
+        const Point middle = (1.0 / 3) * (a + b + c);
+        const double h = subdomain.size(middle), relative = 0.5 * cross(b - a, c - a) / (h * h);
+        if (relative > worst.badness) worst = {relative, middle};
+    });
+    return worst;
+}
+
+PieceFacts facts_of(const Decoupling& decoupling, const Subdomain& subdomain, const delaunay::LinkedRefinement& linked,
+                    double min_angle_deg, std::size_t samples) {
+    const Refinement& refinement = linked.refinement;
+    PieceFacts facts;
+    facts.findings = mesh::check_piece({subdomain.points, subdomain.global, refinement.steiner_points,
+                                        refinement.triangles, linked.links, decoupling.points},
+                                       min_angle_deg);
+    facts.stats = refinement.stats;
+    facts.estimated_triangles = subdomain.estimated_triangles;
+    facts.edge_over_size = mean_edge_over_size(subdomain, refinement, samples);
+    if (refinement.stats.oversized > 0) facts.oversized = most_oversized(subdomain, refinement);
+    return facts;
+}
+
+void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& check) {
+    const std::size_t made = facts.findings.triangles;
+    const auto triangles = static_cast<double>(made);
+    ++summary.pieces;
+    summary.largest = std::max(summary.largest, made);
+    summary.good_estimates += std::abs(facts.estimated_triangles - triangles) <= 0.15 * triangles;
+    summary.stats += facts.stats;
+    summary.edge_over_size += triangles * facts.edge_over_size;
+    summary.triangles += triangles;
+    if (facts.oversized.badness > summary.oversized.badness) summary.oversized = facts.oversized;
+    check.add_piece(std::move(facts.findings));
+}
+
+}  // namespace
+
+PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
+                               core::BusyTimes& times, PieceWork work, mesh::PiecewiseCheck& check,
+                               const PieceKeeper& keeper) {
+    // Together enough for a mean that is known within 0.5 %.
+    const std::size_t samples = 32 + 4096 / std::max<std::size_t>(order.size(), 1);
+    PiecesSummary summary;
+    core::InOrder<PieceFacts> in_order([&](PieceFacts facts) { add_piece(std::move(facts), summary, check); });
+    const auto make_piece = [&](std::size_t place) {
+        if (keeper.begin) keeper.begin(place);
+        const Subdomain& subdomain = decoupling.subdomains[order[place]];
+        delaunay::LinkedRefinement linked;
+        {
+            const core::BusyTimes::Scope busy(&times, work.refining);
+            linked = delaunay::refine_linked(subdomain.points, subdomain.segments, subdomain.size, subdomain.refine);
+        }
+        {
+            const core::BusyTimes::Scope busy(&times, work.checking);
+            in_order.put(place, facts_of(decoupling, subdomain, linked, min_angle_deg, samples));
+        }
+        keeper.keep(place, order[place], std::move(linked.refinement));
+    };
+    core::parallel_for(order.size(), 1, [&](std::size_t place, std::size_t) {
+        try {
+            make_piece(place);
+        } catch (...) {
+            if (keeper.fail) keeper.fail();
+            throw;
+        }
+    });
+    return summary;
+}
+
+}  // namespace lamina::pipeline

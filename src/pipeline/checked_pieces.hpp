@@ -1,0 +1,51 @@
+// Refinement of all subdomains, each checked by the thread that has refined it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+
+#include "core/busy_times.hpp"
+#include "mesh/piecewise_check.hpp"
+
+namespace lamina::pipeline {
+
+/// The facts about all pieces that neither the mesh nor its check tells.
+struct PiecesSummary {
+    std::size_t pieces = 0, largest = 0;  ///< number of pieces, and triangles of the largest
+    std::size_t good_estimates = 0;       ///< number of pieces whose estimate was within 15 % of the truth
+    RefineStats stats;
+    double edge_over_size = 0;  ///< sum over pieces of mean edge over h, times triangles
+    double triangles = 0;
+    mesh::WorstCell oversized;  ///< by the area over h squared; sought where stats.oversized > 0
+
+    /// Returns the mean of the lengths of isotropic edges over h at their middles; 0 where there are none.
+    double mean_edge_over_size() const { return triangles > 0 ? edge_over_size / triangles : 0.0; }
+};
+
+/// The kinds of work of refine_and_check(), as BusyTimes counts them.
+struct PieceWork {
+    std::size_t refining, checking;
+};
+
+/// Where pieces go. All functions run on several threads at once.
+struct PieceKeeper {
+    /// Called before the work on the piece of this place in the order begins; empty: nothing is to be done.
+    std::function<void(std::size_t place)> begin{};
+    /// Takes the refinement of a subdomain.
+    std::function<void(std::size_t place, std::size_t subdomain, Refinement)> keep;
+    /// Called where the work on a piece has thrown, so that no other thread waits for it; may be empty.
+    std::function<void()> fail{};
+};
+
+/// Refines all subdomains in parallel in this order. Each piece is checked while it lies in the cache of the thread that
+/// has made it, its findings are added to the check, and the piece is handed to the keeper. The result does not depend
+/// on the number of threads.
+PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
+                               core::BusyTimes& times, PieceWork work, mesh::PiecewiseCheck& check,
+                               const PieceKeeper& keeper);
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,173 @@
+// stream_mesh(): the bytes of the mesh that generate_mesh() makes, whatever the number of threads; and the check of the
+// pieces as they are made against check_mesh(), which finds everything itself.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/io.hpp>
+#include <lamina/stream.hpp>
+
+#include "pipeline/cases.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace lamina::test {
+namespace {
+
+struct StreamCase {
+    std::string name;
+    std::vector<std::string> inputs;
+    CaseOptions options;
+};
+
+std::vector<StreamCase> stream_cases() {
+    const auto small = [](const std::function<void(CaseOptions&)>& change) {
+        CaseOptions options = quick_options(6);
+        options.decoupling.pieces_target = 1000;
+        change(options);
+        return options;
+    };
+    return {
+        {"many pieces", {"naca:0012:60"}, small([](CaseOptions&) {})},
+        {"few pieces", {"naca:0012:60"}, quick_options(6)},
+        {"quads", {"naca:4412:60"}, small([](CaseOptions& o) { o.layer.topology = LayerTopology::quads; })},
+        {"Delaunay layers", {"naca:4412:60"}, small([](CaseOptions& o) {
+             o.layer.topology = LayerTopology::delaunay;
+         })},
+        {"no layers", {"naca:2412:60"}, small([](CaseOptions& o) { o.layer.enabled = false; })},
+        {"lattices", {"naca:0012:60"}, small([](CaseOptions& o) {
+             o.far_field.shape = FarFieldShape::circle;
+             o.sizing.sources.push_back({.a = {2, 0}, .b = {2, 0}, .size = 0.05, .radius = 1.5});
+             o.decoupling.pieces_target = 4000;
+         })},
+        {"inlet and outlet", {"naca:0012:60:blunt"}, small([](CaseOptions& o) {
+             o.inlet_outlet = true;
+             o.assemble.base_marker = true;
+             o.layer.layers.reset();
+         })},
+    };
+}
+
+void expect_same_check(const MeshCheck& made, const MeshCheck& found) {
+    EXPECT_TRUE(found.valid());
+    EXPECT_TRUE(made.valid());
+    EXPECT_NEAR(made.area, found.area, 1e-12 * found.area);
+    EXPECT_EQ(made.euler_characteristic, found.euler_characteristic);
+    EXPECT_EQ(made.boundary_loops, found.boundary_loops);
+    EXPECT_EQ(made.interior_edges, found.interior_edges);
+    EXPECT_EQ(made.delaunay_violations, found.delaunay_violations);
+    EXPECT_EQ(made.edges_without_first_layer, found.edges_without_first_layer);
+    EXPECT_EQ(made.unexcused_cells, found.unexcused_cells);
+    EXPECT_EQ(made.transition.edges, found.transition.edges);
+    EXPECT_NEAR(made.transition.median_area_ratio, found.transition.median_area_ratio, 1e-9);
+    EXPECT_EQ(made.walls.edges, found.walls.edges);
+    EXPECT_EQ(made.walls.max_ratio, found.walls.max_ratio);
+    EXPECT_EQ(made.walls.first_cells, found.walls.first_cells);
+    EXPECT_EQ(made.walls.median_first_height, found.walls.median_first_height);
+    for (const auto& [one, other] : {std::pair{made.layer, found.layer}, std::pair{made.isotropic, found.isotropic}}) {
+        EXPECT_EQ(one.cells, other.cells);
+        EXPECT_EQ(one.min_angle_deg, other.min_angle_deg);
+        EXPECT_EQ(one.max_angle_deg, other.max_angle_deg);
+        EXPECT_EQ(one.angle_histogram, other.angle_histogram);
+        EXPECT_EQ(one.angles_below_bound, other.angles_below_bound);
+        EXPECT_EQ(one.exempt, other.exempt);
+        EXPECT_EQ(one.max_aspect_ratio, other.max_aspect_ratio);
+        EXPECT_NEAR(one.mean_ratio, other.mean_ratio, 1e-12);
+        EXPECT_NEAR(one.mean_min_angle_deg, other.mean_min_angle_deg, 1e-10);
+        EXPECT_NEAR(one.max_neighbour_area_ratio, other.max_neighbour_area_ratio,
+                    1e-9 * other.max_neighbour_area_ratio);
+        EXPECT_NEAR(one.p999_neighbour_area_ratio, other.p999_neighbour_area_ratio, 0.003);
+    }
+}
+
+TEST(Stream, HasTheBytesOfTheWholeMesh) {
+    for (StreamCase& c : stream_cases()) {
+        SCOPED_TRACE(c.name);
+        const TemporaryFolder folder;
+        const MeshResult whole = generate_mesh(c.inputs, c.options);
+        write_mesh(whole.mesh, folder / "whole.su2");
+        expect_same_check(whole.check, check_mesh(whole.mesh));
+        for (const unsigned threads : {1u, 2u, 5u}) {
+            c.options.threads = threads;
+            const StreamedMesh streamed =
+                stream_mesh(c.inputs, c.options, [&] { return open_mesh_sink(folder / "stream.su2"); });
+            EXPECT_EQ(folder.names(), std::vector<std::string>{"whole.su2"});
+            streamed.sink->commit();
+            EXPECT_TRUE(folder.read("stream.su2") == folder.read("whole.su2"));
+            std::filesystem::remove(folder / "stream.su2");
+            EXPECT_EQ(streamed.hash, mesh_hash(whole.mesh));
+            EXPECT_EQ(streamed.counts.vertices, whole.mesh.points.size());
+            EXPECT_EQ(streamed.counts.triangles, whole.mesh.triangles.size());
+            EXPECT_EQ(streamed.counts.quads, whole.mesh.quads.size());
+            expect_same_check(streamed.result.check, whole.check);
+            EXPECT_EQ(streamed.result.inviscid_pieces, whole.inviscid_pieces);
+            EXPECT_EQ(streamed.result.warnings.size(), whole.warnings.size());
+        }
+    }
+}
+
+/// A sink that fails when it takes its n-th part.
+class FailingSink : public MeshSink {
+public:
+    explicit FailingSink(std::size_t parts) : left_(parts) {}
+    Bytes format(const MeshPart&) const override { return {}; }
+    void append(const Bytes&) override {
+        if (left_-- == 0) throw IoError("mesh.su2", "cannot write: no room");
+    }
+    void finish(const MeshCounts&, std::span<const Marker>) override {}
+    void commit() override {}
+    std::size_t bytes() const override { return 0; }
+
+private:
+    std::size_t left_;
+};
+
+/// A plate with a slit of 3 degrees, whose layers are thinned: a better mesh replaces the first one.
+TEST(Stream, ReplacesAMeshByABetterOne) {
+    const TemporaryFolder folder;
+    const std::string plate =
+        folder.write("plate.dat", "plate\n0 0\n1 0\n1 0.1\n0.62 0.1\n0.2 0.03\n0.6 0.1\n0 0.1\n0 0\n").string();
+    CaseOptions options;
+    options.far_field.size = 4;
+    const MeshResult whole = generate_mesh({plate}, options);
+    ASSERT_GT(whole.thinned_rays, 0u);
+    ASSERT_GT(whole.check.isotropic.exempt, 1u);
+    expect_same_check(whole.check, check_mesh(whole.mesh));
+    write_mesh(whole.mesh, folder / "whole.su2");
+    std::size_t sinks = 0;
+    const StreamedMesh streamed = stream_mesh({plate}, options, [&] {
+        ++sinks;
+        return open_mesh_sink(folder / "stream.su2");
+    });
+    streamed.sink->commit();
+    EXPECT_GT(sinks, 1u);
+    EXPECT_TRUE(folder.read("stream.su2") == folder.read("whole.su2"));
+    EXPECT_EQ(streamed.result.thinned_rays, whole.thinned_rays);
+}
+
+TEST(Stream, EndsWhereTheSinkFails) {
+    CaseOptions options = quick_options(6);
+    options.decoupling.pieces_target = 500;
+    for (const std::size_t parts : {0u, 1u, 3u, 20u})
+        for (const unsigned threads : {1u, 4u}) {
+            options.threads = threads;
+            EXPECT_THROW(stream_mesh({"naca:0012:60"}, options, [&] { return std::make_unique<FailingSink>(parts); }),
+                         IoError);
+        }
+}
+
+TEST(Stream, RefusesFormatsThatAreWrittenAsAWhole) {
+    EXPECT_THROW(require_streamable("mesh.msh"), UsageError);
+    EXPECT_THROW(require_streamable("mesh.unknown"), UsageError);
+    EXPECT_NO_THROW(require_streamable("mesh.su2"));
+    EXPECT_NO_THROW(require_streamable("mesh", {.format = "su2"}));
+}
+
+}  // namespace
+}  // namespace lamina::test
