@@ -71,8 +71,8 @@ Json quality_of(const MeshResult& result) {
 /// Returns the names of the files that a case asks for.
 Json names_of_files(const MeshCase& mesh_case) {
     Json files = mesh_case.outputs;
-    for (const std::string& file : {mesh_case.wall_data, mesh_case.report})
-        if (!file.empty()) files.push_back(file);
+    for (const auto& [name, option] : files_beside_mesh)
+        if (!(mesh_case.*name).empty()) files.push_back(mesh_case.*name);
     return files;
 }
 

@@ -23,6 +23,7 @@ struct MeshCase {
     bool wall_distance = false;             ///< whether VTU files hold the distance to the nearest wall
     std::string wall_data;                  ///< CSV file of the wall vertices; empty: none
     std::string report;                     ///< JSON file; empty: none
+    std::string html;                       ///< page with a view of the mesh; empty: none
     std::string background;                 ///< mesh file with sizes; empty: none
     CaseOptions options;                    ///< without the background mesh, which is read when the work begins
     ProgressShown progress = ProgressShown::automatic;
@@ -31,6 +32,14 @@ struct MeshCase {
     bool allow_defects = false;      ///< whether a mesh with angles below the bound is written
     std::vector<std::string> given;  ///< names of the options that a case file or the command line gave
 };
+
+/// A file that a run writes beside the mesh where it has a name.
+struct FileBesideMesh {
+    std::string MeshCase::*name;
+    const char* option;  ///< "--report"
+};
+inline constexpr FileBesideMesh files_beside_mesh[] = {
+    {&MeshCase::wall_data, "--wall-data"}, {&MeshCase::report, "--report"}, {&MeshCase::html, "--html"}};
 
 /// Returns the case that the INPUT arguments of a command stand for: the contents of a case file, or the defaults with
 /// these inputs. The preset replaces that of the case file. Throws UsageError where a case file stands beside other

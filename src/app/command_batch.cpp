@@ -126,8 +126,7 @@ std::vector<BatchJob> jobs_of(const GivenOptions& options, const std::string& in
         }
         job.mesh_case = case_of_command_line(options, {input}, further);
         for (std::string& output : job.mesh_case.outputs) output = filled_in(output, job);
-        job.mesh_case.wall_data = filled_in(job.mesh_case.wall_data, job);
-        job.mesh_case.report = filled_in(job.mesh_case.report, job);
+        for (const auto& [file, option] : files_beside_mesh) job.mesh_case.*file = filled_in(job.mesh_case.*file, job);
         prefer_quads_for_openfoam(job.mesh_case);
         require_consistent(job.mesh_case);
         jobs.push_back(std::move(job));
@@ -160,8 +159,8 @@ std::vector<RunFile> require_files(const std::vector<BatchJob>& jobs) {
             files.push_back(file);
         }
         destination.require_writable();
-        for (const std::string& file : {job.mesh_case.wall_data, job.mesh_case.report})
-            if (!file.empty()) check_folder_writable(file);
+        for (const auto& [file, option] : files_beside_mesh)
+            if (!(job.mesh_case.*file).empty()) check_folder_writable(job.mesh_case.*file);
     }
     return files;
 }

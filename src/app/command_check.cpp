@@ -10,8 +10,8 @@
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/mesh.hpp>
-#include <lamina/version.hpp>
 
+#include "app/check_report.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
 #include "app/report.hpp"
@@ -33,9 +33,6 @@ struct CheckArguments {
     std::string min_angle, first_height;
 };
 
-/// The requirements of the user, beyond validity, that the mesh does not meet.
-using Shortcomings = std::vector<std::string>;
-
 /// Gives the marker of this name its kind, whatever the file says. Adds a shortcoming where it is missing or empty.
 void require_marker(Mesh& mesh, const std::string& name, MarkerKind kind, Shortcomings& shortcomings) {
     const auto marker = std::find_if(mesh.markers.begin(), mesh.markers.end(),
@@ -45,58 +42,6 @@ void require_marker(Mesh& mesh, const std::string& name, MarkerKind kind, Shortc
     } else {
         marker->kind = kind;
     }
-}
-
-/// How it is known which cells belong to the boundary layer.
-enum class RegionOrigin {
-    file,
-    estimate,  ///< estimate_regions()
-    none,      ///< not at all: every cell counts as isotropic
-};
-
-const char* origin_name(RegionOrigin origin) {
-    if (origin == RegionOrigin::none) return "none";
-    return origin == RegionOrigin::file ? "file" : "estimate";
-}
-
-const char* kind_name(MarkerKind kind) {
-    switch (kind) {
-        case MarkerKind::wall:
-            return "wall";
-        case MarkerKind::far_field:
-            return "far field";
-        case MarkerKind::symmetry:
-            return "symmetry";
-        case MarkerKind::other:
-            break;
-    }
-    return "other";
-}
-
-Json check_report(const Mesh& mesh, const MeshCheck& check, RegionOrigin regions, const Shortcomings& shortcomings) {
-    Json defects = Json::array();
-    for (const MeshDefect& defect : check.defects) {
-        defects.push_back({{"what", defect.description}, {"at", {defect.at.x, defect.at.y}}});
-    }
-    Json markers = Json::array();
-    for (const Marker& marker : mesh.markers) {
-        markers.push_back({{"name", marker.name}, {"kind", kind_name(marker.kind)}, {"edges", marker.edges.size()}});
-    }
-    return {{"version", LAMINA_VERSION},
-            {"valid", check.valid()},
-            {"defect_count", check.defect_count},
-            {"defects", defects},
-            {"shortcomings", shortcomings},
-            {"vertices", mesh.points.size()},
-            {"triangles", mesh.triangles.size()},
-            {"quads", mesh.quads.size()},
-            {"markers", markers},
-            {"area", check.area},
-            {"euler_characteristic", check.euler_characteristic},
-            {"boundary_loops", check.boundary_loops},
-            {"regions", origin_name(regions)},
-            {"quality", quality_report(check)},
-            {"hash", mesh_hash(mesh)}};
 }
 
 std::string check_summary(const std::string& file, const Mesh& mesh, const MeshCheck& check, RegionOrigin regions,
@@ -148,14 +93,8 @@ void check(const CheckArguments& arguments) {
     if (!arguments.far_field.empty()) {
         require_marker(mesh, arguments.far_field, MarkerKind::far_field, shortcomings);
     }
-    const bool has_regions = !mesh.region.empty();
-    if (!has_regions) mesh.region = estimate_regions(mesh);
-    const RegionOrigin regions = has_regions           ? RegionOrigin::file
-                                 : mesh.region.empty() ? RegionOrigin::none
-                                                       : RegionOrigin::estimate;
-    MeshCheck result = check_mesh(mesh, options);
-    // The last thin cell of a layer is rarely the last one.
-    if (regions == RegionOrigin::estimate) result.transition = {};
+    const RegionOrigin regions = require_regions(mesh);
+    const MeshCheck result = check_file_mesh(mesh, regions, options);
     if (arguments.require_delaunay && result.delaunay_violations > 0) {
         shortcomings.push_back(fmt::format("{} edges between isotropic triangles violate the Delaunay property",
                                            result.delaunay_violations));

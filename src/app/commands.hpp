@@ -13,6 +13,7 @@ void add_batch_command(CLI::App& app);
 void add_case_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_plot_command(CLI::App& app);
+void add_view_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_flow_command(CLI::App& app);

@@ -56,14 +56,13 @@ void require_level_mark(const std::string& file, const std::string& option) {
 
 void require_level_marks(const MeshCase& mesh_case) {
     for (const std::string& output : mesh_case.outputs) require_level_mark(output, "--output");
-    if (!mesh_case.wall_data.empty()) require_level_mark(mesh_case.wall_data, "--wall-data");
-    if (!mesh_case.report.empty()) require_level_mark(mesh_case.report, "--report");
+    for (const auto& [name, option] : files_beside_mesh)
+        if (!(mesh_case.*name).empty()) require_level_mark(mesh_case.*name, option);
 }
 
 MeshCase case_of_level(MeshCase mesh_case, int level) {
     for (std::string& output : mesh_case.outputs) output = at_level(output, level);
-    mesh_case.wall_data = at_level(mesh_case.wall_data, level);
-    mesh_case.report = at_level(mesh_case.report, level);
+    for (const auto& [name, option] : files_beside_mesh) mesh_case.*name = at_level(mesh_case.*name, level);
     return mesh_case;
 }
 

@@ -88,6 +88,7 @@ int main(int argc, char** argv) {
         add_case_command(app);
         add_check_command(app);
         add_plot_command(app);
+        add_view_command(app);
         add_convert_command(app);
         add_info_command(app);
         add_flow_command(app);

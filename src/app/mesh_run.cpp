@@ -9,11 +9,13 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
+#include <lamina/page.hpp>
 #include <lamina/solver_case.hpp>
 #include <lamina/stream.hpp>
 
 #include "app/mesh_command_options.hpp"
 #include "app/options.hpp"
+#include "app/page_text.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/standard_output.hpp"
@@ -65,15 +67,15 @@ MeshDestination destination_of_outputs(const MeshCase& mesh_case) {
 
 std::vector<RunFile> files_written(const MeshCase& mesh_case, const MeshDestination& destination) {
     std::vector<RunFile> files = destination.files;
-    if (!mesh_case.wall_data.empty()) files.push_back({mesh_case.wall_data, "option --wall-data"});
-    if (!mesh_case.report.empty()) files.push_back({mesh_case.report, "option --report"});
+    for (const auto& [name, option] : files_beside_mesh)
+        if (!(mesh_case.*name).empty()) files.push_back({mesh_case.*name, std::string("option ") + option});
     return files;
 }
 
 void require_outputs(const MeshCase& mesh_case, const MeshDestination& destination) {
     destination.require_writable();
-    if (!mesh_case.wall_data.empty()) check_folder_writable(mesh_case.wall_data);
-    if (!mesh_case.report.empty()) check_folder_writable(mesh_case.report);
+    for (const auto& [name, option] : files_beside_mesh)
+        if (!(mesh_case.*name).empty()) check_folder_writable(mesh_case.*name);
     require_distinct(files_of_case(mesh_case), files_written(mesh_case, destination));
 }
 
@@ -97,8 +99,10 @@ double write_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
     destination.write(result);
     if (!mesh_case.wall_data.empty()) write_wall_data(result.mesh, mesh_case.wall_data);
     const double seconds = watch.lap();
-    if (!mesh_case.report.empty())
-        write_file(mesh_case.report, to_text(mesh_report(mesh_case, result, facts_of(result.mesh), seconds)));
+    if (mesh_case.report.empty() && mesh_case.html.empty()) return seconds;
+    const Json report = mesh_report(mesh_case, result, facts_of(result.mesh), seconds);
+    if (!mesh_case.report.empty()) write_file(mesh_case.report, to_text(report));
+    if (!mesh_case.html.empty()) write_page(result.mesh, mesh_case.html, page_of_run(mesh_case, result, report));
     return seconds;
 }
 
@@ -126,6 +130,7 @@ void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& desti
     if (mesh_case.outputs.size() != 1) refuse("writes one mesh file: give one --output");
     if (!mesh_case.wall_data.empty()) refuse("holds no mesh for --wall-data");
     if (mesh_case.wall_distance) refuse("holds no mesh for --wall-distance");
+    if (!mesh_case.html.empty()) refuse("holds no mesh for --html");
     const std::string& output = mesh_case.outputs.front();
     require_streamable(output, write_options(mesh_case));
     require_inputs(mesh_case);

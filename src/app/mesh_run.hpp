@@ -14,7 +14,7 @@
 
 namespace lamina::app {
 
-/// The destination of the mesh of a run. The report and the table of wall data are no part of it.
+/// The destination of the mesh of a run. The files beside it (files_beside_mesh) are no part of it.
 struct MeshDestination {
     std::vector<RunFile> files;                                 ///< that are written
     std::function<void()> require_writable;                     ///< throws where they certainly cannot be written
@@ -41,7 +41,7 @@ void add_warnings_of_readers(const MeshDestination& destination, MeshResult& res
 /// Does so, prints all warnings, and throws where angles are not as promised.
 void report_warnings(const MeshCase& mesh_case, const MeshDestination& destination, MeshResult& result);
 
-/// Writes the mesh, the table of its walls and the report of the run, as the case asks. Returns the seconds that the
+/// Writes the mesh, the table of its walls and the reports of the run, as the case asks. Returns the seconds that the
 /// mesh and the table took. Throws the errors of write_mesh().
 double write_outputs(const MeshCase& mesh_case, const MeshDestination& destination, const MeshResult& result);
 

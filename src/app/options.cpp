@@ -49,6 +49,9 @@ OptionTable<MeshCase> file_options() {
                "height",
                member_at(&MeshCase::wall_data));
     table.text("report", OptionKind::path, "FILE", "JSON report of the run to write", member_at(&MeshCase::report));
+    table.text("html", OptionKind::path, "FILE",
+               "report of the run to look at: one HTML file with a view of the mesh to zoom into, charts and warnings",
+               member_at(&MeshCase::html));
     return table.take();
 }
 

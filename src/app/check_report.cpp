@@ -1,0 +1,69 @@
+#include "app/check_report.hpp"
+
+#include <lamina/version.hpp>
+
+namespace lamina::app {
+
+namespace {
+
+const char* origin_name(RegionOrigin origin) {
+    if (origin == RegionOrigin::none) return "none";
+    return origin == RegionOrigin::file ? "file" : "estimate";
+}
+
+}  // namespace
+
+RegionOrigin require_regions(Mesh& mesh) {
+    if (!mesh.region.empty()) return RegionOrigin::file;
+    mesh.region = estimate_regions(mesh);
+    return mesh.region.empty() ? RegionOrigin::none : RegionOrigin::estimate;
+}
+
+MeshCheck check_file_mesh(const Mesh& mesh, RegionOrigin regions, const MeshCheckOptions& options) {
+    MeshCheck check = check_mesh(mesh, options);
+    // The last thin cell of a layer is rarely the last one.
+    if (regions == RegionOrigin::estimate) check.transition = {};
+    return check;
+}
+
+const char* kind_name(MarkerKind kind) {
+    switch (kind) {
+        case MarkerKind::wall:
+            return "wall";
+        case MarkerKind::far_field:
+            return "far field";
+        case MarkerKind::symmetry:
+            return "symmetry";
+        case MarkerKind::other:
+            break;
+    }
+    return "other";
+}
+
+Json check_report(const Mesh& mesh, const MeshCheck& check, RegionOrigin regions, const Shortcomings& shortcomings) {
+    Json defects = Json::array();
+    for (const MeshDefect& defect : check.defects) {
+        defects.push_back({{"what", defect.description}, {"at", {defect.at.x, defect.at.y}}});
+    }
+    Json markers = Json::array();
+    for (const Marker& marker : mesh.markers) {
+        markers.push_back({{"name", marker.name}, {"kind", kind_name(marker.kind)}, {"edges", marker.edges.size()}});
+    }
+    return {{"version", LAMINA_VERSION},
+            {"valid", check.valid()},
+            {"defect_count", check.defect_count},
+            {"defects", defects},
+            {"shortcomings", shortcomings},
+            {"vertices", mesh.points.size()},
+            {"triangles", mesh.triangles.size()},
+            {"quads", mesh.quads.size()},
+            {"markers", markers},
+            {"area", check.area},
+            {"euler_characteristic", check.euler_characteristic},
+            {"boundary_loops", check.boundary_loops},
+            {"regions", origin_name(regions)},
+            {"quality", quality_report(check)},
+            {"hash", mesh_hash(mesh)}};
+}
+
+}  // namespace lamina::app

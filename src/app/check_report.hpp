@@ -1,0 +1,35 @@
+// The check of a mesh from a file: what `lamina check` and `lamina view` have in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <lamina/mesh.hpp>
+
+#include "app/report.hpp"
+
+namespace lamina::app {
+
+/// The requirements of the user, beyond validity, that a mesh does not meet.
+using Shortcomings = std::vector<std::string>;
+
+/// How it is known which cells belong to the boundary layer.
+enum class RegionOrigin {
+    file,
+    estimate,  ///< estimate_regions()
+    none,      ///< not at all: every cell counts as isotropic
+};
+
+/// Gives a mesh from a file regions where it has none.
+RegionOrigin require_regions(Mesh& mesh);
+
+/// Checks a mesh from a file.
+MeshCheck check_file_mesh(const Mesh& mesh, RegionOrigin regions, const MeshCheckOptions& options = {});
+
+/// Returns the kind of a marker in words: "far field".
+const char* kind_name(MarkerKind kind);
+
+/// Returns the result of `lamina check --json`.
+Json check_report(const Mesh& mesh, const MeshCheck& check, RegionOrigin regions, const Shortcomings& shortcomings);
+
+}  // namespace lamina::app
