@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+"""Pages of meshes in a browser: they draw, zoom to a first cell of 1e-7 chords, pick, and switch colours.
+
+usage: report_test.py LAMINA OUTPUT [--large]
+
+Needs Playwright from PyPI and Debian's chromium. Keeps screenshots in OUTPUT. With --large it also measures a mesh of
+more than a million triangles, and prints what it finds.
+"""
+import json
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+large = "--large" in sys.argv
+if large:
+    sys.argv.remove("--large")
+lamina, output = sys.argv[1], Path(sys.argv[2])
+del sys.argv[1:3]
+repository = Path(__file__).resolve().parents[2]
+first_height = 1e-7
+
+# The error, in pixels, of what the vertex shader computes for vertices in view: the same steps in single precision.
+shader_error = """() => {
+  const {x, y, scale, width, height} = lamina.view.view(), p = lamina.mesh.points, f = Math.fround;
+  const along = (v, middle) => {
+    const high = f(middle), low = f(middle - high), vHigh = f(v), vLow = f(v - vHigh);
+    return f(f(vHigh - high) + f(vLow - low));
+  };
+  let worst = 0, count = 0;
+  for (let i = 0; i < p.length; i += 2) {
+    if (Math.abs(p[i] - x) * scale > width / 2 || Math.abs(p[i + 1] - y) * scale > height / 2) continue;
+    ++count;
+    worst = Math.max(worst, Math.abs(along(p[i], x) - (p[i] - x)) * scale,
+                     Math.abs(along(p[i + 1], y) - (p[i + 1] - y)) * scale);
+  }
+  return [count, worst];
+}"""
+
+# What the view shows: the number of colours, a hash of the pixels, and their mean redness.
+look = """() => {
+  const picture = lamina.view.snapshot(), paper = picture.getContext("2d");
+  window.image = paper.getImageData(0, 0, picture.width, picture.height);
+  const words = new Uint32Array(image.data.buffer), colors = new Set(words);
+  let hash = 0, red = 0;
+  for (const word of words) {
+    hash = Math.imul(hash, 31) + word | 0;
+    red += word & 255;
+  }
+  return {colors: colors.size, hash, red: red / words.length};
+}"""
+
+# The share of the pixels that differ between two images, of which the second has moved to the left.
+difference = """([before, after, shift]) => {
+  const a = window[before], b = window[after];
+  let different = 0, total = 0;
+  for (let row = 20; row < a.height - 20; ++row)
+    for (let column = 20; column < a.width - shift - 20; ++column) {
+      ++total;
+      const at = 4 * (row * a.width + column);
+      for (let k = 0; k < 3; ++k)
+        if (Math.abs(a.data[at + 4 * shift + k] - b.data[at + k]) > 40) { ++different; break; }
+    }
+  return different / total;
+}"""
+
+
+def mesh(name, *arguments):
+    page = output / f"{name}.html"
+    subprocess.run([lamina, "mesh", *map(str, arguments), "-o", output / f"{name}.su2", "--html", page, "--quiet"],
+                   check=True)
+    return page
+
+
+class Report(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        output.mkdir(parents=True, exist_ok=True)
+        cls.page_file = mesh("report", "naca:0012", "--first-height", first_height, "--growth", 1.25, "--layers", 45,
+                             "--far-field", 100)
+        cls.slots = mesh("high-lift", *(repository / "examples/geometry" / f"crmhl2d_{part}.dat"
+                                        for part in ("slat", "main", "flap")), "--reynolds", 9e6)
+        cls.playwright = sync_playwright().start()
+        cls.browser = cls.playwright.chromium.launch(
+            executable_path="/usr/bin/chromium",
+            args=["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.playwright.stop()
+
+    def open(self, file, scheme="light"):
+        page = self.browser.new_page(viewport={"width": 1280, "height": 800}, color_scheme=scheme,
+                                     reduced_motion="reduce")
+        self.addCleanup(page.close)
+        self.messages, self.requests = [], []
+        page.on("console", lambda message: self.messages.append(message.text))
+        page.on("pageerror", lambda error: self.messages.append(str(error)))
+        page.on("request", lambda request: self.requests.append(request.url))
+        self.addCleanup(lambda: self.assertEqual(self.messages, []))
+        self.addCleanup(lambda: self.assertEqual([url for url in self.requests if not url.startswith(("file:", "data:"))],
+                                                 []))
+        page.goto(file.as_uri())
+        page.wait_for_function("document.getElementById('state').textContent === ''", timeout=120_000)
+        page.wait_for_timeout(400)
+        return page
+
+    def settle(self, page):
+        page.wait_for_timeout(400)
+
+    def go(self, page, place):
+        page.click(f"#places button:text-is('{place}')")
+        self.settle(page)
+
+    def test_draws_and_switches_colours(self):
+        page = self.open(self.slots)
+        page.screenshot(path=output / "high-lift.png")
+        pictures = {}
+        for color in page.eval_on_selector_all("#color option", "options => options.map((option) => option.value)"):
+            page.select_option("#color", color)
+            self.settle(page)
+            seen = page.evaluate(look)
+            pictures[color] = seen["hash"]
+            self.assertGreater(seen["colors"], 20, color)
+        self.assertGreaterEqual(len(pictures), 9)
+        self.assertEqual(len(set(pictures.values())), len(pictures))
+        page.select_option("#color", "size")
+        before = page.inner_text("#bar")
+        page.check("#fit")
+        self.settle(page)
+        self.assertNotEqual(page.inner_text("#bar"), before)
+        self.go(page, "slot 1")
+        page.screenshot(path=output / "high-lift-size.png")
+
+    def test_follows_the_theme(self):
+        brightness = {}
+        for scheme in ("light", "dark"):
+            page = self.open(self.page_file, scheme)
+            brightness[scheme] = page.evaluate(look)["red"]
+            page.screenshot(path=output / f"report-{scheme}.png")
+        self.assertGreater(brightness["light"], 160)
+        self.assertLess(brightness["dark"], 90)
+
+    def test_zooms_to_a_first_cell_and_picks(self):
+        page = self.open(self.page_file)
+        page.click("#first-cell")
+        self.settle(page)
+        page.screenshot(path=output / "first-cell.png")
+        view = page.evaluate("lamina.view.view()")
+        self.assertGreater(first_height * view["scale"], 20)
+        self.assertIn("Vertex", page.inner_text("#panel"))
+        # The flow comes from the left, so the first cells lie to the left of the nose.
+        page.mouse.click(0.5 * view["width"] - 0.5 * first_height * view["scale"], 60 + 0.5 * view["height"] - 8)
+        self.settle(page)
+        text = page.inner_text("#panel")
+        self.assertRegex(text, r"layer\s+1\n")
+        self.assertRegex(text, r"aspect ratio\s+\d+")
+        count, error = page.evaluate(shader_error)
+        print(f"first cell: {first_height * view['scale']:.0f} pixels high, {count} vertices in view, "
+              f"the shader's error is at most {error:.2g} pixels")
+        self.assertGreater(count, 3)
+        self.assertLess(error, 0.05)
+
+    def test_does_not_jitter(self):
+        """Where the view moves by whole pixels, so does the picture."""
+        page = self.open(self.page_file)
+        page.click("#first-cell")
+        self.settle(page)
+        page.evaluate("lamina.view.select({})")
+        page.evaluate(look)
+        page.evaluate("window.before = image")
+        page.focus("#view")
+        for _ in range(2):
+            page.keyboard.press("ArrowRight")   # 60 pixels each
+        self.settle(page)
+        page.evaluate(look)
+        share = page.evaluate(difference, ["before", "image", 120])
+        print(f"moved by 120 pixels at a first cell: {100 * share:.3g} % of the pixels differ")
+        self.assertLess(share, 0.002)
+        self.assertGreater(page.evaluate(difference, ["before", "image", 0]), 0.01)
+
+    def test_keys_wheel_and_drag(self):
+        page = self.open(self.page_file)
+        view = lambda: page.evaluate("lamina.view.view()")
+        start = view()
+        page.focus("#view")
+        page.keyboard.press("+")
+        self.assertAlmostEqual(view()["scale"] / start["scale"], 1.5, places=6)
+        page.keyboard.press("Enter")
+        self.settle(page)
+        # What lies under the mouse stays there.
+        at = lambda v, px, py: (v["x"] + (px - v["width"] / 2) / v["scale"], v["y"] - (py - v["height"] / 2) / v["scale"])
+        bounds = page.locator(".stage").bounding_box()
+        # Browsers round places of the mouse to whole pixels of the page.
+        px, py = 300 - bounds["x"] % 1, 200 - bounds["y"] % 1
+        before = at(view(), px, py)
+        page.mouse.move(bounds["x"] + px, bounds["y"] + py)
+        for _ in range(10):
+            page.mouse.wheel(0, -300)
+        self.settle(page)
+        after = at(view(), px, py)
+        self.assertGreater(view()["scale"], 50 * start["scale"])
+        for a, b in zip(before, after):
+            self.assertAlmostEqual((a - b) * view()["scale"], 0, delta=1e-3)
+        before = view()
+        page.mouse.down()
+        page.mouse.move(bounds["x"] + px + 100, bounds["y"] + py + 40, steps=5)
+        page.mouse.up()
+        self.settle(page)
+        self.assertAlmostEqual((before["x"] - view()["x"]) * view()["scale"], 100, delta=1e-3)
+
+    def test_places_worst_cells_and_warnings_lead_there(self):
+        page = self.open(self.slots)
+        places = json.loads(page.inner_html("#facts"))["places"]
+        for place in places:
+            if place["name"].startswith("slot"):
+                self.go(page, place["name"].replace(":", " "))
+                view = page.evaluate("lamina.view.view()")
+                self.assertAlmostEqual(view["x"], (place["window"][0] + place["window"][2]) / 2, places=9)
+        page.evaluate("document.querySelectorAll('details').forEach((section) => section.open = true)")
+        worst = page.locator("button.worst")
+        self.assertGreaterEqual(worst.count(), 15)
+        for number in range(0, worst.count(), 6):
+            worst.nth(number).click()
+            self.settle(page)
+            text = page.inner_text("#panel")
+            self.assertIn("Cell ", text)
+            # The cell is in the middle of the view.
+            self.assertTrue(page.evaluate("""() => {
+              const {x, y, scale} = lamina.view.view(), cell = lamina.view.cellAt(x, y);
+              return document.getElementById("panel").innerText.includes(`Cell ${cell.toLocaleString("en-US")}`);
+            }"""))
+        page.screenshot(path=output / "worst-cell.png")
+        for button in page.locator(".warning button").all():
+            button.click()
+            self.settle(page)
+
+    def test_a_million_triangles(self):
+        if not large:
+            self.skipTest("only with --large")
+        file = mesh("large", "naca:0012", "--reynolds", 6e6, "--wall-size", 0.0003, "--gradation", 0.045)
+        start = time.time()
+        page = self.open(file)
+        ready = time.time() - start
+        cells = page.evaluate("lamina.cells")
+        size = file.stat().st_size
+        print(f"{cells} cells, {size / cells:.2f} bytes a cell, shown after {ready:.1f} s")
+        for place in ("far field", "bodies", "nose 1", "first cell"):
+            self.go(page, place)
+            page.evaluate("lamina.view.snapshot()")
+            # While the mouse drags, frames come as fast as the browser asks for them.
+            page.mouse.move(500, 400)
+            page.mouse.down()
+            page.evaluate("""() => {
+              window.frames = [];
+              const step = (now) => { frames.push(now); if (frames.length < 200) requestAnimationFrame(step); };
+              requestAnimationFrame(step);
+            }""")
+            for i in range(30):
+                page.mouse.move(500 + 3 * i, 400 + i)
+            page.mouse.up()
+            moving = page.evaluate("frames.slice(1).map((now, i) => now - frames[i]).sort((a, b) => a - b)")
+            self.settle(page)
+            print(f"  {place}: a picture takes {page.evaluate('lamina.view.frameTime()'):.0f} ms; while dragging "
+                  f"{len(moving)} frames, median {moving[len(moving) // 2] if moving else 0:.0f} ms, "
+                  f"longest {max(moving, default=0):.0f} ms")
+
+
+if __name__ == "__main__":
+    unittest.main()
