@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -132,7 +133,9 @@ std::size_t parse_memory(const std::string& text) {
         bytes *= std::pow(kibi, static_cast<double>(power + 1));
     }
     if (!(bytes >= 1 && bytes < 0x1p63)) throw error;
-    return static_cast<std::size_t>(bytes);
+    // Where addresses have 32 bits, more bytes than these limit nothing.
+    constexpr auto most = std::numeric_limits<std::size_t>::max();
+    return bytes < static_cast<double>(most) ? static_cast<std::size_t>(bytes) : most;
 }
 
 std::string memory_text(std::size_t bytes) {

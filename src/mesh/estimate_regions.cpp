@@ -103,7 +103,8 @@ std::vector<Region> estimate_regions(const Mesh& mesh) {
     if (first_apart == thin.begin()) return regions;
     regions.assign(cells.cells(), Region::isotropic);
     std::for_each(thin.begin(), first_apart, [&](std::uint32_t cell) { regions[cell] = Region::layer; });
-    add_thin_cells_near_layer(mesh, std::span(first_apart, thin.end()), regions);
+    const auto apart = static_cast<std::size_t>(thin.end() - first_apart);
+    add_thin_cells_near_layer(mesh, std::span(thin).last(apart), regions);
     return regions;
 }
 

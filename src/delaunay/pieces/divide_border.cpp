@@ -12,6 +12,8 @@
 #include "delaunay/pieces/divide_border.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <span>
 
 #include "core/predicates.hpp"
 #include "delaunay/pieces/vertex_index_map.hpp"
@@ -158,7 +160,8 @@ public:
             const bool ends_on_border = first != next && next != incident.end() && next->path_index == i + 1;
             if (along_border_[i]) continue;
             // All points off the border lie inside the region, and so does a path edge with one of them at its end.
-            if (ends_on_border && !leads_inside(path_, vertices_[i], vertices_[i + 1], {first, next})) continue;
+            const std::span at_vertex(std::to_address(first), static_cast<std::size_t>(next - first));
+            if (ends_on_border && !leads_inside(path_, vertices_[i], vertices_[i + 1], at_vertex)) continue;
             borders_.low.edges.push_back({vertices_[i], vertices_[i + 1]});
             borders_.high.edges.push_back({vertices_[i + 1], vertices_[i]});
             for (const std::size_t end : {i, i + 1})
