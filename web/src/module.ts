@@ -1,0 +1,54 @@
+// The module that Emscripten makes of web/bindings, as TypeScript sees it.
+
+/** The path of a file in the module's own file system, which lives in memory. */
+type Path = string;
+
+/** The reply of a function that may fail: its value, or what went wrong. */
+export interface Reply<Value> {
+  value?: Value;
+  error?: Failure;
+}
+
+export interface Failure {
+  kind: "input" | "option" | "usage" | "mesh" | "io" | "memory" | "internal";
+  message: string;
+  file?: string;
+  line?: number;
+  option?: string;
+  at?: [number, number] | null;
+}
+
+export interface HeldMesh {
+  arrays(): import("./lamina.ts").MeshArrays;
+  hash(): string;
+  write(file: Path, format: string, wallDistance: boolean): Reply<undefined>;
+  delete(): void;
+}
+
+export interface Generated {
+  mesh: HeldMesh;
+  warnings: import("./lamina.ts").Warning[];
+  facts: import("./lamina.ts").Facts;
+}
+
+export interface Module {
+  version: string;
+  formats(): import("./lamina.ts").Format[];
+  optionRows(): import("./lamina.ts").OptionRow[];
+  generate(inputs: string[], options: object, progress: ((stage: string) => void) | null): Reply<Generated>;
+  outlines(inputs: string[]): Reply<import("./lamina.ts").Outline[]>;
+  delaunay(points: Float64Array): Reply<Uint32Array>;
+  FS: {
+    chdir(folder: Path): void;
+    mkdir(folder: Path): void;
+    rmdir(folder: Path): void;
+    readdir(folder: Path): string[];
+    readFile(file: Path): Uint8Array;
+    writeFile(file: Path, content: string | Uint8Array): void;
+    unlink(file: Path): void;
+    stat(path: Path): {mode: number};
+    isDir(mode: number): boolean;
+  };
+}
+
+export type MakeModule = (settings: {wasmBinary: ArrayBuffer | Uint8Array}) => Promise<Module>;
