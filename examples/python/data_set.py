@@ -95,7 +95,7 @@ def main():
     made = [meshes[n] for n in names]
     arrays = {
         "name": np.array(names), "coefficients": np.array([coefficients[n] for n in names]),
-        "failed": np.array(sorted(failed)), "reason": np.array([failed[n] for n in sorted(failed)]),
+        "failed": np.array(sorted(failed), str), "reason": np.array([failed[n] for n in sorted(failed)], str),
         "wall": np.stack([mesh.points[:POINTS] for mesh in made]), "layer": np.stack([layer_of(mesh) for mesh in made]),
     }
     for key in ("points", "triangles", "quads"):
