@@ -32,9 +32,10 @@ function axisText(x, y, text, anchor) {
   return svgElement("text", {x, y, "text-anchor": anchor, class: "axis"}, text);
 }
 
-// Returns a chart of the counts of equal parts of [from, to]. `format` makes the text of a value, `color` the CSS colour
-// of a bar from its share of the way.
-export function barChart({label, counts, from, to, format = (value) => numberText(value, 3), color = () => null}) {
+// Returns a chart of the counts of equal parts of [from, to], with `parts` + 1 numbers below. `format` makes the text of
+// a value, `color` the CSS colour of a bar from its share of the way.
+export function barChart({label, counts, from, to, parts = 4, format = (value) => numberText(value, 3),
+                          color = () => null}) {
   const chart = emptyChart(label), most = Math.max(1, ...counts), total = counts.reduce((sum, n) => sum + n, 0);
   const width = (frame.width - frame.left - frame.right) / counts.length;
   const room = frame.height - frame.top - frame.bottom, ground = frame.height - frame.bottom;
@@ -53,10 +54,10 @@ export function barChart({label, counts, from, to, format = (value) => numberTex
   });
   chart.append(svgElement("line", {x1: frame.left, x2: frame.width - frame.right, y1: ground, y2: ground,
                                    class: "ground"}));
-  for (let k = 0; k <= 4; ++k) {
-    const x = frame.left + (frame.width - frame.left - frame.right) * k / 4;
-    chart.append(axisText(x, frame.height - 7, format(from + (to - from) * k / 4),
-                          k === 0 ? "start" : k === 4 ? "end" : "middle"));
+  for (let k = 0; k <= parts; ++k) {
+    const x = frame.left + (frame.width - frame.left - frame.right) * k / parts;
+    chart.append(axisText(x, frame.height - 7, format(from + (to - from) * k / parts),
+                          k === 0 ? "start" : k === parts ? "end" : "middle"));
   }
   return chart;
 }

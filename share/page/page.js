@@ -406,7 +406,8 @@ class Page {
       let most = 1;
       for (let cell = 0; cell < this.cells; ++cell) if (inside(cell)) most = Math.max(most, Math.ceil(logarithm[cell]));
       charts.push(...chart("Aspect ratios", "in the boundary layer",
-                           {counts: histogram(logarithm, 0, most, 40, inside), from: 0, to: most, format: power}),
+                           {counts: histogram(logarithm, 0, most, 40, inside), from: 0, to: most,
+                            parts: Math.min(most, 8), format: power}),
                   ...chart("Largest angles", "in the boundary layer",
                            {counts: histogram(measures.maxAngle, 80, 180, 40, inside), from: 80, to: 180,
                             format: degrees}));

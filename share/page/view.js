@@ -23,24 +23,32 @@ uniform vec2 scale;    // to the view's coordinates from -1 to 1
 uniform float pixels;  // per unit of length
 flat out vec3 fill;
 flat out float height;  // the smallest of the triangle, in pixels
-out vec3 toEdge;        // pixels to each edge
+flat out vec3 edges[3]; // (n, c): a pixel at p from the middle is at |n.p + c| from an edge
 ivec2 texel(int i) { return ivec2(i & ${textureWidth - 1}, i >> ${textureShift}); }
 vec2 between(vec4 a, vec4 b) { return (b.xy - a.xy) + (b.zw - a.zw); }
 void main() {
   int triangle = gl_VertexID / 3, corner = gl_VertexID - 3 * triangle;
   uvec4 c = texelFetch(corners, texel(triangle), 0);
   vec4 p[3];
-  for (int k = 0; k < 3; ++k) p[k] = texelFetch(points, texel(int(c[k])), 0);
-  vec2 a = between(p[1], p[2]), b = between(p[2], p[0]), d = between(p[0], p[1]);
-  // A product of the smallest lengths would underflow.
-  vec2 pa = a * pixels, pb = b * pixels, pd = d * pixels;
-  float area = abs(pd.x * pb.y - pd.y * pb.x);
-  vec3 heights = area / max(vec3(length(pa), length(pb), length(pd)), vec3(1e-20));
-  height = min(heights.x, min(heights.y, heights.z));
-  toEdge = vec3(0.0);
-  toEdge[corner] = heights[corner];
-  for (int k = 0; k < 3; ++k)
-    if ((c.w >> k & 1u) == 1u) toEdge[k] = 1e6;
+  vec2 at[3];
+  for (int k = 0; k < 3; ++k) {
+    p[k] = texelFetch(points, texel(int(c[k])), 0);
+    at[k] = between(middle, p[k]) * pixels;
+  }
+  float longest = 1e-20;
+  vec2 along[3];
+  for (int k = 0; k < 3; ++k) {
+    int from = (k + 1) % 3, to = (k + 2) % 3;
+    along[k] = between(p[from], p[to]) * pixels;
+    float size = length(along[k]);
+    longest = max(longest, size);
+    edges[k] = vec3(0.0, 0.0, 1e6);
+    if (size == 0.0 || (c.w >> k & 1u) == 1u) continue;
+    vec2 normal = vec2(-along[k].y, along[k].x) / size;
+    vec2 near = dot(at[from], at[from]) < dot(at[to], at[to]) ? at[from] : at[to];
+    edges[k] = vec3(normal, -dot(normal, near));
+  }
+  height = abs(along[0].x * along[1].y - along[0].y * along[1].x) / longest;
   fill = texelFetch(fills, texel(triangle), 0).rgb;
   gl_Position = vec4(between(middle, p[corner]) * scale, 0.0, 1.0);
 }`;
@@ -49,13 +57,15 @@ const cellPainter = `#version 300 es
 precision highp float;
 flat in vec3 fill;
 flat in float height;
-in vec3 toEdge;
+flat in vec3 edges[3];
 uniform vec4 edge;    // colour and strength of edges
+uniform vec2 extent;  // of the picture, in pixels
 uniform float width;  // of edges, in pixels
 uniform float tone;   // how much of the edges' colour small triangles get
 out vec4 color;
 void main() {
-  float nearest = min(toEdge.x, min(toEdge.y, toEdge.z));
+  vec3 here = vec3(gl_FragCoord.xy - 0.5 * extent, 1.0);
+  float nearest = min(abs(dot(edges[0], here)), min(abs(dot(edges[1], here)), abs(dot(edges[2], here))));
   float line = 1.0 - smoothstep(0.5 * width - 0.5, 0.5 * width + 0.5, nearest);
   float shown = smoothstep(1.5 * width, 7.0 * width, height);
   color = vec4(mix(fill, edge.rgb, edge.a * max(line * shown, tone * (1.0 - shown))), 1.0);
@@ -280,6 +290,7 @@ export function createView(canvas, mesh, options = {}) {
     gl.uniform4f(uniforms.middle, highX, highY, x - highX, y - highY);
     gl.uniform2f(uniforms.scale, 2 * scale / width, 2 * scale / height);
     gl.uniform1f(uniforms.pixels, scale * ratio);
+    gl.uniform2f(uniforms.extent, canvas.width, canvas.height);
     gl.uniform4f(uniforms.edge, ...colorParts(theme.edge), theme.strength);
     gl.uniform1f(uniforms.width, ratio);
     gl.uniform1f(uniforms.tone, theme.tone);

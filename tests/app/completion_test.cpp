@@ -9,8 +9,8 @@
 namespace lamina::test {
 namespace {
 
-const char* const commands[] = {"mesh", "family",  "sizes", "batch", "case",     "check",
-                                "plot", "convert", "info",  "flow",  "delaunay", "completion"};
+const char* const commands[] = {"mesh", "family",  "sizes", "batch", "case",     "check",     "plot",
+                                "view", "convert", "info",  "flow",  "delaunay", "completion"};
 
 /// Returns the long options that the help of a command shows.
 std::vector<std::string> options_in_help(const TemporaryFolder& folder, const std::string& command) {

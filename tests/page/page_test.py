@@ -198,6 +198,18 @@ class Pages(unittest.TestCase):
                 self.expect_equal({"points": placed, "cells": cells, "markers": markers}, page)
                 self.expect_small(page, {"cells": cells})
 
+    def test_several_meshes_get_several_pages(self):
+        few = ["--first-height", "1e-3", "--layers", 3, "--far-field", 5, "--surface", "keep", "--quiet"]
+        done = run("family", "naca:0012:60", *few, "--levels", 2, "--surface", "resample", "-o",
+                   self.folder / "m_{level}.su2", "--html", self.folder / "m.html", code=2)
+        self.assertIn("--html", done.stderr)
+        run("batch", "naca:0012:60", "naca:2412:60", *few, "-o", self.folder / "{name}.su2", "--html",
+            self.folder / "{name}.html")
+        pages = sorted(self.folder.glob("*.html"))
+        self.assertEqual(len(pages), 2)
+        for page in pages:
+            self.assertGreater(len(unpacked(page.read_text())["cells"]), 200)
+
     def test_names_are_text(self):
         hostile = '</script><script>alert(1)<!--&"'
         self.write_su2("<b>&amp;.su2", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)], [[0, 1, 2]],
