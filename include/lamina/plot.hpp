@@ -24,12 +24,21 @@ enum class PlotColor {
     layer,    ///< the number of the layer
 };
 
+/// The part of the plane that a picture shows.
+struct PlotWindow {
+    std::array<double, 4> box{};  ///< x0, x1, y0, y1 in units of the input, unless a place is named
+    std::string place{};          ///< the name of a place (named_places()); "nose" stands for "nose:1"
+};
+
 /// Options of plot_mesh().
 struct PlotOptions {
-    PlotColor color = PlotColor::none;              ///< the quantity that the colours of the cells show
-    std::optional<std::array<double, 4>> window{};  ///< x0, x1, y0, y1 in units of the input; empty: the whole mesh
-    int width_px = 1600;                            ///< longer side of the picture, in pixels
-    std::string format{};                           ///< "png", "svg" or "pdf"; empty: by the extension of the file
+    PlotColor color = PlotColor::none;   ///< the quantity that the colours of the cells show
+    std::optional<PlotWindow> window{};  ///< empty: the whole mesh
+    int width_px = 1600;                 ///< longer side of the picture, in pixels
+    bool axes = false;                   ///< whether numbers beside the picture tell coordinates
+    bool scale_bar = false;              ///< whether a bar in the picture tells lengths
+    bool color_bar = false;              ///< whether a bar in the picture explains colours that stand for numbers
+    std::string format{};                ///< "png", "svg" or "pdf"; empty: by the extension of the file
 };
 
 /// Returns the table of these options, with names, ranges and help.
@@ -38,9 +47,10 @@ LAMINA_EXPORT const OptionTable<PlotOptions>& plot_option_table();
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const PlotOptions& options);
 
-/// Draws the mesh as .png, .svg or .pdf. Walls are red. The file gets a temporary name beside the target and is
-/// renamed; "-" is standard output. Throws IoError, UsageError for other formats and extensions, OptionError for
-/// options out of range.
+/// Draws the mesh as .png, .svg or .pdf. Walls are red; where there are no cells, their vertices have dots. In .svg and
+/// .pdf many cells that are smaller than a pixel are one image, so that files stay small. The file gets a temporary name
+/// beside the target and is renamed; "-" is standard output. Throws IoError, UsageError for other formats and extensions
+/// and for places that the mesh does not have, OptionError for options out of range.
 LAMINA_EXPORT void plot_mesh(const Mesh& mesh, const std::filesystem::path& file, const PlotOptions& options = {});
 
 /// Throws UsageError unless pictures can be written in the format of this name or, where no name is given, in the one

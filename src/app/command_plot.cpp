@@ -1,8 +1,11 @@
-// lamina plot: draws a picture of a mesh.
+// lamina plot: draws a picture of a mesh, or of the outline of an airfoil.
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <lamina/geometry.hpp>
 #include <lamina/io.hpp>
 #include <lamina/plot.hpp>
 
@@ -19,14 +22,63 @@ struct PlotArguments {
     std::string mesh, mesh_format;
     std::string picture;
     std::string window, color, width, format;
+    bool axes = false, scale_bar = false, color_bar = false;
 };
+
+/// Returns whether the name is that of an airfoil: a NACA section, or a file of coordinates.
+bool names_airfoil(const std::string& name, const std::string& format) {
+    if (name.starts_with("naca:")) return true;
+    const std::string extension = std::filesystem::path(name).extension().string();
+    return format.empty() && (extension == ".dat" || extension == ".txt" || extension == ".csv");
+}
+
+/// Returns the outlines of an airfoil as the markers of a mesh without cells.
+Mesh mesh_of_outlines(const std::string& input) {
+    Mesh mesh;
+    for (const Element& element : read_geometry(std::vector<std::string>{input}).elements) {
+        const std::size_t first = mesh.points.size(), count = element.points.size();
+        mesh.points.insert(mesh.points.end(), element.points.begin(), element.points.end());
+        Marker wall{element.name, MarkerKind::wall, {}};
+        // Edges of markers have the flow on their left, and outlines run counter-clockwise.
+        for (std::size_t i = count; i-- > 0;)
+            wall.edges.push_back({VertexId(first + (i + 1) % count), VertexId(first + i)});
+        mesh.markers.push_back(std::move(wall));
+    }
+    return mesh;
+}
+
+void plot(const PlotArguments& arguments) {
+    PlotOptions options;
+    set_by_name(plot_option_table(), "window", arguments.window, options);
+    set_by_name(plot_option_table(), "color", arguments.color, options);
+    set_by_name(plot_option_table(), "width", arguments.width, options);
+    set_by_name(plot_option_table(), "format", arguments.format, options);
+    options.axes = arguments.axes;
+    options.scale_bar = arguments.scale_bar;
+    options.color_bar = arguments.color_bar;
+    const std::vector<RunFile> outputs{{arguments.picture, "option --output"}};
+    require_format(arguments.picture, arguments.format, "--format");
+    if (names_airfoil(arguments.mesh, arguments.mesh_format)) {
+        require_distinct(std::vector<RunFile>{{arguments.mesh, "MESH"}}, outputs);
+        const SignalGuard guard(outputs);
+        return plot_mesh(mesh_of_outlines(arguments.mesh), arguments.picture, options);
+    }
+    require_format(arguments.mesh, arguments.mesh_format, "--input-format");
+    require_distinct(files_of_mesh(arguments.mesh, arguments.mesh_format), outputs);
+    const SignalGuard guard(outputs);
+    plot_mesh(read_mesh(arguments.mesh, {.format = arguments.mesh_format}), arguments.picture, options);
+}
 
 }  // namespace
 
 void add_plot_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("plot", "draw a picture of a mesh");
+    CLI::App* command = app.add_subcommand("plot", "draw a picture of a mesh, or of the outline of an airfoil");
     auto arguments = std::make_shared<PlotArguments>();
-    command->add_option("MESH", arguments->mesh, "mesh file; - for standard input")->required();
+    command
+        ->add_option("MESH", arguments->mesh,
+                     "mesh file, or - for standard input; an airfoil where it is naca:DIGITS or ends in .dat, .txt or "
+                     ".csv")
+        ->required();
     add_input_format(*command, arguments->mesh_format);
     command
         ->add_option("-o,--output", arguments->picture,
@@ -35,21 +87,15 @@ void add_plot_command(CLI::App& app) {
         ->type_name("FILE");
     add_table_option(*command, plot_option_table(), "window", arguments->window);
     add_table_option(*command, plot_option_table(), "color", arguments->color);
+    const auto add_flag = [&](const std::string& name, bool& flag) {
+        command->add_flag("--" + name, flag, help_with_range(find_row(plot_option_table(), name)));
+    };
+    add_flag("axes", arguments->axes);
+    add_flag("scale-bar", arguments->scale_bar);
+    add_flag("color-bar", arguments->color_bar);
     add_table_option(*command, plot_option_table(), "width", arguments->width);
     add_table_option(*command, plot_option_table(), "format", arguments->format);
-    command->callback([arguments] {
-        PlotOptions options;
-        set_by_name(plot_option_table(), "window", arguments->window, options);
-        set_by_name(plot_option_table(), "color", arguments->color, options);
-        set_by_name(plot_option_table(), "width", arguments->width, options);
-        set_by_name(plot_option_table(), "format", arguments->format, options);
-        require_format(arguments->mesh, arguments->mesh_format, "--input-format");
-        require_format(arguments->picture, arguments->format, "--format");
-        const std::vector<RunFile> outputs{{arguments->picture, "option --output"}};
-        require_distinct(files_of_mesh(arguments->mesh, arguments->mesh_format), outputs);
-        const SignalGuard guard(outputs);
-        plot_mesh(read_mesh(arguments->mesh, {.format = arguments->mesh_format}), arguments->picture, options);
-    });
+    command->callback([arguments] { plot(*arguments); });
 }
 
 }  // namespace lamina::app

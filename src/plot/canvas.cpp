@@ -1,6 +1,7 @@
 #include "plot/canvas.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <vector>
 
 namespace lamina::plot {
@@ -32,6 +33,28 @@ Canvas::Canvas(cairo_surface_t* surface, const PictureView& view)
 
 void Canvas::paint(Color color) {
     set_color(color, 1);
+    cairo_paint(cr_.get());
+}
+
+void Canvas::fill(const Box& box, Color color, double alpha) {
+    const Box seen = box.intersection(bounds_);
+    cairo_rectangle(cr_.get(), view_.x(seen.lower), view_.y(seen.upper), seen.width() * view_.scale,
+                    seen.height() * view_.scale);
+    set_color(color, alpha);
+    cairo_set_antialias(cr_.get(), CAIRO_ANTIALIAS_NONE);
+    cairo_fill(cr_.get());
+}
+
+void Canvas::dot(Point at, double radius, Color color) {
+    if (!bounds_.contains(at)) return;
+    cairo_arc(cr_.get(), view_.x(at), view_.y(at), radius, 0, 2 * std::numbers::pi);
+    set_color(color, 1);
+    cairo_set_antialias(cr_.get(), CAIRO_ANTIALIAS_DEFAULT);
+    cairo_fill(cr_.get());
+}
+
+void Canvas::put(cairo_surface_t* image) {
+    cairo_set_source_surface(cr_.get(), image, 0, 0);
     cairo_paint(cr_.get());
 }
 

@@ -21,6 +21,12 @@ public:
 
     /// Fills the whole picture.
     void paint(Color color);
+    /// Fills a box, without antialiasing as well.
+    void fill(const Box& box, Color color, double alpha);
+    /// Fills a circle of this radius in pixels.
+    void dot(Point at, double radius, Color color);
+    /// Puts an image over the whole picture.
+    void put(cairo_surface_t* image);
     /// Fills a cell, without antialiasing: neighbouring cells would otherwise leave pale seams where both cover a pixel
     /// in part.
     void fill(const VisibleCell& cell, Color color);

@@ -1,6 +1,4 @@
 // Charts: curves over two axes with numbers.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "plot/canvas.hpp"
 #include "plot/color.hpp"
 #include "plot/picture_file.hpp"
+#include "plot/round_numbers.hpp"
 #include "plot/view.hpp"
 
 namespace lamina::plot {
@@ -36,10 +35,7 @@ struct Axis {
 /// Returns the interval, enlarged to multiples of a step of 1, 2 or 5 times a power of ten, of which it holds 4 to 12.
 Axis make_axis(double lower, double upper) {
     const double range = std::max(upper - lower, 1e-12 * std::max({std::abs(lower), std::abs(upper), 1e-200}));
-    const double power = std::pow(10, std::floor(std::log10(range / 4)));
-    double step = power;
-    for (const double factor : {2.0, 5.0})
-        if (range / (factor * power) >= 4) step = factor * power;
+    const double step = round_step(range, 4);
     return {step * std::floor(lower / step), step * std::ceil(upper / step), step};
 }
 
@@ -74,8 +70,7 @@ void for_each_number(const Axis& axis, F&& mark) {
     const double count = std::round((axis.upper - axis.lower) / axis.step);
     for (double i = 0; i <= count; ++i) {
         const double number = axis.lower + i * axis.step;
-        // What is left of a difference of equal numbers is no number to print.
-        mark(number, fmt::format("{:.6g}", std::abs(number) < 1e-9 * axis.step ? 0.0 : number));
+        mark(number, step_text(number, axis.step));
     }
 }
 

@@ -11,15 +11,20 @@ namespace lamina::plot {
 
 namespace {
 
-std::array<double, 4> parse_window(const std::string& text) {
+PlotWindow parse_window(const std::string& text) {
+    // A name begins with a letter, and no number of a window does.
+    if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') return {.place = text};
     const std::vector<double> n = core::parse_numbers(text, ',');
-    if (n.size() != 4) throw UsageError("'" + text + "' is not x0,x1,y0,y1");
+    if (n.size() != 4) throw UsageError("'" + text + "' is neither x0,x1,y0,y1 nor a place such as nose or slot:2");
     if (!(n[0] < n[1] && n[2] < n[3])) throw UsageError("x0 must be below x1, and y0 below y1");
     if (!std::isfinite(n[1] - n[0]) || !std::isfinite(n[3] - n[2])) throw UsageError("the window is too large");
-    return {n[0], n[1], n[2], n[3]};
+    return {.box = {n[0], n[1], n[2], n[3]}};
 }
 
-std::string window_text(const std::array<double, 4>& w) { return core::concat(w[0], ",", w[1], ",", w[2], ",", w[3]); }
+std::string window_text(const PlotWindow& window) {
+    const auto& [x0, x1, y0, y1] = window.box;
+    return window.place.empty() ? core::concat(x0, ",", x1, ",", y0, ",", y1) : window.place;
+}
 
 OptionTable<PlotOptions> make_table() {
     OptionTableBuilder<PlotOptions> table("Picture");
@@ -30,8 +35,13 @@ OptionTable<PlotOptions> make_table() {
                                     {"piece", PlotColor::piece},
                                     {"layer", PlotColor::layer}},
                  member_at(&PlotOptions::color));
-    table.spec("window", "X0,X1,Y0,Y1", "part of the plane to show, in units of the input; else the whole mesh",
+    table.spec("window", "X0,X1,Y0,Y1|PLACE",
+               "part of the plane to show, in units of the input, or a place: nose, tail, slot, walls, all; nose:2 is "
+               "that of the second body; else the whole mesh",
                parse_window, window_text, member_at(&PlotOptions::window));
+    table.flag("axes", "write coordinates beside the picture", true, member_at(&PlotOptions::axes));
+    table.flag("scale-bar", "draw a bar of a round length", true, member_at(&PlotOptions::scale_bar));
+    table.flag("color-bar", "draw a bar that explains the colours", true, member_at(&PlotOptions::color_bar));
     table.choice("format", "format of the picture; else its extension says it",
                  Choices<std::string>{{"png", "png"}, {"svg", "svg"}, {"pdf", "pdf"}}, member_at(&PlotOptions::format));
     constexpr int max_cairo_pixels = 32767;

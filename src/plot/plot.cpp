@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <lamina/plot.hpp>
 
-#include "mesh/quality.hpp"
 #include "plot/canvas.hpp"
 #include "plot/color.hpp"
+#include "plot/color_scale.hpp"
+#include "plot/decorations.hpp"
 #include "plot/picture_file.hpp"
 #include "plot/view.hpp"
 
@@ -21,75 +25,22 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Color background{0.88, 0.89, 0.90};
-constexpr Color white{1, 1, 1};
-constexpr Color layer_tint{0.86, 0.92, 0.99};
+constexpr Color paper{1, 1, 1};
 constexpr Color thin_edge{0.13, 0.16, 0.22};
 constexpr Color wall_edge{0.72, 0.08, 0.12};
 constexpr Color far_edge{0.13, 0.16, 0.22};
 
-// Widths and thicknesses in pixels.
-constexpr double edge_width = 0.6;
-constexpr double wall_width = 2.0;
-constexpr double far_width = 1.2;
+// Thicknesses in pixels.
 constexpr double min_outlined_thickness = 0.5;  ///< thinner cells are filled instead of outlined
+constexpr double min_drawn_thickness = 1;       ///< in vector graphics, many thinner cells become part of an image
+constexpr std::size_t many_cells = 1000;
+constexpr double image_resolution = 2;     ///< pixels of that image per pixel of the picture
+constexpr double max_image_pixels = 4096;  ///< of its longer side
 
-// --- Colours of cells
-
-/// Returns the logarithm of the side of a square with the area of the cell.
-double log_size(const VisibleCell& c) { return 0.5 * std::log10(std::max(c.area(), 1e-300)); }
-
-double min_angle_deg(const VisibleCell& c) {
-    return c.corners == 3 ? core::measure_triangle(c.corner[0], c.corner[1], c.corner[2]).min_angle_deg
-                          : mesh::measure_quad(c.corner[0], c.corner[1], c.corner[2], c.corner[3]).min_angle_deg;
-}
-
-void scale_to_range(std::vector<double>& values) {
-    if (values.empty()) return;
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    const double from = *low, range = std::max(*high - *low, 1e-9);
-    for (double& v : values) v = (v - from) / range;
-}
-
-/// Returns for each cell its position on the scale of colours, from 0 to 1. The scales of size and layer span the cells
-/// in view.
-std::vector<double> scale_positions(const Mesh& mesh, const std::vector<VisibleCell>& cells, PlotColor by) {
-    std::vector<double> values(cells.size(), 0.0);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (by == PlotColor::size) values[i] = log_size(cells[i]);
-        if (by == PlotColor::layer && !mesh.layer.empty()) values[i] = mesh.layer[cells[i].cell];
-        // Angles of isotropic triangles reach 60 degrees, which is the end of the scale; squares look alike.
-        if (by == PlotColor::quality) values[i] = min_angle_deg(cells[i]) / 60;
-    }
-    if (by == PlotColor::size) scale_to_range(values);
-    if (by == PlotColor::layer && !values.empty()) {
-        const double layers = std::max(1.0, *std::max_element(values.begin(), values.end()));
-        for (double& v : values) v /= layers;
-    }
-    return values;
-}
-
-Color cell_color(const Mesh& mesh, std::size_t cell, PlotColor by, double position) {
-    switch (by) {
-        case PlotColor::quality:
-        case PlotColor::size:
-            return viridis(position);
-        case PlotColor::piece:
-            return mesh.piece.empty() ? white : distinct_color(mesh.piece[cell]);
-        case PlotColor::layer:
-            return position == 0 ? white : viridis(position);
-        case PlotColor::none:
-            break;
-    }
-    return !mesh.region.empty() && mesh.region[cell] == Region::layer ? layer_tint : white;
-}
-
-std::vector<Color> cell_colors(const Mesh& mesh, const std::vector<VisibleCell>& cells, PlotColor by) {
-    const std::vector<double> positions = scale_positions(mesh, cells, by);
-    std::vector<Color> colors;
-    colors.reserve(cells.size());
-    for (std::size_t i = 0; i < cells.size(); ++i) colors.push_back(cell_color(mesh, cells[i].cell, by, positions[i]));
-    return colors;
-}
+/// The widths of lines in pixels.
+struct LineWidths {
+    double edge, wall, far;
+};
 
 // --- Drawing
 
@@ -103,9 +54,23 @@ void draw_cells(Canvas& canvas, const std::vector<VisibleCell>& cells, const std
     }
 }
 
+/// Returns the widths of lines, which follow the zoom: lines are wider where edges are long.
+LineWidths line_widths(const std::vector<VisibleCell>& cells, const PictureView& view) {
+    std::vector<double> lengths;
+    for (const VisibleCell& cell : cells)
+        if (cell.thickness() * view.scale >= min_outlined_thickness)
+            lengths.push_back(distance(cell.corner[0], cell.corner[1]) * view.scale);
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    // Large pictures are looked at from farther away.
+    const double unit = std::max(1.0, std::max(view.width, view.height) / 1600);
+    const double edge = unit * std::clamp(0.012 * (lengths.empty() ? 50.0 : *middle), 0.45, 1.5);
+    return {edge, std::clamp(3.3 * edge, 1.6 * unit, 4 * unit), 2 * edge};
+}
+
 /// Draws each edge once, and fainter where the cells beside it are thin.
 void draw_edges(Canvas& canvas, const Mesh& mesh, const std::vector<VisibleCell>& cells, const PictureView& view,
-                double max_alpha) {
+                double width, double max_alpha) {
     struct VisibleEdge {
         Segment ends;
         float thickness;  ///< of the thinner one of its cells, in pixels
@@ -125,28 +90,98 @@ void draw_edges(Canvas& canvas, const Mesh& mesh, const std::vector<VisibleCell>
     for (std::size_t i = 0; i < edges.size(); ++i) {
         if (i > 0 && edges[i].ends == edges[i - 1].ends) continue;
         const auto [a, b] = edges[i].ends;
-        const double alpha = max_alpha * std::min(1.0, 0.5 * edges[i].thickness / edge_width);
-        canvas.stroke(mesh.points[a.index()], mesh.points[b.index()], thin_edge, alpha, edge_width);
+        const double alpha = max_alpha * std::min(1.0, 0.5 * edges[i].thickness / width);
+        canvas.stroke(mesh.points[a.index()], mesh.points[b.index()], thin_edge, alpha, width);
     }
 }
 
-void draw_markers(Canvas& canvas, const Mesh& mesh) {
+void draw_markers(Canvas& canvas, const Mesh& mesh, const LineWidths& widths) {
     for (const Marker& marker : mesh.markers) {
         const bool far = marker.kind == MarkerKind::far_field;
         for (const Segment& edge : marker.edges)
             canvas.stroke(mesh.points[edge.a.index()], mesh.points[edge.b.index()], far ? far_edge : wall_edge, 1,
-                          far ? far_width : wall_width);
+                          far ? widths.far : widths.wall);
     }
 }
 
-void draw(cairo_surface_t* surface, const Mesh& mesh, const PictureView& view, PlotColor by) {
+/// Draws a dot at each vertex of outlines without cells that is not too near to the one before.
+void draw_dots(Canvas& canvas, const Mesh& mesh, const PictureView& view, double radius) {
+    for (const Marker& marker : mesh.markers) {
+        std::optional<Point> last;
+        for (const Segment& edge : marker.edges) {
+            const Point at = mesh.points[edge.a.index()];
+            if (last && distance(at, *last) * view.scale < 2.5 * radius) continue;
+            canvas.dot(at, radius, thin_edge);
+            last = at;
+        }
+    }
+}
+
+/// Cells that are drawn in the same way.
+struct DrawnCells {
+    std::vector<VisibleCell> cells;
+    std::vector<Color> colors;
+};
+
+/// Takes the cells away that are too small to be told apart, if there are many of them.
+DrawnCells take_small_cells(DrawnCells& drawn, const PictureView& view) {
+    DrawnCells small, large;
+    for (std::size_t i = 0; i < drawn.cells.size(); ++i) {
+        DrawnCells& part = drawn.cells[i].thickness() * view.scale < min_drawn_thickness ? small : large;
+        part.cells.push_back(drawn.cells[i]);
+        part.colors.push_back(drawn.colors[i]);
+    }
+    if (small.cells.size() < many_cells) return {};
+    drawn = std::move(large);
+    return small;
+}
+
+void draw_drawn_cells(Canvas& canvas, const Mesh& mesh, const DrawnCells& drawn, const PictureView& view, bool colored,
+                      double edge_width) {
+    draw_cells(canvas, drawn.cells, drawn.colors, view, !colored);
+    draw_edges(canvas, mesh, drawn.cells, view, edge_width, colored ? 0.45 : 1);
+}
+
+/// Draws the cells into an image, and puts that into the picture.
+void draw_as_image(Canvas& canvas, const Mesh& mesh, const DrawnCells& drawn, const PictureView& view, bool colored,
+                   double edge_width) {
+    const double resolution = std::min(image_resolution, max_image_pixels / std::max(view.width, view.height));
+    using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+    const Surface image{
+        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(std::ceil(view.width * resolution)),
+                                   static_cast<int>(std::ceil(view.height * resolution))),
+        cairo_surface_destroy};
+    // Where memory is lacking, the file is larger.
+    if (cairo_surface_status(image.get()) != CAIRO_STATUS_SUCCESS)
+        return draw_drawn_cells(canvas, mesh, drawn, view, colored, edge_width);
+    cairo_surface_set_device_scale(image.get(), resolution, resolution);
+    {
+        Canvas on_image(image.get(), view);
+        draw_drawn_cells(on_image, mesh, drawn, view, colored, edge_width);
+    }
+    cairo_surface_flush(image.get());
+    canvas.put(image.get());
+}
+
+void draw(cairo_surface_t* surface, const Mesh& mesh, const PictureView& view, const PlotOptions& options) {
     const std::vector<VisibleCell> cells = visible_cells(mesh, view.window);
-    const bool colored = by != PlotColor::none;
+    const CellColors colors = color_cells(mesh, cells, options.color);
+    const LineWidths widths = line_widths(cells, view);
+    const bool colored = options.color != PlotColor::none;
+    const bool has_cells = !mesh.triangles.empty() || !mesh.quads.empty();
     Canvas canvas(surface, view);
-    canvas.paint(background);
-    draw_cells(canvas, cells, cell_colors(mesh, cells, by), view, !colored);
-    draw_edges(canvas, mesh, cells, view, colored ? 0.45 : 1);
-    draw_markers(canvas, mesh);
+    canvas.paint(has_cells ? background : paper);
+    DrawnCells drawn{cells, colors.colors};
+    if (cairo_surface_get_type(surface) != CAIRO_SURFACE_TYPE_IMAGE)
+        if (const DrawnCells small = take_small_cells(drawn, view); !small.cells.empty())
+            draw_as_image(canvas, mesh, small, view, colored, widths.edge);
+    draw_drawn_cells(canvas, mesh, drawn, view, colored, widths.edge);
+    draw_markers(canvas, mesh, widths);
+    if (!has_cells) draw_dots(canvas, mesh, view, 1.2 * widths.wall);
+    const double text = text_height(options.width_px);
+    if (options.axes) draw_axes(canvas, view, text);
+    if (options.scale_bar) draw_scale_bar(canvas, view, text);
+    if (options.color_bar) draw_color_bar(canvas, view, colors, text);
 }
 
 }  // namespace
@@ -162,7 +197,7 @@ void plot_mesh(const Mesh& mesh, const fs::path& file, const PlotOptions& option
     check_picture_format(file, options.format);
     const PictureView view = make_view(mesh, options);
     write_picture(file, options.format, view.width, view.height,
-                  [&](cairo_surface_t* surface) { draw(surface, mesh, view, options.color); });
+                  [&](cairo_surface_t* surface) { draw(surface, mesh, view, options); });
 }
 
 }  // namespace lamina

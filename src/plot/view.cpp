@@ -3,25 +3,54 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
+
+#include <lamina/error.hpp>
+#include <lamina/places.hpp>
 
 #include "core/bounding_box.hpp"
 
 namespace lamina::plot {
 
+namespace {
+
+/// Returns the window of the place of this name, or of the first place of this kind.
+Box window_of_place(const Mesh& mesh, const std::string& name) {
+    std::string known;
+    for (const Place& place : named_places(mesh)) {
+        if (place.name == name || place.name == name + ":1") return place.window;
+        known += (known.empty() ? "" : ", ") + place.name;
+    }
+    throw UsageError("option --window: there is no place '" + name +
+                     "': " + (known.empty() ? "the mesh is empty" : "this mesh has " + known));
+}
+
+Box window_of_options(const Mesh& mesh, const PlotOptions& options) {
+    if (options.window && !options.window->place.empty()) return window_of_place(mesh, options.window->place);
+    if (options.window) {
+        const auto [x0, x1, y0, y1] = options.window->box;
+        return {{x0, y0}, {x1, y1}};
+    }
+    if (mesh.points.empty()) return {{0, 0}, {1, 1}};
+    Box window = core::bounding_box(mesh.points);
+    const double margin = 0.01 * core::longer_side(window);
+    return {window.lower - Point{margin, margin}, window.upper + Point{margin, margin}};
+}
+
+}  // namespace
+
+double text_height(int width_px) { return std::clamp(width_px / 75.0, 9.0, 60.0); }
+
 PictureView make_view(const Mesh& mesh, const PlotOptions& options) {
     PictureView view;
-    if (options.window) {
-        const auto [x0, x1, y0, y1] = *options.window;
-        view.window = {{x0, y0}, {x1, y1}};
-    } else {
-        for (const Point p : mesh.points) view.window.include(p);
-        if (mesh.points.empty()) view.window = {{0, 0}, {1, 1}};
-        const double margin = 0.01 * core::longer_side(view.window);
-        view.window.lower = view.window.lower - Point{margin, margin};
-        view.window.upper = view.window.upper + Point{margin, margin};
-    }
-    const double longer = core::longer_side(view.window);
-    view.scale = options.width_px / longer;
+    view.area = window_of_options(mesh, options);
+    // Room for numbers: to the left as wide as a long one, below as high as two lines, else half of a number.
+    const double text = options.axes ? text_height(options.width_px) : 0;
+    const double left = 5.5 * text, below = 2.2 * text, right = 1.5 * text, above = 0.8 * text;
+    view.scale = std::min(std::max(1.0, options.width_px - left - right) / view.area.width(),
+                          std::max(1.0, options.width_px - below - above) / view.area.height());
+    view.window = {view.area.lower - Point{left / view.scale, below / view.scale},
+                   view.area.upper + Point{right / view.scale, above / view.scale}};
     // A very slender window would round to no pixel at all.
     view.width = std::max(1.0, std::round(view.window.width() * view.scale));
     view.height = std::max(1.0, std::round(view.window.height() * view.scale));

@@ -15,12 +15,17 @@ struct PictureView {
     Box window;
     double scale = 1;              ///< pixels per unit of length
     double width = 0, height = 0;  ///< of the picture, in pixels
+    Box area{};                    ///< the part of the window beside which axes stand; without axes the whole window
 
     double x(Point p) const { return (p.x - window.lower.x) * scale; }
     double y(Point p) const { return (window.upper.y - p.y) * scale; }
 };
 
-/// Returns the view of the window of the options, or of the whole mesh with a margin of 1 %.
+/// The height of text in a picture whose longer side has this many pixels.
+double text_height(int width_px);
+
+/// Returns the view of the window of the options, or of the whole mesh with a margin of 1 %. Throws UsageError for
+/// places that the mesh does not have.
 PictureView make_view(const Mesh& mesh, const PlotOptions& options);
 
 /// A cell that overlaps the window.

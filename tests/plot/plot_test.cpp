@@ -62,6 +62,85 @@ TEST(Plot, KeepsTheAspectOfTheWindow) {
     EXPECT_NO_THROW(plot_mesh(Mesh{}, folder / "empty.png", {.width_px = 20}));
 }
 
+TEST(Plot, ShowsPlacesByName) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.around = 48});
+    const auto picture = [&](const std::string& place) {
+        plot_mesh(mesh, folder / "m.png", {.window = PlotWindow{.place = place}, .width_px = 200});
+        return folder.read("m.png");
+    };
+    EXPECT_EQ(picture("nose"), picture("nose:1"));
+    EXPECT_NE(picture("nose"), picture("tail"));
+    EXPECT_EQ(png_size(picture("walls")), std::pair(200u, 200u));
+    EXPECT_THROW(picture("slot"), UsageError);
+    EXPECT_THROW(picture("nose:2"), UsageError);
+    // The table reads names and numbers, and writes what it reads.
+    const Option<PlotOptions>& option = find_row(plot_option_table(), "window");
+    for (const std::string text : {"nose:2", "0,2,-0.5,0.5"}) {
+        PlotOptions options;
+        option.set(options, text);
+        EXPECT_EQ(std::get<std::string>(*option.get(options)), text);
+    }
+    PlotOptions options;
+    for (const std::string text : {"0,1,2", "1,0,0,1", "Nose", ""}) EXPECT_THROW(option.set(options, text), UsageError);
+}
+
+TEST(Plot, AxesAndBarsLeaveTheLongerSideAsAsked) {
+    const TemporaryFolder folder;
+    const Mesh mesh = annulus({.around = 48});
+    std::set<std::string> pictures;
+    for (const int bits : {0, 1, 2, 4, 7}) {
+        for (const bool upright : {false, true}) {
+            const PlotWindow window{.box = {1, upright ? 1.5 : 2, 0, upright ? 1.0 : 0.5}};
+            plot_mesh(mesh, folder / "m.png",
+                      {.color = PlotColor::size,
+                       .window = window,
+                       .width_px = 400,
+                       .axes = (bits & 1) != 0,
+                       .scale_bar = (bits & 2) != 0,
+                       .color_bar = (bits & 4) != 0});
+            pictures.insert(folder.read("m.png"));
+            const auto [width, height] = png_size(folder.read("m.png"));
+            EXPECT_EQ(upright ? height : width, 400u);
+        }
+    }
+    EXPECT_EQ(pictures.size(), 10u);
+    // Windows far from the origin, and far too small for their numbers, have axes, too.
+    for (const double size : {1e-12, 1e-3, 1e6})
+        EXPECT_NO_THROW(plot_mesh(mesh, folder / "m.png",
+                                  {.window = PlotWindow{.box = {1, 1 + size, 1e3, 1e3 + size}},
+                                   .width_px = 60,
+                                   .axes = true,
+                                   .scale_bar = true}));
+}
+
+TEST(Plot, ManyCellsBelowAPixelTakeLittleRoom) {
+    const TemporaryFolder folder;
+    const Mesh mesh = box_with_hole(121);
+    const auto size = [&](const std::string& name, int width) {
+        plot_mesh(mesh, folder / name, {.width_px = width});
+        return folder.read(name).size();
+    };
+    // 29,000 triangles: as paths of an SVG they take more than 100 bytes each.
+    EXPECT_GT(size("l.svg", 2000), 100 * mesh.triangles.size());
+    EXPECT_LT(size("m.svg", 100), 4 * mesh.triangles.size());
+    const std::size_t large_pdf = size("l.pdf", 2000);
+    EXPECT_LT(size("m.pdf", 100), large_pdf / 4);
+    // Images have a largest size, pictures have not.
+    const Mesh graded = annulus({.around = 400, .rings = 40});
+    EXPECT_NO_THROW(plot_mesh(graded, folder / "m.svg", {.width_px = 3000}));
+    EXPECT_GT(folder.read("m.svg").size(), 100'000u);
+    EXPECT_NE(folder.read("m.svg").find("<path"), std::string::npos);  // the large ones and the walls
+}
+
+TEST(Plot, DrawsOutlinesWithoutCells) {
+    const TemporaryFolder folder;
+    Mesh mesh = annulus({.around = 48});
+    mesh.triangles.clear();
+    plot_mesh(mesh, folder / "m.svg", {.axes = true});
+    EXPECT_NE(folder.read("m.svg").find("<path"), std::string::npos);
+}
+
 TEST(Chart, WritesEveryFormat) {
     const TemporaryFolder folder;
     const std::vector<ChartCurve> curves{{"one", {{0, 1}, {0.5, -3}, {1, 0.25}}}, {"two", {{0.2, 0}, {0.9, -50}}}};
