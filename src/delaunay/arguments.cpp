@@ -39,18 +39,4 @@ void require_counter_clockwise(std::span<const Point> points, std::span<const Tr
         throw InputError({.triangles = {*first}}, core::concat("triangle ", *first, " is not counter-clockwise"));
 }
 
-void check_arguments(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                     const ConstrainedRefineOptions& options) {
-    validate(options.refine);
-    check_points(points);
-    core::require_exact_range(triangulation.steiner_points, "Steiner point");
-    std::vector<Point> seeds;
-    for (const RegionSize& region : options.regions) seeds.push_back(region.seed);
-    core::require_exact_range(seeds, "region");
-    const std::size_t vertices = points.size() + triangulation.steiner_points.size();
-    core::require_indices_below(vertices, triangulation.triangles);
-    core::require_indices_below(vertices, triangulation.segments);
-    core::require_count(triangulation.parents.size(), "parents", triangulation.segments.size(), "segments");
-}
-
 }  // namespace lamina::delaunay

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include <lamina/delaunay.hpp>
+#include <lamina/triangulation.hpp>
 
 namespace lamina::delaunay {
 
@@ -15,10 +15,5 @@ void check_points_and_segments(std::span<const Point> points, std::span<const Se
 
 /// Throws InputError for triangles that are not counter-clockwise. Precondition: their corners are among the points.
 void require_counter_clockwise(std::span<const Point> points, std::span<const Triangle> triangles);
-
-/// Throws OptionError for options out of range; InputError for points as check_points() does, for seeds of regions
-/// outside the exact range, and for a triangulation that does not belong to the points.
-void check_arguments(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
-                     const ConstrainedRefineOptions& options);
 
 }  // namespace lamina::delaunay

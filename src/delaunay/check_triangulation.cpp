@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include <lamina/delaunay.hpp>
 #include <lamina/predicates.hpp>
+#include <lamina/triangulation.hpp>
 
 #include "core/arguments.hpp"
 #include "core/cell_shape.hpp"

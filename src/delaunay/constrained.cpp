@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include <lamina/delaunay.hpp>
+#include <lamina/triangulation.hpp>
 
 #include "core/arguments.hpp"
 #include "delaunay/insert_segments.hpp"

@@ -5,6 +5,8 @@
 
 #include <lamina/predicates.hpp>
 
+#include "core/arguments.hpp"
+#include "delaunay/arguments.hpp"
 #include "delaunay/link_triangles.hpp"
 #include "delaunay/regions.hpp"
 
@@ -32,6 +34,20 @@ std::vector<std::uint32_t> find_fields(const ConstrainedInput& input, std::span<
 }
 
 }  // namespace
+
+void check_arguments(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                     const ConstrainedRefineOptions& options) {
+    validate(options.refine);
+    check_points(points);
+    core::require_exact_range(triangulation.steiner_points, "Steiner point");
+    std::vector<Point> seeds;
+    for (const RegionSize& region : options.regions) seeds.push_back(region.seed);
+    core::require_exact_range(seeds, "region");
+    const std::size_t vertices = points.size() + triangulation.steiner_points.size();
+    core::require_indices_below(vertices, triangulation.triangles);
+    core::require_indices_below(vertices, triangulation.segments);
+    core::require_count(triangulation.parents.size(), "parents", triangulation.segments.size(), "segments");
+}
 
 ConstrainedInput make_constrained_input(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
                                         RegionSizes size, std::span<const RegionSize> regions) {

@@ -23,6 +23,11 @@ struct ConstrainedInput {
     std::uint32_t field_of(Index t) const { return fields.empty() ? 0 : fields[t]; }
 };
 
+/// Throws OptionError for options out of range; InputError for points as check_points() does, for seeds of regions
+/// outside the exact range, and for a triangulation that does not belong to the points.
+void check_arguments(std::span<const Point> points, const ConstrainedTriangulation& triangulation,
+                     const ConstrainedRefineOptions& options);
+
 /// Links the triangles and finds their size fields: 0 is the general one, and r + 1 that of region r, which is used all
 /// over the part that holds its seed. The first of several regions counts. The result refers to the size fields.
 ConstrainedInput make_constrained_input(std::span<const Point> points, const ConstrainedTriangulation& triangulation,

@@ -1,4 +1,4 @@
-// The tables of the options of triangulation and refinement.
+// The table of the options of refinement.
 #include <lamina/delaunay.hpp>
 
 #include <lamina/option_builders.hpp>
@@ -6,15 +6,6 @@
 namespace lamina {
 
 namespace {
-
-OptionTable<DecompositionOptions> make_decomposition_table() {
-    OptionTableBuilder<DecompositionOptions> table("Layer");
-    table.count("decomposition-depth", "N", "largest number of cuts on the way to a piece of the layer",
-                numbers_from_to(0, 24), member_at(&DecompositionOptions::depth));
-    table.count("leaf-vertices", "N", "pieces of the layer with at most this many vertices are not cut further",
-                numbers_from_to(1, 1e9), member_at(&DecompositionOptions::leaf_vertices));
-    return table.take();
-}
 
 OptionTable<RefineOptions> make_refine_table() {
     OptionTableBuilder<RefineOptions> table("Outer region");
@@ -38,17 +29,11 @@ OptionTable<RefineOptions> make_refine_table() {
 
 }  // namespace
 
-const OptionTable<DecompositionOptions>& decomposition_option_table() {
-    static const OptionTable<DecompositionOptions> table = make_decomposition_table();
-    return table;
-}
-
 const OptionTable<RefineOptions>& refine_option_table() {
     static const OptionTable<RefineOptions> table = make_refine_table();
     return table;
 }
 
-void validate(const DecompositionOptions& options) { require_in_range(decomposition_option_table(), options); }
 void validate(const RefineOptions& options) {
     require_in_range(refine_option_table(), options);
     if (options.unit_length) require_in_range(positive_numbers, *options.unit_length, "unit_length");

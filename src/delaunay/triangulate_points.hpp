@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include <lamina/delaunay.hpp>
 #include <lamina/export.hpp>
+#include <lamina/triangulation.hpp>
 
 #include "delaunay/triangles.hpp"
 

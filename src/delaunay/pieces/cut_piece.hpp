@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include <lamina/delaunay.hpp>
+#include <lamina/triangulation.hpp>
 
 #include "delaunay/pieces/piece.hpp"
 #include "delaunay/pieces/sorted_points.hpp"
