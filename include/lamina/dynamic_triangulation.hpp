@@ -34,6 +34,7 @@ public:
     DynamicTriangulation(DynamicTriangulation&& other) noexcept;
     /// Takes over the other triangulation.
     DynamicTriangulation& operator=(DynamicTriangulation other) noexcept;
+    /// Frees all data.
     ~DynamicTriangulation();
 
     /// Inserts a point and returns its number, or that of the point which lies there already. A segment that the point
