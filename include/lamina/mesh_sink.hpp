@@ -13,11 +13,15 @@ namespace lamina {
 
 /// A part of a mesh. All numbers are those of the whole mesh, in which the parts follow one another.
 struct MeshPart {
-    std::size_t first_vertex = 0;           ///< number of the first point
-    std::span<const Point> points{};        ///< vertices that no part before has
-    std::size_t first_cell = 0;             ///< number of the first cell
-    std::span<const Triangle> triangles{};  ///< its triangles; all triangles of the mesh come before all quads
-    std::span<const Quad> quads{};          ///< its quadrilaterals
+    std::size_t first_vertex = 0;             ///< number of the first point
+    std::span<const Point> points{};          ///< vertices that no part before has
+    std::size_t first_cell = 0;               ///< number of the first cell
+    std::span<const Triangle> triangles{};    ///< its triangles; all triangles of the mesh come before all quads
+    std::span<const Point> shared{};          ///< the first vertices of the mesh, which cells of several parts may have
+    Region region = Region::isotropic;        ///< of its cells
+    std::uint32_t piece = 0;                  ///< the piece that made them
+    std::span<const std::uint16_t> layers{};  ///< per cell: its layer from the wall, from 1; empty: 0 for all
+    std::span<const Quad> quads{};            ///< its quadrilaterals
 };
 
 /// The size of a mesh.
@@ -43,8 +47,9 @@ public:
     virtual Bytes format(const MeshPart& part) const = 0;
     /// Takes the next part. Throws IoError.
     virtual void append(const Bytes& bytes) = 0;
-    /// Ends the mesh, after its last part. Throws IoError; UsageError for marker names that the format cannot hold.
-    virtual void finish(const MeshCounts& counts, std::span<const Marker> markers) = 0;
+    /// Ends the mesh, after its last part; constraints are those of Mesh::constraints. Throws IoError; UsageError for marker names that the format cannot hold.
+    virtual void finish(const MeshCounts& counts, std::span<const Marker> markers,
+                        std::span<const Segment> constraints) = 0;
     /// Makes the file appear under its name, as a whole or not at all. Throws IoError.
     virtual void commit() = 0;
     /// Returns the number of bytes that the parts have taken so far.

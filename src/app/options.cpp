@@ -38,10 +38,10 @@ OptionTable<MeshCase> file_options() {
                  preset_choices(), member_at(&MeshCase::preset));
     table.text("format", OptionKind::word, format_names(),
                "format of every mesh file; else the extension of each says its format", member_at(&MeshCase::format));
-    table.flag(
-        "stream",
-        "write the mesh while it is made, piece by piece, in the memory of a few pieces: the same file; SU2 alone",
-        true, member_at(&MeshCase::stream));
+    table.flag("stream",
+               "write the mesh while it is made, piece by piece, in the memory of a few pieces: the same file; SU2 and "
+               "VTU alone",
+               true, member_at(&MeshCase::stream));
     table.flag("wall-distance", "write the distance to the nearest wall as point data, in VTU files", true,
                member_at(&MeshCase::wall_distance));
     table.text("wall-data", OptionKind::path, "FILE",

@@ -10,19 +10,23 @@
 namespace lamina::core {
 
 /// Calls take(value) for the values of the places 0, 1, 2 ... in this order, each as soon as all before it have been
-/// put. One call runs at a time.
+/// put. One call runs at a time. Once a call throws, all further values are dropped.
 template <class T>
 class InOrder {
 public:
     explicit InOrder(std::function<void(T)> take) : take_(std::move(take)) {}
 
-    /// May be called by several threads at once, once for each place.
+    /// May be called by several threads at once, once for each place. Throws what take() throws.
     void put(std::size_t place, T value) {
         const std::lock_guard lock(mutex_);
+        if (failed_) return;
         waiting_.emplace(place, std::move(value));
-        for (auto first = waiting_.begin(); first != waiting_.end() && first->first == next_; ++next_) {
-            take_(std::move(first->second));
-            first = waiting_.erase(first);
+        while (!waiting_.empty() && waiting_.begin()->first == next_) {
+            auto first = waiting_.extract(waiting_.begin());
+            ++next_;
+            failed_ = true;  // unless the call returns
+            take_(std::move(first.mapped()));
+            failed_ = false;
         }
     }
 
@@ -31,6 +35,7 @@ private:
     std::mutex mutex_;
     std::map<std::size_t, T> waiting_;
     std::size_t next_ = 0;
+    bool failed_ = false;
 };
 
 }  // namespace lamina::core

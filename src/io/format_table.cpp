@@ -130,6 +130,7 @@ std::vector<FormatRow> vtu_rows() {
                         .one_stream = true});
     };
     add("vtu", "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>);
+    rows.back().open_sink = open_vtu_sink;
     add("vtu-zlib", "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>);
     return rows;
 }

@@ -71,6 +71,8 @@ struct VtuVariant {
     bool compressed = false;     ///< by zlib
     bool wall_distance = false;  ///< written as point data
 };
+/// Opens a sink that writes what write_vtu() writes, neither compressed nor with distances.
+std::unique_ptr<MeshSink> open_vtu_sink(const std::filesystem::path& file);
 void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
 /// Reads the mesh and these fields.

@@ -1,6 +1,7 @@
 #include "io/section_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,8 +21,11 @@ namespace lamina::io {
 namespace fs = std::filesystem;
 
 bool is_null_device(const fs::path& file) {
-    std::error_code ignored;
-    return core::is_device(file) && fs::equivalent(file, "/dev/null", ignored);
+    // fs::equivalent() does not compare devices.
+    struct stat one {
+    }, other{};
+    return ::stat(file.c_str(), &one) == 0 && ::stat("/dev/null", &other) == 0 && S_ISCHR(one.st_mode) &&
+           one.st_rdev == other.st_rdev;
 }
 
 SectionFile::SectionFile(const fs::path& target) : target_(target) {

@@ -33,7 +33,7 @@ public:
         cells_.append(bytes[0]);
         points_.append(bytes[1]);
     }
-    void finish(const MeshCounts& counts, std::span<const Marker> markers) override {
+    void finish(const MeshCounts& counts, std::span<const Marker> markers, std::span<const Segment>) override {
         require_su2_marker_names(markers, file_);
         counts_ = counts;
         markers_.assign(markers.begin(), markers.end());

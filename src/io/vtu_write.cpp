@@ -13,103 +13,23 @@
 //   point data   wall_distance where it is asked for
 // Files of sizes have the point data size and, where it is known, the field data lamina_size_gradation.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include <lamina/error.hpp>
 
-#include "core/parallel.hpp"
-#include "io/binary_output.hpp"
 #include "io/formats.hpp"
 #include "io/vtk_cell_types.hpp"
+#include "io/vtu_writer.hpp"
 #include "mesh/quality.hpp"
 
 namespace lamina::io {
 
 namespace {
-
-template <class T>
-constexpr const char* type_name() {
-    if constexpr (std::is_same_v<T, double>) return "Float64";
-    if constexpr (std::is_same_v<T, float>) return "Float32";
-    if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
-    if constexpr (std::is_same_v<T, std::uint32_t>) return "UInt32";
-    if constexpr (std::is_same_v<T, std::uint16_t>) return "UInt16";
-    if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
-}
-
-/// Collects the XML header and the arrays that it announces, and writes both. Raw arrays are computed only when they
-/// are written.
-class VtuWriter {
-public:
-    explicit VtuWriter(bool compress) : compress_(compress) {}
-
-    std::string xml;
-
-    /// Announces an array of tuples x components values; value(i) returns value i.
-    template <class T, class F>
-    void add_array(const char* name, std::size_t tuples, std::size_t components, F value, bool in_field_data = false) {
-        xml += fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" ", type_name<T>(),
-                           name, components);
-        if (in_field_data) xml += fmt::format("NumberOfTuples=\"{}\" ", tuples);
-        xml += fmt::format("format=\"appended\" offset=\"{}\"/>\n", offset_);
-        const std::size_t count = tuples * components;
-        const auto fill = [value = std::move(value)](char* p, std::size_t i) { store(p, static_cast<T>(value(i))); };
-        if (compress_) {
-            appended_.push_back([bytes = compressed(count, sizeof(T), fill)](std::ostream& out) { out << bytes; });
-        } else {
-            appended_.push_back([count, fill](std::ostream& out) {
-                write_value(out, std::uint64_t{count * sizeof(T)});
-                write_records(out, count, sizeof(T), fill);
-            });
-            offset_ += sizeof(std::uint64_t) + count * sizeof(T);
-        }
-    }
-    void write(std::ostream& out) const {
-        out << xml << "  <AppendedData encoding=\"raw\">\n_";
-        for (const auto& write_array : appended_) write_array(out);
-        out << "\n  </AppendedData>\n</VTKFile>\n";
-    }
-
-private:
-    /// Returns an array as it is stored in the file, and moves the offset of the next one behind it.
-    template <class F>
-    std::string compressed(std::size_t count, std::size_t size, F&& fill) {
-        constexpr std::size_t block_bytes = 1 << 18;
-        constexpr int level = 4;
-        const std::size_t block = block_bytes / size, blocks = (count + block - 1) / block;
-        const std::vector<std::string> parts =
-            core::parallel_blocks(count, block, [&](std::size_t begin, std::size_t end) {
-                std::string plain((end - begin) * size, '\0');
-                for (std::size_t i = begin; i < end; ++i) fill(plain.data() + (i - begin) * size, i);
-                uLongf length = compressBound(plain.size());
-                std::string part(length, '\0');
-                if (compress2(reinterpret_cast<Bytef*>(part.data()), &length,
-                              reinterpret_cast<const Bytef*>(plain.data()), plain.size(), level) != Z_OK)
-                    throw std::bad_alloc();
-                part.resize(length);
-                return part;
-            });
-        std::string bytes(8 * (3 + blocks), '\0');
-        char* p = bytes.data();
-        for (const std::size_t value : {blocks, block_bytes, count % block * size}) p = store(p, std::uint64_t{value});
-        for (const std::string& part : parts) p = store(p, std::uint64_t{part.size()});
-        for (const std::string& part : parts) bytes += part;
-        offset_ += bytes.size();
-        return bytes;
-    }
-
-    bool compress_;
-    std::vector<std::function<void(std::ostream&)>> appended_;  ///< writers of the arrays
-    std::size_t offset_ = 0;                                    ///< offset of the next array
-};
 
 /// The cells of the file: triangles, quads, then the lines of all markers.
 struct VtuCells {
@@ -129,12 +49,8 @@ struct VtuCells {
         return i % 2 == 0 ? lines[i / 2].edge.a : lines[i / 2].edge.b;
     }
     /// Returns the number of vertices of cell i and of all cells before it.
-    std::size_t offset(std::size_t i) const {
-        const std::size_t n = i + 1;
-        return 3 * std::min(n, triangles) + 4 * (std::clamp(n, triangles, inner()) - triangles) +
-               2 * (std::max(n, inner()) - inner());
-    }
-    VtkCellType type(std::size_t i) const { return i < triangles ? vtk_triangle : i < inner() ? vtk_quad : vtk_line; }
+    std::size_t offset(std::size_t i) const { return vtu_offset(i, triangles, inner()); }
+    VtkCellType type(std::size_t i) const { return vtu_type(i, triangles, inner()); }
     float quality(std::size_t i) const {
         const auto at = [&](VertexId v) { return mesh.points[v.index()]; };
         if (i < triangles) {
@@ -154,28 +70,6 @@ struct VtuCells {
     std::size_t triangles, quads;
     std::vector<MarkerLine> lines;
 };
-
-void add_field_data(const Mesh& mesh, std::optional<double> size_gradation, VtuWriter& vtu) {
-    std::string names;
-    for (const Marker& marker : mesh.markers) names += marker.name + '\0';
-    vtu.xml += "    <FieldData>\n";
-    constexpr bool in_field_data = true;
-    vtu.add_array<std::uint8_t>(
-        "marker_names", names.size(), 1, [names](std::size_t i) { return names[i]; }, in_field_data);
-    vtu.add_array<std::uint32_t>(
-        "constraints", mesh.constraints.size(), 2,
-        [&mesh](std::size_t i) {
-            const Segment& edge = mesh.constraints[i / 2];
-            return i % 2 == 0 ? edge.a.value : edge.b.value;
-        },
-        in_field_data);
-    vtu.add_array<std::uint8_t>(
-        "marker_kinds", mesh.markers.size(), 1, [&mesh](std::size_t i) { return mesh.markers[i].kind; }, in_field_data);
-    if (size_gradation)
-        vtu.add_array<double>(
-            "lamina_size_gradation", 1, 1, [size_gradation](std::size_t) { return *size_gradation; }, in_field_data);
-    vtu.xml += "    </FieldData>\n";
-}
 
 /// Numbers at the points, and their name.
 struct PointArray {
@@ -231,12 +125,8 @@ void write_grid(const Mesh& mesh, const PointArray& array, bool compressed, std:
                 std::ostream& out) {
     const VtuCells cells(mesh);
     VtuWriter vtu(compressed);
-    vtu.xml = fmt::format(
-        "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
-        "  <UnstructuredGrid>\n",
-        compressed ? " compressor=\"vtkZLibDataCompressor\"" : "");
-    add_field_data(mesh, size_gradation, vtu);
+    vtu.xml = vtu_head(compressed);
+    add_vtu_field_data(mesh.markers, mesh.constraints, size_gradation, vtu);
     vtu.xml +=
         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.size(), cells.count());
     add_point_data(array, vtu);
@@ -248,6 +138,37 @@ void write_grid(const Mesh& mesh, const PointArray& array, bool compressed, std:
 }
 
 }  // namespace
+
+std::string vtu_head(bool compressed) {
+    return fmt::format(
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{}>\n"
+        "  <UnstructuredGrid>\n",
+        compressed ? " compressor=\"vtkZLibDataCompressor\"" : "");
+}
+
+void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment> constraints,
+                        std::optional<double> size_gradation, VtuWriter& vtu) {
+    std::string names;
+    for (const Marker& marker : markers) names += marker.name + '\0';
+    vtu.xml += "    <FieldData>\n";
+    constexpr bool in_field_data = true;
+    vtu.add_array<std::uint8_t>(
+        "marker_names", names.size(), 1, [names](std::size_t i) { return names[i]; }, in_field_data);
+    vtu.add_array<std::uint32_t>(
+        "constraints", constraints.size(), 2,
+        [constraints](std::size_t i) {
+            const Segment& edge = constraints[i / 2];
+            return i % 2 == 0 ? edge.a.value : edge.b.value;
+        },
+        in_field_data);
+    vtu.add_array<std::uint8_t>(
+        "marker_kinds", markers.size(), 1, [markers](std::size_t i) { return markers[i].kind; }, in_field_data);
+    if (size_gradation)
+        vtu.add_array<double>(
+            "lamina_size_gradation", 1, 1, [size_gradation](std::size_t) { return *size_gradation; }, in_field_data);
+    vtu.xml += "    </FieldData>\n";
+}
 
 void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out) {
     const std::vector<double> distances = variant.wall_distance ? wall_distances(mesh) : std::vector<double>{};

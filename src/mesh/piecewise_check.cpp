@@ -120,7 +120,15 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
     for (const std::uint32_t e : seams.pairs.boundary)
         boundary.push_back(e < layer_edges_.size() ? layer_edges_[e].edge : BoundaryEdge{seams.edges[e]});
     check_whole_boundary(shared_points_, markers, boundary, seams.pairs.overused.empty(), options_, check, defects);
+    forget_borders();
     return finished();
+}
+
+void PiecewiseCheck::forget_borders() {
+    layer_edges_ = {};
+    border_ = {};
+    apexes_ = {};
+    candidates_ = {};
 }
 
 PiecewiseCheck::Seams PiecewiseCheck::match_seams() const {

@@ -49,6 +49,8 @@ private:
         EdgePairs pairs;
     };
     Seams match_seams() const;
+    /// Frees the memory that grows with the borders.
+    void forget_borders();
     /// Reports the shared vertices of no cell, and returns their number.
     std::size_t report_orphans(const Seams& seams, DefectList& defects) const;
     void measure_across(const Seams& seams);

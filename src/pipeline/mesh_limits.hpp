@@ -6,7 +6,7 @@
 namespace lamina::pipeline {
 
 /// The cost of stream_mesh() (docs/decisions/0045).
-inline constexpr WorkCost stream_cost{40e6, 4, 0.35e-6};
+inline constexpr WorkCost stream_cost{40e6, 2.5, 0.35e-6};
 
 /// Throws LimitError where a single option asks for far more triangles than the limits allow. It takes no time.
 void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,

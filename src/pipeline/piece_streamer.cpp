@@ -16,10 +16,10 @@ namespace {
 /// Formatting on several threads at once pays for parts of this size.
 constexpr std::size_t part_cells = 1 << 16;
 
-/// Calls f(begin, end) for successive parts of [0, n).
+/// Calls f(begin, end) for successive parts of [first, last).
 template <class F>
-void for_parts(std::size_t n, F&& f) {
-    for (std::size_t begin = 0; begin < n; begin += part_cells) f(begin, std::min(n, begin + part_cells));
+void for_parts(std::size_t first, std::size_t last, F&& f) {
+    for (std::size_t begin = first; begin < last; begin += part_cells) f(begin, std::min(last, begin + part_cells));
 }
 
 }  // namespace
@@ -32,13 +32,20 @@ PieceStreamer::PieceStreamer(const Decoupling& decoupling, const LayerCells& cel
       counts_{decoupling.points.size(), cells.triangles.size(), cells.quads.size(), cells.triangles.size()},
       in_order_([this](const MeshSink::Bytes& bytes) { sink_.append(bytes); }) {
     const std::span<const Point> points(decoupling.points);
-    for_parts(points.size(), [&](std::size_t begin, std::size_t end) {
+    for_parts(0, points.size(), [&](std::size_t begin, std::size_t end) {
         sink_.append(sink_.format({.first_vertex = begin, .points = points.subspan(begin, end - begin)}));
     });
     const std::span<const Triangle> triangles(cells.triangles);
-    for_parts(triangles.size(), [&](std::size_t begin, std::size_t end) {
-        sink_.append(sink_.format({.first_cell = begin, .triangles = triangles.subspan(begin, end - begin)}));
-    });
+    for (std::size_t piece = 0; piece < cells.pieces(); ++piece)
+        for_parts(
+            cells.first_triangle[piece], cells.first_triangle[piece + 1], [&](std::size_t begin, std::size_t end) {
+                sink_.append(sink_.format({.first_cell = begin,
+                                           .triangles = triangles.subspan(begin, end - begin),
+                                           .shared = points,
+                                           .region = Region::layer,
+                                           .piece = static_cast<std::uint32_t>(piece),
+                                           .layers = std::span(cells.triangle_layer).subspan(begin, end - begin)}));
+            });
     hash_.add(points, triangles);
 }
 
@@ -91,7 +98,9 @@ void PieceStreamer::hand_on(NumberedPiece piece) {
     MeshSink::Bytes bytes = sink_.format({.first_vertex = piece.first_vertex,
                                           .points = piece.refinement.steiner_points,
                                           .first_cell = piece.first_triangle,
-                                          .triangles = piece.refinement.triangles});
+                                          .triangles = piece.refinement.triangles,
+                                          .shared = decoupling_.points,
+                                          .piece = static_cast<std::uint32_t>(cells_.pieces() + piece.number)});
     piece.refinement = {};
     in_order_.put(piece.number, std::move(bytes));
     const std::lock_guard lock(mutex_);
@@ -100,15 +109,18 @@ void PieceStreamer::hand_on(NumberedPiece piece) {
     changed_.notify_all();
 }
 
-void PieceStreamer::finish(std::span<const Marker> markers) {
+void PieceStreamer::finish(std::span<const Marker> markers, std::span<const Segment> constraints) {
     const std::span<const Quad> quads(cells_.quads);
-    for_parts(quads.size(), [&](std::size_t begin, std::size_t end) {
-        sink_.append(
-            sink_.format({.first_cell = counts_.triangles + begin, .quads = quads.subspan(begin, end - begin)}));
+    for_parts(0, quads.size(), [&](std::size_t begin, std::size_t end) {
+        sink_.append(sink_.format({.first_cell = counts_.triangles + begin,
+                                   .shared = decoupling_.points,
+                                   .region = Region::layer,
+                                   .layers = std::span(cells_.quad_layer).subspan(begin, end - begin),
+                                   .quads = quads.subspan(begin, end - begin)}));
     });
     hash_.add(decoupling_.points, quads);
     hash_.add(decoupling_.points, markers);
-    sink_.finish(counts_, markers);
+    sink_.finish(counts_, markers, constraints);
 }
 
 }  // namespace lamina::pipeline

@@ -33,7 +33,7 @@ public:
     /// Wakes the threads that wait, after a failure.
     void fail();
     /// Ends the mesh, after the last piece, with the quadrilaterals of the layer.
-    void finish(std::span<const Marker> markers);
+    void finish(std::span<const Marker> markers, std::span<const Segment> constraints);
 
     const MeshCounts& counts() const { return counts_; }
     /// Returns the hash of the mesh, after finish().

@@ -227,7 +227,7 @@ MadePieces stream_pieces(const PiecesWork& work, const OpenSink& open_sink, Made
                                        .keep = [&](std::size_t place, std::size_t,
                                                    Refinement piece) { streamer.take(place, std::move(piece)); },
                                        .fail = [&] { streamer.fail(); }});
-    streamer.finish(work.markers);
+    streamer.finish(work.markers, work.layer.edges.interfaces);
     made.first_triangle = streamer.take_first_triangles();
     mesh.counts = streamer.counts();
     mesh.hash = streamer.hash();

@@ -46,7 +46,7 @@ TEST(Streams, AMeshWrittenWhileItIsMadeHasTheBytesOfTheFile) {
     EXPECT_EQ(out.out, folder.read("a.su2")) << out.err;
     EXPECT_EQ(run_lamina(folder, small_mesh({"--stream", "-o", "/dev/null", "--format", "su2"})).exit_code, 0);
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.json", "a.su2", "b.json", "b.su2"}));
-    expect_refused(folder, small_mesh({"--stream", "-o", "c.vtu"}), usage, "su2");
+    expect_refused(folder, small_mesh({"--stream", "-o", "c.msh"}), usage, "su2, vtu");
     expect_refused(folder, small_mesh({"--stream", "-o", "c.su2", "-o", "d.su2"}), usage, "one mesh file");
     expect_refused(folder, small_mesh({"--stream", "-o", "c.su2", "--wall-data", "w.csv"}), usage, "--wall-data");
 }

@@ -91,16 +91,17 @@ TEST(Stream, HasTheBytesOfTheWholeMesh) {
         SCOPED_TRACE(c.name);
         const TemporaryFolder folder;
         const MeshResult whole = generate_mesh(c.inputs, c.options);
-        write_mesh(whole.mesh, folder / "whole.su2");
+        for (const char* format : {"su2", "vtu"}) write_mesh(whole.mesh, folder / (std::string("whole.") + format));
         expect_same_check(whole.check, check_mesh(whole.mesh));
-        for (const unsigned threads : {1u, 2u, 5u}) {
+        for (const auto& [threads, format] : {std::pair{1u, ".su2"}, std::pair{2u, ".vtu"}, std::pair{5u, ".su2"}}) {
             c.options.threads = threads;
+            const std::string file = std::string("stream") + format;
             const StreamedMesh streamed =
-                stream_mesh(c.inputs, c.options, [&] { return open_mesh_sink(folder / "stream.su2"); });
-            EXPECT_EQ(folder.names(), std::vector<std::string>{"whole.su2"});
+                stream_mesh(c.inputs, c.options, [&] { return open_mesh_sink(folder / file); });
+            EXPECT_EQ(folder.names(), (std::vector<std::string>{"whole.su2", "whole.vtu"}));
             streamed.sink->commit();
-            EXPECT_TRUE(folder.read("stream.su2") == folder.read("whole.su2"));
-            std::filesystem::remove(folder / "stream.su2");
+            EXPECT_TRUE(folder.read(file) == folder.read(std::string("whole") + format)) << format;
+            std::filesystem::remove(folder / file);
             EXPECT_EQ(streamed.hash, mesh_hash(whole.mesh));
             EXPECT_EQ(streamed.counts.vertices, whole.mesh.points.size());
             EXPECT_EQ(streamed.counts.triangles, whole.mesh.triangles.size());
@@ -116,16 +117,20 @@ TEST(Stream, HasTheBytesOfTheWholeMesh) {
 class FailingSink : public MeshSink {
 public:
     explicit FailingSink(std::size_t parts) : left_(parts) {}
-    Bytes format(const MeshPart&) const override { return {}; }
-    void append(const Bytes&) override {
-        if (left_-- == 0) throw IoError("mesh.su2", "cannot write: no room");
+    Bytes format(const MeshPart&) const override { return {"bytes"}; }
+    void append(const Bytes& bytes) override {
+        EXPECT_EQ(bytes, Bytes{"bytes"});
+        EXPECT_FALSE(failed_) << "parts go on to come after a failure";
+        failed_ = left_-- == 0;
+        if (failed_) throw IoError("mesh.su2", "cannot write: no room");
     }
-    void finish(const MeshCounts&, std::span<const Marker>) override {}
+    void finish(const MeshCounts&, std::span<const Marker>, std::span<const Segment>) override {}
     void commit() override {}
     std::size_t bytes() const override { return 0; }
 
 private:
     std::size_t left_;
+    bool failed_ = false;
 };
 
 /// A plate with a slit of 3 degrees, whose layers are thinned: a better mesh replaces the first one.
