@@ -1,17 +1,26 @@
-// Bundles the npm package into build/web/package. The module of Emscripten must be in build/web/module.
+// Bundles the page into build/browser/site and the npm package into build/browser/package. The module of Emscripten must be in
+// build/browser/module.
 import {build} from "esbuild";
 import {cp, mkdir, readFile, rm, writeFile} from "node:fs/promises";
 import {execFileSync} from "node:child_process";
 import {fileURLToPath} from "node:url";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
-const module = `${root}build/web/module`, made = `${root}build/web/package`;
-const alias = {"lamina-module": `${module}/lamina.mjs`};
+const module = `${root}build/browser/module`, site = `${root}build/browser/site`, made = `${root}build/browser/package`;
+const alias = {"lamina-module": `${module}/lamina.mjs`, "report-page": `${root}share/page`};
 const shared = {bundle: true, format: "esm", target: "es2022", minify: true, alias, logLevel: "warning",
                 legalComments: "none", absWorkingDir: `${root}web`};
 
-await rm(made, {recursive: true, force: true});
-await mkdir(made, {recursive: true});
+for (const folder of [site, made]) {
+  await rm(folder, {recursive: true, force: true});
+  await mkdir(folder, {recursive: true});
+}
+
+await build({...shared, entryPoints: ["src/page.ts", "src/worker.ts"], outdir: site});
+await cp("src/index.html", `${site}/index.html`);
+const styles = await Promise.all([`${root}share/page/page.css`, "src/page.css"].map((file) => readFile(file, "utf8")));
+await writeFile(`${site}/page.css`, styles.join("\n"));
+await cp(`${module}/lamina.wasm`, `${site}/lamina.wasm`);
 
 await build({...shared, entryPoints: ["src/lamina.ts"], outdir: `${made}/dist`});
 await cp(`${module}/lamina.wasm`, `${made}/dist/lamina.wasm`);

@@ -1,6 +1,6 @@
-# zlib for WebAssembly, from Debian's source (./dev puts it into build/web/zlib): compressing and decompressing memory is
+# zlib for WebAssembly, from Debian's source (./dev puts it into build/browser/zlib): compressing and decompressing memory is
 # all that lamina needs of it.
-set(zlib_folder ${CMAKE_SOURCE_DIR}/build/web/zlib)
+set(zlib_folder ${CMAKE_SOURCE_DIR}/build/browser/zlib)
 set(zlib_sources adler32.c compress.c crc32.c deflate.c inffast.c inflate.c inftrees.c trees.c uncompr.c zutil.c)
 list(TRANSFORM zlib_sources PREPEND ${zlib_folder}/)
 enable_language(C)

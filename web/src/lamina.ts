@@ -264,7 +264,7 @@ export class Mesh implements MeshArrays {
 /** Returns a zip file of these files, each below `folder`. */
 export function zip(files: OutputFile[], folder = ""): Uint8Array {
   const entries: Zippable = {};
-  for (const {name, bytes} of files) entries[folder + name] = [bytes, {level: 6, mtime: new Date(1980, 0, 1)}];
+  for (const {name, bytes} of files) entries[folder + name] = [bytes, {level: 1, mtime: new Date(1980, 0, 1)}];
   return zipSync(entries);
 }
 

@@ -6,7 +6,7 @@ import {mkdtempSync, readdirSync, readFileSync, rmSync, statSync} from "node:fs"
 import {tmpdir} from "node:os";
 import {basename, join, resolve} from "node:path";
 import {fileURLToPath} from "node:url";
-import {mesh} from "../../build/web/package/dist/lamina.js";
+import {mesh} from "../../build/browser/package/dist/lamina.js";
 
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const program = resolve(process.argv[2] ?? `${root}build/release/src/app/lamina`);

@@ -1,0 +1,213 @@
+// The page: a form on the left, the picture in the middle, what came out on the right. Each change makes a new mesh.
+import {Mesher, Stopped} from "./client.ts";
+import {LaminaError} from "./error.ts";
+import {OptionForm} from "./form.ts";
+import type {InputFile} from "./lamina.ts";
+import type {MadeMesh, Offer} from "./messages.ts";
+import {Picture, placesOf, type Coloring} from "./picture.ts";
+import {countText, numberText} from "report-page/charts.js";
+
+function byId<Kind extends HTMLElement = HTMLElement>(id: string): Kind {
+  return document.getElementById(id) as Kind;
+}
+
+const mesher = new Mesher();
+const picture = new Picture(byId<HTMLCanvasElement>("view"), byId("bar"), (text) => {
+  byId("picked").hidden = text === "";
+  byId("picked").textContent = text;
+});
+const naca = byId<HTMLInputElement>("naca"), state = byId("state");
+const pauseBeforeMeshing = 120;  // milliseconds; a slider that moves changes options many times a second
+
+let form: OptionForm;
+let files: InputFile[] = [];
+/** The inputs of the mesh in the picture: where others come, the picture shows all of them. */
+let shownInputs = "";
+let busy = false, again = false, timer = 0;
+
+function inputs(): (string | InputFile)[] {
+  return files.length > 0 ? files : [`naca:${naca.value.trim()}`];
+}
+
+function inputNames(): string[] {
+  return inputs().map((input) => (typeof input === "string" ? input : input.name));
+}
+
+function make<Name extends keyof HTMLElementTagNameMap>(name: Name, text: string, click?: () => void): HTMLElementTagNameMap[Name] {
+  const element = document.createElement(name);
+  element.textContent = text;
+  if (click) element.addEventListener("click", click);
+  return element;
+}
+
+// --- Making a mesh
+
+function changed(): void {
+  clearTimeout(timer);
+  timer = window.setTimeout(update, pauseBeforeMeshing);
+}
+
+async function update(): Promise<void> {
+  again = busy;
+  if (busy) return;
+  busy = true;
+  const late = window.setTimeout(() => showState("Meshing ...", true), 250);
+  try {
+    const names = inputNames().join(" ");
+    const made = await mesher.mesh({inputs: inputs(), options: form.values()}, (stage) => {
+      if (state.dataset.busy) showState(`Meshing: ${stage} ...`, true);
+    });
+    showMesh(made, names);
+    showError(undefined);
+  } catch (error) {
+    showError(error as Error);
+  } finally {
+    clearTimeout(late);
+    showState("");
+    busy = false;
+  }
+  if (again) void update();
+}
+
+function showState(text: string, canStop = false): void {
+  if (canStop) state.dataset.busy = "yes";
+  else delete state.dataset.busy;
+  state.replaceChildren(...(text ? [text] : []), ...(canStop ? [make("button", "Stop", () => mesher.stop())] : []));
+}
+
+function showError(error: Error | undefined): void {
+  const shown = error && !(error instanceof Stopped) ? error.message : "";
+  byId("error").hidden = shown === "";
+  byId("error").textContent = shown;
+  form.markWrong(error instanceof LaminaError ? error.option : undefined);
+  document.body.dataset.state = shown ? "failed" : "done";
+}
+
+// --- What came out
+
+function showMesh(made: MadeMesh, names: string): void {
+  const {arrays, facts, warnings, seconds} = made, places = placesOf(arrays, facts);
+  picture.setMesh(arrays, (places[1] ?? places[0]!).box, names === shownInputs);
+  shownInputs = names;
+  byId("places").replaceChildren(...places.map(({name, box}) => make("button", name, () => picture.show(box))));
+  const triangles = arrays.triangles.length / 3, quads = arrays.quads.length / 4;
+  byId("headline").textContent = `${countText(triangles + quads)} cells in ${seconds.toFixed(2)} s`;
+  const rows: [string, string][] = [
+    ["vertices", countText(arrays.points.length / 2)],
+    ["triangles", countText(triangles)],
+    ...(quads > 0 ? [["quadrilaterals", countText(quads)] as [string, string]] : []),
+    ...facts.elements.map(({name, wall_vertices, first_height}) =>
+      [name, `${countText(wall_vertices)} on the wall` +
+             (first_height === null ? "" : `, first height ${numberText(first_height, 3)}`)] as [string, string]),
+    ["angles beyond layers", `${facts.isotropic.min_angle.toFixed(1)} to ${facts.isotropic.max_angle.toFixed(1)} degrees`],
+    ["mean ratio there", facts.isotropic.mean_ratio.toFixed(3)],
+    ["made and checked", `in ${facts.seconds.toFixed(2)} s`],
+  ];
+  byId("facts").replaceChildren(...rows.map(([name, value]) => {
+    const row = document.createElement("tr");
+    row.append(make("th", name), make("td", value));
+    return row;
+  }));
+  const near = 0.02 * facts.chord;
+  byId("warnings").replaceChildren(...warnings.map(({message, at}) => {
+    const box = make("div", "");
+    box.className = "warning";
+    box.append(make("b", "Warning"), message);
+    if (at) box.append(document.createElement("br"), make("button", "show", () =>
+      picture.show([at[0] - near, at[1] - near, at[0] + near, at[1] + near])));
+    return box;
+  }));
+  byId("command").textContent =
+    ["lamina", "mesh", ...inputNames(), ...form.commandLine(), "-o", "mesh.su2"].map(quoted).join(" ");
+}
+
+/** Returns a word as a shell takes it. */
+function quoted(word: string): string {
+  return /^[\w.:,=/+-]+$/.test(word) ? word : `'${word.replaceAll("'", `'\\''`)}'`;
+}
+
+async function download(name: string, format: string): Promise<void> {
+  try {
+    const file = await mesher.write(name, format);
+    const link = make("a", "");
+    link.href = URL.createObjectURL(new Blob([file.bytes]));
+    link.download = file.name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+  } catch (error) {
+    showError(error as Error);
+  }
+}
+
+function offerDownloads({formats}: Offer): void {
+  const common: [string, string, string][] = [["SU2", "mesh.su2", "su2"], ["Gmsh MSH", "mesh.msh", "msh41"],
+                                              ["VTU", "mesh.vtu", "vtu"], ["OpenFOAM", "polyMesh", "openfoam"]];
+  const other = document.createElement("select"), row = make("div", "");
+  row.className = "other";
+  for (const {name, extensions, description} of formats) {
+    const option = new Option(description, name);
+    const extension = extensions[0]!;
+    option.dataset.file = extension.startsWith(".") ? `mesh${extension}` : extension;
+    other.append(option);
+  }
+  row.append(other, make("button", "Save", () => void download(other.selectedOptions[0]!.dataset.file!, other.value)));
+  byId("downloads").append(...common.map(([label, name, format]) => make("button", label, () => void download(name, format))), row);
+}
+
+// --- Input
+
+async function addFiles(given: Iterable<File>): Promise<void> {
+  const read = await Promise.all([...given].map(async (file) => ({name: file.name, text: new Uint8Array(await file.arrayBuffer())})));
+  const names = new Set(read.map(({name}) => name));
+  files = [...files.filter(({name}) => !names.has(name)), ...read];
+  listFiles();
+}
+
+function listFiles(): void {
+  byId("list").replaceChildren(...files.map((file) => {
+    const entry = make("li", file.name), remove = make("button", "×", () => {
+      files = files.filter((other) => other !== file);
+      listFiles();
+    });
+    remove.setAttribute("aria-label", `remove ${file.name}`);
+    entry.append(remove);
+    return entry;
+  }));
+  naca.disabled = files.length > 0;
+  changed();
+}
+
+function takeInput(): void {
+  const chooser = byId<HTMLInputElement>("files");
+  naca.addEventListener("change", changed);
+  byId("choose").addEventListener("click", () => chooser.click());
+  chooser.addEventListener("change", () => {
+    void addFiles(chooser.files ?? []);
+    chooser.value = "";
+  });
+  for (const name of ["dragover", "dragleave", "drop"] as const)
+    document.addEventListener(name, (event) => {
+      event.preventDefault();
+      document.body.classList.toggle("dropping", name === "dragover");
+      if (name === "drop") void addFiles(event.dataTransfer?.files ?? []);
+    });
+  const color = byId<HTMLSelectElement>("color");
+  color.addEventListener("change", () => picture.setColoring(color.value as Coloring));
+}
+
+async function begin(): Promise<void> {
+  try {
+    const offer = await mesher.begin();
+    form = new OptionForm(offer.rows, byId("main-options"), byId("all-options"), changed);
+    offerDownloads(offer);
+    takeInput();
+    document.querySelector(".heading p")!.textContent += ` Version ${offer.version}.`;
+    await update();
+  } catch (error) {
+    showState(`The mesher could not be loaded: ${(error as Error).message}`);
+  }
+}
+
+// For tests, and for those who like the console.
+Object.assign(window, {lamina: {picture}});
+void begin();

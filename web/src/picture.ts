@@ -1,0 +1,183 @@
+// The picture of the mesh: the view that reports have, too, with colours and places.
+import {colorLegend, type Legend} from "./legend.ts";
+import type {Facts, MeshArrays} from "./lamina.ts";
+import {distinctColor, viridis} from "report-page/colors.js";
+import {measureCells, shapeOf} from "report-page/measures.js";
+import {createView, type View} from "report-page/view.js";
+
+type Box = [number, number, number, number];
+
+/** A part of the plane with a name. */
+export interface Place {
+  name: string;
+  box: Box;
+}
+
+/** What people may colour cells by. */
+export type Coloring = "none" | "region" | "minAngle" | "ratio" | "size" | "layer" | "piece";
+
+const layerColor = [207, 226, 240], outerColor = [246, 246, 243];
+
+function around(x: number, y: number, half: number): Box {
+  return [x - half, y - half, x + half, y + half];
+}
+
+function* vertices(mesh: MeshArrays): Iterable<number> {
+  for (let v = 0; 2 * v < mesh.points.length; ++v) yield v;
+}
+
+function boxOfVertices(points: Float64Array, vertices: Iterable<number>): Box {
+  const box: Box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const v of vertices) {
+    const x = points[2 * v]!, y = points[2 * v + 1]!;
+    box[0] = Math.min(box[0], x);
+    box[1] = Math.min(box[1], y);
+    box[2] = Math.max(box[2], x);
+    box[3] = Math.max(box[3], y);
+  }
+  return box;
+}
+
+function grown(box: Box, share: number): Box {
+  const margin = share * Math.max(box[2] - box[0], box[3] - box[1]);
+  return [box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin];
+}
+
+/** Returns the places that are worth a look: everything, the bodies, their noses and tails, and a first cell. */
+export function placesOf(mesh: MeshArrays, facts: Facts): Place[] {
+  const walls = mesh.markers.filter(({kind}) => kind === "wall");
+  const bodies = walls.length > 0 ? boxOfVertices(mesh.points, walls.flatMap(({edges}) => [...edges])) : undefined;
+  const places: Place[] = [{name: "all", box: boxOfVertices(mesh.points, vertices(mesh))}];
+  if (!bodies) return places;
+  places.push({name: facts.elements.length > 1 ? "elements" : "section", box: grown(bodies, 0.15)});
+  const many = facts.elements.length > 1;
+  for (const {name, trailing_edge, first_height} of facts.elements) {
+    const marker = walls.find((wall) => wall.name === name);
+    if (!marker) continue;
+    const box = boxOfVertices(mesh.points, marker.edges), size = box[2] - box[0], prefix = many ? `${name} ` : "";
+    let nose = marker.edges[0]!;
+    for (const v of marker.edges) if (mesh.points[2 * v]! < mesh.points[2 * nose]!) nose = v;
+    const x = mesh.points[2 * nose]!, y = mesh.points[2 * nose + 1]!;
+    places.push({name: `${prefix}nose`, box: around(x + 0.02 * size, y, 0.05 * size)});
+    places.push({name: `${prefix}tail`, box: around(trailing_edge[0], trailing_edge[1], 0.03 * size)});
+    if (first_height !== null) places.push({name: `${prefix}first cells`, box: around(x, y, 6 * first_height)});
+  }
+  return places;
+}
+
+/** Returns three bytes per cell, and the legend that explains them. */
+function colorsOf(mesh: MeshArrays, coloring: Coloring): {fills: Uint8Array; legend: Legend} {
+  const cells = mesh.triangles.length / 3 + mesh.quads.length / 4, fills = new Uint8Array(3 * cells);
+  const paint = (colorOf: (cell: number) => readonly number[]): Uint8Array => {
+    for (let cell = 0; cell < cells; ++cell) fills.set(colorOf(cell), 3 * cell);
+    return fills;
+  };
+  const inLayer = (cell: number): boolean => mesh.region.length > 0 && mesh.region[cell] === 0;
+  switch (coloring) {
+    case "none":
+      return {fills: fills.fill(255), legend: {kind: "empty"}};
+    case "region":
+      return {fills: paint((cell) => (inLayer(cell) ? layerColor : outerColor)),
+              legend: {kind: "words", words: [["layer", layerColor], ["isotropic", outerColor]]}};
+    case "piece":
+      return {fills: paint((cell) => distinctColor(mesh.piece[cell]!)), legend: {kind: "empty"}};
+    case "layer": {
+      const last = mesh.layer.reduce((most, layer) => Math.max(most, layer), 1);
+      return {fills: paint((cell) => (mesh.layer[cell] ? viridis((mesh.layer[cell]! - 1) / Math.max(1, last - 1)) : outerColor)),
+              legend: {kind: "ramp", from: "1", to: String(last)}};
+    }
+    default: {
+      const values = measureCells(mesh)[coloring];
+      // Angles in the layer are small by design, so the scale is that of the other cells.
+      let low = Infinity, high = -Infinity;
+      for (let cell = 0; cell < cells; ++cell) {
+        if (coloring !== "size" && inLayer(cell)) continue;
+        low = Math.min(low, values[cell]!);
+        high = Math.max(high, values[cell]!);
+      }
+      const scaled = coloring === "size" ? Math.log : (value: number) => value, width = scaled(high) - scaled(low) || 1;
+      return {fills: paint((cell) => viridis((scaled(values[cell]!) - scaled(low)) / width)),
+              legend: {kind: "ramp", from: low.toPrecision(3), to: high.toPrecision(3)}};
+    }
+  }
+}
+
+/** Shows one mesh after another in a canvas. */
+export class Picture {
+  #canvas: HTMLCanvasElement;
+  #bar: HTMLElement;
+  #onPick: (text: string) => void;
+  #view: View | undefined;
+  #mesh: MeshArrays | undefined;
+  #coloring: Coloring = "none";
+  #dark = matchMedia("(prefers-color-scheme: dark)");
+
+  constructor(canvas: HTMLCanvasElement, bar: HTMLElement, onPick: (text: string) => void) {
+    this.#canvas = canvas;
+    this.#bar = bar;
+    this.#onPick = onPick;
+    this.#dark.addEventListener("change", () => this.#setTheme());
+  }
+
+  /** Shows a mesh; where `keepView`, in the same part of the plane as the one before. */
+  setMesh(mesh: MeshArrays, box: Box, keepView: boolean): void {
+    const before = keepView ? this.#view?.view() : undefined;
+    this.#view?.destroy();
+    // A canvas whose context was given up cannot draw again.
+    const canvas = this.#canvas.cloneNode() as HTMLCanvasElement;
+    this.#canvas.replaceWith(canvas);
+    this.#canvas = canvas;
+    this.#mesh = mesh;
+    const markers = mesh.markers.map((marker) => ({...marker, kind: marker.kind.replace("_", " ")}));
+    this.#view = createView(canvas, {...mesh, markers, walls: []}, {onPick: ({cell}) => this.#pick(cell)});
+    this.#setTheme();
+    this.setColoring(this.#coloring);
+    if (before) {
+      const halfWidth = (0.5 * before.width) / before.scale, halfHeight = (0.5 * before.height) / before.scale;
+      this.#view.show([before.x - halfWidth, before.y - halfHeight, before.x + halfWidth, before.y + halfHeight],
+                      {animate: false});
+    } else this.#view.show(box, {animate: false});
+    this.#onPick("");
+  }
+
+  setColoring(coloring: Coloring): void {
+    this.#coloring = coloring;
+    if (!this.#mesh || !this.#view) return;
+    const {fills, legend} = colorsOf(this.#mesh, coloring);
+    if (coloring === "none" && this.#dark.matches) fills.fill(26);
+    this.#view.setColors(fills);
+    this.#bar.replaceChildren(...colorLegend(legend));
+  }
+
+  show(box: Box, animate = true): void {
+    this.#view?.show(box, {animate});
+  }
+
+  /** Returns the pixels of one row of the picture, from the left: red, green, blue and 255 for each. */
+  pixelRow(share: number): Uint8ClampedArray {
+    const canvas = this.#view!.snapshot();
+    return canvas.getContext("2d")!.getImageData(0, Math.floor(share * canvas.height), canvas.width, 1).data;
+  }
+
+  /** Returns the middle and the scale of the view, and the time that its last picture took. */
+  state(): (ReturnType<View["view"]> & {frameTime: number}) | undefined {
+    return this.#view && {...this.#view.view(), frameTime: this.#view.frameTime()};
+  }
+
+  #setTheme(): void {
+    const dark = this.#dark.matches;
+    this.#view?.setTheme(dark ? {background: "#12161c", edge: "#aebccb", wall: "#ff7b7b", farField: "#aebccb", strength: 0.55}
+                              : {background: "#f6f7f9", edge: "#1b2733", wall: "#b01e28", farField: "#1b2733", strength: 0.6});
+    if (this.#coloring === "none") this.setColoring("none");
+  }
+
+  #pick(cell: number): void {
+    const mesh = this.#mesh!;
+    if (cell < 0) return this.#onPick("");
+    const {minAngle, maxAngle, aspect, area} = shapeOf(mesh, cell);
+    const layer = mesh.layer[cell];
+    this.#onPick([`cell ${cell}${layer ? `, layer ${layer}` : ""}`,
+                  `angles ${minAngle.toPrecision(3)} to ${maxAngle.toPrecision(4)} degrees`,
+                  `aspect ratio ${aspect.toPrecision(3)}`, `area ${area.toPrecision(3)}`].join("\n"));
+  }
+}
