@@ -148,10 +148,15 @@ private:
         }
     }
 
+    /// Returns the largest angle that neighbouring rays may differ by.
+    double max_ray_angle() const {
+        return options_.fan_rays ? core::pi : core::radians(options_.max_ray_angle_deg) + 1e-9;
+    }
+
     /// Checks that rays stand in the order of the wall, and that neighbours differ by one layer and the largest ray
     /// angle at most.
     void check_rays() {
-        const double max_angle = options_.fan_rays ? core::pi : core::radians(options_.max_ray_angle_deg) + 1e-9;
+        const double max_angle = max_ray_angle();
         for (std::size_t e = 0; e < layer_.rays.size(); ++e) {
             const std::vector<Ray>& rays = layer_.rays[e];
             const LayerGrowth growth = growth_on_element(layer_.growth, e);

@@ -242,7 +242,8 @@ DividedCurves divide_into_requested(const OutlineCurves& curves, const Element& 
 
 /// Sets the largest spacing at each corner. Beside a kept edge, that edge alone sets it.
 void limit_at_corners(OutlineCurves& curves, const CorneredOutline& outline, const Element& given, std::size_t index,
-                      const ResamplingRequest& request, const ChordEnds& ends, double scale) {
+                      const ResamplingRequest& request, const ChordEnds& ends) {
+    const double scale = extent(given.points);
     const std::vector<double> turning = turning_angles(outline.points);
     const std::optional<double>& trailing_edge_spacing = request.options.trailing_edge_spacing;
     std::size_t corners = 0;
@@ -318,7 +319,7 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
     }
     const ChordEnds ends = find_chord_ends(given.points);
     if (options.base_edges) fix_base(outline_curves, given, *options.base_edges);
-    limit_at_corners(outline_curves, outline, given, index, request, ends, scale);
+    limit_at_corners(outline_curves, outline, given, index, request, ends);
     const SpacingRule rule = make_spacing_rule(request, ends, scale, index);
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;

@@ -13,15 +13,15 @@ namespace {
 
 using shapes::Outline;
 
-constexpr std::size_t points = 180;
-constexpr std::uint32_t layers = 24, fan_rays = 25;
+constexpr std::size_t wall_points = 180;
+constexpr std::uint32_t layer_count = 24, rays_of_fan = 25;
 
 CaseOptions equal_options() {
     CaseOptions options;
-    options.surface.points = points;
+    options.surface.points = wall_points;
     options.surface.exact_points = true;
-    options.layer.fan_rays = fan_rays;
-    options.layer.layers = layers;
+    options.layer.fan_rays = rays_of_fan;
+    options.layer.layers = layer_count;
     options.layer.first_height = Length{2e-5};
     options.layer.topology = LayerTopology::quads;
     options.far_field.size = 10;
@@ -37,7 +37,7 @@ std::vector<ColumnCell> lower_quads(const MeshResult& result) {
     const Mesh& mesh = result.mesh;
     const std::size_t layer_triangles = result.columns.size() - mesh.quads.size();
     for (std::size_t q = 0; q < mesh.quads.size(); ++q)
-        if (mesh.layer[mesh.triangles.size() + q] < layers)
+        if (mesh.layer[mesh.triangles.size() + q] < layer_count)
             quads.emplace_back(result.columns[layer_triangles + q], std::to_array(mesh.quads[q].v));
     return quads;
 }
@@ -45,22 +45,23 @@ std::vector<ColumnCell> lower_quads(const MeshResult& result) {
 /// Expects that sections have layers with the same cells but for the last row, whose columns have more cells where they
 /// divide their edges of the border, and that the points on the rays follow those of the wall.
 void expect_equal_layers(const std::vector<Outline>& sections, const CaseOptions& options, std::size_t fans) {
-    const std::size_t rays = points + fans * (fan_rays - 1);
+    const std::size_t rays = wall_points + fans * (rays_of_fan - 1);
     std::vector<ColumnCell> first;
     std::vector<VertexId> origins;
     for (std::size_t s = 0; s < sections.size(); ++s) {
         SCOPED_TRACE(s);
         const MeshResult result = mesh_of({sections[s]}, options);
         expect_sound(result, options);
-        EXPECT_EQ(result.mesh.markers[0].edges.size(), points);
-        EXPECT_EQ(result.surface_vertices, points);
+        EXPECT_EQ(result.mesh.markers[0].edges.size(), wall_points);
+        EXPECT_EQ(result.surface_vertices, wall_points);
         ASSERT_EQ(result.column_origins.size(), rays);
         EXPECT_EQ(result.layer_coverage[0].all.incomplete_rays, 0u);
         const auto quads = lower_quads(result);
-        EXPECT_EQ(quads.size(), points * (layers - 1) + fans * (fan_rays - 1) * (layers - 2));
+        EXPECT_EQ(quads.size(), wall_points * (layer_count - 1) + fans * (rays_of_fan - 1) * (layer_count - 2));
         for (const auto& [column, quad] : quads) {
             const std::size_t below = quad[0].index(), above = quad[1].index();
-            EXPECT_EQ(above, below < points ? points + column * layers : below + 1) << "of ray " << column;
+            EXPECT_EQ(above, below < wall_points ? wall_points + column * layer_count : below + 1)
+                << "of ray " << column;
         }
         if (s == 0) {
             first = quads;

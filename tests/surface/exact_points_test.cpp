@@ -101,7 +101,7 @@ TEST(ExactPoints, OfEachElement) {
 }
 
 TEST(ExactPoints, AreRefusedWhereTheyCannotBe) {
-    const auto refused = [](const Outline& outline, const SurfaceOptions& options) {
+    const auto refused_option = [](const Outline& outline, const SurfaceOptions& options) {
         try {
             prepare_surfaces(shapes::geometry({outline}), options);
         } catch (const OptionError& error) {
@@ -110,18 +110,18 @@ TEST(ExactPoints, AreRefusedWhereTheyCannotBe) {
         return std::string();
     };
     const Outline wing = shapes::section(0.12, 0.003, 40);
-    SurfaceOptions options = exactly(200);
-    options.treatment = SurfaceTreatment::keep;
-    EXPECT_EQ(refused(wing, options), "surface_points_exact");
-    options = exactly(200);
-    options.points.reset();
-    EXPECT_EQ(refused(wing, options), "surface_points_exact");
-    options = exactly(200, 4);
-    options.exact_points = false;
-    EXPECT_EQ(refused(wing, options), "base_edges");
-    EXPECT_EQ(refused(wing, exactly(6, 9)), "surface_points");
-    EXPECT_EQ(refused(shapes::comb(5, 0.1), exactly(12)), "surface_points");
-    EXPECT_EQ(refused(wing, exactly(200)), "");
+    SurfaceOptions wrong = exactly(200);
+    wrong.treatment = SurfaceTreatment::keep;
+    EXPECT_EQ(refused_option(wing, wrong), "surface_points_exact");
+    wrong = exactly(200);
+    wrong.points.reset();
+    EXPECT_EQ(refused_option(wing, wrong), "surface_points_exact");
+    wrong = exactly(200, 4);
+    wrong.exact_points = false;
+    EXPECT_EQ(refused_option(wing, wrong), "base_edges");
+    EXPECT_EQ(refused_option(wing, exactly(6, 9)), "surface_points");
+    EXPECT_EQ(refused_option(shapes::comb(5, 0.1), exactly(12)), "surface_points");
+    EXPECT_EQ(refused_option(wing, exactly(200)), "");
 }
 
 }  // namespace
