@@ -25,8 +25,8 @@ class LAMINA_EXPORT DynamicTriangulation {
 public:
     /// Makes a triangulation without points.
     DynamicTriangulation();
-    /// Makes that of points and segments between them. Throws as the functions that insert them do. The points have the
-    /// numbers 0, 1, 2, ...; of equal ones all but one count as removed (contains()).
+    /// Makes that of points and segments between them. The points have the numbers 0, 1, 2, ...; of equal ones all but
+    /// one count as removed (contains()). Throws as the functions that insert them do, with place().segments.
     explicit DynamicTriangulation(std::span<const Point> points, std::span<const Segment> segments = {});
     /// Copies all data.
     DynamicTriangulation(const DynamicTriangulation& other);

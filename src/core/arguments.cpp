@@ -32,8 +32,9 @@ void require_indices_below(std::size_t points, std::span<const Triangle> triangl
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const auto& v = triangles[i].v;
         if (std::any_of(v, v + 3, [&](VertexId corner) { return corner.index() >= points; }))
-            throw InputError({.triangles = {i}}, concat("triangle ", i, " (", v[0].value, "-", v[1].value, "-", v[2].value,
-                                        ") does not join three of the ", points, " points"));
+            throw InputError({.triangles = {i}},
+                             concat("triangle ", i, " (", v[0].value, "-", v[1].value, "-", v[2].value,
+                                    ") does not join three of the ", points, " points"));
     }
 }
 

@@ -217,6 +217,15 @@ TEST(Dynamic, CopiesAreIndependentAndErrorsChangeNothing) {
     EXPECT_EQ(d.size(), 50u);
     d = copy;
     EXPECT_EQ(d.size(), 49u);
+    try {
+        const std::vector<Segment> crossing{join(VertexId{0u}, VertexId{1u}), join(VertexId{0u}, VertexId{2u}),
+                                            join(VertexId{1u}, VertexId{3u})};
+        const DynamicTriangulation refused(std::vector<Point>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, crossing);
+        ADD_FAILURE() << "not refused";
+    } catch (const InputError& e) {
+        EXPECT_EQ(e.place().segments, std::vector<std::size_t>{2});
+        EXPECT_EQ(std::set(e.place().points.begin(), e.place().points.end()), (std::set<std::size_t>{0, 1, 2, 3}));
+    }
     const DynamicTriangulation equal_points(std::vector<Point>{{0, 0}, {1, 0}, {0, 1}, {1, 0}});
     EXPECT_EQ(equal_points.size(), 3u);
     EXPECT_NE(equal_points.contains(VertexId{1u}), equal_points.contains(VertexId{3u}));

@@ -94,7 +94,15 @@ DynamicTriangulation::DynamicTriangulation(std::span<const Point> points, std::s
     : DynamicTriangulation() {
     core::require_indices_below(points.size(), segments);
     const std::vector<VertexId> ids = insert(points);
-    for (const Segment& s : segments) insert(Segment{ids[s.a.index()], ids[s.b.index()]});
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        try {
+            insert(Segment{ids[segments[i].a.index()], ids[segments[i].b.index()]});
+        } catch (const InputError& error) {
+            InputPlace place = error.place();
+            place.segments = {i};
+            throw InputError(place, error.reason());
+        }
+    }
 }
 
 DynamicTriangulation::DynamicTriangulation(const DynamicTriangulation& other)

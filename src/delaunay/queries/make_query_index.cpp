@@ -53,6 +53,7 @@ std::vector<BoundaryEdge> boundary_edges(std::span<const Triangle> triangles, st
 /// to the region are borders.
 Tris triangulate_outside(std::span<const Point> points, const std::vector<BoundaryEdge>& boundary) {
     std::vector<Index> used;
+    used.reserve(boundary.size());
     for (const BoundaryEdge& e : boundary) used.push_back(static_cast<Index>(e.ends >> 32));
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -61,8 +62,10 @@ Tris triangulate_outside(std::span<const Point> points, const std::vector<Bounda
         return VertexId{static_cast<std::size_t>(at - used.begin())};
     };
     std::vector<Point> corners;
+    corners.reserve(used.size());
     for (const Index v : used) corners.push_back(points[v]);
     std::vector<Segment> segments;
+    segments.reserve(boundary.size());
     for (const BoundaryEdge& e : boundary) segments.push_back({local(e.ends >> 32), local(e.ends & 0xffffffffu)});
     Tris tris = triangulate_points(corners);
     try {
