@@ -128,7 +128,16 @@ class Page {
     byId("fit").addEventListener("change", () => this.paint());
   }
 
+  // Follows the view where the scale is to span what is in it.
+  followView({x, y, scale}) {
+    if (!byId("fit").checked || !this.coloring.values) return;
+    if (this.painted && this.painted.x === x && this.painted.y === y && this.painted.scale === scale) return;
+    clearTimeout(this.following);
+    this.following = setTimeout(() => this.paint(), 250);
+  }
+
   paint() {
+    this.painted = this.view.view();
     const theme = themes[this.dark.matches ? "dark" : "light"], {coloring, mesh} = this;
     const colored = coloring.key !== "none";
     this.view.setTheme({...theme, edge: colored ? "#10151c" : theme.edge, strength: colored ? 0.45 : 0.6,
@@ -243,6 +252,7 @@ class Page {
 
   moved() {
     const {scale, width} = this.view.view();
+    this.followView(this.view.view());
     // The longest length of 1, 2 or 5 times a power of ten that takes at most a quarter of the view.
     const most = Math.min(150, 0.25 * width) / scale / this.chord, unit = 10 ** Math.floor(Math.log10(most));
     const nice = [5, 2, 1].find((factor) => factor * unit <= most) * unit;
@@ -264,7 +274,7 @@ class Page {
   }
 
   pointText(vertex) {
-    return `${numberText(this.mesh.points[2 * vertex], 9)}, ${numberText(this.mesh.points[2 * vertex + 1], 9)}`;
+    return [0, 1].map((axis) => numberText(this.mesh.points[2 * vertex + axis], 12)).join(", ");
   }
 
   cellTable(cell) {

@@ -187,7 +187,7 @@ function clippedSegment(ax, ay, bx, by, box) {
 //   view()                 {x, y, scale, width, height}: the middle, CSS pixels per unit, CSS pixels
 //   select({cell, vertex}) marks a cell and a vertex, or nothing where they are -1
 //   cellAt(x, y)           the cell at a point, or -1
-//   cellsInView(visit)     calls visit(cell) for cells that may be in view
+//   cellsInView(visit)     calls visit(cell) for the cells whose boxes reach into the view
 //   snapshot()             a canvas with the picture
 //   frameTime()            milliseconds that the last picture took
 //   destroy()
@@ -498,7 +498,16 @@ export function createView(canvas, mesh, options = {}) {
     for (const {first, count, box} of parts.leaves) {
       if (box[0] > x + halfWidth || box[2] < x - halfWidth || box[1] > y + halfHeight || box[3] < y - halfHeight)
         continue;
-      for (let i = first; i < first + count; ++i) visit(parts.cell[i]);
+      for (let i = first; i < first + count; ++i) {
+        const [ax, ay, bx, by, cx, cy] = [0, 1, 2].flatMap((k) => {
+          const v = 2 * parts.corners[4 * i + k];
+          return [points[v] - x, points[v + 1] - y];
+        });
+        if (Math.min(ax, bx, cx) > halfWidth || Math.max(ax, bx, cx) < -halfWidth ||
+            Math.min(ay, by, cy) > halfHeight || Math.max(ay, by, cy) < -halfHeight)
+          continue;
+        visit(parts.cell[i]);
+      }
     }
   };
 
