@@ -32,8 +32,8 @@ function axisText(x, y, text, anchor) {
   return svgElement("text", {x, y, "text-anchor": anchor, class: "axis"}, text);
 }
 
-// Returns a chart of the counts of equal parts of [from, to], with `parts` + 1 numbers below. `format` makes the text of
-// a value, `color` the CSS colour of a bar from its share of the way.
+// Returns a chart of the counts of equal parts of [from, to], with `parts` + 1 numbers below. `format` makes the text
+// of a value, `color` the CSS colour of a bar from its share of the way.
 export function barChart({label, counts, from, to, parts = 4, format = (value) => numberText(value, 3),
                           color = () => null}) {
   const chart = emptyChart(label), most = Math.max(1, ...counts), total = counts.reduce((sum, n) => sum + n, 0);
@@ -44,8 +44,8 @@ export function barChart({label, counts, from, to, parts = 4, format = (value) =
     const height = count > 0 ? Math.max(1.5, room * count / most) : 0;
     const low = from + (to - from) * i / counts.length, high = from + (to - from) * (i + 1) / counts.length;
     const share = total > 0 ? 100 * count / total : 0;
-    const bar = svgElement("rect", {x: frame.left + i * width + 0.5, y: ground - height, width: Math.max(0.5, width - 1),
-                                    height, class: "bar"},
+    const bar = svgElement("rect", {x: frame.left + i * width + 0.5, y: ground - height,
+                                    width: Math.max(0.5, width - 1), height, class: "bar"},
                            svgElement("title", {}, `${format(low)} to ${format(high)}: ${countText(count)} ` +
                                                    `(${numberText(share, 3)} %)`));
     const fill = color((i + 0.5) / counts.length);

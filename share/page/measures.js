@@ -58,7 +58,8 @@ export function shapeOf(mesh, cell, out = {}) {
   return triangleShape(p[a], p[a + 1], p[b], p[b + 1], p[c], p[c + 1], out);
 }
 
-// Returns an array per measure with an entry per cell: minAngle, maxAngle, aspect, ratio, and size, the root of the area.
+// Returns an array per measure with an entry per cell: minAngle, maxAngle, aspect, ratio, and size, the root of the
+// area.
 export function measureCells(mesh) {
   const count = cellCount(mesh), shape = {};
   const measures = {};

@@ -265,12 +265,13 @@ class Page {
 
   showHit({cell, vertex}) {
     this.hit.replaceChildren();
-    if (vertex >= 0) this.hit.append(make("h3", {}, `Vertex ${countText(vertex)} on the wall`), this.vertexTable(vertex));
+    if (vertex >= 0)
+      this.hit.append(make("h3", {}, `Vertex ${countText(vertex)} on the wall`), this.vertexTable(vertex));
     if (cell >= 0) this.hit.append(make("h3", {}, `Cell ${countText(cell)}`), this.cellTable(cell));
     if (cell < 0 && vertex < 0)
-      this.hit.append(make("p", {class: "hint"}, "Click a cell or a vertex of a wall to read its numbers. Drag to move, " +
-                                                "turn the wheel or pinch to zoom; on the keyboard: arrows, + and −, and " +
-                                                "Enter for the cell in the middle."));
+      this.hit.append(make("p", {class: "hint"},
+                           "Click a cell or a vertex of a wall to read its numbers. Drag to move, turn the wheel or " +
+                           "pinch to zoom; on the keyboard: arrows, + and −, and Enter for the cell in the middle."));
   }
 
   pointText(vertex) {
@@ -347,9 +348,9 @@ class Page {
     const found = [...(this.report.warnings || []).map(({message, at, code}) => ({title: plain(code), message, at})),
                    ...(this.report.defects || []).map(({what, at}) => ({title: "defect", message: what, at}))];
     if (found.length === 0) return null;
+    const show = (at) => make("div", {}, make("button", {type: "button", onclick: () => this.goToWarning(at)}, "Show"));
     return section("Warnings", {open: true, note: countText(found.length)}, ...found.map(({title, message, at}) =>
-        make("div", {class: "warning"}, make("b", {}, title), message,
-             at ? make("div", {}, make("button", {type: "button", onclick: () => this.goToWarning(at)}, "Show")) : null)));
+        make("div", {class: "warning"}, make("b", {}, title), message, at ? show(at) : null)));
   }
 
   goToWarning([x, y]) {
@@ -443,8 +444,8 @@ class Page {
     const onPick = ({body}, index) => this.goToVertex(body, index);
     const chart = (title, values) => [
       make("h3", {}, title, make("small", {}, "chords")),
-      make("div", {class: "curves"}, curveChart({label: title, onPick,
-                                                 curves: this.mesh.walls.map((_, body) => curveOf(body, values(body)))}))];
+      make("div", {class: "curves"},
+           curveChart({label: title, onPick, curves: curves.map((_, body) => curveOf(body, values(body)))}))];
     const legend = names.length < 2 ? null : make("p", {class: "hint"}, ...names.flatMap((name, body) =>
         [make("i", {class: "dot", style: `background:${curveOf(body, []).color}`}), `${name}   `]));
     return section("Walls", {open: true, note: "click a curve to go there"},
@@ -453,7 +454,8 @@ class Page {
   }
 
   worst() {
-    const {measures} = this, outside = (cell) => this.isOutside(cell), negative = (values) => values.map((value) => -value);
+    const {measures} = this, outside = (cell) => this.isOutside(cell);
+    const negative = (values) => values.map((value) => -value);
     const group = (title, cells, text) => cells.length === 0 ? [] : [
       make("h3", {}, title),
       make("div", {class: "links"}, ...cells.map((cell) =>
@@ -498,7 +500,8 @@ class Page {
     ] : [];
     const inputs = (report.input || []).map(({name, file, points, repairs, surface}) =>
         [name, `${countText(points)} points`, [file.split("/").pop(), ...repairs, ...surface].join("; ")]);
-    const markers = this.mesh.markers.map(({name, kind, edges}) => [name, `${countText(edges.length / 2)} edges`, kind]);
+    const markers = this.mesh.markers.map(({name, kind, edges}) =>
+        [name, `${countText(edges.length / 2)} edges`, kind]);
     return section("Mesh and run", {open: false},
                    ...(inputs.length > 0 ? [make("h3", {}, "Input"), table(inputs)] : []),
                    make("h3", {}, "Markers"), table(markers),

@@ -133,8 +133,8 @@ function splitPoints(points) {
   return parts;
 }
 
-// Returns the way from one view to another as a function of the share of the way, from 0 to 1, and its length. Views are
-// {x, y, width}. Source: J. van Wijk, W. Nuij, Smooth and efficient zooming and panning (2003).
+// Returns the way from one view to another as a function of the share of the way, from 0 to 1, and its length. Views
+// are {x, y, width}. Source: J. van Wijk, W. Nuij, Smooth and efficient zooming and panning (2003).
 function smoothWay(from, to) {
   const rho = 1.4, distance = Math.hypot(to.x - from.x, to.y - from.y), zoom = Math.log(to.width / from.width);
   if (distance < 1e-6 * Math.min(from.width, to.width)) {

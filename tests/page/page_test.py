@@ -162,7 +162,7 @@ class Pages(unittest.TestCase):
         return html.read_text()
 
     def test_page_of_any_mesh(self):
-        """Grids with holes, quadrilaterals, several parts, parts that share a vertex, in any order; not always valid."""
+        """Grids with holes, quadrilaterals, several parts, parts that share a vertex, in any order, valid or not."""
         random.seed(7)
         for case in range(60):
             n, m = random.randint(1, 9), random.randint(1, 9)
@@ -221,8 +221,8 @@ class Pages(unittest.TestCase):
         self.assertEqual(list(unpacked(page)["markers"]), [hostile])
 
     def test_invalid_meshes_are_shown_with_their_defects(self):
-        self.write_su2("folded.su2", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.2, 0.2)], [[0, 1, 3], [1, 2, 3], [0, 2, 3]],
-                       {"wall": [(0, 1), (1, 2), (2, 0)]})
+        self.write_su2("folded.su2", [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.2, 0.2)],
+                       [[0, 1, 3], [1, 2, 3], [0, 2, 3]], {"wall": [(0, 1), (1, 2), (2, 0)]})
         report = json.loads(part_of(self.view("folded.su2"), "facts"))["report"]
         self.assertFalse(report["valid"])
         self.assertGreater(len(report["defects"]), 0)

@@ -80,8 +80,8 @@ class Report(unittest.TestCase):
     def setUpClass(cls):
         output.mkdir(parents=True, exist_ok=True)
         # Away from the origin, where single precision would do.
-        cls.page_file = mesh("report", "naca:0012", "--transform", "airfoil:shift:0.37,0.21", "--first-height", first_height, "--growth", 1.25, "--layers", 45,
-                             "--far-field", 100)
+        cls.page_file = mesh("report", "naca:0012", "--transform", "airfoil:shift:0.37,0.21", "--first-height",
+                             first_height, "--growth", 1.25, "--layers", 45, "--far-field", 100)
         cls.slots = mesh("high-lift", *(repository / "examples/geometry" / f"crmhl2d_{part}.dat"
                                         for part in ("slat", "main", "flap")), "--reynolds", 9e6)
         cls.playwright = sync_playwright().start()
@@ -103,7 +103,8 @@ class Report(unittest.TestCase):
         page.on("pageerror", lambda error: messages.append(str(error)))
         page.on("request", lambda request: requests.append(request.url))
         self.addCleanup(lambda: self.assertEqual(messages, []))
-        self.addCleanup(lambda: self.assertEqual([url for url in requests if not url.startswith(("file:", "data:"))], []))
+        self.addCleanup(lambda: self.assertEqual([url for url in requests if not url.startswith(("file:", "data:"))],
+                                                 []))
         page.goto(file.as_uri())
         page.wait_for_function("document.getElementById('state').textContent === ''", timeout=120_000)
         page.wait_for_timeout(400)
@@ -193,7 +194,8 @@ class Report(unittest.TestCase):
         page.keyboard.press("Enter")
         self.settle(page)
         # What lies under the mouse stays there.
-        at = lambda v, px, py: (v["x"] + (px - v["width"] / 2) / v["scale"], v["y"] - (py - v["height"] / 2) / v["scale"])
+        at = lambda v, px, py: (v["x"] + (px - v["width"] / 2) / v["scale"],
+                                v["y"] - (py - v["height"] / 2) / v["scale"])
         bounds = page.locator(".stage").bounding_box()
         # Browsers round places of the mouse to whole pixels of the page.
         px, py = 300 - bounds["x"] % 1, 200 - bounds["y"] % 1
