@@ -171,70 +171,82 @@ private:
     unsigned last_edge_ = 0;
 };
 
-/// Appends the triangles between rows j (`here`) and j + 1 (`above`), and those of their edges across which the patch
-/// has no triangle. Boundary edges are directed with the seam on their left, against the triangle. Where the patches are
-/// linked, notes the strip's triangles in `own`; `below` are those of the strip below.
+/// The triangles between rows j (`here`) and j + 1 (`above`), and those of their edges across which the patch has no
+/// triangle. Boundary edges are directed with the seam on their left, against the triangle. Where the patches are linked,
+/// `own` takes the strip's triangles; `below` are those of the strip below.
 ///
 ///        C ------- D      row j + 1      The triangle up (i) has A = i and B = i + 1 in row j; its apex C is in
 ///       /  \      /                      column i of row j + 1, or i + 1 if row j is odd.
 ///      /    \    /                       The triangle down (i) has C = i and D = i + 1 in row j + 1; its apex B
 ///     A ----- B           row j          is in column i + 1 of row j, or i if row j is odd.
-void append_strip(const LatticeGrid& grid, const TriangleBits& bits, Row j, const std::vector<std::uint32_t>& here,
-                  const std::vector<std::uint32_t>& above, const StripTriangles& below, StripTriangles& own,
-                  LatticePatches& patches) {
-    const std::size_t words = grid.words, base = static_cast<std::size_t>(j) * words;
-    const std::size_t odd = (j & 1) != 0 ? 1 : 0;
-    const Word* up = bits.up.data() + base;
-    const Word* down_here = bits.down.data() + base;
-    const Word* down = bits.down.data() + base + words;
-    const Word* up_above = bits.up.data() + base + words;
-    const auto vertex = [](const std::vector<std::uint32_t>& ids, std::size_t i) {
-        return VertexId{std::size_t{ids[i]}};
-    };
-    StripLinker linker(below, own, patches);
-    // `edge` is the one of the triangle in column i of these triangles.
-    const auto boundary = [&](VertexId a, VertexId b, const std::vector<std::uint32_t>& of_column, std::size_t i,
-                              unsigned edge) {
-        patches.boundary.push_back({b, a});
-        if (patches.linked) patches.boundary_links.push_back(core::edge_link(of_column[i], edge));
-    };
-    for (std::size_t w = 0; w < words; ++w) {
-        if ((up[w] | down[w]) == 0) continue;
-        const auto add_up = [&](std::size_t i) {
-            patches.triangles.push_back({{vertex(here, i), vertex(here, i + 1), vertex(above, i + odd)}});
-            if (patches.linked) linker.add_up(i, 2 * i + 2 + odd, (down_here[w] >> (i % 64) & 1) != 0);
-        };
-        const auto add_down = [&](std::size_t i) {
-            patches.triangles.push_back({{vertex(above, i + 1), vertex(above, i), vertex(here, i + 1 - odd)}});
-            if (patches.linked) linker.add_down(i, 2 * i + 3 - odd);
-        };
-        // The triangles form a strip, each beside the one before.
-        for_bits(up[w] | down[w], w, [&](std::size_t i) {
-            const Word bit = Word{1} << (i % 64);
-            if (odd != 0 && (down[w] & bit) != 0) add_down(i);
-            if ((up[w] & bit) != 0) add_up(i);
-            if (odd == 0 && (down[w] & bit) != 0) add_down(i);
-        });
-        for_bits(up[w] & ~down_here[w], w,
-                 [&](std::size_t i) { boundary(vertex(here, i), vertex(here, i + 1), own.up, i, 0); });
-        for_bits(down[w] & ~up_above[w], w,
-                 [&](std::size_t i) { boundary(vertex(above, i + 1), vertex(above, i), own.down, i, 0); });
-        // On the right of up (i) lies down (i + odd), on its left down (i + odd - 1).
-        const Word right_of_up = odd != 0 ? from_right(down, w, words) : down[w];
-        const Word left_of_up = odd != 0 ? down[w] : from_left(down, w);
-        for_bits(up[w] & ~right_of_up, w,
-                 [&](std::size_t i) { boundary(vertex(here, i + 1), vertex(above, i + odd), own.up, i, 1); });
-        for_bits(up[w] & ~left_of_up, w,
-                 [&](std::size_t i) { boundary(vertex(above, i + odd), vertex(here, i), own.up, i, 2); });
-        // On the left of down (i) lies up (i - odd), on its right up (i + 1 - odd).
-        const Word left_of_down = odd != 0 ? from_left(up, w) : up[w];
-        const Word right_of_down = odd != 0 ? up[w] : from_right(up, w, words);
-        for_bits(down[w] & ~left_of_down, w,
-                 [&](std::size_t i) { boundary(vertex(above, i), vertex(here, i + 1 - odd), own.down, i, 1); });
-        for_bits(down[w] & ~right_of_down, w,
-                 [&](std::size_t i) { boundary(vertex(here, i + 1 - odd), vertex(above, i + 1), own.down, i, 2); });
+class Strip {
+public:
+    Strip(const LatticeGrid& grid, const TriangleBits& bits, Row j, const std::vector<std::uint32_t>& here,
+          const std::vector<std::uint32_t>& above)
+        : words_(grid.words),
+          odd_((j & 1) != 0 ? 1 : 0),
+          up_(bits.up.data() + static_cast<std::size_t>(j) * words_),
+          down_here_(bits.down.data() + static_cast<std::size_t>(j) * words_),
+          down_(down_here_ + words_),
+          up_above_(up_ + words_),
+          here_(here),
+          above_(above) {}
+
+    void append_triangles(const StripTriangles& below, StripTriangles& own, LatticePatches& patches) const {
+        StripLinker linker(below, own, patches);
+        for (std::size_t w = 0; w < words_; ++w) {
+            const auto add_up = [&](std::size_t i) {
+                patches.triangles.push_back({{here(i), here(i + 1), above(i + odd_)}});
+                if (patches.linked) linker.add_up(i, 2 * i + 2 + odd_, (down_here_[w] >> (i % 64) & 1) != 0);
+            };
+            const auto add_down = [&](std::size_t i) {
+                patches.triangles.push_back({{above(i + 1), above(i), here(i + 1 - odd_)}});
+                if (patches.linked) linker.add_down(i, 2 * i + 3 - odd_);
+            };
+            // The triangles form a strip, each beside the one before.
+            for_bits(up_[w] | down_[w], w, [&](std::size_t i) {
+                const Word bit = Word{1} << (i % 64);
+                if (odd_ != 0 && (down_[w] & bit) != 0) add_down(i);
+                if ((up_[w] & bit) != 0) add_up(i);
+                if (odd_ == 0 && (down_[w] & bit) != 0) add_down(i);
+            });
+        }
     }
-}
+
+    void append_boundary(const StripTriangles& own, LatticePatches& patches) const {
+        // `edge` is the one of the triangle in column i of these triangles.
+        const auto add = [&](VertexId a, VertexId b, const std::vector<std::uint32_t>& of_column, std::size_t i,
+                             unsigned edge) {
+            patches.boundary.push_back({b, a});
+            if (patches.linked) patches.boundary_links.push_back(core::edge_link(of_column[i], edge));
+        };
+        for (std::size_t w = 0; w < words_; ++w) {
+            if ((up_[w] | down_[w]) == 0) continue;
+            for_bits(up_[w] & ~down_here_[w], w, [&](std::size_t i) { add(here(i), here(i + 1), own.up, i, 0); });
+            for_bits(down_[w] & ~up_above_[w], w, [&](std::size_t i) { add(above(i + 1), above(i), own.down, i, 0); });
+            // On the right of up (i) lies down (i + odd), on its left down (i + odd - 1).
+            const Word right_of_up = odd_ != 0 ? from_right(down_, w, words_) : down_[w];
+            const Word left_of_up = odd_ != 0 ? down_[w] : from_left(down_, w);
+            for_bits(up_[w] & ~right_of_up, w, [&](std::size_t i) { add(here(i + 1), above(i + odd_), own.up, i, 1); });
+            for_bits(up_[w] & ~left_of_up, w, [&](std::size_t i) { add(above(i + odd_), here(i), own.up, i, 2); });
+            // On the left of down (i) lies up (i - odd), on its right up (i + 1 - odd).
+            const Word left_of_down = odd_ != 0 ? from_left(up_, w) : up_[w];
+            const Word right_of_down = odd_ != 0 ? up_[w] : from_right(up_, w, words_);
+            for_bits(down_[w] & ~left_of_down, w,
+                     [&](std::size_t i) { add(above(i), here(i + 1 - odd_), own.down, i, 1); });
+            for_bits(down_[w] & ~right_of_down, w,
+                     [&](std::size_t i) { add(here(i + 1 - odd_), above(i + 1), own.down, i, 2); });
+        }
+    }
+
+private:
+    std::size_t words_, odd_;
+    const Word *up_, *down_here_, *down_, *up_above_;
+    const std::vector<std::uint32_t>&here_, &above_;
+
+    VertexId here(std::size_t i) const { return VertexId{std::size_t{here_[i]}}; }
+    VertexId above(std::size_t i) const { return VertexId{std::size_t{above_[i]}}; }
+};
 
 }  // namespace
 
@@ -272,7 +284,9 @@ void append_patch(const LatticeGrid& grid, const PatchVertices& patch, LatticePa
     append_row(grid, patch, 0, here, patches);
     for (Row j = 0; j + 1 < grid.rows; ++j) {
         append_row(grid, patch, j + 1, above, patches);
-        append_strip(grid, bits, j, here, above, below, own, patches);
+        const Strip strip(grid, bits, j, here, above);
+        strip.append_triangles(below, own, patches);
+        strip.append_boundary(own, patches);
         std::swap(here, above);
         std::swap(below, own);
     }
