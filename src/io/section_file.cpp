@@ -31,10 +31,16 @@ bool is_null_device(const fs::path& file) {
 SectionFile::SectionFile(const fs::path& target) : target_(target) {
     if (is_null_device(target)) return;
     const bool beside = !is_standard_stream(target) && !core::is_device(target);
-    std::string name = ((beside ? core::folder_of(target) : fs::temp_directory_path()) / ".lamina-XXXXXX").string();
+    const fs::path folder = beside ? core::folder_of(target) : fs::temp_directory_path();
+#ifdef O_TMPFILE
+    file_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR, 0600);
+    if (file_ >= 0) return;
+#endif
+    // Some file systems have no files without names. This one loses its name at once, and lives until it is closed.
+    std::string name = (folder / ".lamina-XXXXXX").string();
     file_ = ::mkstemp(name.data());
     if (file_ < 0) fail(errno);
-    ::unlink(name.c_str());  // the file lives until it is closed
+    ::unlink(name.c_str());
 }
 
 SectionFile::~SectionFile() {

@@ -66,6 +66,10 @@ TEST(Faults, AFullDisk) {
         const FileSizeLimit limit(50'000);
         expect_failed(folder, run_lamina(folder, mesh_to_all), io_failed, before);
         expect_failed(folder, run_lamina(folder, refine), io_failed, before);
+        for (const char* name : {"o.su2", "o.vtu"}) {
+            const Words stream{"mesh", "naca:0012:80", "--far-field", "4", "--stream", "-o", name};
+            expect_failed(folder, run_lamina(folder, stream), io_failed, before);
+        }
         expect_failed(folder, run_lamina(folder, {"convert", "m.vtu", "o.cgns"}), io_failed, before);
     }
     const FileSizeLimit limit(1'000);
