@@ -2,10 +2,13 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <lamina/files.hpp>
@@ -34,14 +37,37 @@ struct ViewArguments {
 /// Returns whether there is a screen on which a browser could show a page.
 bool has_screen() { return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr; }
 
-/// Hands the file to the program that the desktop opens such files with. Returns whether there is one.
-bool open_on_desktop(const std::filesystem::path& file) {
+/// Starts the program that the desktop opens such files with. The signals that this program ignores or blocks are as
+/// usual there. Returns whether it could be started.
+bool start_opener(const std::filesystem::path& file, pid_t& process) {
     std::string program = "xdg-open", name = std::filesystem::absolute(file).string();
     char* const arguments[] = {program.data(), name.data(), nullptr};
+    sigset_t none, ignored;
+    sigemptyset(&none);
+    sigemptyset(&ignored);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&ignored, signal);
+    posix_spawnattr_t attributes;
+    if (posix_spawnattr_init(&attributes) != 0) return false;
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &ignored);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    const int failed = posix_spawnp(&process, program.c_str(), nullptr, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
+    return failed == 0;
+}
+
+/// Opens the file on the desktop. Returns whether that succeeded, as far as can be seen: some desktops run the browser
+/// in the foreground, and nobody wants to wait for its end.
+bool open_on_desktop(const std::filesystem::path& file) {
+    constexpr std::chrono::milliseconds patience(3000), pause(20);
     pid_t process = 0;
-    if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments, environ) != 0) return false;
-    int status = 0;
-    return waitpid(process, &status, 0) == process && status == 0;
+    if (!start_opener(file, process)) return false;
+    for (auto waited = std::chrono::milliseconds(0); waited < patience; waited += pause) {
+        int status = 0;
+        if (waitpid(process, &status, WNOHANG) == process) return status == 0;
+        std::this_thread::sleep_for(pause);
+    }
+    return true;
 }
 
 /// Returns the name of the page of a mesh: in the working folder, with the stem of the mesh.
