@@ -17,7 +17,7 @@ from pathlib import Path
 
 from packed_mesh import part_of, unpacked
 
-lamina = sys.argv.pop(1) if len(sys.argv) > 1 else "lamina"
+lamina = str(Path(sys.argv.pop(1)).resolve())
 step_bits, coordinate_bits = 16, 49   # src/page/steps.hpp
 bytes_of_page, bytes_of_triangle = 150_000, 12
 

@@ -18,7 +18,7 @@ from playwright.sync_api import sync_playwright
 large = "--large" in sys.argv
 if large:
     sys.argv.remove("--large")
-lamina, output = sys.argv[1], Path(sys.argv[2])
+lamina, output = (Path(name).resolve() for name in sys.argv[1:3])
 del sys.argv[1:3]
 repository = Path(__file__).resolve().parents[2]
 first_height = 1e-7
