@@ -30,6 +30,7 @@ public:
         points_.insert(points_.end(), piece.inner.begin(), piece.inner.end());
         findings_.triangles = piece.triangles.size();
         findings_.inner_vertices = piece.inner.size();
+        findings_.border_vertices.assign(piece.border_ids.begin(), piece.border_ids.end());
     }
 
     PieceFindings check() {

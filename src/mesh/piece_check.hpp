@@ -56,7 +56,10 @@ struct PieceFindings {
     CellsSummary cells;                   ///< shapes, areas of neighbours, inner edges that violate Delaunay, defects
     std::vector<NarrowTriangle> narrow;   ///< in ascending order
     std::vector<PieceBorderEdge> border;  ///< in the order of the triangles
-    WorstCell widest, narrowest;          ///< by the largest angle in degrees, and by minus the smallest one
+    /// The ids of its border vertices. A line that dangles in the piece has triangles on both sides, which are
+    /// neighbours: not all border vertices are ends of border edges.
+    std::vector<VertexId> border_vertices;
+    WorstCell widest, narrowest;  ///< by the largest angle in degrees, and by minus the smallest one
 
     explicit PieceFindings(double min_angle_deg = 0) : cells(min_angle_deg) {}
 };

@@ -27,6 +27,15 @@ bool violates(const EdgeTriangle& one, const EdgeTriangle& other) {
     return is_strictly_in_circle(one.a, one.b, one.apex, other.apex);
 }
 
+/// Calls f(v) for the vertices of all cells.
+template <class F>
+void for_vertices_of_cells(const Mesh& mesh, F&& f) {
+    for (const Triangle& t : mesh.triangles)
+        for (const VertexId v : t.v) f(v);
+    for (const Quad& q : mesh.quads)
+        for (const VertexId v : q.v) f(v);
+}
+
 }  // namespace
 
 PiecewiseCheck::PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOptions options)
@@ -34,7 +43,7 @@ PiecewiseCheck::PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOp
       options_(std::move(options)),
       layer_(options_.min_angle_deg),
       pieces_(options_.min_angle_deg),
-      in_layer_(shared_points.size(), 0) {
+      used_(shared_points.size(), 0) {
     validate(options_);
 }
 
@@ -51,8 +60,7 @@ void PiecewiseCheck::add_layer(const Mesh& layer, std::span<const Segment> const
                                           cell_text(layer, edges.cell_of(e))),
                               layer.points[edges.origin(e).index()]};
         });
-    std::fill_n(in_layer_.begin(), layer.points.size(), std::uint8_t{1});
-    for (const VertexId v : adjacency.orphans) in_layer_[v.index()] = 0;
+    for_vertices_of_cells(layer, [&](VertexId v) { used_[v.index()] = 1; });
     cells_ += edges.cells();
     inner_edges_ += adjacency.edges - adjacency.boundary.size();
     const std::vector<BoundaryEdge> boundary = find_boundary_edges(layer, adjacency);
@@ -70,6 +78,8 @@ void PiecewiseCheck::add_piece(PieceFindings findings) {
         border_.push_back({edge.a, edge.b});
         apexes_.push_back(edge.apex);
     }
+    if (findings.cells.defects.empty())
+        for (const VertexId v : findings.border_vertices) used_[v.index()] = 1;
     first_candidate_.push_back(candidates_.size());
     candidates_.insert(candidates_.end(), findings.narrow.begin(), findings.narrow.end());
     findings.cells.narrow.clear();
@@ -100,7 +110,7 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
                 fmt::format("more than two cells, or two on one side, share the edge {}", edge_text(seams.edges[e])),
                 shared_points_[seams.edges[e].a.index()]};
         });
-    const std::size_t orphans = report_orphans(seams, defects);
+    const std::size_t orphans = report_orphans(defects);
     check.area = layer_.area + pieces_.area;
     check.euler_characteristic = static_cast<long>(shared_points_.size() - orphans + vertices_) -
                                  static_cast<long>(inner_edges_ + seams.pairs.edges) + static_cast<long>(cells_);
@@ -140,12 +150,10 @@ PiecewiseCheck::Seams PiecewiseCheck::match_seams() const {
     return seams;
 }
 
-std::size_t PiecewiseCheck::report_orphans(const Seams& seams, DefectList& defects) const {
-    std::vector<std::uint8_t> used = in_layer_;
-    for (const Segment& edge : seams.edges) used[edge.a.index()] = used[edge.b.index()] = 1;
+std::size_t PiecewiseCheck::report_orphans(DefectList& defects) const {
     std::size_t orphans = 0;
-    for (std::size_t v = 0; v < used.size(); ++v) {
-        if (used[v]) continue;
+    for (std::size_t v = 0; v < used_.size(); ++v) {
+        if (used_[v]) continue;
         ++orphans;
         defects.add([&] { return MeshDefect{fmt::format("vertex {} belongs to no cell", v), shared_points_[v]}; });
     }

@@ -52,7 +52,7 @@ private:
     /// Frees the memory that grows with the borders.
     void forget_borders();
     /// Reports the shared vertices of no cell, and returns their number.
-    std::size_t report_orphans(const Seams& seams, DefectList& defects) const;
+    std::size_t report_orphans(DefectList& defects) const;
     void measure_across(const Seams& seams);
     void subtract_constraints(const Seams& seams, std::span<const Segment> constraints, DefectList& defects);
     void find_unexcused(const Seams& seams, std::span<const std::size_t> first_triangle);
@@ -62,7 +62,7 @@ private:
     CellsSummary layer_, pieces_;
     std::size_t cells_ = 0, vertices_ = 0, inner_edges_ = 0;
     std::vector<LayerEdge> layer_edges_;     ///< edges that one cell of the layer alone has
-    std::vector<std::uint8_t> in_layer_;     ///< per shared point: whether the layer has it
+    std::vector<std::uint8_t> used_;         ///< per shared point: whether a cell has it
     std::vector<bool> is_layer_constraint_;  ///< per constraint: whether it is an edge of a cell of the layer
     std::vector<Segment> border_;            ///< of all pieces, one after the other
     std::vector<Point> apexes_;              ///< of the triangles behind these edges
