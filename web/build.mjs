@@ -1,15 +1,25 @@
-// Bundles the page into build/browser/site and the npm package into build/browser/package. The module of Emscripten must be in
-// build/browser/module.
+// Bundles the page into build/browser/site and the npm package into build/browser/package. The module of Emscripten
+// must be in build/browser/module.
 import {build} from "esbuild";
 import {cp, mkdir, readFile, rm, writeFile} from "node:fs/promises";
 import {execFileSync} from "node:child_process";
 import {fileURLToPath} from "node:url";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
-const module = `${root}build/browser/module`, site = `${root}build/browser/site`, made = `${root}build/browser/package`;
+const module = `${root}build/browser/module`,
+  site = `${root}build/browser/site`,
+  made = `${root}build/browser/package`;
 const alias = {"lamina-module": `${module}/lamina.mjs`, "report-page": `${root}share/page`};
-const shared = {bundle: true, format: "esm", target: "es2022", minify: true, alias, logLevel: "warning",
-                legalComments: "none", absWorkingDir: `${root}web`};
+const shared = {
+  bundle: true,
+  format: "esm",
+  target: "es2022",
+  minify: true,
+  alias,
+  logLevel: "warning",
+  legalComments: "none",
+  absWorkingDir: `${root}web`,
+};
 
 for (const folder of [site, made]) {
   await rm(folder, {recursive: true, force: true});
@@ -25,6 +35,6 @@ await cp(`${module}/lamina.wasm`, `${site}/lamina.wasm`);
 await build({...shared, entryPoints: ["src/lamina.ts"], outdir: `${made}/dist`});
 await cp(`${module}/lamina.wasm`, `${made}/dist/lamina.wasm`);
 execFileSync("node_modules/.bin/tsc", ["-p", "tsconfig.types.json", "--outDir", `${made}/dist`], {stdio: "inherit"});
-const {scripts, devDependencies, ...published} = JSON.parse(await readFile("package.json", "utf8"));
+const {scripts, devDependencies, prettier, ...published} = JSON.parse(await readFile("package.json", "utf8"));
 await writeFile(`${made}/package.json`, `${JSON.stringify(published, null, 2)}\n`);
 for (const file of ["README.md", "../LICENSE"]) await cp(file, `${made}/${file.replace("../", "")}`);

@@ -4,7 +4,12 @@ import {readFile} from "node:fs/promises";
 import {extname, join, normalize, resolve} from "node:path";
 import {fileURLToPath} from "node:url";
 
-const types = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm"};
+const types = {
+  ".html": "text/html; charset=utf-8",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".wasm": "application/wasm",
+};
 
 /** Starts a server; the promise is that of its address. */
 export function serve(folder, port = 0) {
@@ -15,7 +20,10 @@ export function serve(folder, port = 0) {
     try {
       if (!file.startsWith(root)) throw new Error("outside");
       const bytes = await readFile(file);
-      response.writeHead(200, {"content-type": types[extname(file)] ?? "application/octet-stream", "cache-control": "no-cache"});
+      response.writeHead(200, {
+        "content-type": types[extname(file)] ?? "application/octet-stream",
+        "cache-control": "no-cache",
+      });
       response.end(bytes);
     } catch {
       response.writeHead(404).end("not found");
@@ -23,12 +31,15 @@ export function serve(folder, port = 0) {
   });
   return new Promise((done, failed) => {
     server.on("error", failed);
-    server.listen(port, "127.0.0.1", () => done({address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close()}));
+    server.listen(port, "127.0.0.1", () =>
+      done({address: `http://127.0.0.1:${server.address().port}/`, close: () => server.close()}),
+    );
   });
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  const [folder = fileURLToPath(new URL("../build/browser/site", import.meta.url)), port = "8080"] = process.argv.slice(2);
+  const [folder = fileURLToPath(new URL("../build/browser/site", import.meta.url)), port = "8080"] =
+    process.argv.slice(2);
   const {address} = await serve(folder, Number(port));
   console.log(`${address} (Ctrl-C ends)`);
 }

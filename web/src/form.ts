@@ -101,26 +101,34 @@ export class OptionForm {
 
   /** Marks the option that an error is about, or none. */
   markWrong(wrong: string | undefined): void {
-    for (const [key, boxes] of this.#boxes)
-      for (const box of boxes) box.classList.toggle("wrong", key === wrong);
+    for (const [key, boxes] of this.#boxes) for (const box of boxes) box.classList.toggle("wrong", key === wrong);
   }
 
   /** Returns the program's arguments for the options that are set. */
   commandLine(): string[] {
     const words: string[] = [];
     for (const [key, text] of this.#texts) {
-      const row = this.#rows.get(key)!, name = `--${key.replaceAll("_", "-")}`;
+      const row = this.#rows.get(key)!,
+        name = `--${key.replaceAll("_", "-")}`;
       if (row.kind === "flag") {
         if (text === "true") words.push(name);
       } else if (row.kind === "repeated") {
         for (const word of text.trim().split(/\s+/)) words.push(name, word);
-      } else words.push(name, text.trim().split(/\s+/).join(row.kind === "words" ? "," : " "));
+      } else
+        words.push(
+          name,
+          text
+            .trim()
+            .split(/\s+/)
+            .join(row.kind === "words" ? "," : " "),
+        );
     }
     return words;
   }
 
   #box(row: OptionRow, label: string): {box: HTMLElement; body: HTMLLabelElement} {
-    const box = document.createElement("div"), body = document.createElement("label");
+    const box = document.createElement("div"),
+      body = document.createElement("label");
     box.className = "option";
     box.dataset.key = row.key;
     box.title = row.help + (row.range ? ` (${row.range})` : "");
@@ -136,8 +144,12 @@ export class OptionForm {
 
   #numberField(row: OptionRow, label: string, slider?: Slider): HTMLElement {
     const {box, body} = this.#box(row, label);
-    const text = Object.assign(document.createElement("input"), {className: "text", placeholder: defaultText(row) || "none",
-                                                                 spellcheck: false, autocomplete: "off"});
+    const text = Object.assign(document.createElement("input"), {
+      className: "text",
+      placeholder: defaultText(row) || "none",
+      spellcheck: false,
+      autocomplete: "off",
+    });
     text.addEventListener("change", () => this.set(row.key, text.value));
     body.append(text);
     this.#register(row.key, (value) => (text.value = value));

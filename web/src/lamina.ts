@@ -146,8 +146,8 @@ declare const process: unknown;
 let loading: Promise<Module> | undefined;
 
 /**
- * Loads the WebAssembly module, once. The other functions call it by themselves; call it first to begin early, or to say
- * where lamina.wasm is (beside this file by default).
+ * Loads the WebAssembly module, once. The other functions call it by themselves; call it first to begin early, or to
+ * say where lamina.wasm is (beside this file by default).
  */
 export function load(wasm?: URL | string | ArrayBuffer | Uint8Array): Promise<Module> {
   loading ??= wasmBytes(wasm)
@@ -163,7 +163,8 @@ export function load(wasm?: URL | string | ArrayBuffer | Uint8Array): Promise<Mo
   return loading;
 }
 
-const inputFolder = "/input", outputFolder = "/output";
+const inputFolder = "/input",
+  outputFolder = "/output";
 
 function remove(fs: Module["FS"], path: string): void {
   if (!fs.isDir(fs.stat(path).mode)) return fs.unlink(path);
@@ -251,7 +252,8 @@ export class Mesh implements MeshArrays {
       collect(outputFolder, "");
       return files;
     } finally {
-      for (const entry of fs.readdir(outputFolder)) if (entry !== "." && entry !== "..") remove(fs, `${outputFolder}/${entry}`);
+      for (const entry of fs.readdir(outputFolder))
+        if (entry !== "." && entry !== "..") remove(fs, `${outputFolder}/${entry}`);
     }
   }
 
@@ -269,10 +271,14 @@ export function zip(files: OutputFile[], folder = ""): Uint8Array {
 }
 
 /**
- * Makes a mesh round airfoils. `inputs` are NACA sections ("naca:0012") and files of coordinates; options have the names
- * and meanings of case files. `progress` is called with the name of each stage that begins. Throws LaminaError.
+ * Makes a mesh round airfoils. `inputs` are NACA sections ("naca:0012") and files of coordinates; options have the
+ * names and meanings of case files. `progress` is called with the name of each stage that begins. Throws LaminaError.
  */
-export async function mesh(inputs: Input | Input[], options: Options = {}, progress?: (stage: string) => void): Promise<Mesh> {
+export async function mesh(
+  inputs: Input | Input[],
+  options: Options = {},
+  progress?: (stage: string) => void,
+): Promise<Mesh> {
   const module = await load();
   const list = Array.isArray(inputs) ? inputs : [inputs];
   const generated = withInputs(module, list, (names) => valueOf(module.generate(names, options, progress ?? null)));

@@ -2,9 +2,7 @@
 import {cssColor, viridis} from "report-page/colors.js";
 
 export type Legend =
-  | {kind: "empty"}
-  | {kind: "words"; words: [string, readonly number[]][]}
-  | {kind: "ramp"; from: string; to: string};
+  {kind: "empty"} | {kind: "words"; words: [string, readonly number[]][]} | {kind: "ramp"; from: string; to: string};
 
 function element(name: string, className: string, ...children: (Node | string)[]): HTMLElement {
   const made = document.createElement(name);
@@ -17,13 +15,20 @@ function element(name: string, className: string, ...children: (Node | string)[]
 export function colorLegend(legend: Legend): HTMLElement[] {
   if (legend.kind === "empty") return [];
   if (legend.kind === "words") {
-    return [element("div", "swatches", ...legend.words.map(([word, color]) => {
-      const swatch = element("i", "");
-      swatch.style.background = cssColor(color as [number, number, number]);
-      return element("span", "", swatch, word);
-    }))];
+    return [
+      element(
+        "div",
+        "swatches",
+        ...legend.words.map(([word, color]) => {
+          const swatch = element("i", "");
+          swatch.style.background = cssColor(color as [number, number, number]);
+          return element("span", "", swatch, word);
+        }),
+      ),
+    ];
   }
-  const ramp = element("div", "ramp"), stops = Array.from({length: 9}, (_, i) => cssColor(viridis(i / 8)));
+  const ramp = element("div", "ramp"),
+    stops = Array.from({length: 9}, (_, i) => cssColor(viridis(i / 8)));
   ramp.style.background = `linear-gradient(90deg, ${stops.join(", ")})`;
   return [ramp, element("div", "ticks", element("span", "", legend.from), element("span", "", legend.to))];
 }

@@ -16,14 +16,17 @@ const picture = new Picture(byId<HTMLCanvasElement>("view"), byId("bar"), (text)
   byId("picked").hidden = text === "";
   byId("picked").textContent = text;
 });
-const naca = byId<HTMLInputElement>("naca"), state = byId("state");
-const pauseBeforeMeshing = 120;  // milliseconds; a slider that moves changes options many times a second
+const naca = byId<HTMLInputElement>("naca"),
+  state = byId("state");
+const pauseBeforeMeshing = 120; // milliseconds; a slider that moves changes options many times a second
 
 let form: OptionForm;
 let files: InputFile[] = [];
 /** The inputs of the mesh in the picture: where others come, the picture shows all of them. */
 let shownInputs = "";
-let busy = false, again = false, timer = 0;
+let busy = false,
+  again = false,
+  timer = 0;
 
 function inputs(): (string | InputFile)[] {
   return files.length > 0 ? files : [`naca:${naca.value.trim()}`];
@@ -33,7 +36,11 @@ function inputNames(): string[] {
   return inputs().map((input) => (typeof input === "string" ? input : input.name));
 }
 
-function make<Name extends keyof HTMLElementTagNameMap>(name: Name, text: string, click?: () => void): HTMLElementTagNameMap[Name] {
+function make<Name extends keyof HTMLElementTagNameMap>(
+  name: Name,
+  text: string,
+  click?: () => void,
+): HTMLElementTagNameMap[Name] {
   const element = document.createElement(name);
   element.textContent = text;
   if (click) element.addEventListener("click", click);
@@ -86,39 +93,57 @@ function showError(error: Error | undefined): void {
 // --- What came out
 
 function showMesh(made: MadeMesh, names: string): void {
-  const {arrays, facts, warnings, seconds} = made, places = placesOf(arrays, facts);
+  const {arrays, facts, warnings, seconds} = made,
+    places = placesOf(arrays, facts);
   picture.setMesh(arrays, (places[1] ?? places[0]!).box, names === shownInputs);
   shownInputs = names;
   byId("places").replaceChildren(...places.map(({name, box}) => make("button", name, () => picture.show(box))));
-  const triangles = arrays.triangles.length / 3, quads = arrays.quads.length / 4;
+  const triangles = arrays.triangles.length / 3,
+    quads = arrays.quads.length / 4;
   byId("headline").textContent = `${countText(triangles + quads)} cells in ${seconds.toFixed(2)} s`;
   const rows: [string, string][] = [
     ["vertices", countText(arrays.points.length / 2)],
     ["triangles", countText(triangles)],
     ...(quads > 0 ? [["quadrilaterals", countText(quads)] as [string, string]] : []),
-    ...facts.elements.map(({name, wall_vertices, first_height}) =>
-      [name, `${countText(wall_vertices)} on the wall` +
-             (first_height === null ? "" : `, first height ${numberText(first_height, 3)}`)] as [string, string]),
-    ["angles beyond layers", `${facts.isotropic.min_angle.toFixed(1)} to ${facts.isotropic.max_angle.toFixed(1)} degrees`],
+    ...facts.elements.map(
+      ({name, wall_vertices, first_height}) =>
+        [
+          name,
+          `${countText(wall_vertices)} on the wall` +
+            (first_height === null ? "" : `, first height ${numberText(first_height, 3)}`),
+        ] as [string, string],
+    ),
+    [
+      "angles beyond layers",
+      `${facts.isotropic.min_angle.toFixed(1)} to ${facts.isotropic.max_angle.toFixed(1)} degrees`,
+    ],
     ["mean ratio there", facts.isotropic.mean_ratio.toFixed(3)],
     ["made and checked", `in ${facts.seconds.toFixed(2)} s`],
   ];
-  byId("facts").replaceChildren(...rows.map(([name, value]) => {
-    const row = document.createElement("tr");
-    row.append(make("th", name), make("td", value));
-    return row;
-  }));
+  byId("facts").replaceChildren(
+    ...rows.map(([name, value]) => {
+      const row = document.createElement("tr");
+      row.append(make("th", name), make("td", value));
+      return row;
+    }),
+  );
   const near = 0.02 * facts.chord;
-  byId("warnings").replaceChildren(...warnings.map(({message, at}) => {
-    const box = make("div", "");
-    box.className = "warning";
-    box.append(make("b", "Warning"), message);
-    if (at) box.append(document.createElement("br"), make("button", "show", () =>
-      picture.show([at[0] - near, at[1] - near, at[0] + near, at[1] + near])));
-    return box;
-  }));
-  byId("command").textContent =
-    ["lamina", "mesh", ...inputNames(), ...form.commandLine(), "-o", "mesh.su2"].map(quoted).join(" ");
+  byId("warnings").replaceChildren(
+    ...warnings.map(({message, at}) => {
+      const box = make("div", "");
+      box.className = "warning";
+      box.append(make("b", "Warning"), message);
+      if (at)
+        box.append(
+          document.createElement("br"),
+          make("button", "show", () => picture.show([at[0] - near, at[1] - near, at[0] + near, at[1] + near])),
+        );
+      return box;
+    }),
+  );
+  byId("command").textContent = ["lamina", "mesh", ...inputNames(), ...form.commandLine(), "-o", "mesh.su2"]
+    .map(quoted)
+    .join(" ");
 }
 
 /** Returns a word as a shell takes it. */
@@ -140,9 +165,14 @@ async function download(name: string, format: string): Promise<void> {
 }
 
 function offerDownloads({formats}: Offer): void {
-  const common: [string, string, string][] = [["SU2", "mesh.su2", "su2"], ["Gmsh MSH", "mesh.msh", "msh41"],
-                                              ["VTU", "mesh.vtu", "vtu"], ["OpenFOAM", "polyMesh", "openfoam"]];
-  const other = document.createElement("select"), row = make("div", "");
+  const common: [string, string, string][] = [
+    ["SU2", "mesh.su2", "su2"],
+    ["Gmsh MSH", "mesh.msh", "msh41"],
+    ["VTU", "mesh.vtu", "vtu"],
+    ["OpenFOAM", "polyMesh", "openfoam"],
+  ];
+  const other = document.createElement("select"),
+    row = make("div", "");
   row.className = "other";
   for (const {name, extensions, description} of formats) {
     const option = new Option(description, name);
@@ -150,29 +180,40 @@ function offerDownloads({formats}: Offer): void {
     option.dataset.file = extension.startsWith(".") ? `mesh${extension}` : extension;
     other.append(option);
   }
-  row.append(other, make("button", "Save", () => void download(other.selectedOptions[0]!.dataset.file!, other.value)));
-  byId("downloads").append(...common.map(([label, name, format]) => make("button", label, () => void download(name, format))), row);
+  row.append(
+    other,
+    make("button", "Save", () => void download(other.selectedOptions[0]!.dataset.file!, other.value)),
+  );
+  byId("downloads").append(
+    ...common.map(([label, name, format]) => make("button", label, () => void download(name, format))),
+    row,
+  );
 }
 
 // --- Input
 
 async function addFiles(given: Iterable<File>): Promise<void> {
-  const read = await Promise.all([...given].map(async (file) => ({name: file.name, text: new Uint8Array(await file.arrayBuffer())})));
+  const read = await Promise.all(
+    [...given].map(async (file) => ({name: file.name, text: new Uint8Array(await file.arrayBuffer())})),
+  );
   const names = new Set(read.map(({name}) => name));
   files = [...files.filter(({name}) => !names.has(name)), ...read];
   listFiles();
 }
 
 function listFiles(): void {
-  byId("list").replaceChildren(...files.map((file) => {
-    const entry = make("li", file.name), remove = make("button", "×", () => {
-      files = files.filter((other) => other !== file);
-      listFiles();
-    });
-    remove.setAttribute("aria-label", `remove ${file.name}`);
-    entry.append(remove);
-    return entry;
-  }));
+  byId("list").replaceChildren(
+    ...files.map((file) => {
+      const entry = make("li", file.name),
+        remove = make("button", "×", () => {
+          files = files.filter((other) => other !== file);
+          listFiles();
+        });
+      remove.setAttribute("aria-label", `remove ${file.name}`);
+      entry.append(remove);
+      return entry;
+    }),
+  );
   naca.disabled = files.length > 0;
   changed();
 }

@@ -16,7 +16,8 @@ export interface Place {
 /** What people may colour cells by. */
 export type Coloring = "none" | "region" | "minAngle" | "ratio" | "size" | "layer" | "piece";
 
-const layerColor = [207, 226, 240], outerColor = [246, 246, 243];
+const layerColor = [207, 226, 240],
+  outerColor = [246, 246, 243];
 
 function around(x: number, y: number, half: number): Box {
   return [x - half, y - half, x + half, y + half];
@@ -29,7 +30,8 @@ function* vertices(mesh: MeshArrays): Iterable<number> {
 function boxOfVertices(points: Float64Array, vertices: Iterable<number>): Box {
   const box: Box = [Infinity, Infinity, -Infinity, -Infinity];
   for (const v of vertices) {
-    const x = points[2 * v]!, y = points[2 * v + 1]!;
+    const x = points[2 * v]!,
+      y = points[2 * v + 1]!;
     box[0] = Math.min(box[0], x);
     box[1] = Math.min(box[1], y);
     box[2] = Math.max(box[2], x);
@@ -46,7 +48,13 @@ function grown(box: Box, share: number): Box {
 /** Returns the places that are worth a look: everything, the bodies, their noses and tails, and a first cell. */
 export function placesOf(mesh: MeshArrays, facts: Facts): Place[] {
   const walls = mesh.markers.filter(({kind}) => kind === "wall");
-  const bodies = walls.length > 0 ? boxOfVertices(mesh.points, walls.flatMap(({edges}) => [...edges])) : undefined;
+  const bodies =
+    walls.length > 0
+      ? boxOfVertices(
+          mesh.points,
+          walls.flatMap(({edges}) => [...edges]),
+        )
+      : undefined;
   const places: Place[] = [{name: "all", box: boxOfVertices(mesh.points, vertices(mesh))}];
   if (!bodies) return places;
   places.push({name: facts.elements.length > 1 ? "elements" : "section", box: grown(bodies, 0.15)});
@@ -54,10 +62,13 @@ export function placesOf(mesh: MeshArrays, facts: Facts): Place[] {
   for (const {name, trailing_edge, first_height} of facts.elements) {
     const marker = walls.find((wall) => wall.name === name);
     if (!marker) continue;
-    const box = boxOfVertices(mesh.points, marker.edges), size = box[2] - box[0], prefix = many ? `${name} ` : "";
+    const box = boxOfVertices(mesh.points, marker.edges),
+      size = box[2] - box[0],
+      prefix = many ? `${name} ` : "";
     let nose = marker.edges[0]!;
     for (const v of marker.edges) if (mesh.points[2 * v]! < mesh.points[2 * nose]!) nose = v;
-    const x = mesh.points[2 * nose]!, y = mesh.points[2 * nose + 1]!;
+    const x = mesh.points[2 * nose]!,
+      y = mesh.points[2 * nose + 1]!;
     places.push({name: `${prefix}nose`, box: around(x + 0.02 * size, y, 0.05 * size)});
     places.push({name: `${prefix}tail`, box: around(trailing_edge[0], trailing_edge[1], 0.03 * size)});
     if (first_height !== null) places.push({name: `${prefix}first cells`, box: around(x, y, 6 * first_height)});
@@ -67,7 +78,8 @@ export function placesOf(mesh: MeshArrays, facts: Facts): Place[] {
 
 /** Returns three bytes per cell, and the legend that explains them. */
 function colorsOf(mesh: MeshArrays, coloring: Coloring): {fills: Uint8Array; legend: Legend} {
-  const cells = mesh.triangles.length / 3 + mesh.quads.length / 4, fills = new Uint8Array(3 * cells);
+  const cells = mesh.triangles.length / 3 + mesh.quads.length / 4,
+    fills = new Uint8Array(3 * cells);
   const paint = (colorOf: (cell: number) => readonly number[]): Uint8Array => {
     for (let cell = 0; cell < cells; ++cell) fills.set(colorOf(cell), 3 * cell);
     return fills;
@@ -77,27 +89,43 @@ function colorsOf(mesh: MeshArrays, coloring: Coloring): {fills: Uint8Array; leg
     case "none":
       return {fills: fills.fill(255), legend: {kind: "empty"}};
     case "region":
-      return {fills: paint((cell) => (inLayer(cell) ? layerColor : outerColor)),
-              legend: {kind: "words", words: [["layer", layerColor], ["isotropic", outerColor]]}};
+      return {
+        fills: paint((cell) => (inLayer(cell) ? layerColor : outerColor)),
+        legend: {
+          kind: "words",
+          words: [
+            ["layer", layerColor],
+            ["isotropic", outerColor],
+          ],
+        },
+      };
     case "piece":
       return {fills: paint((cell) => distinctColor(mesh.piece[cell]!)), legend: {kind: "empty"}};
     case "layer": {
       const last = mesh.layer.reduce((most, layer) => Math.max(most, layer), 1);
-      return {fills: paint((cell) => (mesh.layer[cell] ? viridis((mesh.layer[cell]! - 1) / Math.max(1, last - 1)) : outerColor)),
-              legend: {kind: "ramp", from: "1", to: String(last)}};
+      return {
+        fills: paint((cell) =>
+          mesh.layer[cell] ? viridis((mesh.layer[cell]! - 1) / Math.max(1, last - 1)) : outerColor,
+        ),
+        legend: {kind: "ramp", from: "1", to: String(last)},
+      };
     }
     default: {
       const values = measureCells(mesh)[coloring];
       // Angles in the layer are small by design, so the scale is that of the other cells.
-      let low = Infinity, high = -Infinity;
+      let low = Infinity,
+        high = -Infinity;
       for (let cell = 0; cell < cells; ++cell) {
         if (coloring !== "size" && inLayer(cell)) continue;
         low = Math.min(low, values[cell]!);
         high = Math.max(high, values[cell]!);
       }
-      const scaled = coloring === "size" ? Math.log : (value: number) => value, width = scaled(high) - scaled(low) || 1;
-      return {fills: paint((cell) => viridis((scaled(values[cell]!) - scaled(low)) / width)),
-              legend: {kind: "ramp", from: low.toPrecision(3), to: high.toPrecision(3)}};
+      const scaled = coloring === "size" ? Math.log : (value: number) => value,
+        width = scaled(high) - scaled(low) || 1;
+      return {
+        fills: paint((cell) => viridis((scaled(values[cell]!) - scaled(low)) / width)),
+        legend: {kind: "ramp", from: low.toPrecision(3), to: high.toPrecision(3)},
+      };
     }
   }
 }
@@ -109,14 +137,14 @@ export class Picture {
   #onPick: (text: string) => void;
   #view: View | undefined;
   #mesh: MeshArrays | undefined;
-  #coloring: Coloring = "none";
+  #coloring: Coloring = "region";
   #dark = matchMedia("(prefers-color-scheme: dark)");
 
   constructor(canvas: HTMLCanvasElement, bar: HTMLElement, onPick: (text: string) => void) {
     this.#canvas = canvas;
     this.#bar = bar;
     this.#onPick = onPick;
-    this.#dark.addEventListener("change", () => this.#setTheme());
+    this.#dark.addEventListener("change", () => this.setColoring(this.#coloring));
   }
 
   /** Shows a mesh; where `keepView`, in the same part of the plane as the one before. */
@@ -130,12 +158,13 @@ export class Picture {
     this.#mesh = mesh;
     const markers = mesh.markers.map((marker) => ({...marker, kind: marker.kind.replace("_", " ")}));
     this.#view = createView(canvas, {...mesh, markers, walls: []}, {onPick: ({cell}) => this.#pick(cell)});
-    this.#setTheme();
     this.setColoring(this.#coloring);
     if (before) {
-      const halfWidth = (0.5 * before.width) / before.scale, halfHeight = (0.5 * before.height) / before.scale;
-      this.#view.show([before.x - halfWidth, before.y - halfHeight, before.x + halfWidth, before.y + halfHeight],
-                      {animate: false});
+      const halfWidth = (0.5 * before.width) / before.scale,
+        halfHeight = (0.5 * before.height) / before.scale;
+      this.#view.show([before.x - halfWidth, before.y - halfHeight, before.x + halfWidth, before.y + halfHeight], {
+        animate: false,
+      });
     } else this.#view.show(box, {animate: false});
     this.#onPick("");
   }
@@ -145,6 +174,7 @@ export class Picture {
     if (!this.#mesh || !this.#view) return;
     const {fills, legend} = colorsOf(this.#mesh, coloring);
     if (coloring === "none" && this.#dark.matches) fills.fill(26);
+    this.#setTheme();
     this.#view.setColors(fills);
     this.#bar.replaceChildren(...colorLegend(legend));
   }
@@ -166,9 +196,13 @@ export class Picture {
 
   #setTheme(): void {
     const dark = this.#dark.matches;
-    this.#view?.setTheme(dark ? {background: "#12161c", edge: "#aebccb", wall: "#ff7b7b", farField: "#aebccb", strength: 0.55}
-                              : {background: "#f6f7f9", edge: "#1b2733", wall: "#b01e28", farField: "#1b2733", strength: 0.6});
-    if (this.#coloring === "none") this.setColoring("none");
+    // Cells that have colours are light in both themes, so their edges are dark.
+    const edge = dark && this.#coloring === "none" ? "#aebccb" : "#1b2733";
+    this.#view?.setTheme(
+      dark
+        ? {background: "#12161c", edge, wall: "#ff7b7b", farField: "#aebccb", strength: 0.55}
+        : {background: "#f6f7f9", edge, wall: "#b01e28", farField: "#1b2733", strength: 0.6},
+    );
   }
 
   #pick(cell: number): void {
@@ -176,8 +210,13 @@ export class Picture {
     if (cell < 0) return this.#onPick("");
     const {minAngle, maxAngle, aspect, area} = shapeOf(mesh, cell);
     const layer = mesh.layer[cell];
-    this.#onPick([`cell ${cell}${layer ? `, layer ${layer}` : ""}`,
-                  `angles ${minAngle.toPrecision(3)} to ${maxAngle.toPrecision(4)} degrees`,
-                  `aspect ratio ${aspect.toPrecision(3)}`, `area ${area.toPrecision(3)}`].join("\n"));
+    this.#onPick(
+      [
+        `cell ${cell}${layer ? `, layer ${layer}` : ""}`,
+        `angles ${minAngle.toPrecision(3)} to ${maxAngle.toPrecision(4)} degrees`,
+        `aspect ratio ${aspect.toPrecision(3)}`,
+        `area ${area.toPrecision(3)}`,
+      ].join("\n"),
+    );
   }
 }

@@ -27,10 +27,11 @@ declare module "report-page/view.js" {
     select(what: {cell: number; vertex: number}): void;
     destroy(): void;
   }
-  export function createView(canvas: HTMLCanvasElement, mesh: ShownMesh, options?: {
-    onMove?(view: ReturnType<View["view"]>): void;
-    onPick?(picked: {cell: number; vertex: number}): void;
-  }): View;
+  export function createView(
+    canvas: HTMLCanvasElement,
+    mesh: ShownMesh,
+    options?: {onMove?(view: ReturnType<View["view"]>): void; onPick?(picked: {cell: number; vertex: number}): void},
+  ): View;
 }
 
 declare module "report-page/measures.js" {
@@ -42,7 +43,9 @@ declare module "report-page/measures.js" {
     ratio: number;
   }
   export function shapeOf(mesh: object, cell: number): Shape;
-  export function measureCells(mesh: object): Record<"minAngle" | "maxAngle" | "aspect" | "ratio" | "size", Float32Array>;
+  export function measureCells(
+    mesh: object,
+  ): Record<"minAngle" | "maxAngle" | "aspect" | "ratio" | "size", Float32Array>;
 }
 
 declare module "report-page/colors.js" {

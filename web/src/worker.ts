@@ -44,9 +44,17 @@ self.onmessage = async ({data}: MessageEvent<Request & {number: number}>) => {
     const value = data.kind === "begin" ? await begin() : data.kind === "mesh" ? await make(data, number) : write(data);
     send({number, value}, buffersOf(value));
   } catch (error) {
-    const failure = error instanceof LaminaError
-      ? {kind: error.kind, message: error.message, file: error.file, line: error.line, option: error.option, at: error.at}
-      : {kind: "internal" as const, message: String(error)};
+    const failure =
+      error instanceof LaminaError
+        ? {
+            kind: error.kind,
+            message: error.message,
+            file: error.file,
+            line: error.line,
+            option: error.option,
+            at: error.at,
+          }
+        : {kind: "internal" as const, message: String(error)};
     send({number, error: failure});
   }
 };

@@ -4,7 +4,8 @@ import {execFileSync} from "node:child_process";
 import {readFileSync} from "node:fs";
 import {fileURLToPath} from "node:url";
 
-const built = fileURLToPath(new URL("../../build/browser", import.meta.url)), tests = fileURLToPath(new URL(".", import.meta.url));
+const built = fileURLToPath(new URL("../../build/browser", import.meta.url)),
+  tests = fileURLToPath(new URL(".", import.meta.url));
 execFileSync("c++", ["-std=c++20", "-O2", "-ffp-contract=off", `${tests}numbers.cpp`, "-o", `${built}/numbers`]);
 const native = execFileSync(`${built}/numbers`, {encoding: "utf8"}).trimEnd().split("\n");
 

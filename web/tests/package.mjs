@@ -1,7 +1,16 @@
 // Tries the npm package in Node.js: node --test package.mjs.
 import assert from "node:assert/strict";
 import {test} from "node:test";
-import {delaunay, formats, LaminaError, mesh, optionRows, outlines, version, zip} from "../../build/browser/package/dist/lamina.js";
+import {
+  delaunay,
+  formats,
+  LaminaError,
+  mesh,
+  optionRows,
+  outlines,
+  version,
+  zip,
+} from "../../build/browser/package/dist/lamina.js";
 
 /** Returns twice the area of each triangle. */
 function doubledAreas(points, triangles) {
@@ -47,14 +56,16 @@ test("an outline in memory is the same as in a file of the package's own", async
 test("a Delaunay triangulation has empty circles", async () => {
   let state = 1;
   const random = () => (state = (state * 48271) % 2147483647) / 2147483647;
-  const points = Float64Array.from({length: 400}, random), triangles = await delaunay(points);
+  const points = Float64Array.from({length: 400}, random),
+    triangles = await delaunay(points);
   assert(Math.min(...doubledAreas(points, triangles)) > 0);
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [0, 1, 2].map((k) => [points[2 * triangles[t + k]], points[2 * triangles[t + k] + 1]]);
     for (let p = 0; p < points.length; p += 2) {
       const rows = [a, b, c].map(([x, y]) => [x - points[p], y - points[p + 1]]).map(([x, y]) => [x, y, x * x + y * y]);
       const [u, v, w] = rows;
-      const inside = u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
+      const inside =
+        u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
       assert(inside < 1e-12);
     }
   }
@@ -63,7 +74,10 @@ test("a Delaunay triangulation has empty circles", async () => {
 
 test("errors say what is wrong, and the next call works", async () => {
   const rejects = async (promise, kind, pattern, facts = {}) => {
-    const error = await promise.then(() => assert.fail("nothing was thrown"), (thrown) => thrown);
+    const error = await promise.then(
+      () => assert.fail("nothing was thrown"),
+      (thrown) => thrown,
+    );
     assert(error instanceof LaminaError, String(error));
     assert.equal(error.kind, kind);
     assert.match(error.message, pattern);
@@ -73,9 +87,19 @@ test("errors say what is wrong, and the next call works", async () => {
   await rejects(mesh("naca:0012", {growth: 0.5}), "option", /growth: .* must be > 1/, {option: "growth"});
   await rejects(mesh("naca:0012", {growth: {}}), "option", /growth/);
   await rejects(mesh("naca:0012", {y_plus: 1}), "option", /needs reynolds/);
-  await rejects(mesh({name: "bad.dat", text: "bad\n1 0\n0.5 nonsense\n"}), "input", /bad\.dat:3/, {file: "bad.dat", line: 3});
+  await rejects(mesh({name: "bad.dat", text: "bad\n1 0\n0.5 nonsense\n"}), "input", /bad\.dat:3/, {
+    file: "bad.dat",
+    line: 3,
+  });
   await rejects(mesh("missing.dat"), "io", /missing\.dat/);
-  await rejects(mesh([{name: "a/x.dat", text: "1 0"}, {name: "x.dat", text: "1 0"}]), "usage", /two files/);
+  await rejects(
+    mesh([
+      {name: "a/x.dat", text: "1 0"},
+      {name: "x.dat", text: "1 0"},
+    ]),
+    "usage",
+    /two files/,
+  );
   await rejects(delaunay([0, 0, 1, 0, 0, 0]), "input", /./);
   await rejects(delaunay([0, 0, 1]), "usage", /even/);
   const made = await mesh("naca:0012", {far_field: 5});
@@ -93,12 +117,15 @@ test("formats are written and zipped", async () => {
   const made = await mesh("naca:0012", {far_field: 5, layer_topology: "quads"});
   assert(made.quads.length > 0);
   for (const {name, extensions} of await formats()) {
-    if (name === "triangle") continue;  // holds no quadrilaterals
+    if (name === "triangle") continue; // holds no quadrilaterals
     const files = made.write(extensions[0].startsWith(".") ? `mesh${extensions[0]}` : extensions[0], {format: name});
     assert(files.length > 0 && files.every(({bytes}) => bytes.length > 0), name);
   }
   const folder = made.write("polyMesh");
-  assert.deepEqual(folder.map(({name}) => name).sort(), ["boundary", "faces", "neighbour", "owner", "points"].map((name) => `polyMesh/${name}`));
+  assert.deepEqual(
+    folder.map(({name}) => name).sort(),
+    ["boundary", "faces", "neighbour", "owner", "points"].map((name) => `polyMesh/${name}`),
+  );
   assert.deepEqual([...zip(folder).subarray(0, 4)], [0x50, 0x4b, 3, 4]);
   made.delete();
 });

@@ -12,7 +12,10 @@ const root = fileURLToPath(new URL("../..", import.meta.url));
 const program = resolve(process.argv[2] ?? `${root}build/release/src/app/lamina`);
 const cases = JSON.parse(readFileSync(new URL("cases.json", import.meta.url)));
 /** What each run of the program writes: names of files, and the format where it does not follow from the name. */
-const runs = [{names: ["mesh.su2", "mesh.msh", "mesh.vtu", "polyMesh"], format: ""}, {names: ["packed.vtu"], format: "vtu-zlib"}];
+const runs = [
+  {names: ["mesh.su2", "mesh.msh", "mesh.vtu", "polyMesh"], format: ""},
+  {names: ["packed.vtu"], format: "vtu-zlib"},
+];
 
 const hash = (bytes) => createHash("sha256").update(bytes).digest("hex");
 
@@ -47,9 +50,22 @@ function nativeHashes(meshCase) {
     let seconds = 0;
     for (const {names, format} of runs) {
       const files = names.flatMap((name) => ["-o", join(folder, name)]);
-      execFileSync(program, ["mesh", ...argumentsOf(meshCase), ...topology, "--quiet", "--threads", "1", ...files,
-                             ...(format ? ["--format", format] : []), "--report", report],
-                   {cwd: root, stdio: ["ignore", "ignore", "pipe"]});
+      execFileSync(
+        program,
+        [
+          "mesh",
+          ...argumentsOf(meshCase),
+          ...topology,
+          "--quiet",
+          "--threads",
+          "1",
+          ...files,
+          ...(format ? ["--format", format] : []),
+          "--report",
+          report,
+        ],
+        {cwd: root, stdio: ["ignore", "ignore", "pipe"]},
+      );
       const times = JSON.parse(readFileSync(report)).seconds;
       seconds = times.total - times.write;
       rmSync(report);
@@ -62,7 +78,9 @@ function nativeHashes(meshCase) {
 }
 
 async function webHashes({inputs, options}) {
-  const files = inputs.map((input) => input.startsWith("naca:") ? input : {name: basename(input), text: readFileSync(join(root, input))});
+  const files = inputs.map((input) =>
+    input.startsWith("naca:") ? input : {name: basename(input), text: readFileSync(join(root, input))},
+  );
   const made = await mesh(files, options);
   const hashes = {};
   for (const {names, format} of runs)
@@ -71,15 +89,19 @@ async function webHashes({inputs, options}) {
   return {hashes, cells: made.cellCount, seconds: made.facts.seconds};
 }
 
-let different = 0, files = 0;
+let different = 0,
+  files = 0;
 for (const meshCase of cases) {
-  const native = nativeHashes(meshCase), web = await webHashes(meshCase);
+  const native = nativeHashes(meshCase),
+    web = await webHashes(meshCase);
   const names = [...new Set([...Object.keys(native.hashes), ...Object.keys(web.hashes)])];
   const wrong = names.filter((name) => native.hashes[name] !== web.hashes[name]);
   files += names.length;
   different += wrong.length;
-  console.log(`${wrong.length ? `DIFFERENT (${wrong.join(", ")})` : "same"}  ${argumentsOf(meshCase).join(" ")}: ` +
-              `${web.cells} cells, ${web.seconds.toFixed(2)} s, native ${native.seconds.toFixed(2)} s`);
+  console.log(
+    `${wrong.length ? `DIFFERENT (${wrong.join(", ")})` : "same"}  ${argumentsOf(meshCase).join(" ")}: ` +
+      `${web.cells} cells, ${web.seconds.toFixed(2)} s, native ${native.seconds.toFixed(2)} s`,
+  );
 }
 console.log(`${cases.length} cases, ${files} files, ${different} differ`);
 process.exitCode = different > 0 || files !== 9 * cases.length ? 1 : 0;
