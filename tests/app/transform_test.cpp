@@ -107,7 +107,7 @@ TEST(Transform, ErrorsNameTheOptionOrThePlace) {
         expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--transform", text}, code, said);
     };
     refused("airfoil:rotate", usage, "option --transform: 'airfoil:rotate': a transformation is ELEMENT:scale:S");
-    refused("airfoil:scale:-2", usage, "option --transform: 'airfoil:scale:-2': '-2': the factor must be > 0");
+    refused("airfoil:scale:-2", usage, "option --transform: 'airfoil:scale:-2': the factor must be > 0");
     refused("flap:mirror", usage, "option --transform: element 'flap' is not known (known: all, airfoil)");
     refused("airfoil:flap:20:1.5,0", bad_input, "the flap of 'airfoil' cannot be deflected about its hinge");
     refused("all:scale:1e80", bad_input, "coordinates outside the exact range");
