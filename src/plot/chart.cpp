@@ -18,12 +18,10 @@ namespace lamina::plot {
 
 namespace {
 
-constexpr Color paper{1, 1, 1};
-constexpr Color ink{0.13, 0.16, 0.22};
 constexpr double grid_alpha = 0.15;
 
 // Lengths in pixels, for a picture of 1200 pixels.
-constexpr double text_height = 20, left_margin = 90, right_margin = 30, top_margin = 55, bottom_margin = 80;
+constexpr double letter_height = 20, left_margin = 90, right_margin = 30, top_margin = 55, bottom_margin = 80;
 constexpr double curve_width = 2.2, axis_width = 1.2, mark_size = 30, line_spacing = 1.5;
 
 /// An interval with round numbers in it.
@@ -75,7 +73,7 @@ void for_each_number(const Axis& axis, F&& mark) {
 }
 
 void draw_axes(Canvas& canvas, const Frame& frame, const ChartOptions& options, double unit) {
-    const double height = text_height * unit;
+    const double height = letter_height * unit;
     for_each_number(frame.x, [&](double number, const std::string& text) {
         const double x = frame.place({number, frame.y.lower}).x;
         canvas.stroke({x, frame.area.lower.y}, {x, frame.area.upper.y}, ink, grid_alpha, axis_width * unit);
@@ -94,11 +92,11 @@ void draw_axes(Canvas& canvas, const Frame& frame, const ChartOptions& options, 
 }
 
 void draw_curves(Canvas& canvas, const Frame& frame, std::span<const ChartCurve> curves, double unit) {
-    const double height = text_height * unit;
+    const double height = letter_height * unit;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         const Color color = mix(distinct_color(static_cast<std::uint32_t>(i)), ink, 0.35);
         const double y = frame.area.upper.y - (1 + line_spacing * static_cast<double>(i)) * height;
-        const double x = frame.area.upper.x - (mark_size + text_height) * unit;
+        const double x = frame.area.upper.x - (mark_size + letter_height) * unit;
         canvas.stroke({x, y}, {x + mark_size * unit, y}, color, 1, curve_width * unit);
         canvas.write({x - 0.5 * height, y}, curves[i].name, height, ink, 1);
     }

@@ -10,6 +10,9 @@ struct Color {
     double r, g, b;
 };
 
+/// What pictures are drawn on, and with.
+inline constexpr Color paper{1, 1, 1}, ink{0.13, 0.16, 0.22};
+
 /// Returns a for t = 0, b for t = 1, and a mixture between.
 Color mix(Color a, Color b, double t);
 

@@ -9,7 +9,6 @@ namespace lamina::plot {
 
 namespace {
 
-constexpr Color white{1, 1, 1};
 constexpr Color layer_tint{0.86, 0.92, 0.99};
 
 /// Returns the logarithm of the side of a square with the area of the cell.
@@ -21,7 +20,7 @@ double min_angle_deg(const VisibleCell& c) {
 }
 
 Color plain_color(const Mesh& mesh, std::size_t cell) {
-    return !mesh.region.empty() && mesh.region[cell] == Region::layer ? layer_tint : white;
+    return !mesh.region.empty() && mesh.region[cell] == Region::layer ? layer_tint : paper;
 }
 
 /// Returns colours that stand for no numbers.
@@ -30,7 +29,7 @@ CellColors color_classes(const Mesh& mesh, const std::vector<VisibleCell>& cells
     for (const VisibleCell& cell : cells) {
         const bool piece = by == PlotColor::piece;
         found.colors.push_back(!piece               ? plain_color(mesh, cell.cell)
-                               : mesh.piece.empty() ? white
+                               : mesh.piece.empty() ? paper
                                                     : distinct_color(mesh.piece[cell.cell]));
     }
     return found;
@@ -64,7 +63,7 @@ CellColors color_cells(const Mesh& mesh, const std::vector<VisibleCell>& cells, 
     }
     for (const double value : values) {
         const double position = (value - found.low) / (found.high - found.low);
-        found.colors.push_back(by == PlotColor::layer && value == 0 ? white : viridis(position));
+        found.colors.push_back(by == PlotColor::layer && value == 0 ? paper : viridis(position));
     }
     return found;
 }

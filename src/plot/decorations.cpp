@@ -10,8 +10,6 @@ namespace lamina::plot {
 
 namespace {
 
-constexpr Color paper{1, 1, 1};
-constexpr Color ink{0.13, 0.16, 0.22};
 constexpr double card_alpha = 0.85;
 
 /// Calls mark(number, text) for the multiples of a step in an interval.

@@ -25,10 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Color background{0.88, 0.89, 0.90};
-constexpr Color paper{1, 1, 1};
-constexpr Color thin_edge{0.13, 0.16, 0.22};
 constexpr Color wall_edge{0.72, 0.08, 0.12};
-constexpr Color far_edge{0.13, 0.16, 0.22};
 
 // Thicknesses in pixels.
 constexpr double min_outlined_thickness = 0.5;  ///< thinner cells are filled instead of outlined
@@ -50,7 +47,7 @@ void draw_cells(Canvas& canvas, const std::vector<VisibleCell>& cells, const std
                 const PictureView& view, bool with_grey) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const bool too_thin = with_grey && cells[i].thickness() * view.scale < min_outlined_thickness;
-        canvas.fill(cells[i], too_thin ? mix(colors[i], thin_edge, 0.4) : colors[i]);
+        canvas.fill(cells[i], too_thin ? mix(colors[i], ink, 0.4) : colors[i]);
     }
 }
 
@@ -91,7 +88,7 @@ void draw_edges(Canvas& canvas, const Mesh& mesh, const std::vector<VisibleCell>
         if (i > 0 && edges[i].ends == edges[i - 1].ends) continue;
         const auto [a, b] = edges[i].ends;
         const double alpha = max_alpha * std::min(1.0, 0.5 * edges[i].thickness / width);
-        canvas.stroke(mesh.points[a.index()], mesh.points[b.index()], thin_edge, alpha, width);
+        canvas.stroke(mesh.points[a.index()], mesh.points[b.index()], ink, alpha, width);
     }
 }
 
@@ -99,7 +96,7 @@ void draw_markers(Canvas& canvas, const Mesh& mesh, const LineWidths& widths) {
     for (const Marker& marker : mesh.markers) {
         const bool far = marker.kind == MarkerKind::far_field;
         for (const Segment& edge : marker.edges)
-            canvas.stroke(mesh.points[edge.a.index()], mesh.points[edge.b.index()], far ? far_edge : wall_edge, 1,
+            canvas.stroke(mesh.points[edge.a.index()], mesh.points[edge.b.index()], far ? ink : wall_edge, 1,
                           far ? widths.far : widths.wall);
     }
 }
@@ -111,7 +108,7 @@ void draw_dots(Canvas& canvas, const Mesh& mesh, const PictureView& view, double
         for (const Segment& edge : marker.edges) {
             const Point at = mesh.points[edge.a.index()];
             if (last && distance(at, *last) * view.scale < 2.5 * radius) continue;
-            canvas.dot(at, radius, thin_edge);
+            canvas.dot(at, radius, ink);
             last = at;
         }
     }

@@ -342,8 +342,8 @@ TEST(Predicates, ComparedDistances) {
         Point b = n % 3 == 0 ? p - d : p + perpendicular(d);
         b.x *= 1 + ulps(random) * 0x1p-52;
         const auto [pi, ai, bi, unused] = to_integers({p, a, b, p});
-        const auto squared = [&](const IntegerPoint& q) {
-            return Integer((q.x - pi.x) * (q.x - pi.x) + (q.y - pi.y) * (q.y - pi.y));
+        const auto squared = [from = pi](const IntegerPoint& q) {
+            return Integer((q.x - from.x) * (q.x - from.x) + (q.y - from.y) * (q.y - from.y));
         };
         const Integer difference = squared(ai) - squared(bi);
         ties += difference == 0;

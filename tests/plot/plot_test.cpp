@@ -49,15 +49,15 @@ TEST(Plot, WritesEveryFormatAndColor) {
 TEST(Plot, KeepsTheAspectOfTheWindow) {
     const TemporaryFolder folder;
     const Mesh mesh = annulus();
-    plot_mesh(mesh, folder / "m.png", {.window = {{0, 2, 0, 0.5}}, .width_px = 400});
+    plot_mesh(mesh, folder / "m.png", {.window = PlotWindow{{0, 2, 0, 0.5}}, .width_px = 400});
     EXPECT_EQ(png_size(folder.read("m.png")), std::pair(400u, 100u));
-    plot_mesh(mesh, folder / "m.png", {.window = {{0, 0.5, 0, 2}}, .width_px = 400});
+    plot_mesh(mesh, folder / "m.png", {.window = PlotWindow{{0, 0.5, 0, 2}}, .width_px = 400});
     EXPECT_EQ(png_size(folder.read("m.png")), std::pair(100u, 400u));
     // One window lies far inside a cell, the other far away from all.
-    plot_mesh(mesh, folder / "m.png", {.window = {{1.1, 1.1 + 1e-12, 0.1, 0.1 + 1e-12}}, .width_px = 40});
-    plot_mesh(mesh, folder / "m.png", {.window = {{1e6, 1e6 + 1, 0, 1}}, .width_px = 40});
-    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{1, 1, 0, 1}}}), UsageError);
-    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = {{0, NAN, 0, 1}}}), UsageError);
+    plot_mesh(mesh, folder / "m.png", {.window = PlotWindow{{1.1, 1.1 + 1e-12, 0.1, 0.1 + 1e-12}}, .width_px = 40});
+    plot_mesh(mesh, folder / "m.png", {.window = PlotWindow{{1e6, 1e6 + 1, 0, 1}}, .width_px = 40});
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = PlotWindow{{1, 1, 0, 1}}}), UsageError);
+    EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.window = PlotWindow{{0, NAN, 0, 1}}}), UsageError);
     EXPECT_THROW(plot_mesh(mesh, folder / "m.png", {.width_px = 0}), UsageError);
     EXPECT_NO_THROW(plot_mesh(Mesh{}, folder / "empty.png", {.width_px = 20}));
 }
