@@ -14,7 +14,8 @@ namespace lamina {
 
 /// An edge of a Voronoi diagram that runs to infinity, between the cells of two neighbours on the hull.
 struct VoronoiRay {
-    VertexId a, b;        ///< the hull edge that it crosses at right angles, or would; the hull is on its left
+    VertexId a;           ///< the hull edge that it crosses at right angles, or would, begins here
+    VertexId b;           ///< ... and ends here; the hull is on its left
     TriangleId triangle;  ///< the triangle at that edge, whose centre the ray starts from
     Point direction;      ///< away from the hull, as long as the edge
 };
