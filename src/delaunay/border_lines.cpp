@@ -91,9 +91,16 @@ std::vector<std::vector<Index>> BorderLines::chains(std::span<const Point> point
     for (Index v = 0; v < line_of_vertex_.size(); ++v)
         if (line_of_vertex_[v] != no_index) chains[line_of_vertex_[v]].push_back(v);
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-        const Point from = points[lines_[i].a.index()], along = points[lines_[i].b.index()] - from;
-        std::sort(chains[i].begin() + 1, chains[i].end(),
-                  [&](Index v, Index w) { return dot(points[v] - from, along) < dot(points[w] - from, along); });
+        // Coordinates are compared as they are: differences from one end would be equal at the other, where vertices
+        // may be 1e-30 times as far apart as the line is long.
+        const Point along = points[lines_[i].b.index()] - points[lines_[i].a.index()];
+        const bool by_x = std::abs(along.x) >= std::abs(along.y);
+        const double sign_x = along.x < 0 ? -1 : 1, sign_y = along.y < 0 ? -1 : 1;
+        const auto key = [&](Index v) {
+            const double x = sign_x * points[v].x, y = sign_y * points[v].y;
+            return by_x ? std::pair{x, y} : std::pair{y, x};
+        };
+        std::sort(chains[i].begin() + 1, chains[i].end(), [&](Index v, Index w) { return key(v) < key(w); });
         chains[i].push_back(lines_[i].b.value);
     }
     return chains;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
+
+/// Returns the larger coordinate of a point.
+inline double magnitude(Point p) { return std::max(std::abs(p.x), std::abs(p.y)); }
 
 /// Returns the length of the shortest edges into which refinement splits lines, given their coordinates and the extent
 /// of the domain: rounding must not bend lines much, and sixth powers of lengths must not vanish.

@@ -72,9 +72,6 @@ private:
     bool faces_in_corner(Point p, Index corner, Index far) const;
 };
 
-/// Returns the larger coordinate of p.
-double magnitude(Point p) { return std::max(std::abs(p.x), std::abs(p.y)); }
-
 double ChannelSurvey::along(Index t, unsigned e) {
     // The ends themselves may be corners, where the distance is 0.
     constexpr double margin = 1e-3;

@@ -64,6 +64,8 @@ private:
     static bool is_blocked(const CavityEdge& a, const CavityEdge& b) { return a.ax * b.ax + a.ay * b.ay <= 0; }
     static constexpr bool always_counts = false;
     static constexpr bool must_mend(Index) { return true; }
+    // Frozen borders are graded, so all edges are about as long as the borders nearby.
+    static constexpr bool is_unresolved(Point, Point) { return false; }
     static void vertex_inserted(Index, std::size_t) {}
     void give_up(Index, Point) { ++refused_; }
     static constexpr bool split_next() { return false; }

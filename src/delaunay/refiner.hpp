@@ -46,6 +46,7 @@ double unit_scale(double extent);
 ///     bool always_counts                      whether triangles beyond the bounds are counted even where no point was
 ///                                             refused
 ///     bool must_mend(Index t)                 whether a triangle that is narrow has to be mended
+///     bool is_unresolved(Point a, Point b)    whether coordinates do not resolve vertices at the distance of these
 ///     void vertex_inserted(Index t, std::size_t old_count)
 ///                                             is called after a new vertex was inserted into the cavity round t
 ///     void give_up(Index t, Point p)          is called where the circumcentre p of t cannot be inserted
@@ -415,7 +416,14 @@ private:
     }
 
     /// Places the off-centre of the shortest edge.
-    void mend_angle(Index t) { insert_near(t, shape_of(tris_[t]).shortest(), off_centre_); }
+    void mend_angle(Index t) {
+        const unsigned e = shape_of(tris_[t]).shortest();
+        // A new vertex would be about as far from its neighbours as the shortest edge is long.
+        if (derived().is_unresolved(points_[tris_[t].v[next(e)]], points_[tris_[t].v[previous(e)]]))
+            ++refused_;
+        else
+            insert_near(t, e, off_centre_);
+    }
 
     /// Inserts the point of on_bisector(). If a border blocks it, inserts the circumcentre instead, on whose distance
     /// from the border the guarantee for frozen borders rests (docs/decisions/0003).

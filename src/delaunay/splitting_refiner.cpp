@@ -262,8 +262,14 @@ void SplittingRefiner::give_up(Index t, Point p) {
 
 /// Returns whether an edge is too short to be split.
 bool SplittingRefiner::is_too_short(Point a, Point b) const {
-    const double magnitude = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-    return distance(a, b) < 2 * shortest_edge(magnitude, core::longer_side(extent_));
+    return distance(a, b) < 2 * shortest_edge(std::max(magnitude(a), magnitude(b)), core::longer_side(extent_));
+}
+
+/// Returns whether two vertices are so near to each other that rounding decides on the angles between them and a third
+/// one at that distance. The user's own vertices may be: (2, 0) and (2, 1e-39).
+bool SplittingRefiner::is_unresolved(Point a, Point b) const {
+    constexpr double share_of_magnitude = 0x1p-50;
+    return distance(a, b) < share_of_magnitude * std::max(magnitude(a), magnitude(b));
 }
 
 /// Splits edge e of triangle t, which is an edge of a line. Returns false, and changes nothing, if the edge is too

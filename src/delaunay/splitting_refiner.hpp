@@ -93,6 +93,7 @@ private:
     Index inside_triangle(std::size_t i) const;
     Point clip(Point inside, Point p) const;
     bool is_too_short(Point a, Point b) const;
+    bool is_unresolved(Point a, Point b) const;
     bool split(Index t, unsigned e);
     bool cavity_admits_split(Point p, Index a, Index b) const;
     void fill_and_queue(Index vertex, Index a, Index b, std::uint32_t left, std::uint32_t right);

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -255,6 +257,35 @@ TEST(RefineConstrained, OneSplitDoesNotRunRoundAStar) {
     const Refined r = refine_and_check(graph, SizeField(1000), {.refine = {.min_angle_deg = 30}});
     EXPECT_LE(r.refinement.triangles.size(), 130u);
     EXPECT_EQ(r.refinement.stats.below_bound, r.refinement.stats.exempt);
+}
+
+TEST(RefineConstrained, EndsWhereCoordinatesDoNotResolveVertices) {
+    // A vertex 1e-39 above a side, at x = 2: vertices between them differ in y alone, and none mends an angle. Thousands
+    // were inserted, each in a longer time.
+    PlanarGraph graph;
+    graph.add_loop({{9, 14}, {8, 0}, {0, 0}});
+    graph.points.push_back({2, 2.9e-39});
+    graph.segments.push_back({VertexId{0}, VertexId{3}});
+    graph.segments.push_back({VertexId{3}, VertexId{2}});
+    const Refined r = refine_and_check(graph, SizeField(12), {.refine = {.min_angle_deg = 2}});
+    EXPECT_LT(r.refinement.triangles.size(), 100u);
+    EXPECT_GT(r.refinement.stats.refused, 0u);
+}
+
+TEST(RefineConstrained, PartsOfLinesAreInOrderAtTheirFarEnd) {
+    // The differences of the vertices near the origin from the other end of a side are all equal.
+    for (const double turn : {0.0, 0.5, 1.0, 1.5}) {
+        const Point x{std::round(std::cos(turn * M_PI)), std::round(std::sin(turn * M_PI))}, y = perpendicular(x);
+        PlanarGraph graph;
+        graph.points = {3 * x, 3 * y, {0, 0}, 1e-39 * x, 1e-3 * x};
+        for (const auto& [a, b] : {std::pair{4, 2}, {4, 0}, {0, 1}, {1, 2}})
+            graph.segments.push_back({VertexId(a), VertexId(b)});
+        const auto t = triangulate(graph.points, graph.segments, {.keep = KeptRegion::inside_segments});
+        const ConstrainedRefinement fine = refine(graph.points, t, SizeField(12), {.refine = {.min_angle_deg = 2}});
+        std::vector<Point> points = graph.points;
+        points.insert(points.end(), fine.steiner_points.begin(), fine.steiner_points.end());
+        expect_valid(points, fine.triangles, fine.segments);
+    }
 }
 
 TEST(RefineConstrained, HighAnglesNeedFewTriangles) {

@@ -18,8 +18,9 @@ unsigned Numbers::byte() {
 }
 
 double Numbers::real(double low, double high) {
-    const unsigned value = byte() << 8 | byte();
-    return low + (high - low) * (value / 65535.0);
+    // In this order with every compiler, so that a corpus means the same inputs.
+    const unsigned high_byte = byte(), low_byte = byte();
+    return low + (high - low) * ((high_byte << 8 | low_byte) / 65535.0);
 }
 
 double Numbers::coordinate() {
