@@ -282,7 +282,7 @@ bool SplittingRefiner::split(Index t, unsigned e) {
     const Link across = tris_[t].n[e];
     if (!across.is_border()) release_edge(tris_, t, e);
     find_cavity<false>(points_.data(), tris_.data(), t, relative_to(points_.data(), tris_[t], p), p, cavity_);
-    if (!cavity_admits_split(p, a, b)) {
+    if (!cavity_admits_split(p, a, b, across.is_border())) {
         if (!across.is_border()) constrain_edge(tris_, t, e);
         return false;
     }
@@ -301,14 +301,19 @@ bool SplittingRefiner::split(Index t, unsigned e) {
 }
 
 /// Returns whether the cavity was found, and the point p that splits the edge a-b lies strictly on the inner side of
-/// all other edges of the cavity's boundary, and outside the diametral circles of those that are frozen.
-bool SplittingRefiner::cavity_admits_split(Point p, Index a, Index b) const {
+/// all other edges of the cavity's boundary, and outside the diametral circles of those that are frozen. The cavity must
+/// reach across an edge that is no border; it does not where rounding puts p farther off the edge than the circle
+/// across it reaches.
+bool SplittingRefiner::cavity_admits_split(Point p, Index a, Index b, bool is_border) const {
     const std::size_t k = cavity_.boundary.size();
     if (k == 0) return false;
     for (std::size_t i = 0; i < k; ++i) {
         const CavityEdge& from = cavity_.boundary[i];
         const CavityEdge& to = cavity_.boundary[i + 1];
-        if (from.a == a && to.a == b) continue;
+        if (from.a == a && to.a == b) {
+            if (!is_border) return false;
+            continue;
+        }
         if (!is_inside(from, to, p)) return false;
         if (from.outer.is_constrained() && is_frozen(from.a, to.a) && from.ax * to.ax + from.ay * to.ay <= 0)
             return false;

@@ -95,7 +95,7 @@ private:
     bool is_too_short(Point a, Point b) const;
     bool is_unresolved(Point a, Point b) const;
     bool split(Index t, unsigned e);
-    bool cavity_admits_split(Point p, Index a, Index b) const;
+    bool cavity_admits_split(Point p, Index a, Index b, bool is_border) const;
     void fill_and_queue(Index vertex, Index a, Index b, std::uint32_t left, std::uint32_t right);
 
     BorderLines& lines_;

@@ -27,7 +27,8 @@ double Numbers::coordinate() {
     const unsigned kind = byte();
     if (kind < 128) return static_cast<double>(kind % 16);
     if (kind < 240) return real(-20, 20);
-    return std::ldexp(real(-1, 1), static_cast<int>(byte()) - 128);
+    const double mantissa = real(-1, 1);
+    return std::ldexp(mantissa, static_cast<int>(byte()) - 128);
 }
 
 InputFiles::InputFiles(std::span<const std::uint8_t> input, std::span<const std::string_view> names) {
