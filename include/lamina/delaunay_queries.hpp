@@ -12,7 +12,7 @@
 
 namespace lamina {
 
-/// What of a triangle a point lies on.
+/// A point lies on one of these parts of a triangle.
 enum class PointPlace : std::uint8_t {
     inside,     ///< strictly inside the triangle
     on_edge,    ///< on an edge, but on no vertex
@@ -20,7 +20,7 @@ enum class PointPlace : std::uint8_t {
     outside,    ///< in no triangle
 };
 
-/// Where a point lies in a triangulation.
+/// This says where a point lies in a triangulation.
 struct PointLocation {
     /// The triangle that holds the point; where several do, the one with the smallest index. Not valid outside.
     TriangleId triangle{};

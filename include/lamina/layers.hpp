@@ -170,8 +170,8 @@ struct RayLine {
     double least_height = 0;          ///< that of its column: LayerGrowth::least_heights or WakePoint
 };
 
-/// What makes a column of layers end at a given height: layer n > above is `factor` to the power of n - above times as
-/// high as the growth law makes it. Layers up to `above` keep their heights.
+/// A stretch makes a column of layers end at a given height: layer n > above is `factor` to the power of n - above
+/// times as high as the growth law makes it, and layers up to `above` keep their heights.
 struct Stretch {
     double factor = 1;        ///< within max_stretch of 1; 1 where nothing is stretched
     std::uint32_t above = 0;  ///< at least 1 where anything is stretched: the first layer never is
@@ -301,7 +301,7 @@ LAMINA_EXPORT void validate(const BorderOptions& options);
 /// the edges.
 inline constexpr double max_slant = 2;
 
-/// Where the layers of a ray are stretched, their growth differs from the requested growth by at most this factor.
+/// The growth of layers that are stretched differs from the requested growth by at most this factor.
 inline constexpr double max_stretch = 1.04;
 
 /// A line of layer points that leaves the wall.

@@ -34,6 +34,9 @@ enum class OptionKind {
     paths,          ///< several paths
 };
 
+/// Returns the name of a kind, as it is written above: "count_or_auto".
+LAMINA_EXPORT const char* option_kind_name(OptionKind kind);
+
 /// A range of the numbers that an option may take. They are always finite.
 struct LAMINA_EXPORT OptionRange {
     double lower = -HUGE_VAL;     ///< lower bound
@@ -87,6 +90,19 @@ using OptionTable = std::vector<Option<Options>>;
 template <class Options>
 const Option<Options>& find_row(const OptionTable<Options>& table, const std::string& name) {
     return *std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.name == name; });
+}
+
+/// Throws OptionError for a key that no option has. It names the one of `known` that was probably meant.
+[[noreturn]] LAMINA_EXPORT void fail_unknown_key(const std::string& key, const std::vector<std::string>& known);
+
+/// Returns the row of this key (Option::key()). Throws OptionError where the table has none.
+template <class Options>
+const Option<Options>& find_row_of_key(const OptionTable<Options>& table, const std::string& key) {
+    const auto row = std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.key() == key; });
+    if (row != table.end()) return *row;
+    std::vector<std::string> known;
+    for (const Option<Options>& option : table) known.push_back(option.key());
+    fail_unknown_key(key, known);
 }
 
 /// Throws OptionError unless every option of the table has a value that it could be set to.

@@ -13,7 +13,6 @@
 
 #include <lamina/io.hpp>
 #include <lamina/option_builders.hpp>
-#include <lamina/suggestion.hpp>
 
 #include "bindings.hpp"
 
@@ -50,41 +49,6 @@ OptionTable<MeshRequest> make_request_table() {
     return table;
 }
 
-const Option<MeshRequest>& row_of_key(const std::string& key) {
-    const OptionTable<MeshRequest>& table = request_table();
-    const auto row = std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.key() == key; });
-    if (row != table.end()) return *row;
-    std::vector<std::string> keys;
-    for (const Option<MeshRequest>& option : table) keys.push_back(option.key());
-    throw OptionError(key, "no such option" + did_you_mean(closest_word(key, keys)));
-}
-
-const char* kind_name(OptionKind kind) {
-    switch (kind) {
-        case OptionKind::number:
-            return "number";
-        case OptionKind::length:
-            return "length";
-        case OptionKind::count:
-            return "count";
-        case OptionKind::count_or_auto:
-            return "count_or_auto";
-        case OptionKind::flag:
-            return "flag";
-        case OptionKind::word:
-            return "word";
-        case OptionKind::words:
-            return "words";
-        case OptionKind::repeated:
-            return "repeated";
-        case OptionKind::path:
-            return "path";
-        case OptionKind::paths:
-            return "paths";
-    }
-    return "";
-}
-
 /// Returns one dictionary for each option.
 nb::list option_rows() {
     const MeshRequest defaults;
@@ -92,7 +56,7 @@ nb::list option_rows() {
     for (const Option<MeshRequest>& option : request_table()) {
         nb::dict row;
         row["key"] = option.key();
-        row["kind"] = kind_name(option.kind);
+        row["kind"] = option_kind_name(option.kind);
         row["metavar"] = option.metavar;
         row["help"] = option.help;
         row["range"] = option.range;
@@ -116,12 +80,12 @@ MeshRequest make_request(const std::vector<std::pair<std::string, OptionValue>>&
     };
     MeshRequest request;
     for (const auto& [key, value] : values)
-        if (key == preset_key) row_of_key(key).set(request, value);
+        if (key == preset_key) find_row_of_key(request_table(), key).set(request, value);
     request.options =
         preset_options(request.preset, std::any_of(std::begin(reynolds_options), std::end(reynolds_options), is_given));
     std::vector<std::string> given;
     for (const auto& [key, value] : values) {
-        const Option<MeshRequest>& row = row_of_key(key);
+        const Option<MeshRequest>& row = find_row_of_key(request_table(), key);
         row.set(request, value);
         given.push_back(row.name);
     }

@@ -1,4 +1,4 @@
-// What the pages of meshes say beside the mesh: share/page/page.js shows it.
+// This text stands beside the mesh on its page; share/page/page.js shows it.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The words that take the place of the placeholders in the files of a case.
+// The files of a case have names between @ signs; this header declares the words that take their place.
 #pragma once
 
 #include <string>

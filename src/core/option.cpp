@@ -15,6 +15,36 @@ std::string option_key(const std::string& name) {
     return key;
 }
 
+const char* option_kind_name(OptionKind kind) {
+    switch (kind) {
+        case OptionKind::number:
+            return "number";
+        case OptionKind::length:
+            return "length";
+        case OptionKind::count:
+            return "count";
+        case OptionKind::count_or_auto:
+            return "count_or_auto";
+        case OptionKind::flag:
+            return "flag";
+        case OptionKind::word:
+            return "word";
+        case OptionKind::words:
+            return "words";
+        case OptionKind::repeated:
+            return "repeated";
+        case OptionKind::path:
+            return "path";
+        case OptionKind::paths:
+            return "paths";
+    }
+    return "";
+}
+
+void fail_unknown_key(const std::string& key, const std::vector<std::string>& known) {
+    throw OptionError(key, "no such option" + did_you_mean(closest_word(key, known)));
+}
+
 bool OptionRange::contains(double value) const {
     const bool above = includes_lower ? value >= lower : value > lower;
     return std::isfinite(value) && above && value <= upper;

@@ -46,7 +46,8 @@ struct CrossedEdge {
 };
 
 /// Inserts one segment into a triangulation whose vertex at infinity has the number `ghost`, and appends its pieces.
-/// Where it crosses a constrained edge, returns that edge; its pieces before and behind have been inserted then.
+/// Returns the first constrained edge that the segment crosses, if any; the pieces before and behind it are then in
+/// place.
 std::optional<CrossedEdge> insert_segment(std::span<const Point> points, Segment segment, Tris& tris,
                                           std::vector<Index>& at_vertex, Index ghost,
                                           std::vector<SegmentPiece>& pieces);

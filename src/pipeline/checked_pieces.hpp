@@ -31,7 +31,7 @@ struct PieceWork {
     std::size_t refining, checking;
 };
 
-/// Where pieces go. All functions run on several threads at once.
+/// A receiver takes the pieces. All its functions run on several threads at once.
 struct PieceKeeper {
     /// Called before the work on the piece of this place in the order begins; empty: nothing is to be done.
     std::function<void(std::size_t place)> begin{};

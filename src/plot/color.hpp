@@ -10,7 +10,7 @@ struct Color {
     double r, g, b;
 };
 
-/// What pictures are drawn on, and with.
+/// Pictures are drawn on paper, with ink.
 inline constexpr Color paper{1, 1, 1}, ink{0.13, 0.16, 0.22};
 
 /// Returns a for t = 0, b for t = 1, and a mixture between.

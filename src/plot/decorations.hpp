@@ -1,4 +1,4 @@
-// What stands in and beside pictures of meshes: axes, and bars that explain lengths and colours.
+// Decorations stand in and beside pictures of meshes: axes, and bars that explain lengths and colours.
 #pragma once
 
 #include "plot/canvas.hpp"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <lamina/option_builders.hpp>
-#include <lamina/suggestion.hpp>
 
 #include "values.hpp"
 
@@ -43,53 +42,19 @@ const OptionTable<MeshRequest>& request_table() {
     return table;
 }
 
-const Option<MeshRequest>& row_of_key(const std::string& key) {
-    const OptionTable<MeshRequest>& table = request_table();
-    const auto row = std::find_if(table.begin(), table.end(), [&](const auto& option) { return option.key() == key; });
-    if (row != table.end()) return *row;
-    std::vector<std::string> keys;
-    for (const Option<MeshRequest>& option : table) keys.push_back(option.key());
-    throw OptionError(key, "no such option" + did_you_mean(closest_word(key, keys)));
-}
-
-const char* kind_name(OptionKind kind) {
-    switch (kind) {
-        case OptionKind::number:
-            return "number";
-        case OptionKind::length:
-            return "length";
-        case OptionKind::count:
-            return "count";
-        case OptionKind::count_or_auto:
-            return "count_or_auto";
-        case OptionKind::flag:
-            return "flag";
-        case OptionKind::word:
-            return "word";
-        case OptionKind::words:
-            return "words";
-        case OptionKind::repeated:
-            return "repeated";
-        case OptionKind::path:
-            return "path";
-        case OptionKind::paths:
-            return "paths";
-    }
-    return "";
-}
-
 }  // namespace
 
 MeshRequest make_request(const val& values) {
     const std::vector<std::string> keys = strings_of(val::global("Object").call<val>("keys", values));
     const auto is_given = [&](const std::string& key) { return std::count(keys.begin(), keys.end(), key) > 0; };
     MeshRequest request;
-    if (is_given(preset_key)) row_of_key(preset_key).set(request, option_value_of(values[preset_key], preset_key));
+    if (is_given(preset_key))
+        find_row_of_key(request_table(), preset_key).set(request, option_value_of(values[preset_key], preset_key));
     request.options =
         preset_options(request.preset, std::any_of(std::begin(reynolds_options), std::end(reynolds_options), is_given));
     std::vector<std::string> given;
     for (const std::string& key : keys) {
-        const Option<MeshRequest>& row = row_of_key(key);
+        const Option<MeshRequest>& row = find_row_of_key(request_table(), key);
         row.set(request, option_value_of(values[key], key));
         given.push_back(row.name);
     }
@@ -106,7 +71,7 @@ val option_rows() {
     for (const Option<MeshRequest>& option : request_table()) {
         val row = val::object();
         row.set("key", option.key());
-        row.set("kind", std::string(kind_name(option.kind)));
+        row.set("kind", std::string(option_kind_name(option.kind)));
         row.set("metavar", option.metavar);
         row.set("help", option.help);
         row.set("range", option.range);
