@@ -112,8 +112,10 @@ void spread(const FanSide& side, double max_ray_angle, std::vector<WallVertex>& 
     if (columns.empty()) return;
     const WallVertex& fan = side.vertices[side.fan];
     const double angle = fan.turning + fan.tilt[1] - fan.tilt[0];
+    // The bisector of a fan that leans lies nearer to one of its sides.
+    const double to_bisector = 0.5 * fan.turning + (side.ahead ? fan.tilt[1] : -fan.tilt[0]);
     const double given =
-        angle <= core::radians(max_fan_given_deg) ? 0.5 * angle : core::radians(given_by_wide_fans_deg);
+        angle <= core::radians(max_fan_given_deg) ? std::max(to_bisector, 0.0) : core::radians(given_by_wide_fans_deg);
     const double max_opening = level_share * max_ray_angle;
     const std::vector<double> angles = openings(columns, max_opening * side.heights[side.fan], max_opening, given);
     double left = sum(angles);

@@ -19,9 +19,12 @@
 #include "layers/fit_heights.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "layers/narrow_columns.hpp"
+#include "layers/neighbours.hpp"
 
 namespace lamina::layers {
 
@@ -81,25 +84,56 @@ StretchedLayers layers_up_to(double height, std::span<const double> heights) {
     return {fitting + 1, {shrunk, last_unstretched(fitting + 1)}};
 }
 
+LayerRange layer_range(double height, std::span<const double> heights, std::uint32_t wanted) {
+    const auto ends_there = [&](std::uint32_t n) {
+        return stretched_height(heights, n, 1 / max_stretch) <= height &&
+               stretched_height(heights, n, max_stretch) >= height;
+    };
+    LayerRange range{wanted, wanted};
+    while (range.least > 1 && ends_there(range.least - 1)) --range.least;
+    while (range.most + std::size_t{1} < heights.size() && ends_there(range.most + 1)) ++range.most;
+    return range;
+}
+
 Stretch stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n) {
     if (n < 2 || heights[n] == height) return {};
     return {max_factor_below(height, heights, n), last_unstretched(n)};
 }
 
-LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> limits) {
+LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::span<const double> limits) {
     std::vector<std::vector<double>> refitted(limits.size());
     std::vector<HeightColumn> columns(limits.size());
+    std::vector<std::uint32_t> layers(limits.size());
+    std::vector<ColumnEnd> ends(limits.size());
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             columns[i] = heights.column(i);
-            if (limits[i] >= heights.full_height(i)) continue;
-            const Stretch own = columns[i].stretch;
-            std::vector<double> column(heights.of(i).begin(), heights.of(i).end());
-            stretch_heights({1 / own.factor, own.above}, column);
-            columns[i].stretch = layers_up_to(limits[i], column).stretch;
-            if (own.factor == 1 && columns[i].stretch.factor == 1) continue;
-            stretch_heights(columns[i].stretch, column);
-            refitted[i] = std::move(column);
+            std::span<const double> column = heights.of(i);
+            layers[i] = columns[i].layers;
+            if (limits[i] < heights.full_height(i)) {
+                refitted[i].assign(column.begin(), column.end());
+                stretch_heights({1 / columns[i].stretch.factor, columns[i].stretch.above}, refitted[i]);
+                column = refitted[i];
+                layers[i] = layers_up_to(limits[i], column).layers;
+            }
+            const double last_spacing = layers[i] > 0 ? column[layers[i]] - column[layers[i] - 1] : 0;
+            const bool cut = !refitted[i].empty();
+            const LayerRange range = cut ? layer_range(limits[i], column, layers[i]) : LayerRange{layers[i], layers[i]};
+            ends[i] = {cut ? limits[i] : column[layers[i]], last_spacing, range};
+        }
+    });
+    limit_count_differences(set, layers);
+    keep_counts_on_narrow_columns(set, ends, layers);
+    limit_count_differences(set, layers);
+    core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (refitted[i].empty()) continue;
+            const Stretch own = std::exchange(columns[i].stretch, stretch_of_layers(limits[i], refitted[i], layers[i]));
+            if (own.factor == 1 && columns[i].stretch.factor == 1) {
+                refitted[i].clear();
+            } else {
+                stretch_heights(columns[i].stretch, refitted[i]);
+            }
         }
     });
     std::vector<double> table = heights.table();

@@ -21,6 +21,15 @@ struct StretchedLayers {
 /// layers, heights[0] = 0 and heights[1] <= height.
 StretchedLayers layers_up_to(double height, std::span<const double> heights);
 
+/// The numbers of layers with which a column can end at a height.
+struct LayerRange {
+    std::uint32_t least, most;
+};
+
+/// Returns the numbers next to `wanted` with which the column ends at `height`, if it is stretched by no more than
+/// max_stretch. heights: those of unstretched layers.
+LayerRange layer_range(double height, std::span<const double> heights, std::uint32_t wanted);
+
 /// Returns the largest stretch, by up to max_stretch, with which n layers end at `height` or below; by 1 / max_stretch if
 /// there is none, and none for one layer, whose height no stretch changes.
 Stretch stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n);
@@ -28,6 +37,6 @@ Stretch stretch_of_layers(double height, std::span<const double> heights, std::u
 /// Returns the heights, where the columns of rays that are cut short are stretched. A ray is cut short if its limit is
 /// below the height of all its layers. Its stretch makes a layer end at the limit, or, where that would take more than
 /// max_stretch, brings the last layer below the limit next to it. limits: one height per ray.
-LayerHeights fit_heights(const LayerHeights& heights, std::span<const double> limits);
+LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::span<const double> limits);
 
 }  // namespace lamina::layers

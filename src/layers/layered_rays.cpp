@@ -21,7 +21,7 @@ bool replace_rays(RaySet larger, Rays& rays) {
 }
 
 void fit_and_count_layers(Rays& rays) {
-    rays.fitted = fit_heights(rays.heights, rays.limits);
+    rays.fitted = fit_heights(rays.set, rays.heights, rays.limits);
     rays.counts = layer_counts(rays.set, rays.limits, rays.fitted);
 }
 

@@ -7,9 +7,20 @@
 //     |_/ |__|           |___|
 //     |  /|  |           |   |
 //     |_/_|__|           |___|
+//
+// Each ray has a range of numbers with which a stretch can keep the front where it is. A string that is pulled taut
+// through these ranges changes as little as possible, and evenly where it must:
+//
+//            _ _                    I   range of a ray between narrow columns
+//      o-o--'I I`-o-o--o            o   number on a ray between wide columns
+//            I I
+//
+// Lengths along the string are widths of columns over the heights of their last layers, so that it changes least where
+// columns are narrowest. The numbers are its values, rounded.
 #include "layers/narrow_columns.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "layers/neighbours.hpp"
 
@@ -19,42 +30,91 @@ namespace {
 
 /// A column is narrow where its front is shorter than this share of the last layer's height.
 constexpr double narrow_share = 0.8;
-/// A number of layers changes by this many at most, and by one in so many layers: what max_stretch makes up for.
-constexpr std::uint32_t max_change = 2, layers_per_change = 14;
+/// A column has this length at least, so that the string goes forward.
+constexpr double least_length = 1e-6;
 
-/// Returns the numbers that result when each is kept from one ray to the next across narrow columns for as long as
-/// possible.
-std::vector<std::uint32_t> kept_along(const std::vector<std::size_t>& next, const RaySet& set,
-                                      std::span<const ColumnEnd> ends, std::span<const std::uint32_t> wanted) {
-    const auto is_narrow = [&](std::size_t i, std::size_t j) {
-        const RayLine &a = set.lines[i], &b = set.lines[j];
-        const double height = std::min(ends[i].height, ends[j].height);
-        const double width = length(b.origin - a.origin + height * (b.direction - a.direction));
-        return width < narrow_share * std::max(ends[i].last_spacing, ends[j].last_spacing);
-    };
-    std::vector<std::uint32_t> kept(wanted.begin(), wanted.end());
-    for (std::size_t e = 0; e < set.elements(); ++e) {
-        std::size_t i = set.begin[e];
-        // The second round carries the end of the first one over to its start.
-        for (std::size_t k = 0; k < 2 * (set.begin[e + 1] - set.begin[e]); ++k, i = next[i]) {
-            const std::size_t j = next[i];
-            if (!is_narrow(i, j)) continue;
-            const std::uint32_t change = std::min(max_change, wanted[j] / layers_per_change);
-            kept[j] = std::min(std::clamp(kept[i], wanted[j] - change, wanted[j] + change), ends[j].max_layers);
+/// A place that the string goes through.
+struct Gate {
+    double along;  ///< length of the columns before
+    double least, most;
+};
+
+/// Returns the heights at which a string that is pulled taut goes through the gates, of which the first and the last are
+/// points.
+std::vector<double> pull_taut(std::span<const Gate> gates) {
+    std::vector<double> string(gates.size());
+    std::size_t apex = 0;
+    string[0] = gates[0].least;
+    while (apex + 1 < gates.size()) {
+        // The lines from the apex through all gates so far have slopes between those to two corners.
+        std::size_t low = apex + 1, high = low, bend = 0;
+        const auto slope_to = [&](std::size_t i, double height) {
+            return (height - string[apex]) / (gates[i].along - gates[apex].along);
+        };
+        double steepest = HUGE_VAL, flattest = -HUGE_VAL;
+        bool bends_up = false;
+        for (std::size_t i = apex + 1; i < gates.size() && bend == 0; ++i) {
+            const double to_least = slope_to(i, gates[i].least), to_most = slope_to(i, gates[i].most);
+            if (to_least > steepest) {
+                bend = high;
+                bends_up = true;
+            } else if (to_most < flattest) {
+                bend = low;
+            } else {
+                if (to_least >= flattest) low = i, flattest = to_least;
+                if (to_most <= steepest) high = i, steepest = to_most;
+            }
         }
+        if (bend == 0) bend = gates.size() - 1;
+        const double height = bends_up ? gates[bend].most : gates[bend].least;
+        const double slope = slope_to(bend, height);
+        for (std::size_t i = apex + 1; i < bend; ++i)
+            string[i] = string[apex] + slope * (gates[i].along - gates[apex].along);
+        string[bend] = height;
+        apex = bend;
     }
-    return kept;
+    return string;
+}
+
+/// Returns the nearest whole number, and the lower one of two. The slack makes halves that are not exact go down, too,
+/// so that mirrored input gives mirrored numbers.
+std::uint32_t rounded(double value) {
+    constexpr double slack = 1e-6;
+    return static_cast<std::uint32_t>(std::ceil(value - 0.5 - slack));
 }
 
 }  // namespace
 
 void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
                                    std::vector<std::uint32_t>& counts) {
-    // Both directions count alike, so that mirrored input gives mirrored layers.
     const RayNeighbours rays(set);
-    const std::vector<std::uint32_t> ahead = kept_along(rays.next, set, ends, counts),
-                                     back = kept_along(rays.previous, set, ends, counts);
-    for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = std::min(ahead[i], back[i]);
+    /// Returns the length of the column between two neighbours.
+    const auto length_of = [&](std::size_t i, std::size_t j) {
+        const RayLine &a = set.lines[i], &b = set.lines[j];
+        const double height = std::min(ends[i].height, ends[j].height);
+        const double width = length(b.origin - a.origin + height * (b.direction - a.direction));
+        return width / std::max(ends[i].last_spacing, ends[j].last_spacing);
+    };
+    const auto is_free = [&](std::size_t i) {
+        return length_of(rays.previous[i], i) < narrow_share || length_of(i, rays.next[i]) < narrow_share;
+    };
+    for (std::size_t e = 0; e < set.elements(); ++e) {
+        std::size_t first = set.begin[e];
+        while (first + 1 < set.begin[e + 1] && is_free(first)) ++first;
+        std::vector<Gate> gates;
+        double along = 0;
+        std::size_t i = first;
+        do {
+            const bool held = i == first || !is_free(i);
+            const LayerRange range = held ? LayerRange{counts[i], counts[i]} : ends[i].layers;
+            gates.push_back({along, double(range.least), double(range.most)});
+            along += std::max(length_of(i, rays.next[i]), least_length);
+            i = rays.next[i];
+        } while (i != first);
+        gates.push_back({along, gates[0].least, gates[0].most});
+        const std::vector<double> string = pull_taut(gates);
+        for (std::size_t k = 0; k + 1 < gates.size(); ++k, i = rays.next[i]) counts[i] = rounded(string[k]);
+    }
 }
 
 }  // namespace lamina::layers

@@ -7,17 +7,19 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/fit_heights.hpp"
+
 namespace lamina::layers {
 
 /// The upper end of a column.
 struct ColumnEnd {
-    double height;             ///< of the front
-    double last_spacing;       ///< height of the last layer
-    std::uint32_t max_layers;  ///< largest number of layers that there are heights for
+    double height;        ///< of the front
+    double last_spacing;  ///< height of the last layer
+    LayerRange layers;    ///< numbers of layers with which a stretch can keep the front where it is
 };
 
-/// Makes the numbers of layers of neighbouring rays equal where the column between is narrow, as far as a stretch of the
-/// layers can keep the front where it is.
+/// Changes the numbers of layers beside narrow columns, within the ranges of their ends, so that they change from ray to
+/// ray as rarely as possible. counts: the numbers that are wanted; they stay where columns are wide.
 void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
                                    std::vector<std::uint32_t>& counts);
 

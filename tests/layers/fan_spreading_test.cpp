@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <lamina/layers.hpp>
@@ -110,10 +111,19 @@ RaySet parallel_rays(std::size_t count, double apart) {
     return set;
 }
 
+/// Returns the numbers on rays so far apart, which stand between two others with 40 layers and wide columns.
 std::vector<std::uint32_t> kept_counts(std::vector<std::uint32_t> counts, double apart) {
-    const std::vector<layers::ColumnEnd> ends(counts.size(), {1.0, 0.1, 100});
-    layers::keep_counts_on_narrow_columns(parallel_rays(counts.size(), apart), ends, counts);
-    return counts;
+    RaySet set = parallel_rays(counts.size() + 4, apart);
+    for (std::size_t i = 0; i < 2; ++i) {
+        set.lines[i].origin.x -= 2.0 - double(i);
+        set.lines[set.lines.size() - 1 - i].origin.x += 2.0 - double(i);
+    }
+    counts.insert(counts.begin(), 2, 40);
+    counts.insert(counts.end(), 2, 40);
+    std::vector<layers::ColumnEnd> ends;
+    for (const std::uint32_t n : counts) ends.push_back({1.0, 0.1, {n - 2, n + 2}});
+    layers::keep_counts_on_narrow_columns(set, ends, counts);
+    return {counts.begin() + 2, counts.end() - 2};
 }
 
 TEST(NarrowColumns, KeepTheirNumberOfLayers) {
@@ -133,11 +143,37 @@ TEST(NarrowColumns, KeepTheirNumberOfLayers) {
     EXPECT_TRUE(std::equal(kept.begin(), kept.end(), reversed.rbegin())) << "both directions count alike";
 }
 
-TEST(NarrowColumns, HaveNoMoreLayersThanThereAreHeights) {
-    std::vector<std::uint32_t> counts{42, 40, 40, 42};
-    const std::vector<layers::ColumnEnd> ends{{1, 0.1, 42}, {1, 0.1, 41}, {1, 0.1, 40}, {1, 0.1, 42}};
-    layers::keep_counts_on_narrow_columns(parallel_rays(4, 0.01), ends, counts);
-    for (std::size_t i = 0; i < 4; ++i) EXPECT_LE(counts[i], ends[i].max_layers);
+TEST(NarrowColumns, KeepTheRangesOfTheirRays) {
+    std::mt19937 random(3);
+    std::uniform_int_distribution<std::uint32_t> wanted(20, 40), below(0, 4), above(0, 4);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<std::uint32_t> counts(40);
+        std::vector<layers::ColumnEnd> ends;
+        for (std::uint32_t& n : counts) {
+            n = wanted(random);
+            ends.push_back({1, 0.1, {n - below(random), n + above(random)}});
+        }
+        layers::keep_counts_on_narrow_columns(parallel_rays(counts.size(), 0.01), ends, counts);
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            EXPECT_GE(counts[i], ends[i].layers.least);
+            EXPECT_LE(counts[i], ends[i].layers.most);
+        }
+    }
+}
+
+TEST(NarrowColumns, ChangeEvenlyWhereTheyMustChange) {
+    std::vector<std::uint32_t> counts(41, 30);
+    std::vector<layers::ColumnEnd> ends(41, {1, 0.1, {20, 40}});
+    for (const std::size_t held : {0, 1, 39, 40}) ends[held].layers = {30, 30};
+    ends[20].layers = {34, 40};
+    layers::keep_counts_on_narrow_columns(parallel_rays(counts.size(), 0.01), ends, counts);
+    EXPECT_EQ(counts[20], 34u);
+    for (std::size_t i = 1; i < counts.size(); ++i) {
+        EXPECT_EQ(counts[i], counts[40 - i]) << "both directions count alike";
+        const std::uint32_t before = counts[i - 1];
+        EXPECT_LE(std::max(counts[i], before) - std::min(counts[i], before), 1u);
+        if (i >= 3 && i <= 19) EXPECT_LE(counts[i] - counts[i - 3], 1u) << "four changes on nineteen columns";
+    }
 }
 
 }  // namespace

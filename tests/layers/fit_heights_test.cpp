@@ -21,11 +21,13 @@ LayerHeights one_column() {
                         {{0, requested, 1.2}});
 }
 
+RaySet one_ray() { return {{{{0, 0}, {0, 1}}}, {0, 1}}; }
+
 TEST(FitHeights, ALayerEndsAtTheLimit) {
     const LayerHeights heights = one_column();
     for (double share = 0.9999; share * heights.full_height(0) > 0.04; share *= 0.97) {
         const double limit = share * heights.full_height(0);
-        const LayerHeights fitted = layers::fit_heights(heights, std::vector{limit});
+        const LayerHeights fitted = layers::fit_heights(one_ray(), heights, std::vector{limit});
         const std::span<const double> column = fitted.of(0);
         ASSERT_EQ(column.size(), requested + 1u);
         EXPECT_LE(std::abs(std::log(fitted.column(0).stretch.factor)), std::log(max_stretch) + 1e-12);
@@ -43,7 +45,7 @@ TEST(FitHeights, ALayerEndsAtTheLimit) {
 TEST(FitHeights, NothingChangesWithoutALimitOrBelowTheFirstLayer) {
     const LayerHeights heights = one_column();
     for (double limit : {HUGE_VAL, heights.full_height(0), 0.5e-3, 0.0}) {
-        const LayerHeights fitted = layers::fit_heights(heights, std::vector{limit});
+        const LayerHeights fitted = layers::fit_heights(one_ray(), heights, std::vector{limit});
         EXPECT_EQ(fitted.column(0).stretch.factor, 1);
         EXPECT_EQ(fitted.table(), heights.table());
     }
@@ -52,7 +54,7 @@ TEST(FitHeights, NothingChangesWithoutALimitOrBelowTheFirstLayer) {
 TEST(FitHeights, FewLayersKeepTheirGrowthNearly) {
     const LayerHeights heights = one_column();
     for (double limit = 1e-3; limit < 1e-2; limit *= 1.03) {
-        const LayerHeights fitted = layers::fit_heights(heights, std::vector{limit});
+        const LayerHeights fitted = layers::fit_heights(one_ray(), heights, std::vector{limit});
         const std::span<const double> column = fitted.of(0), fixed = heights.of(0);
         const auto top = std::upper_bound(column.begin(), column.end(), limit) - 1;
         const auto fixed_top = std::upper_bound(fixed.begin(), fixed.end(), limit) - 1;
