@@ -71,8 +71,9 @@ RearEnd facing_rear(std::span<const Point> points, std::size_t at) {
     return end;
 }
 
-/// Returns the base, the sharp vertex, or the middle of the round at the trailing edge. A rear end with a corner is a
-/// base, though it may bulge; one without a corner, or as wide as half of the body, is round.
+/// Returns the base, the sharp vertex, or the middle of the round at the trailing edge. A rear end with corners has its
+/// base between the outermost of them, though it may bulge: a wall that is steep towards the trailing edge faces the
+/// rear, too. One without a corner, or as wide as half of the body, is round.
 RearEnd find_rear_end(std::span<const Point> points, const OutlineFeatures& features, double extent) {
     if (features.base && features.trailing_edge == midpoint(points[features.base->first], points[features.base->last]))
         return {features.base->first, features.base->last, false};
@@ -81,15 +82,21 @@ RearEnd find_rear_end(std::span<const Point> points, const OutlineFeatures& feat
     const auto turning = [&](std::size_t i) {
         return core::degrees(core::angle_between(points[i] - points[(i + n - 1) % n], points[(i + 1) % n] - points[i]));
     };
+    const auto is_corner = [&](std::size_t i) { return turning(i) > min_base_corner_deg; };
     const RearEnd end = facing_rear(points, nearest_vertex(points, features.trailing_edge));
     if (end.first == end.last) return {end.first, end.last, turning(end.first) < 180 - min_rounded_deg};
     double width = 0;
-    bool has_corner = turning(end.last) > min_base_corner_deg;
+    bool has_corner = is_corner(end.last);
     for (std::size_t i = end.first; i != end.last; i = (i + 1) % n) {
         width += distance(points[i], points[(i + 1) % n]);
-        has_corner = has_corner || turning(i) > min_base_corner_deg;
+        has_corner = has_corner || is_corner(i);
     }
-    if (has_corner && width < max_base * extent) return end;
+    if (has_corner && width < max_base * extent) {
+        RearEnd base = end;
+        while (!is_corner(base.first)) base.first = (base.first + 1) % n;
+        while (!is_corner(base.last)) base.last = (base.last + n - 1) % n;
+        return base;
+    }
     // The vertex nearest to the middle of the stretch.
     std::size_t middle = end.first, at = end.first;
     double nearest = HUGE_VAL;

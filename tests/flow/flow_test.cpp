@@ -172,6 +172,27 @@ TEST(Flow, BluntTrailingEdgesActLikeSharpOnes) {
     EXPECT_NEAR(wide.sheets[0].base_source, wide.elements[0].upper.back().speed, 0.03);
 }
 
+/// Returns the section bent on an arc of 130 degrees, so that its tail points down by 65.
+Outline strongly_cambered(const Outline& section) {
+    constexpr double angle = 2.27;
+    Outline bent;
+    for (const Point p : section) {
+        const double a = angle * (p.x - 0.5), r = 1 / angle + p.y;
+        bent.push_back({r * std::sin(a), r * std::cos(a)});
+    }
+    return bent;
+}
+
+TEST(Flow, AWallThatIsSteepBeforeTheTrailingEdgeIsNoBase) {
+    for (const double base : {0.0, 0.002, 0.01}) {
+        const Flow flow =
+            solve_flow(geometry({strongly_cambered(shapes::section(0.06, base, 80))}), {.alpha_deg = 0, .chord = 1});
+        ASSERT_EQ(flow.elements.size(), 1u);
+        const Point above = flow.elements[0].upper.back().at, below = flow.elements[0].lower.back().at;
+        EXPECT_NEAR(distance(above, below), base, 1e-3) << base;
+    }
+}
+
 TEST(Flow, AnyBodyIsSolvedOrEstimated) {
     for (const Outline& outline :
          {shapes::wedge(), shapes::diamond(), shapes::box(), shapes::l_shape(), shapes::c_shape(0.2),
