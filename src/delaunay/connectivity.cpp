@@ -171,7 +171,7 @@ std::vector<std::uint32_t> half_edges(std::size_t points, std::span<const Triang
             });
             for (auto side = begin; side != end;) {
                 const auto after = std::find_if(side, end, [&](const EdgeSide& s) { return s.other != side->other; });
-                join_sides({side, after}, twins, first_bad);
+                join_sides({&*side, static_cast<std::size_t>(after - side)}, twins, first_bad);
                 side = after;
             }
         }
