@@ -70,7 +70,7 @@ void SectionFile::move_to(std::ostream& out) {
         if (read < 0 && errno == EINTR) continue;
         if (read <= 0) fail(read < 0 ? errno : EIO);
         out.write(buffer.data(), read);
-#ifdef FALLOC_FL_PUNCH_HOLE
+#if defined(__linux__) && defined(FALLOC_FL_PUNCH_HOLE)
         // Where the file system cannot, the bytes keep their room until the file is closed.
         static_cast<void>(::fallocate(file_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(at), read));
 #endif
