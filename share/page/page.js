@@ -7,6 +7,7 @@
 import {decodeMesh} from "./decode.js";
 import {cellCount, cornersOf, histogram, lowest, measureCells, shapeOf} from "./measures.js";
 import {cssColor, distinctColor, viridis} from "./colors.js";
+import {placesOfKind, placeTexts} from "./places.js";
 import {createView} from "./view.js";
 import {barChart, countText, curveChart, numberText} from "./charts.js";
 
@@ -107,7 +108,7 @@ class Page {
   }
 
   places(kind) {
-    return (this.facts.places || []).filter(({name}) => name.split(":")[0] === kind);
+    return placesOfKind(this.facts.places || [], kind);
   }
 
   length(value) {
@@ -236,14 +237,9 @@ class Page {
   }
 
   addPlaces() {
-    const bodies = this.places("nose").length;
-    const names = {all: "far field", walls: "bodies"};
-    for (const {name, window} of this.facts.places || []) {
-      const [kind, number] = name.split(":");
-      const text = names[kind] || (bodies > 1 || kind === "slot" && this.places("slot").length > 1
-                                       ? `${kind} ${number}` : kind);
-      byId("places").append(make("button", {type: "button", onclick: () => this.goTo(window)}, text));
-    }
+    const places = this.facts.places || [], texts = placeTexts(places);
+    places.forEach(({window}, i) => byId("places").append(make(
+      "button", {type: "button", onclick: () => this.goTo(window)}, texts[i])));
     const [nose] = this.places("nose");
     if (nose && this.mesh.walls.length > 0)
       byId("places").append(make("button", {type: "button", id: "first-cell", title: "The first cells at the nose",

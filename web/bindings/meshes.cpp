@@ -1,6 +1,7 @@
 #include "meshes.hpp"
 
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/places.hpp>
 #include <lamina/warning.hpp>
 
 #include "request.hpp"
@@ -81,10 +83,23 @@ val elements_of(const MeshResult& result) {
     return list;
 }
 
+val places_of(const Mesh& mesh) {
+    val list = val::array();
+    for (const auto& [name, window] : named_places(mesh)) {
+        const double box[] = {window.lower.x, window.lower.y, window.upper.x, window.upper.y};
+        val entry = val::object();
+        entry.set("name", name);
+        entry.set("window", val::array(std::begin(box), std::end(box)));
+        list.call<void>("push", entry);
+    }
+    return list;
+}
+
 val facts_of(const MeshResult& result) {
     val facts = val::object();
     facts.set("chord", result.conditions.chord);
     facts.set("elements", elements_of(result));
+    facts.set("places", places_of(result.mesh));
     facts.set("layer", quality_of(result.check.layer));
     facts.set("isotropic", quality_of(result.check.isotropic));
     facts.set("seconds", result.seconds.total);

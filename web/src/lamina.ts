@@ -95,10 +95,19 @@ export interface ElementFacts {
   repairs: string[];
 }
 
+/** A part of the plane with a name. */
+export interface Place {
+  name: string;
+  /** Smallest x, smallest y, largest x, largest y. */
+  window: [number, number, number, number];
+}
+
 export interface Facts {
   /** The reference chord, in units of the input. */
   chord: number;
   elements: ElementFacts[];
+  /** Parts of the plane that people want to see: "all", "walls", "nose:1", "tail:1", "slot:1", as `lamina plot` knows. */
+  places: Place[];
   layer: Quality;
   isotropic: Quality;
   /** The time that the mesh took. */

@@ -3,6 +3,7 @@ import {colorLegend, type Legend} from "./legend.ts";
 import type {Facts, MeshArrays} from "./lamina.ts";
 import {distinctColor, viridis} from "report-page/colors.js";
 import {measureCells, shapeOf} from "report-page/measures.js";
+import {placesOfKind, placeTexts} from "report-page/places.js";
 import {createView, type View} from "report-page/view.js";
 
 type Box = [number, number, number, number];
@@ -19,60 +20,36 @@ export type Coloring = "none" | "region" | "minAngle" | "ratio" | "size" | "laye
 const layerColor = [207, 226, 240],
   outerColor = [246, 246, 243];
 
-function around(x: number, y: number, half: number): Box {
-  return [x - half, y - half, x + half, y + half];
+/** Returns the vertex of a wall that is nearest to a point, and the name of its marker. */
+function nearestWallVertex(mesh: MeshArrays, x: number, y: number): {vertex: number; marker: string} | undefined {
+  let nearest = Infinity,
+    found: {vertex: number; marker: string} | undefined;
+  for (const {name, kind, edges} of mesh.markers)
+    if (kind === "wall")
+      for (const vertex of edges) {
+        const distance = Math.hypot(mesh.points[2 * vertex]! - x, mesh.points[2 * vertex + 1]! - y);
+        if (distance < nearest) [nearest, found] = [distance, {vertex, marker: name}];
+      }
+  return found;
 }
 
-function* vertices(mesh: MeshArrays): Iterable<number> {
-  for (let v = 0; 2 * v < mesh.points.length; ++v) yield v;
-}
-
-function boxOfVertices(points: Float64Array, vertices: Iterable<number>): Box {
-  const box: Box = [Infinity, Infinity, -Infinity, -Infinity];
-  for (const v of vertices) {
-    const x = points[2 * v]!,
-      y = points[2 * v + 1]!;
-    box[0] = Math.min(box[0], x);
-    box[1] = Math.min(box[1], y);
-    box[2] = Math.max(box[2], x);
-    box[3] = Math.max(box[3], y);
-  }
-  return box;
-}
-
-function grown(box: Box, share: number): Box {
-  const margin = share * Math.max(box[2] - box[0], box[3] - box[1]);
-  return [box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin];
-}
-
-/** Returns the places that are worth a look: everything, the bodies, their noses and tails, and a first cell. */
+/** Returns the places that are worth a look: those of reports, and the first cells at each nose. */
 export function placesOf(mesh: MeshArrays, facts: Facts): Place[] {
-  const walls = mesh.markers.filter(({kind}) => kind === "wall");
-  const bodies =
-    walls.length > 0
-      ? boxOfVertices(
-          mesh.points,
-          walls.flatMap(({edges}) => [...edges]),
-        )
-      : undefined;
-  const places: Place[] = [{name: "all", box: boxOfVertices(mesh.points, vertices(mesh))}];
-  if (!bodies) return places;
-  places.push({name: facts.elements.length > 1 ? "elements" : "section", box: grown(bodies, 0.15)});
-  const many = facts.elements.length > 1;
-  for (const {name, trailing_edge, first_height} of facts.elements) {
-    const marker = walls.find((wall) => wall.name === name);
-    if (!marker) continue;
-    const box = boxOfVertices(mesh.points, marker.edges),
-      size = box[2] - box[0],
-      prefix = many ? `${name} ` : "";
-    let nose = marker.edges[0]!;
-    for (const v of marker.edges) if (mesh.points[2 * v]! < mesh.points[2 * nose]!) nose = v;
-    const x = mesh.points[2 * nose]!,
-      y = mesh.points[2 * nose + 1]!;
-    places.push({name: `${prefix}nose`, box: around(x + 0.02 * size, y, 0.05 * size)});
-    places.push({name: `${prefix}tail`, box: around(trailing_edge[0], trailing_edge[1], 0.03 * size)});
-    if (first_height !== null) places.push({name: `${prefix}first cells`, box: around(x, y, 6 * first_height)});
-  }
+  const texts = placeTexts(facts.places),
+    places = facts.places.map(({window}, i) => ({name: texts[i]!, box: window})),
+    noses = placesOfKind(facts.places, "nose");
+  noses.forEach(({window: [x0, y0, x1, y1]}, i) => {
+    const nose = nearestWallVertex(mesh, 0.5 * (x0 + x1), 0.5 * (y0 + y1));
+    const height = facts.elements.find(({name}) => name === nose?.marker)?.first_height;
+    if (!nose || !height) return;
+    const x = mesh.points[2 * nose.vertex]!,
+      y = mesh.points[2 * nose.vertex + 1]!,
+      half = 6 * height;
+    places.push({
+      name: noses.length > 1 ? `first cells ${i + 1}` : "first cells",
+      box: [x - half, y - half, x + half, y + half],
+    });
+  });
   return places;
 }
 

@@ -58,3 +58,12 @@ declare module "report-page/charts.js" {
   export function numberText(value: number, digits?: number): string;
   export function countText(count: number): string;
 }
+
+declare module "report-page/places.js" {
+  export interface NamedPlace {
+    name: string;
+    window: [number, number, number, number];
+  }
+  export function placesOfKind(places: NamedPlace[], kind: string): NamedPlace[];
+  export function placeTexts(places: NamedPlace[]): string[];
+}

@@ -88,7 +88,7 @@ try {
   // Every place and every colour changes the picture.
   const shots = new Set([await canvasShot()]);
   const buttons = await page.locator("#places button").allTextContents();
-  for (const expected of ["all", "section", "nose", "tail", "first cells"])
+  for (const expected of ["far field", "bodies", "nose", "tail", "first cells"])
     assert(buttons.includes(expected), expected);
   for (const name of buttons) {
     await page.click(`#places button:text-is("${name}")`);
@@ -179,6 +179,8 @@ try {
   const names = ["slat", "main", "flap"].map((part) => `${root}examples/geometry/crmhl2d_${part}.dat`);
   await after(() => page.setInputFiles("#files", names));
   await setOption("reynolds", "5e6");
+  for (const expected of ["nose 3", "tail 3", "slot 2", "first cells 3"])
+    assert.equal(await page.locator(`#places button:text-is("${expected}")`).count(), 1, expected);
   await page.waitForTimeout(2000);
   await picture("three-elements");
   const download = async (label) => {
