@@ -152,7 +152,7 @@ def check_drawing(dot):
     drawn = (REPOSITORY / "docs/images/folders.svg").read_text()
     shown = {html.unescape(title) for title in re.findall(r"<title>(.*?)</title>", drawn)}
     if any(f"{start}->{end}" not in shown for start, end in re.findall(r"(\w+) -> (\w+);", dot)):
-        yield "docs/images/folders.svg lacks an arrow: draw it anew with tools/pictures.sh"
+        yield "docs/images/folders.svg lacks an arrow: draw it anew with ./dev pictures"
 
 
 def main():
