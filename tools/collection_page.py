@@ -106,13 +106,13 @@ COLUMNS = ["| files | outcome | triangles | rays | cells | first lost | warnings
 
 def legend(settings):
     """Returns what the columns of the large table mean."""
-    guide = "guide.md" if settings.own else "../docs/guide.md"
+    reference = "reference" if settings.own else "../docs/reference"
     return [
         "- *rays*: per cent of the rays that carry all requested layers; first of all rays, then of those in the open,",
-        f"  where nothing lies in front of the wall ([guide]({guide}#report))",
+        f"  where nothing lies in front of the wall ([report]({reference}/report.md#the-report))",
         "- *cells*: per cent of the requested layer cells that were made; all, and in the open",
         "- *first lost*: wall edges without a cell of the first height, of all wall edges",
-        f"- *warnings*: [codes]({guide}#warnings), with their number where it is above one",
+        f"- *warnings*: [codes]({reference}/checks.md#warnings), with their number where it is above one",
         "- *angle*: smallest angle of the isotropic region in degrees, by `lamina check` on the file; *exempt*:",
         "  triangles below the bound that a sharp corner excuses; *below*: those that nothing excuses",
         "- *unmet*: points refused / triangles larger than the size field asks for",

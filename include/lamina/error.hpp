@@ -14,7 +14,7 @@
 
 namespace lamina {
 
-/// The kinds of errors, and the exit codes that the program returns for them (docs/guide.md, "Exit codes").
+/// The kinds of errors, and the exit codes that the program returns for them (docs/reference/command-line.md).
 enum class ExitCode : int {
     done = 0,
     usage = 2,        ///< options or arguments are wrong

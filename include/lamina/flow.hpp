@@ -1,5 +1,5 @@
 // The flow round the bodies before there is a mesh: incompressible potential flow by a panel method, and boundary
-// layers along the walls. Free functions that can be called by themselves (`lamina flow`, docs/guide.md).
+// layers along the walls. Free functions that can be called by themselves (`lamina flow`, docs/reference/flow.md).
 #pragma once
 
 #include <optional>

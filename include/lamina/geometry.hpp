@@ -1,4 +1,4 @@
-// Stage "read": airfoil files and NACA names -> Geometry (docs/guide.md, "Input").
+// Stage "read": airfoil files and NACA names -> Geometry (docs/reference/input.md, "Input").
 #pragma once
 
 #include <cstddef>

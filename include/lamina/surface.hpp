@@ -1,4 +1,4 @@
-// Stage "prepare": the points that were read -> the vertices of the walls (docs/guide.md, "Surface").
+// Stage "prepare": the points that were read -> the vertices of the walls (docs/reference/input.md, "Surface").
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Warnings: a valid result that is probably not what the user wants. They are data beside the result; the program
-// prints each as one line (docs/guide.md, "Warnings").
+// prints each as one line (docs/reference/checks.md, "Warnings").
 #pragma once
 
 #include <optional>

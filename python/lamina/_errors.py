@@ -73,7 +73,7 @@ class MeshWarning(UserWarning):
     `warnings.simplefilter("error", lamina.MeshWarning)`.
     """
 
-    code: str = ""  #: stable name of the kind: "first_layer_lost" (docs/guide.md, "Warnings")
+    code: str = ""  #: stable name of the kind: "first_layer_lost" (docs/reference/checks.md, "Warnings")
     element: str = ""  #: name of the body; empty where the whole mesh is meant
     at: tuple[float, float] | None = None  #: the worst place, where there is one
     number: float = 0  #: how many or how much

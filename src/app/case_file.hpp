@@ -1,5 +1,5 @@
-// Case files: the options of `lamina mesh` in TOML, under their own names with underscores for hyphens (docs/guide.md,
-// "Case files").
+// Case files: the options of `lamina mesh` in TOML, under their own names with underscores for hyphens
+// (docs/reference/command-line.md, "Case files").
 #pragma once
 
 #include <filesystem>

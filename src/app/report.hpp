@@ -1,4 +1,4 @@
-// The JSON reports of runs (docs/guide.md, "Report").
+// The JSON reports of runs (docs/reference/report.md, "Report").
 #pragma once
 
 #include <span>

@@ -114,11 +114,11 @@ TEST(Convert, FollowsLinks) {
     EXPECT_EQ(mesh_hash(read_mesh(folder / "real.vtu")), mesh_hash(annulus()));
 }
 
-TEST(Formats, HelpAndGuideListThemAll) {
+TEST(Formats, HelpAndReferenceListThemAll) {
     const TemporaryFolder folder;
-    std::ifstream in(std::string(LAMINA_SOURCE_DIR) + "/docs/guide.md");
-    std::stringstream guide;
-    guide << in.rdbuf();
+    std::ifstream in(std::string(LAMINA_SOURCE_DIR) + "/docs/reference/formats.md");
+    std::stringstream page;
+    page << in.rdbuf();
     const std::string mesh_help = run_lamina(folder, {"mesh", "--help"}).out,
                       convert_help = run_lamina(folder, {"convert", "--help"}).out;
     for (const MeshFormat& format : mesh_formats()) {
@@ -126,7 +126,7 @@ TEST(Formats, HelpAndGuideListThemAll) {
         for (const std::string& extension : format.extensions)
             extensions += (extensions.empty() ? "`" : ", `") + extension + "`";
         const std::string row = "| `" + format.name + "` | " + extensions + " | " + format.description + " |";
-        EXPECT_NE(guide.str().find(row), std::string::npos) << row;
+        EXPECT_NE(page.str().find(row), std::string::npos) << row;
         for (const std::string& help : {mesh_help, convert_help})
             EXPECT_NE(help.find(format.description), std::string::npos) << format.name;
     }

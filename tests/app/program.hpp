@@ -9,7 +9,7 @@
 
 namespace lamina::test {
 
-/// The exit codes of refusals (docs/guide.md, "Exit codes").
+/// The exit codes of refusals (docs/reference/command-line.md, "Exit codes").
 inline constexpr int usage = 2, bad_input = 3, io_failed = 5;
 
 struct ProgramRun {
