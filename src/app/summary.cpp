@@ -1,6 +1,8 @@
 #include "app/summary.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -128,8 +130,10 @@ std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, co
     text += summary_line(
         "time", fmt::format("{:.3f} s to make and check the mesh, {:.3f} s to write it, on {} thread{}",
                             result.seconds.total, write_seconds, result.threads, result.threads == 1 ? "" : "s"));
-    for (const std::string& output : mesh_case.outputs)
-        text += summary_line("wrote", output == "-" ? "standard output" : output);
+    std::vector<std::string> files = mesh_case.outputs;
+    for (const FileBesideMesh& beside : files_beside_mesh)
+        if (const std::string& name = mesh_case.*beside.name; !name.empty()) files.push_back(name);
+    for (const std::string& file : files) text += summary_line("wrote", file == "-" ? "standard output" : file);
     return text;
 }
 

@@ -314,6 +314,18 @@ TEST(MeshCommandOptions, TheFormatGoesOverTheExtension) {
     EXPECT_EQ(folder.read("a.grid"), folder.read("b.su2"));
 }
 
+TEST(MeshCommandOptions, TheSummaryNamesEveryFile) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> files{"m.su2", "m.vtu", "walls.csv", "r.json", "r.html"};
+    const ProgramRun run = run_lamina(folder, {"mesh", "naca:0012", "--no-layers", "-o", files[0], "-o", files[1],
+                                               "--wall-data", files[2], "--report", files[3], "--html", files[4]});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const std::string& file : files) {
+        EXPECT_NE(run.out.find("wrote       " + file + "\n"), std::string::npos) << run.out;
+        EXPECT_TRUE(std::filesystem::exists(folder / file));
+    }
+}
+
 TEST(MeshCommandOptions, ProgressGoesToStandardError) {
     const TemporaryFolder folder;
     const std::vector<std::string> arguments{"mesh", "naca:0012:40", "--no-layers", "--far-field",
