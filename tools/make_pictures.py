@@ -27,9 +27,9 @@ def run(*command, **options):
     subprocess.run(list(map(str, command)), check=True, cwd=ROOT, **options)
 
 
-def small(source, target):
-    """Writes a picture with 16 colours, or 64 where it has more to show."""
-    run("pngquant", "--force", "--speed", 1, "--nofs", "-o", target, 64 if "overview" in str(target) else 16, source)
+def small(source, target, colors=16):
+    """Writes a picture with so many colours."""
+    run("pngquant", "--force", "--speed", 1, "--nofs", "-o", target, colors, source)
     print(target.relative_to(ROOT), f"{target.stat().st_size / 1000:.0f} kB", flush=True)
 
 
@@ -63,7 +63,8 @@ class Maker:
         mesh, options = self.table["pictures"][name]
         file = self.named_mesh(mesh)
         if file:
-            small(self.plot(file, options.split(), self.scratch / f"{name}.png"), IMAGES / f"{name}.png")
+            small(self.plot(file, options.split(), self.scratch / f"{name}.png"), IMAGES / f"{name}.png",
+                  64 if "--color" in options else 16)
 
     def sheet(self, name):
         """Draws the places of a sheet beside each other, with their names."""
@@ -127,7 +128,7 @@ class Maker:
                     figure.add_artist(ConnectionPatch(corner, other, "data", "axes fraction", axesA=axis,
                                                       axesB=axes[i + 1], color="#d1451b", linewidth=1.2))
         figure.savefig(self.scratch / f"{name}.png")
-        small(self.scratch / f"{name}.png", IMAGES / f"{name}.png")
+        small(self.scratch / f"{name}.png", IMAGES / f"{name}.png", 64)
 
     def drawing(self, name):
         run("bash", "-euo", "pipefail", "-c", self.table["drawings"][name],
@@ -143,7 +144,7 @@ class Maker:
         if not file:
             return
         if (ROOT / file).is_file():
-            small(ROOT / file, IMAGES / name)
+            small(ROOT / file, IMAGES / name, 64)
         else:
             print(f"docs/images/{name} is left: {file} is not there; {command} makes it", flush=True)
 
