@@ -3,10 +3,11 @@
 
 usage: amalgamate.py FOLDER
 
-FOLDER/lamina_delaunay.hpp holds the public headers of triangulation, connectivity, queries, Voronoi diagrams and
-changing triangulations; FOLDER/lamina_delaunay.cpp holds their code, for the calling thread alone. Refinement is left
-out: it needs size fields. The result is to be compiled with -ffp-contract=off where the compiler would contract
-(GCC on machines with fused multiply-add), and without -ffast-math: the predicates have to be exact.
+FOLDER/lamina_delaunay.hpp holds the public headers of triangulation and connectivity; FOLDER/lamina_delaunay.cpp holds
+their code, for the calling thread alone. A second pair, lamina_delaunay_queries, adds queries, Voronoi diagrams and
+changing triangulations to the first one. Refinement is left out: it needs size fields. Points are triangulated in one
+piece. The sources are to be compiled with -ffp-contract=off where the compiler would contract (GCC on machines with
+fused multiply-add), and without -ffast-math: the predicates have to be exact.
 """
 
 import pathlib
@@ -17,17 +18,20 @@ REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
 PUBLIC = REPOSITORY / "include"
 SOURCE = REPOSITORY / "src"
 
-HEADERS = ["triangulation", "delaunay_connectivity", "delaunay_queries", "dynamic_triangulation", "predicates",
-           "threads", "voronoi"]
-# The sources of public functions; those of private headers are found by the names of the headers.
-SOURCES = ["core/error.cpp", "core/length.cpp", "core/option.cpp", "core/parallel_none.cpp", "core/suggestion.cpp",
-           "delaunay/check_triangulation.cpp", "delaunay/connectivity.cpp", "delaunay/constrained.cpp",
-           "delaunay/dynamic/dynamic_triangulation.cpp", "delaunay/dynamic/remove_point.cpp",
-           "delaunay/merge_points.cpp", "delaunay/pieces/decomposition_options.cpp",
-           "delaunay/pieces/pieces.cpp", "delaunay/queries/locate.cpp",
-           "delaunay/queries/make_query_index.cpp", "delaunay/queries/natural_neighbours.cpp",
-           "delaunay/queries/triangulation_index.cpp", "delaunay/voronoi.cpp"]
-
+# The public headers and the sources of public functions of each pair; each pair includes the header of the one before
+# it. The sources of private headers are found by the names of the headers.
+PAIRS = {
+    "lamina_delaunay": (
+        ["triangulation", "delaunay_connectivity", "error", "predicates", "threads"],
+        ["core/error.cpp", "core/parallel_none.cpp", "delaunay/check_triangulation.cpp", "delaunay/connectivity.cpp",
+         "delaunay/constrained.cpp", "delaunay/merge_points.cpp", "delaunay/triangulate_whole.cpp"]),
+    "lamina_delaunay_queries": (
+        ["delaunay_queries", "dynamic_triangulation", "voronoi"],
+        ["delaunay/dynamic/dynamic_triangulation.cpp", "delaunay/dynamic/remove_point.cpp",
+         "delaunay/queries/locate.cpp", "delaunay/queries/make_query_index.cpp",
+         "delaunay/queries/natural_neighbours.cpp", "delaunay/queries/triangulation_index.cpp",
+         "delaunay/voronoi.cpp"]),
+}
 INCLUDE = re.compile(r'^\s*#include (?:<(?P<public>lamina/[^>]+)>|"(?P<private>[^"]+)"|<(?P<system>[^>]+)>)')
 
 
@@ -66,23 +70,35 @@ class Amalgamation:
 
 
 def amalgamate():
-    """Returns the texts of the header and of the source."""
-    header = Amalgamation()
-    for name in HEADERS:
-        header.add(PUBLIC / "lamina" / f"{name}.hpp")
-    source = Amalgamation(header.seen)
-    pending = list(SOURCES)
-    while pending:
-        source.add(SOURCE / pending.pop(0))
-        for private in source.headers:
-            code = pathlib.Path(private).with_suffix(".cpp")
-            if (SOURCE / code).exists() and SOURCE / code not in source.seen and str(code) not in pending:
-                pending.append(str(code))
+    """Returns the texts of the files by their names."""
+    files = {}
+    public, sources, includes = set(), set(), ""
+    for name, (headers, roots) in PAIRS.items():
+        header = Amalgamation(public)
+        for root in headers:
+            header.add(PUBLIC / "lamina" / f"{root}.hpp")
+        public = header.seen
+        # Private headers stand in each source that needs them; sources stand in one alone.
+        source = Amalgamation(public | sources)
+        pending = list(roots)
+        while pending:
+            source.add(SOURCE / pending.pop(0))
+            for private in source.headers:
+                code = pathlib.Path(private).with_suffix(".cpp")
+                if (SOURCE / code).exists() and SOURCE / code not in source.seen and str(code) not in pending:
+                    pending.append(str(code))
+        sources |= {path for path in source.seen if path.suffix == ".cpp"}
+        files[f"{name}.hpp"] = notice() + "#pragma once\n\n" + includes + header.text()
+        includes = f'#include "{name}.hpp"\n\n'
+        files[f"{name}.cpp"] = notice() + includes + source.text()
+    return files
+
+
+def notice():
+    """Returns the comment at the head of each file."""
     licence = (REPOSITORY / "LICENSE").read_text().strip().splitlines()
-    notice = "// lamina, the triangulation kernel in one file. Made by tools/amalgamate.py; do not edit.\n//\n"
-    notice += "".join(f"// {line}".rstrip() + "\n" for line in licence)
-    return (notice + "#pragma once\n\n" + header.text(),
-            notice + '#include "lamina_delaunay.hpp"\n\n' + source.text())
+    text = "// lamina, the triangulation kernel in one file. Made by tools/amalgamate.py; do not edit.\n//\n"
+    return text + "".join(f"// {line}".rstrip() + "\n" for line in licence)
 
 
 def main():
@@ -90,7 +106,7 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    for name, text in zip(("lamina_delaunay.hpp", "lamina_delaunay.cpp"), amalgamate()):
+    for name, text in amalgamate().items():
         (folder / name).write_text(text)
 
 

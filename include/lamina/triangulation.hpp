@@ -10,7 +10,6 @@
 
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
-#include <lamina/option.hpp>
 #include <lamina/point.hpp>
 
 namespace lamina {
@@ -23,12 +22,6 @@ struct DecompositionOptions {
     unsigned depth = 6;                 ///< largest number of cuts on the way to a piece
     std::size_t leaf_vertices = 5'000;  ///< pieces with at most this many vertices are not cut further
 };
-
-/// Returns the table of these options, with names, ranges and help.
-LAMINA_EXPORT const OptionTable<DecompositionOptions>& decomposition_option_table();
-
-/// Throws OptionError where an option is out of range.
-LAMINA_EXPORT void validate(const DecompositionOptions& options);
 
 /// The numbers of pieces, cuts and fallbacks of a decomposition.
 struct DecompositionStats {

@@ -7,6 +7,28 @@
 
 namespace lamina::core {
 
+std::string TextPart::text() const {
+    switch (kind_) {
+        case Kind::letter:
+            return to_text(letter_);
+        case Kind::number:
+            return to_text(number_);
+        case Kind::integer:
+            return to_text(integer_);
+        case Kind::natural:
+            return to_text(natural_);
+        case Kind::text:
+            break;
+    }
+    return std::string(text_);
+}
+
+std::string joined_text(std::initializer_list<TextPart> parts) {
+    std::string text;
+    for (const TextPart& part : parts) text += part.text();
+    return text;
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     for (std::size_t at = 0; at <= text.size();) {
@@ -46,7 +68,5 @@ std::string lower_case(std::string text) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     return text;
 }
-
-std::string extension_of(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
 
 }  // namespace lamina::core

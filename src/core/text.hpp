@@ -4,7 +4,8 @@
 #include <array>
 #include <charconv>
 #include <concepts>
-#include <filesystem>
+#include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,10 +35,37 @@ inline std::string rounded_text(double value) {
     return {digits.data(), end};
 }
 
+/// A part of concat(): a text or a number. Plain values instead of types keep what a call compiles to small.
+class TextPart {
+public:
+    TextPart(std::string_view text) : text_(text) {}
+    TextPart(const char* text) : text_(text) {}
+    TextPart(const std::string& text) : text_(text) {}
+    TextPart(char letter) : kind_(Kind::letter), letter_(letter) {}
+    TextPart(double number) : kind_(Kind::number), number_(number) {}
+    TextPart(std::signed_integral auto integer) : kind_(Kind::integer), integer_(integer) {}
+    TextPart(std::unsigned_integral auto natural) : kind_(Kind::natural), natural_(natural) {}
+
+    /// Returns the part as text.
+    std::string text() const;
+
+private:
+    enum class Kind { text, letter, number, integer, natural };
+    Kind kind_ = Kind::text;
+    std::string_view text_;
+    char letter_ = 0;
+    double number_ = 0;
+    std::int64_t integer_ = 0;
+    std::uint64_t natural_ = 0;
+};
+
+/// Returns the texts of the parts, joined.
+LAMINA_EXPORT std::string joined_text(std::initializer_list<TextPart> parts);
+
 /// Returns texts and numbers joined: concat("point ", 3, " is missing").
 template <class... Parts>
 std::string concat(const Parts&... parts) {
-    return (std::string() + ... + to_text(parts));
+    return joined_text({TextPart(parts)...});
 }
 
 /// Returns the parts of a text between separators, of which there is one more than separators.
@@ -54,8 +82,5 @@ LAMINA_EXPORT std::vector<double> parse_numbers(const std::string& text, char se
 
 /// Returns the text with its ASCII letters in lower case, whatever the locale.
 LAMINA_EXPORT std::string lower_case(std::string text);
-
-/// Returns the extension of a file's name, in lower case and with the dot.
-LAMINA_EXPORT std::string extension_of(const std::filesystem::path& file);
 
 }  // namespace lamina::core

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>

@@ -11,6 +11,7 @@
 #include <lamina/suggestion.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/file_name.hpp"
 #include "core/text.hpp"
 #include "io/formats.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <lamina/files.hpp>
 
-#include "core/text.hpp"
+#include "core/file_name.hpp"
 #include "io/formats.hpp"
 
 namespace lamina::io {

@@ -12,7 +12,7 @@
 #include <lamina/plot.hpp>
 
 #include "core/atomic_file.hpp"
-#include "core/text.hpp"
+#include "core/file_name.hpp"
 
 namespace lamina::plot {
 

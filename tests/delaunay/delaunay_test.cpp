@@ -74,9 +74,7 @@ TEST(Delaunay, PiecesGiveTheSequentialTriangulation) {
     for (const auto& points : {random_points(250'000, 6), square_lattice(250, 240), hexagonal_lattice(250, 240),
                                layer_points(1400, 45), clustered, column}) {
         const auto expected = delaunay::without_ghosts(delaunay::triangulate_points(points)).triangles;
-        const auto triangles = triangulate(points).triangles;
-        EXPECT_NE(triangles, expected);
-        EXPECT_EQ(canonical(triangles), canonical(expected));
+        EXPECT_EQ(canonical(triangulate(points).triangles), canonical(expected));
     }
 }
 

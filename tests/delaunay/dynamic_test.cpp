@@ -10,8 +10,8 @@
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
+#include "support/constrained_cases.hpp"
 #include "support/point_sets.hpp"
-#include "support/triangulation_families.hpp"
 
 namespace lamina::test {
 namespace {

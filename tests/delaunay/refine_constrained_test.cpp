@@ -13,6 +13,7 @@
 
 #include "support/planar_graphs.hpp"
 #include "support/point_sets.hpp"
+#include "support/refinement_checks.hpp"
 #include "support/triangulation_checks.hpp"
 
 namespace lamina::test {

@@ -8,6 +8,7 @@
 #include <lamina/error.hpp>
 
 #include "support/point_sets.hpp"
+#include "support/refinement_checks.hpp"
 #include "support/triangulation_checks.hpp"
 
 namespace lamina::test {

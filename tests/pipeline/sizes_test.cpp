@@ -7,7 +7,7 @@
 #include <lamina/error.hpp>
 
 #include "pipeline/cases.hpp"
-#include "support/triangulation_checks.hpp"
+#include "support/refinement_checks.hpp"
 
 namespace lamina::test {
 namespace {

@@ -1,13 +1,12 @@
 // Checks of triangulations that tests share.
 #pragma once
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include <lamina/delaunay.hpp>
+#include <lamina/triangulation.hpp>
 
 namespace lamina::test {
 
@@ -15,15 +14,6 @@ namespace lamina::test {
 inline void expect_valid(const std::vector<Point>& points, const std::vector<Triangle>& triangles,
                          const std::vector<Segment>& constraints = {}) {
     for (const std::string& defect : check_triangulation(points, triangles, constraints)) ADD_FAILURE() << defect;
-}
-
-/// Returns whether a triangle exceeds the size bounds of refine(), h being the mean size at its vertices.
-inline bool is_oversized(Point a, Point b, Point c, double h, double max_area_ratio) {
-    constexpr double rounding = 1 + 1e-6;
-    const double area = 0.5 * cross(b - a, c - a);
-    const double circumradius = distance(a, b) * distance(b, c) * distance(c, a) / (4 * area);
-    return area > rounding * max_area_ratio * equilateral_area * h * h ||
-           std::sqrt(3.0) * circumradius > rounding * max_circle_ratio * h;
 }
 
 }  // namespace lamina::test

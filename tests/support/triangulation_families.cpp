@@ -79,17 +79,4 @@ RefinementCase unit_square_case(double triangles, double area_ratio) {
     return c;
 }
 
-ConstrainedCase stretched_edges_case(std::size_t points, std::size_t one_edge_in) {
-    ConstrainedCase c{random_points(points, 11), {}};
-    std::vector<Point> stretched = c.points;
-    for (Point& p : stretched) p.y *= 16;
-    std::size_t edge = 0;
-    for (const Triangle& t : triangulate(stretched).triangles)
-        for (int i = 0; i < 3; ++i) {
-            const VertexId a = t.v[i], b = t.v[(i + 1) % 3];
-            if (a < b && edge++ % one_edge_in == 0) c.segments.push_back({a, b});
-        }
-    return c;
-}
-
 }  // namespace lamina::test

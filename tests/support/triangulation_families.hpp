@@ -7,6 +7,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/sizing.hpp>
 
+#include "support/constrained_cases.hpp"
 #include "support/point_sets.hpp"
 
 namespace lamina::test {
@@ -26,14 +27,5 @@ struct RefinementCase {
 /// Returns the square whose refinement has about this number of triangles. `area_ratio` is that of the largest to the
 /// smallest triangle; 1: uniform.
 RefinementCase unit_square_case(double triangles, double area_ratio);
-
-/// Points and segments between them that do not cross.
-struct ConstrainedCase {
-    std::vector<Point> points;
-    std::vector<Segment> segments;
-};
-/// Returns random points and, as segments, one in `one_edge_in` of the edges of the Delaunay triangulation of these
-/// points stretched by 16 in y (exactly). Most of them are no Delaunay edges of the points as they are.
-ConstrainedCase stretched_edges_case(std::size_t points, std::size_t one_edge_in);
 
 }  // namespace lamina::test

@@ -1,6 +1,6 @@
 // The table of the options of triangulation in pieces.
+#include <lamina/delaunay.hpp>
 #include <lamina/option_builders.hpp>
-#include <lamina/triangulation.hpp>
 
 namespace lamina {
 

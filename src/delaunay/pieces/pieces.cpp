@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
 #include "core/parallel.hpp"
