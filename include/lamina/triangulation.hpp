@@ -31,6 +31,7 @@ struct DecompositionStats {
     std::size_t largest_piece = 0;    ///< number of vertices of the largest piece
     std::size_t crossing_cuts = 0;    ///< cuts rejected because their path crossed a segment
     std::size_t unbalanced_cuts = 0;  ///< cuts rejected because one part was larger than 0.75 of the whole
+    std::size_t long_cuts = 0;        ///< cuts rejected because a sixteenth of all points and more lay on their path
     std::size_t uncut = 0;            ///< pieces that should have been cut further, but for which no cut was good
     std::size_t fallbacks = 0;        ///< regions triangulated at once because one of their pieces could not be
 };

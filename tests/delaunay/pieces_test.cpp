@@ -222,5 +222,25 @@ TEST(Decomposition, NamesCrossingSegmentsByTheirNumbers) {
     EXPECT_EQ(pieces, whole);
 }
 
+TEST(Pieces, LargeSetsAreCut) {
+    EXPECT_EQ(triangulate(random_points(60'000, 4)).decomposition.pieces, 16u);
+    EXPECT_EQ(triangulate(random_points(10'000, 4)).decomposition.pieces, 1u);
+}
+
+TEST(Pieces, NoPathRunsRoundLargeCircles) {
+    // The paths from one side of such a set to the other would hold half the points of each circle that they meet.
+    Random random(8);
+    std::vector<Point> points(100'000);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double radius = 0.02 + 0.01 * static_cast<double>(i % 20), angle = random.real(0, 6.28);
+        points[i] = Point{0.31 * static_cast<double>(i % 20 % 5), 0.37 * static_cast<double>(i % 20 / 5)} +
+                    radius * Point{std::cos(angle), std::sin(angle)};
+    }
+    const Triangulation t = triangulate(points);
+    EXPECT_GT(t.decomposition.long_cuts, 0u);
+    EXPECT_LT(t.decomposition.piece_vertices, points.size() * 5 / 4);
+    EXPECT_EQ(canonical(t.triangles), triangulated_at_once(points));
+}
+
 }  // namespace
 }  // namespace lamina::test

@@ -181,12 +181,20 @@ PieceHalves partition_orders(const SortedPoints& sorted, Piece& piece, const Pla
     return halves;
 }
 
+/// Paths of this many points, and of a sixteenth of the piece beyond, are too long: both parts have their points, so
+/// six such cuts would make the pieces together half as large again as the whole. Paths run round circles of points.
+constexpr std::size_t long_path = 256;
+
 /// Returns the two parts of a piece if the cut is good.
 std::optional<PieceHalves> try_cut(const SortedPoints& sorted, Piece& piece, Axis axis, double share,
                                    DecompositionStats& stats) {
     const auto place = static_cast<std::size_t>(share * static_cast<double>(piece.size()));
     const Index cut_point = (axis == Axis::x ? piece.by_x : piece.by_y)[place];
     const std::vector<Index> path = dividing_path(sorted, piece, axis, place);
+    if (path.size() > long_path + piece.size() / 16) {
+        ++stats.long_cuts;
+        return {};
+    }
     std::optional<DividedBorder> borders = divide_border(sorted, piece.border, path, {axis, cut_point});
     if (!borders) {
         ++stats.crossing_cuts;
@@ -219,9 +227,13 @@ std::optional<PieceHalves> cut_piece(const SortedPoints& sorted, Piece& piece, D
     const std::span<const Point> points = sorted.points.all();
     const std::span<const Index> by_x = piece.by_x.all(), by_y = piece.by_y.all();
     const bool wide = points[by_x.back()].x - points[by_x.front()].x >= points[by_y.back()].y - points[by_y.front()].y;
+    std::array<bool, 2> too_long{};  // for each axis whether a path was; those beside it will be, too
     for (const CutTrial& trial : trials) {
+        if (too_long[trial.across_longer]) continue;
         const Axis axis = wide == trial.across_longer ? Axis::x : Axis::y;
+        const std::size_t long_cuts = stats.long_cuts;
         if (std::optional<PieceHalves> halves = try_cut(sorted, piece, axis, trial.share, stats)) return halves;
+        too_long[trial.across_longer] = stats.long_cuts > long_cuts;
     }
     return {};
 }

@@ -41,6 +41,7 @@ void add(DecompositionStats& sum, const DecompositionStats& stats) {
     sum.largest_piece = std::max(sum.largest_piece, stats.largest_piece);
     sum.crossing_cuts += stats.crossing_cuts;
     sum.unbalanced_cuts += stats.unbalanced_cuts;
+    sum.long_cuts += stats.long_cuts;
     sum.uncut += stats.uncut;
     sum.fallbacks += stats.fallbacks;
 }
