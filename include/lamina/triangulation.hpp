@@ -97,6 +97,8 @@ struct ConstrainedOptions {
     /// Points at most this far from an earlier one are taken for the same (merge_points()); segments that join two of
     /// these have no length. 0 merges equal points. Empty: equal points are an InputError.
     std::optional<double> merge_distance{};
+    /// The pieces that points are divided into; empty: as triangulate() of points does without DecompositionOptions.
+    std::optional<DecompositionOptions> decomposition{};
 };
 
 /// A constrained triangulation. Triangles and segments index the points of the input, followed by `steiner_points`.
@@ -113,6 +115,7 @@ struct ConstrainedTriangulation {
     /// For each point of the input the point that stands for it in triangles and segments, which is itself if it was
     /// not merged. Empty without ConstrainedOptions::merge_distance.
     std::vector<std::uint32_t> merged_into{};
+    DecompositionStats decomposition{};  ///< how points and segments were cut into pieces
 };
 
 /// Returns the constrained Delaunay triangulation: every segment is an edge or, where it runs through points, a chain

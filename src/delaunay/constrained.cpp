@@ -7,6 +7,8 @@
 #include <lamina/triangulation.hpp>
 
 #include "core/arguments.hpp"
+#include "core/parallel.hpp"
+#include "delaunay/constrained_pieces.hpp"
 #include "delaunay/insert_segments.hpp"
 #include "delaunay/planarize.hpp"
 #include "delaunay/regions.hpp"
@@ -16,12 +18,6 @@
 namespace lamina::delaunay {
 
 namespace {
-
-/// A triangulation of the convex hull with the pieces of segments that it holds as constrained edges.
-struct TriangulatedPieces {
-    Tris tris;
-    std::vector<SegmentPiece> pieces;
-};
 
 std::vector<Segment> segments_of(const std::vector<SegmentPiece>& pieces) {
     std::vector<Segment> segments;
@@ -35,15 +31,46 @@ struct MergedInput {
     std::span<const Point> points;
     std::span<const Segment> segments;        ///< between points that stand for themselves
     std::span<const std::uint32_t> stand_in;  ///< empty where all do
+    std::optional<DecompositionOptions> decomposition{};
 
     bool stands_for_itself(std::size_t i) const { return stand_in.empty() || stand_in[i] == i; }
 };
 
+/// Returns what became of the triangulation in pieces, for which all points have to stand for themselves.
+PiecesTrial try_pieces(const MergedInput& input) {
+    if (!input.stand_in.empty()) return {};
+    return triangulate_in_pieces(input.points, input.segments, input.decomposition);
+}
+
+/// Counts one piece for the triangulation of all points at once.
+DecompositionStats one_piece(std::size_t points) {
+    return {.pieces = 1, .piece_vertices = points, .largest_piece = points};
+}
+
 /// Triangulates points and segments that do not cross.
 TriangulatedPieces triangulate_planar(const MergedInput& input) {
-    Tris tris = triangulate_points(input.points, input.stand_in);
-    std::vector<SegmentPiece> pieces = insert_and_split_segments(input.points, input.segments, tris);
-    return {std::move(tris), std::move(pieces)};
+    if (PiecesTrial trial = try_pieces(input); trial.triangulated) return std::move(*trial.triangulated);
+    TriangulatedPieces result;
+    result.tris = triangulate_points(input.points, input.stand_in);
+    result.at_vertex = triangle_at_vertex(result.tris, input.points.size());
+    result.pieces = insert_and_split_segments(input.points, input.segments, result.tris, result.at_vertex);
+    result.stats = one_piece(input.points.size());
+    return result;
+}
+
+/// Triangulates points and segments if these do not cross.
+std::optional<TriangulatedPieces> try_planar(const MergedInput& input) {
+    PiecesTrial trial = try_pieces(input);
+    if (trial.triangulated || trial.crossed) return std::move(trial.triangulated);
+    TriangulatedPieces result;
+    result.tris = triangulate_points(input.points, input.stand_in);
+    result.at_vertex = triangle_at_vertex(result.tris, input.points.size());
+    UncrossedSegments uncrossed =
+        insert_uncrossed_segments(input.points, input.segments, result.tris, result.at_vertex);
+    if (!uncrossed.crossing.empty()) return {};
+    result.pieces = std::move(uncrossed.pieces);
+    result.stats = one_piece(input.points.size());
+    return result;
 }
 
 /// Returns planarize() of the points that stand for themselves.
@@ -74,22 +101,20 @@ PlanarSegments planarize_merged(const MergedInput& input) {
 
 /// Triangulates points and segments that may cross. `steiner_points` receives the crossing points.
 TriangulatedPieces triangulate_crossing(const MergedInput& input, std::vector<Point>& steiner_points) {
-    Tris tris = triangulate_points(input.points, input.stand_in);
     // Most segments do not cross after all, and the insertion of those is quicker than the search for crossings.
-    if (auto pieces = insert_planar_segments(input.points, input.segments, tris))
-        return {std::move(tris), std::move(*pieces)};
+    if (auto planar = try_planar(input)) return std::move(*planar);
     PlanarSegments planar = planarize_merged(input);
     steiner_points = std::move(planar.steiner_points);
     std::vector<Point> all(input.points.begin(), input.points.end());
     all.insert(all.end(), steiner_points.begin(), steiner_points.end());
     std::vector<std::uint32_t> stand_in(input.stand_in.begin(), input.stand_in.end());
     while (!stand_in.empty() && stand_in.size() < all.size()) stand_in.push_back(static_cast<Index>(stand_in.size()));
-    tris = triangulate_points(all, stand_in);
     const std::vector<Segment> parts = segments_of(planar.pieces);
-    const std::vector<SegmentPiece> inserted = insert_and_split_segments(all, parts, tris);
-    assert(inserted.size() == parts.size());
-    for (std::size_t i = 0; i < parts.size(); ++i) planar.pieces[i].repeats = inserted[i].repeats;
-    return {std::move(tris), std::move(planar.pieces)};
+    TriangulatedPieces result = triangulate_planar({all, parts, stand_in, input.decomposition});
+    assert(result.pieces.size() == parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) planar.pieces[i].repeats = result.pieces[i].repeats;
+    result.pieces = std::move(planar.pieces);
+    return result;
 }
 
 /// Returns the rule by which triangles are kept, if it is one of turns.
@@ -107,25 +132,52 @@ TriangleSelection select_kept(const TriangulatedPieces& triangulated, KeptRegion
     return select_by_winding(triangulated.pieces, triangulated.tris, point_count, *winding_rule(keep));
 }
 
-/// Fills ConstrainedTriangulation::segments and ::parents with the edges of the kept triangles that are pieces of
-/// segments, each edge once.
-void list_segments(const Tris& kept, const std::vector<SegmentPiece>& pieces, ConstrainedTriangulation& result) {
-    // Borders count, too: constrained edges on the boundary of the kept triangles became borders.
-    std::vector<std::uint64_t> edges;
-    for (const Tri& t : kept)
-        for (unsigned e = 0; e < 3; ++e)
-            if (t.n[e].is_constrained()) edges.push_back(undirected_key(t.v[next(e)], t.v[previous(e)]));
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    std::vector<char> listed(edges.size(), 0);
-    for (const SegmentPiece& piece : pieces) {
-        const std::uint64_t key = undirected_key(piece.segment.a.value, piece.segment.b.value);
-        const auto found = std::lower_bound(edges.begin(), edges.end(), key);
-        if (found == edges.end() || *found != key) continue;
-        if (std::exchange(listed[static_cast<std::size_t>(found - edges.begin())], 1)) continue;
-        result.segments.push_back(piece.segment);
-        result.parents.push_back(piece.parent);
+/// Fills ConstrainedTriangulation::segments and ::parents with the pieces of segments that are edges of selected
+/// triangles, each edge once. With `all` every triangle is selected.
+void list_segments(const TriangulatedPieces& triangulated, const TriangleSelection& selection, bool all,
+                   ConstrainedTriangulation& result) {
+    const std::vector<SegmentPiece>& pieces = triangulated.pieces;
+    const Tris& tris = triangulated.tris;
+    std::vector<char> listed(pieces.size());
+    constexpr std::size_t grain = 10'000;
+    core::parallel_for(pieces.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            listed[i] = !pieces[i].repeats;
+            if (all || !listed[i]) continue;
+            const Segment s = pieces[i].segment;
+            const Link left = find_edge(tris, triangulated.at_vertex, s.a.value, s.b.value);
+            const Index right = tris[left.triangle()].n[left.edge()].triangle();
+            listed[i] = selection[left.triangle()] || selection[right];
+        }
+    });
+    const auto count = static_cast<std::size_t>(std::count(listed.begin(), listed.end(), 1));
+    result.segments.reserve(count);
+    result.parents.reserve(count);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!listed[i]) continue;
+        result.segments.push_back(pieces[i].segment);
+        result.parents.push_back(pieces[i].parent);
     }
+}
+
+/// Returns the selected triangles in their order.
+std::vector<Triangle> selected_triangles(const Tris& tris, const TriangleSelection& selection) {
+    constexpr std::size_t grain = 50'000;
+    const auto counts = core::parallel_blocks(tris.size(), grain, [&](std::size_t begin, std::size_t end) {
+        const auto from = selection.begin();
+        return std::count(from + std::ptrdiff_t(begin), from + std::ptrdiff_t(end), 1);
+    });
+    std::vector<std::size_t> first{0};
+    for (const std::ptrdiff_t count : counts) first.push_back(first.back() + static_cast<std::size_t>(count));
+    std::vector<Triangle> triangles(first.back());
+    core::parallel_for(tris.size(), grain, [&](std::size_t begin, std::size_t end) {
+        std::size_t place = first[begin / grain];
+        for (std::size_t t = begin; t < end; ++t) {
+            const Index* v = tris[t].v;
+            if (selection[t]) triangles[place++] = {VertexId{v[0]}, VertexId{v[1]}, VertexId{v[2]}};
+        }
+    });
+    return triangles;
 }
 
 /// Counts the segments that change nothing: those from a point to itself, and those that lie on earlier ones.
@@ -165,7 +217,7 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
         core::require_indices_below(points.size(), segments);
         check_closed_loops(segments, points.size(), *rule);
     }
-    const MergedInput input{points, segments, result.merged_into};
+    const MergedInput input{points, segments, result.merged_into, options.decomposition};
     const TriangulatedPieces triangulated = options.crossings == Crossings::insert
                                                 ? triangulate_crossing(input, result.steiner_points)
                                                 : triangulate_planar(input);
@@ -177,9 +229,9 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
     }
     TriangleSelection selection = select_kept(triangulated, options.keep, points.size());
     deselect_holes(points, options.holes, triangulated.tris, selection);
-    const Tris kept = keep_selected(triangulated.tris, selection);
-    result.triangles = without_ghosts(kept).triangles;
-    list_segments(kept, triangulated.pieces, result);
+    result.triangles = selected_triangles(triangulated.tris, selection);
+    list_segments(triangulated, selection, options.keep == KeptRegion::convex_hull && options.holes.empty(), result);
+    result.decomposition = triangulated.stats;
     count_idle_segments(segments, triangulated.pieces, result);
     return result;
 }

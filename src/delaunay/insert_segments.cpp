@@ -227,17 +227,20 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
     return pieces;
 }
 
-std::optional<std::vector<SegmentPiece>> insert_planar_segments(std::span<const Point> points,
-                                                                std::span<const Segment> segments, Tris& tris) {
+UncrossedSegments insert_uncrossed_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                            Tris& tris, std::vector<Index>& at_vertex) {
     const SegmentInput input{points, segments};
     check_segments(points, segments, tris);
-    std::vector<Index> at_vertex = triangle_at_vertex(tris, points.size());
-    std::vector<SegmentPiece> pieces;
-    pieces.reserve(segments.size());
+    UncrossedSegments result;
+    result.pieces.reserve(segments.size());
     SegmentInserter inserter(input, tris, at_vertex);
-    for (std::size_t i = 0; i < segments.size(); ++i)
-        if (!inserter.insert(i, pieces)) return std::nullopt;
-    return pieces;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const std::size_t first = result.pieces.size();
+        if (inserter.insert(i, result.pieces)) continue;
+        result.pieces.resize(first);
+        result.crossing.push_back(static_cast<Index>(i));
+    }
+    return result;
 }
 
 std::optional<CrossedEdge> insert_segment(std::span<const Point> points, Segment segment, Tris& tris,

@@ -36,9 +36,15 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
 std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> points, std::span<const Segment> segments,
                                                     Tris& tris, std::vector<Index>& at_vertex);
 
-/// Does the same; returns nothing where segments cross, and the triangulation is then of no use.
-std::optional<std::vector<SegmentPiece>> insert_planar_segments(std::span<const Point> points,
-                                                                std::span<const Segment> segments, Tris& tris);
+/// Segments that could be inserted, and those that could not.
+struct UncrossedSegments {
+    std::vector<SegmentPiece> pieces;  ///< of those that cross no constrained edge
+    std::vector<Index> crossing;       ///< the indices of the others, whose pieces before and behind have been inserted
+};
+
+/// Does the same, but goes on with the next segment where one crosses a constrained edge.
+UncrossedSegments insert_uncrossed_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                            Tris& tris, std::vector<Index>& at_vertex);
 
 /// The ends of a constrained edge that a segment crosses.
 struct CrossedEdge {

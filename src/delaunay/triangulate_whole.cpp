@@ -1,8 +1,19 @@
 // triangulate() without a decomposition, for the amalgamation (tools/amalgamate.py): on one thread pieces do not pay
-// (docs/decisions/0013). The library has pieces/pieces.cpp instead.
+// (docs/decisions/0013). The library has pieces/pieces.cpp and
+// pieces/constrained_pieces.cpp instead.
 #include <lamina/triangulation.hpp>
 
+#include "delaunay/constrained_pieces.hpp"
 #include "delaunay/triangulate_points.hpp"
+
+namespace lamina::delaunay {
+
+PiecesTrial triangulate_in_pieces(std::span<const Point>, std::span<const Segment>,
+                                  const std::optional<DecompositionOptions>&) {
+    return {};
+}
+
+}  // namespace lamina::delaunay
 
 namespace lamina {
 

@@ -19,6 +19,7 @@
 #include "delaunay/pieces/cut_piece.hpp"
 #include "delaunay/pieces/leaf_brio.hpp"
 #include "delaunay/pieces/vertex_index_map.hpp"
+#include "delaunay/pieces/whole_piece.hpp"
 #include "delaunay/regions.hpp"
 #include "delaunay/triangulate_points.hpp"
 
@@ -34,17 +35,6 @@ struct Leaves {
     std::vector<LeafTriangles> triangles;
     DecompositionStats stats;
 };
-
-void add(DecompositionStats& sum, const DecompositionStats& stats) {
-    sum.pieces += stats.pieces;
-    sum.piece_vertices += stats.piece_vertices;
-    sum.largest_piece = std::max(sum.largest_piece, stats.largest_piece);
-    sum.crossing_cuts += stats.crossing_cuts;
-    sum.unbalanced_cuts += stats.unbalanced_cuts;
-    sum.long_cuts += stats.long_cuts;
-    sum.uncut += stats.uncut;
-    sum.fallbacks += stats.fallbacks;
-}
 
 /// Returns a closed border between vertices as triangulate_in_order() numbers them: point order[i] is vertex i + 1.
 std::vector<Segment> in_insertion_numbers(std::span<const BorderEdge> border, std::span<const Index> order) {
@@ -147,14 +137,6 @@ PiecewiseTriangulation one_piece(std::vector<Triangle> triangles, std::size_t ve
     return result;
 }
 
-/// Returns the points in both orders. Returns nothing where all points are to be triangulated at once: because they are
-/// few, or because that triangulation names the defects of the input.
-std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const DecompositionOptions& options,
-                                          core::BusyTimes* times) {
-    if (points.size() <= options.leaf_vertices || points.size() < 4 || options.depth == 0) return {};
-    return sort_points(points, times);
-}
-
 /// Returns the border with the numbers of SortedPoints in the place of indices into the input.
 std::vector<BorderEdge> in_sorted_numbers(const SortedPoints& sorted, std::span<const Segment> border) {
     core::UninitializedArray<Index> numbers(sorted.original.size());
@@ -163,25 +145,6 @@ std::vector<BorderEdge> in_sorted_numbers(const SortedPoints& sorted, std::span<
     edges.reserve(border.size());
     for (const Segment& s : border) edges.push_back({numbers[s.a.index()], numbers[s.b.index()]});
     return edges;
-}
-
-/// Returns the piece of all points inside a border. Takes sorted.by_y.
-Piece whole_region(SortedPoints& sorted, std::vector<BorderEdge> border) {
-    Piece whole;
-    whole.by_x = PointOrder(sorted.points.size());
-    std::iota(whole.by_x.begin(), whole.by_x.end(), Index{0});
-    whole.by_y = std::move(sorted.by_y);
-    whole.border = std::move(border);
-    return whole;
-}
-
-/// Returns the decomposition that triangulate() chooses for this number of points: small sets stay in one piece.
-DecompositionOptions default_decomposition(std::size_t points) {
-    // On one thread pieces cost up to a third more. From this number on, at 10 ms, a second thread saves milliseconds
-    // (docs/decisions/0013).
-    constexpr std::size_t min_points_to_cut = 50'000;
-    if (points < min_points_to_cut) return {.depth = 0};
-    return {};
 }
 
 }  // namespace

@@ -1,0 +1,156 @@
+// Constrained triangulation in pieces: the same as at once, on any number of threads.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
+#include <lamina/threads.hpp>
+
+#include "support/constrained_cases.hpp"
+#include "support/point_sets.hpp"
+#include "support/triangulation_checks.hpp"
+
+namespace lamina::test {
+namespace {
+
+const DecompositionOptions whole{.depth = 0}, deep{.depth = 6, .leaf_vertices = 20};
+
+ConstrainedTriangulation triangulated(const ConstrainedCase& c, ConstrainedOptions options,
+                                      const DecompositionOptions& decomposition) {
+    options.decomposition = decomposition;
+    return triangulate(c.points, c.segments, options);
+}
+
+/// Compares all but the order of the triangles.
+void expect_same_as_whole(const ConstrainedCase& c, const ConstrainedOptions& options = {},
+                          const DecompositionOptions& decomposition = deep) {
+    const ConstrainedTriangulation expected = triangulated(c, options, whole),
+                                   t = triangulated(c, options, decomposition);
+    EXPECT_EQ(canonical(t.triangles), canonical(expected.triangles));
+    EXPECT_EQ(t.segments, expected.segments);
+    EXPECT_EQ(t.parents, expected.parents);
+    EXPECT_EQ(t.steiner_points, expected.steiner_points);
+    EXPECT_EQ(t.repeated_segments, expected.repeated_segments);
+    EXPECT_EQ(t.zero_length_segments, expected.zero_length_segments);
+    EXPECT_EQ(expected.decomposition.pieces, 1u);
+}
+
+/// Returns a lattice with chains of segments of all lengths along its lines, which run through points and overlap.
+ConstrainedCase overlapping_case(std::uint64_t seed) {
+    constexpr int side = 40;
+    ConstrainedCase c{square_lattice(side, side), {}};
+    Random random(seed);
+    for (int i = 0; i < 300; ++i) {
+        const std::size_t row = random.below(side), from = random.below(side), to = random.below(side);
+        c.segments.push_back({VertexId{row * side + from}, VertexId{row * side + to}});
+    }
+    return c;
+}
+
+ConstrainedCase star_case(std::size_t n) {
+    ConstrainedCase c{random_points(n, 3), {}};
+    for (std::size_t i = 1; i < n; i += 2) c.segments.push_back({VertexId{0u}, VertexId{i}});
+    return c;
+}
+
+/// Returns random points between long lines from one side to the other.
+ConstrainedCase ruled_case(std::size_t n) {
+    ConstrainedCase c{random_points(n, 5), {}};
+    for (int i = 0; i < 20; ++i) {
+        const std::size_t first = c.points.size();
+        c.points.push_back({-0.1, 0.05 * i + 0.013});
+        c.points.push_back({1.1, 0.05 * i + 0.02});
+        c.segments.push_back({VertexId{first}, VertexId{first + 1}});
+    }
+    return c;
+}
+
+/// Returns nested closed rings.
+ConstrainedCase rings_case() {
+    ConstrainedCase c;
+    for (int ring = 1; ring <= 12; ++ring) {
+        const std::size_t first = c.points.size(), n = 120;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double angle = 2 * 3.14159 * static_cast<double>(i) / static_cast<double>(n);
+            c.points.push_back({ring * std::cos(angle), ring * std::sin(angle)});
+            c.segments.push_back({VertexId{first + i}, VertexId{first + (i + 1) % n}});
+        }
+    }
+    return c;
+}
+
+TEST(ConstrainedPieces, MakeTheTriangulationOfTheWhole) {
+    for (const std::size_t one_edge_in : {1u, 3u, 30u}) expect_same_as_whole(stretched_edges_case(3000, one_edge_in));
+    for (const std::uint64_t seed : {1u, 2u, 3u}) expect_same_as_whole(overlapping_case(seed));
+    expect_same_as_whole(star_case(2000));
+    expect_same_as_whole(ruled_case(2000));
+    expect_same_as_whole(rings_case());
+    for (const unsigned depth : {1u, 2u, 3u, 8u})
+        expect_same_as_whole(stretched_edges_case(3000, 4), {}, {.depth = depth, .leaf_vertices = 5});
+    const ConstrainedCase c = stretched_edges_case(3000, 3);
+    const ConstrainedTriangulation t = triangulated(c, {}, deep);
+    EXPECT_GT(t.decomposition.pieces, 30u);
+    expect_valid(c.points, t.triangles, t.segments);
+}
+
+TEST(ConstrainedPieces, KeepTheSameRegions) {
+    const ConstrainedCase rings = rings_case();
+    for (const KeptRegion keep :
+         {KeptRegion::inside_segments, KeptRegion::left_of_segments, KeptRegion::even_odd, KeptRegion::non_zero}) {
+        expect_same_as_whole(rings, {.keep = keep});
+        expect_same_as_whole(rings, {.keep = keep, .holes = {{0.1, 0.2}, {5.5, 0.1}}});
+    }
+    expect_same_as_whole(stretched_edges_case(2000, 7), {.holes = {{0.4, 0.4}}});
+}
+
+TEST(ConstrainedPieces, MakeTheSameOfCrossings) {
+    ConstrainedCase c = ruled_case(1000);
+    for (std::size_t i = 0; i < 15; ++i) c.segments.push_back({VertexId{3 * i}, VertexId{3 * i + 500}});
+    expect_same_as_whole(c, {.crossings = Crossings::insert});
+    const auto refusal = [&](const DecompositionOptions& decomposition) -> std::string {
+        try {
+            triangulated(c, {}, decomposition);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "none";
+    };
+    EXPECT_NE(refusal(whole), "none");
+    EXPECT_EQ(refusal(deep), refusal(whole));
+}
+
+TEST(ConstrainedPieces, MakeTheSameOfBadInput) {
+    ConstrainedCase c = stretched_edges_case(1000, 5);
+    c.segments[4] = {VertexId{7u}, VertexId{7u}};
+    c.segments.push_back(c.segments[2]);
+    expect_same_as_whole(c);
+    c.points.push_back(c.points[17]);
+    expect_same_as_whole(c, {.merge_distance = 0.0});
+    EXPECT_THROW(triangulated(c, {}, deep), InputError);
+    c.points.pop_back();
+    c.segments.push_back({VertexId{0u}, VertexId{5000u}});
+    EXPECT_THROW(triangulated(c, {}, deep), InputError);
+    EXPECT_THROW(triangulated(c, {}, {.depth = 100}), OptionError);
+}
+
+TEST(ConstrainedPieces, DoNotDependOnTheNumberOfThreads) {
+    const ConstrainedCase c = stretched_edges_case(60'000, 3);
+    ConstrainedTriangulation one;
+    with_threads(1, [&] { one = triangulate(c.points, c.segments); });
+    EXPECT_EQ(one.decomposition.pieces, 16u);
+    for (const unsigned threads : {2u, 3u, 8u}) {
+        with_threads(threads, [&] {
+            const ConstrainedTriangulation t = triangulate(c.points, c.segments);
+            EXPECT_EQ(t.triangles, one.triangles);
+            EXPECT_EQ(t.segments, one.segments);
+            EXPECT_EQ(t.parents, one.parents);
+        });
+    }
+}
+
+}  // namespace
+}  // namespace lamina::test
