@@ -26,6 +26,12 @@ Work triangle_delaunay(std::span<const Point> points);
 /// Calls Triangle for a constrained triangulation.
 Work triangle_constrained(std::span<const Point> points, std::span<const Segment> segments);
 
+/// Calls CDT with points and segments, of which there may be none, in the order that it chooses itself.
+Work cdt_constrained(std::span<const Point> points, std::span<const Segment> segments);
+
+/// Calls delaunator-cpp.
+Work delaunator_delaunay(std::span<const Point> points);
+
 /// Refines with Triangle at its best: the area bound is lowered in passes (x4096, x256, x16, x1), each of which refines
 /// the mesh of the one before. Called once with the final bound Triangle is 4 to 15 times slower. The border is frozen.
 /// The area of a triangle is bounded by sqrt(3)/4 h^2, where h is the mean of size + gradation x over its vertices.
