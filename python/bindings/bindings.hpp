@@ -20,4 +20,7 @@ void add_meshes(nanobind::module_& module);
 /// Adds triangulations and their refinement.
 void add_triangulations(nanobind::module_& module);
 
+/// Adds what triangulations are asked: connectivity, queries, Voronoi diagrams; and triangulations that change.
+void add_triangulation_queries(nanobind::module_& module);
+
 }  // namespace lamina::python

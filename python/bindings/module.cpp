@@ -12,4 +12,5 @@ NB_MODULE(_lamina, module) {
     lamina::python::add_sections(module);
     lamina::python::add_meshes(module);
     lamina::python::add_triangulations(module);
+    lamina::python::add_triangulation_queries(module);
 }

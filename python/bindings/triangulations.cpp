@@ -51,19 +51,23 @@ ReadOnlyArray<std::uint32_t> delaunay(const PointsArgument& given) {
     return owning_array<std::uint32_t>(std::move(triangles));
 }
 
-/// Returns (Steiner points, triangles, segments, parents).
+/// Returns (Steiner points, triangles, segments, parents, what points are merged into).
 nb::tuple constrained_delaunay(const PointsArgument& given, const SegmentsArgument& given_segments,
-                               const std::string& keep, const std::string& crossings, const PointsArgument& holes) {
+                               const std::string& keep, const std::string& crossings, const PointsArgument& holes,
+                               std::optional<double> merge_distance) {
     const std::vector<Point> points = points_of(given);
     const std::vector<Segment> segments = cells_of<Segment, 2>(given_segments);
     ConstrainedOptions options;
     options.keep = choice_of<KeptRegion>({{"convex_hull", KeptRegion::convex_hull},
                                           {"inside_segments", KeptRegion::inside_segments},
-                                          {"left_of_segments", KeptRegion::left_of_segments}},
+                                          {"left_of_segments", KeptRegion::left_of_segments},
+                                          {"even_odd", KeptRegion::even_odd},
+                                          {"non_zero", KeptRegion::non_zero}},
                                          "keep", keep);
     options.crossings =
         choice_of<Crossings>({{"refuse", Crossings::refuse}, {"insert", Crossings::insert}}, "crossings", crossings);
     options.holes = points_of(holes);
+    options.merge_distance = merge_distance;
     ConstrainedTriangulation result;
     {
         const nb::gil_scoped_release unlocked;
@@ -72,6 +76,24 @@ nb::tuple constrained_delaunay(const PointsArgument& given, const SegmentsArgume
     raise_signals();
     return nb::make_tuple(owning_array<double>(std::move(result.steiner_points)),
                           owning_array<std::uint32_t>(std::move(result.triangles)),
+                          owning_array<std::uint32_t>(std::move(result.segments)),
+                          owning_array<std::uint32_t>(std::move(result.parents)),
+                          owning_array<std::uint32_t>(std::move(result.merged_into)));
+}
+
+/// Returns (triangles, segments, parents).
+nb::tuple adopt_triangles(const PointsArgument& given, const TrianglesArgument& given_triangles,
+                          const SegmentsArgument& given_segments) {
+    const std::vector<Point> points = points_of(given);
+    const std::vector<Triangle> triangles = cells_of<Triangle, 3>(given_triangles);
+    const std::vector<Segment> segments = cells_of<Segment, 2>(given_segments);
+    ConstrainedTriangulation result;
+    {
+        const nb::gil_scoped_release unlocked;
+        result = constrain_triangles(points, triangles, segments);
+    }
+    raise_signals();
+    return nb::make_tuple(owning_array<std::uint32_t>(std::move(result.triangles)),
                           owning_array<std::uint32_t>(std::move(result.segments)),
                           owning_array<std::uint32_t>(std::move(result.parents)));
 }
@@ -152,7 +174,16 @@ nb::tuple refine_triangulation(const PointsArgument& given, const TrianglesArgum
 
 void add_triangulations(nb::module_& module) {
     module.def("delaunay", &delaunay);
-    module.def("constrained_delaunay", &constrained_delaunay);
+    module.def("constrained_delaunay", &constrained_delaunay, nb::arg("points"), nb::arg("segments"), nb::arg("keep"),
+               nb::arg("crossings"), nb::arg("holes"), nb::arg("merge_distance").none());
+    module.def("constrain_triangles", &adopt_triangles);
+    module.def("merge_points", [](const PointsArgument& points, double distance) {
+        return owning_array<std::uint32_t>(merge_points(points_of(points), distance));
+    });
+    module.def("ring_segments", [](std::size_t points, const ListArgument<std::uint32_t>& given) {
+        const std::vector<std::size_t> starts(given.data(), given.data() + given.shape(0));
+        return owning_array<std::uint32_t>(ring_segments(points, starts));
+    });
     module.def(
         "refine",
         [](const PointsArgument& points, const TrianglesArgument& triangles, const SegmentsArgument& segments,

@@ -9,6 +9,7 @@ docs/python.md is the guide.
 """
 
 from ._batch import BatchResult, batch
+from ._dynamic import DynamicTriangulation
 from ._errors import (Error, InputError, IoError, LimitError, MeshError, MeshWarning, OptionError, RunEstimate,
                       UsageError)
 from ._lamina import version as __version__
@@ -16,9 +17,11 @@ from ._mesh import (Mesh, MeshCheck, QualitySummary, TransitionSummary, WallSumm
                     mesh_of_arrays, read)
 from ._meshing import mesh
 from ._sections import naca, outlines
-from ._triangulation import Triangulation, constrained_delaunay, delaunay, refine
+from ._triangulation import (IndexLists, Triangulation, VoronoiDiagram, constrain_triangles, constrained_delaunay,
+                             delaunay, merge_points, refine, ring_segments)
 
-__all__ = ["BatchResult", "Error", "InputError", "IoError", "LimitError", "Mesh", "MeshCheck", "MeshError",
-           "MeshWarning", "OptionError", "QualitySummary", "RunEstimate", "TransitionSummary", "Triangulation",
-           "UsageError", "WallSummary", "WallVertices", "__version__", "batch", "check", "constrained_delaunay",
-           "delaunay", "formats", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "refine"]
+__all__ = ["BatchResult", "DynamicTriangulation", "Error", "IndexLists", "InputError", "IoError", "LimitError", "Mesh",
+           "MeshCheck", "MeshError", "MeshWarning", "OptionError", "QualitySummary", "RunEstimate",
+           "TransitionSummary", "Triangulation", "UsageError", "VoronoiDiagram", "WallSummary", "WallVertices",
+           "__version__", "batch", "check", "constrain_triangles", "constrained_delaunay", "delaunay", "formats",
+           "merge_points", "mesh", "mesh_of_arrays", "naca", "outlines", "read", "refine", "ring_segments"]

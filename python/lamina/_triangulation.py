@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,35 @@ import numpy as np
 from . import _lamina
 from ._arrays import index_array, points_array
 from ._errors import InputError, OptionError
+
+
+class IndexLists(Sequence):
+    """Lists of different lengths in one array: list i is `items[starts[i]:starts[i + 1]]`."""
+
+    def __init__(self, starts: np.ndarray, items: np.ndarray):
+        self.starts = starts
+        self.items = items
+
+    def __len__(self) -> int:
+        return len(self.starts) - 1
+
+    def __getitem__(self, i):
+        if isinstance(i, slice):
+            return [self[k] for k in range(*i.indices(len(self)))]
+        if not -len(self) <= i < len(self):
+            raise IndexError(i)
+        i %= len(self)
+        return self.items[self.starts[i]:self.starts[i + 1]]
+
+
+@dataclass(frozen=True)
+class VoronoiDiagram:
+    """A Voronoi diagram. Corners have the indices of the triangles whose centres they are."""
+
+    corners: np.ndarray  #: (m, 2)
+    cells: IndexLists  #: for each point the corners of its cell, counter-clockwise; those of points on the hull are open
+    rays: np.ndarray  #: (h, 3) the two points of each hull edge, and the triangle from whose centre the ray starts
+    directions: np.ndarray  #: (h, 2) the directions of the rays
 
 
 @dataclass(frozen=True)
@@ -23,6 +53,74 @@ class Triangulation:
     parents: np.ndarray  #: (k,) for each of them the index of the segment that it is a part of
     given_points: int  #: number of the points handed in
     stats: dict[str, int] = field(default_factory=dict)  #: of a refinement: what could not be refined as asked
+    #: (given_points,) for each point that was handed in the one that stands for it; empty unless points were merged
+    merged_into: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.uint32))
+
+    @cached_property
+    def half_edges(self) -> np.ndarray:
+        """(3 m,) for each half-edge the opposite one; -1 on the boundary. Number 3 t + i runs from corner i of triangle
+        t to the next one."""
+        return _lamina.half_edges(len(self.points), self.triangles).view(np.int32)
+
+    @cached_property
+    def neighbours(self) -> np.ndarray:
+        """(m, 3) the triangles across the edges opposite the corners; -1 across the boundary."""
+        return _lamina.neighbours(self.half_edges.view(np.uint32)).view(np.int32)
+
+    @cached_property
+    def half_edges_at_points(self) -> IndexLists:
+        """For each point the half-edges that start there, counter-clockwise; half-edge h is in triangle h // 3."""
+        return IndexLists(*_lamina.half_edges_at_points(len(self.points), self.triangles,
+                                                        self.half_edges.view(np.uint32)))
+
+    @cached_property
+    def boundary(self) -> list[np.ndarray]:
+        """The loops of the boundary as indices of points: counter-clockwise round triangles, clockwise round holes."""
+        corners = self.triangles.reshape(-1)
+        return [corners[loop] for loop in IndexLists(*_lamina.boundary_loops(self.half_edges.view(np.uint32)))]
+
+    @cached_property
+    def _index(self) -> _lamina.TriangulationIndex:
+        return _lamina.TriangulationIndex(self.points, self.triangles)
+
+    def locate(self, points) -> np.ndarray:
+        """Returns for each of (n, 2) points the triangle that holds it, -1 outside. Exact; on edges and vertices the
+        triangle with the smallest index. The first call prepares the triangulation for this one and those below."""
+        return self._index.locate(points_array(points))[0]
+
+    def nearest(self, points) -> np.ndarray:
+        """Returns for each of (n, 2) points the index of the nearest vertex. Exact. For Delaunay triangulations of
+        points; UsageError for others."""
+        return self._index.nearest(points_array(points))
+
+    def interpolate(self, values, points, *, method: str = "linear") -> np.ndarray:
+        """Returns at each of (n, 2) points the value between `values`, one for each point of the triangulation; NaN
+        outside. method: "linear" in each triangle; or "sibson", by natural neighbours, which is smooth but at the
+        vertices and needs the Delaunay triangulation of points (UsageError for others)."""
+        if method not in ("linear", "sibson"):
+            raise OptionError(f"method: '{method}' is neither 'linear' nor 'sibson'")
+        numbers = np.ascontiguousarray(values, dtype=np.float64)
+        if numbers.shape != (len(self.points),):
+            raise InputError(f"values must have the shape ({len(self.points)},), one for each point, not "
+                             f"{numbers.shape}")
+        ask = self._index.linear if method == "linear" else self._index.sibson
+        return ask(numbers, points_array(points))
+
+    def natural_neighbours(self, point) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the indices of the natural neighbours of a point, counter-clockwise, and Sibson's weights; both empty
+        outside."""
+        return self._index.natural_neighbours(float(point[0]), float(point[1]))
+
+    def voronoi(self) -> VoronoiDiagram:
+        """Returns the Voronoi diagram of the points. For Delaunay triangulations of points."""
+        corners, (starts, items), rays, directions = _lamina.voronoi_diagram(self.points, self.triangles)
+        return VoronoiDiagram(corners, IndexLists(starts, items), rays, directions)
+
+    def voronoi_cells(self, polygon) -> list[np.ndarray]:
+        """Returns for each point the part of its Voronoi cell in a convex, counter-clockwise polygon: (k, 2) corners,
+        none where it has no part. For Delaunay triangulations of points."""
+        starts, corners = _lamina.clipped_voronoi_cells(self.points, self.triangles, points_array(polygon, "polygon"))
+        return np.split(corners, starts[1:-1]) if len(starts) > 1 else []
 
     def plot(self, ax=None, **style):
         """Draws the triangles with matplotlib and returns the axes."""
@@ -43,18 +141,50 @@ def delaunay(points) -> Triangulation:
 
 
 def constrained_delaunay(points, segments, *, keep: str = "convex_hull", crossings: str = "refuse",
-                         holes=()) -> Triangulation:
+                         holes=(), merge_distance: float | None = None) -> Triangulation:
     """Returns the constrained Delaunay triangulation of points and segments.
 
     segments: (k, 2) indices into `points`; they may overlap, repeat and run through points. keep: which triangles stay:
-    those of the "convex_hull", "inside_segments" (not reached from outside), or "left_of_segments" (outer loops
-    counter-clockwise, holes clockwise). crossings: "refuse" raises InputError where segments cross (`error.segments`),
+    those of the "convex_hull", "inside_segments" (not reached from outside), "left_of_segments" (outer loops
+    counter-clockwise, holes clockwise), or inside closed loops in any direction by the rule "even_odd" (GeoJSON) or
+    "non_zero" (fonts). crossings: "refuse" raises InputError where segments cross (`error.segments`),
     "insert" adds a Steiner point there. holes: (h, 2) coordinates, one point in each hole.
+    merge_distance: points at most this far apart count as one (`merged_into`), 0: equal ones; None: equal points raise
+    InputError.
     """
     array = points_array(points)
-    steiner, triangles, edges, parents = _lamina.constrained_delaunay(
-        array, index_array(segments, 2, "segments"), keep, crossings, points_array(holes, "holes"))
-    return Triangulation(_joined(array, steiner), triangles, edges, parents, len(array))
+    steiner, triangles, edges, parents, merged_into = _lamina.constrained_delaunay(
+        array, index_array(segments, 2, "segments"), keep, crossings, points_array(holes, "holes"), merge_distance)
+    return Triangulation(_joined(array, steiner), triangles, edges, parents, len(array), merged_into=merged_into)
+
+
+def constrain_triangles(points, triangles, segments=()) -> Triangulation:
+    """Returns a triangulation from elsewhere as one that refine() takes: edges are flipped until it is constrained
+    Delaunay.
+
+    triangles: (m, 3), counter-clockwise; without overlaps. segments: (k, 2) edges of triangles that stay.
+    """
+    array = points_array(points)
+    result, edges, parents = _lamina.constrain_triangles(array, index_array(triangles, 3, "triangles"),
+                                                         index_array(segments, 2, "segments"))
+    return Triangulation(array, result, edges, parents, len(array))
+
+
+def merge_points(points, distance: float) -> np.ndarray:
+    """Returns for each point the index of the one that stands for it: the first one that stands for itself and is at
+    most `distance` away."""
+    return _lamina.merge_points(points_array(points), float(distance))
+
+
+def ring_segments(rings) -> tuple[np.ndarray, np.ndarray]:
+    """Returns points and segments of closed rings, each an (n, 2) array that may repeat its first point at its end.
+
+    Rings that repeat points need `merge_distance` in constrained_delaunay().
+    """
+    arrays = [points_array(ring, "ring") for ring in rings]
+    starts = np.cumsum([0] + [len(a) for a in arrays])
+    points = np.concatenate(arrays) if arrays else np.empty((0, 2))
+    return points, _lamina.ring_segments(len(points), index_array(starts[:-1], 1, "starts"))
 
 
 def refine(triangulation: Triangulation, size, *, gradation: float = 0.1, min_angle: float | None = None,
