@@ -75,7 +75,9 @@ public:
     std::vector<VertexId> nearest_vertices(std::span<const Point> queries) const;
 
     /// Returns the natural neighbours of p: the vertices from whose Voronoi cells p would take a share if it were a
-    /// vertex. On the hull these are the ends of the edge. Throws UsageError unless is_delaunay().
+    /// vertex. On the hull these are the ends of the edge. Where neighbours lie on a line up to rounding, so that weights
+    /// would miss p by 1e-9 of the distances, those of linear interpolation stand in. Throws UsageError unless
+    /// is_delaunay().
     /// Source: R. Sibson, Math. Proc. Camb. Phil. Soc. 87 (1980).
     NaturalNeighbours natural_neighbours(Point p) const;
 

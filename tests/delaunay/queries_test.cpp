@@ -284,5 +284,31 @@ TEST(Queries, ArgumentsAreChecked) {
     }
 }
 
+TEST(Queries, ValuesBetweenPointsNearlyOnALine) {
+    // Points on a slanted line up to rounding, in several directions and places, have triangles that are all needles.
+    Random random(17);
+    for (const Point along : {Point{0.7, 0.3}, Point{0.1, 0.9}, Point{-0.3, 0.4}})
+        for (const double offset : {0.0, 66.1}) {
+            std::vector<Point> points;
+            for (int i = 0; i < 60; ++i) points.push_back(random.real() * along + Point{offset, 0.7 * offset});
+            const std::vector<Triangle> triangles = triangulate(points).triangles;
+            if (triangles.empty()) continue;
+            const TriangulationIndex index(points, triangles);
+            std::vector<double> values;
+            for (const Point p : points) values.push_back(3 * p.x - 2 * p.y);
+            int inside = 0;
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                const Point p = points[i] + random.real() * (points[i + 1] - points[i]);
+                if (index.locate(p).place == PointPlace::outside) continue;
+                ++inside;
+                const double exact = 3 * p.x - 2 * p.y, scale = 1e-9 * (1 + std::abs(exact));
+                EXPECT_NEAR(index.interpolate_linear(values, p), exact, scale);
+                const std::vector<Point> queries{p};
+                EXPECT_NEAR(index.interpolate_sibson(values, queries)[0], exact, scale);
+            }
+            EXPECT_GT(inside, 0);
+        }
+}
+
 }  // namespace
 }  // namespace lamina::test

@@ -365,6 +365,7 @@ PiecesTrial triangulate_in_pieces(std::span<const Point> points, std::span<const
                                   const std::optional<DecompositionOptions>& options) {
     if (options) validate(*options);
     const DecompositionOptions limits = options.value_or(default_decomposition(points.size()));
+    if (is_beyond_cuts(points, limits)) return {};
     std::optional<SortedPoints> sorted = sort_for_cuts(points, limits);
     if (!sorted || !are_among(segments, points.size())) return {};
     Piece whole = whole_region(*sorted, convex_hull(*sorted));

@@ -235,6 +235,7 @@ std::optional<PieceHalves> cut_piece(const SortedPoints& sorted, Piece& piece, D
         if (std::optional<PieceHalves> halves = try_cut(sorted, piece, axis, trial.share, stats)) return halves;
         too_long[trial.across_longer] = stats.long_cuts > long_cuts;
     }
+    piece.long_paths = too_long[0] && too_long[1];
     return {};
 }
 

@@ -49,9 +49,23 @@ private:
     std::vector<Index> strip_;  ///< for each cell its strip
 };
 
+std::vector<Index> order_along_curve(const SortedPoints& sorted, std::span<const Index> numbers) {
+    std::vector<Point> points;
+    points.reserve(numbers.size());
+    Box box;
+    for (const Index i : numbers) {
+        points.push_back(sorted.points[i]);
+        box.include(points.back());
+    }
+    std::vector<Index> order = brio_order(points, box);
+    for (Index& i : order) i = numbers[i];
+    return order;
+}
+
 }  // namespace
 
 std::vector<Index> leaf_brio(const SortedPoints& sorted, const Piece& leaf) {
+    if (leaf.long_paths) return order_along_curve(sorted, leaf.by_x.all());
     const std::size_t count = strip_count(sorted, leaf);
     const Strips strips(leaf.by_x.all(), count);
 

@@ -23,7 +23,8 @@ struct BorderEdge {
 struct Piece {
     PointOrder by_x, by_y;
     std::vector<BorderEdge> border;
-    unsigned depth = 0;  ///< number of cuts that made the piece
+    unsigned depth = 0;       ///< number of cuts that made the piece
+    bool long_paths = false;  ///< whether it was not cut because of long paths
 
     /// Returns the number of points.
     std::size_t size() const { return by_x.size(); }

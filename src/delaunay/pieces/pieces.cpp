@@ -155,7 +155,7 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, cons
     Piece whole;
     {
         const core::BusyTimes::Scope busy(times, cutting);
-        sorted = sort_for_cuts(points, options, times);
+        if (!is_beyond_cuts(points, options)) sorted = sort_for_cuts(points, options, times);
         if (sorted) whole = whole_region(*sorted, convex_hull(*sorted));
     }
     if (!whole.border.empty()) return triangulate_and_join(*sorted, std::move(whole), options, times);

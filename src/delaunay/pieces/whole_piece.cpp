@@ -4,12 +4,32 @@
 #include <numeric>
 #include <utility>
 
+#include "core/random.hpp"
+#include "delaunay/pieces/convex_hull.hpp"
+#include "delaunay/pieces/cut_line.hpp"
+#include "delaunay/pieces/dividing_path.hpp"
+
 namespace lamina::delaunay::pieces {
 
 std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const DecompositionOptions& options,
                                           core::BusyTimes* times) {
     if (points.size() <= options.leaf_vertices || points.size() < 4 || options.depth == 0) return {};
     return sort_points(points, times);
+}
+
+bool is_beyond_cuts(std::span<const Point> points, const DecompositionOptions& options) {
+    constexpr std::size_t points_per_sample = 64, least_samples = 200;
+    if (points.size() < points_per_sample * least_samples || options.depth == 0) return false;
+    std::vector<Point> sample;  // one point of each run, since points may stand in rows
+    for (std::size_t i = 0; i + points_per_sample <= points.size(); i += points_per_sample)
+        sample.push_back(points[i + core::splitmix64(i) % points_per_sample]);
+    std::optional<SortedPoints> sorted = sort_points(sample);
+    if (!sorted) return false;
+    const Piece whole = whole_region(*sorted, convex_hull(*sorted));
+    const std::size_t many = sample.size() / 4, middle = sample.size() / 2;
+    if (whole.border.empty()) return false;
+    return whole.border.size() > many || (dividing_path(*sorted, whole, Axis::x, middle).size() > many &&
+                                          dividing_path(*sorted, whole, Axis::y, middle).size() > many);
 }
 
 Piece whole_region(SortedPoints& sorted, std::vector<BorderEdge> border) {

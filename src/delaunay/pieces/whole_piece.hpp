@@ -18,6 +18,11 @@ namespace lamina::delaunay::pieces {
 std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const DecompositionOptions& options,
                                           core::BusyTimes* times = nullptr);
 
+/// Returns whether a sample of the points says that no cut of their hull would be good: where points lie on few lines
+/// or circles, many are on the hull, or paths run from point to point along them. To find this out with all points
+/// would take half as long as to triangulate them.
+bool is_beyond_cuts(std::span<const Point> points, const DecompositionOptions& options);
+
 /// Returns the piece of all points inside a border. Takes sorted.by_y.
 Piece whole_region(SortedPoints& sorted, std::vector<BorderEdge> border);
 

@@ -3,6 +3,7 @@
 // three-dimensional Delaunay triangulations, Comput. Geom. 12 (1999); O. Devillers, S. Pion, M. Teillaud, Walking in a
 // triangulation, Int. J. Found. Comput. Sci. 13 (2002).
 #include <algorithm>
+#include <array>
 
 #include <lamina/predicates.hpp>
 
@@ -140,6 +141,32 @@ void for_each_found(const QueryIndex& index, std::span<const Point> queries,
             recent = is_growing_ghost(index.tris[found]) ? no_index : found;
         }
     });
+}
+
+std::array<double, 3> linear_weights(const Point* vertices, const Tri& t, Point p) {
+    std::array<Point, 3> to;
+    for (unsigned e = 0; e < 3; ++e) to[e] = vertices[t.v[e]] - p;
+    const auto edge = [&](unsigned e) { return to[previous(e)] - to[next(e)]; };
+    std::array<double, 3> weights;
+    double sum = 0;
+    unsigned longest = 0;
+    for (unsigned e = 0; e < 3; ++e) {
+        weights[e] = cross(to[next(e)], to[previous(e)]);
+        sum += weights[e];
+        if (dot(edge(e), edge(e)) > dot(edge(longest), edge(longest))) longest = e;
+    }
+    const Point along = edge(longest);
+    constexpr double flat = 1e-12;  // areas below are of the order of their rounding
+    if (sum > flat * dot(along, along)) {
+        for (double& w : weights) w /= sum;
+        return weights;
+    }
+    // In such a needle the value on the longest edge is as good.
+    const double share = std::clamp(-dot(to[next(longest)], along) / dot(along, along), 0.0, 1.0);
+    weights[longest] = 0;
+    weights[next(longest)] = 1 - share;
+    weights[previous(longest)] = share;
+    return weights;
 }
 
 }  // namespace lamina::delaunay::queries

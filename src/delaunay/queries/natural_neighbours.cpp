@@ -114,6 +114,30 @@ NaturalNeighbours on_edge_between(const QueryIndex& index, Index a, Index b, Poi
     return {{VertexId{index.point_ids[a]}, VertexId{index.point_ids[b]}}, {to_b / (to_a + to_b), to_a / (to_a + to_b)}};
 }
 
+/// Returns whether the weighted mean of the neighbours is p, as Sibson's identity says. Where neighbours lie on a line up
+/// to rounding, centres are so far away that the areas are lost.
+bool reproduces(const QueryIndex& index, const SibsonCavity& cavity, const NaturalNeighbours& neighbours, Point p) {
+    constexpr double tolerance = 1e-9;
+    Point mean;
+    double reach2 = 0;
+    for (std::size_t i = 0; i < cavity.shares.size(); ++i) {
+        const Point to = index.vertices[cavity.shares[i].a] - p;
+        mean = mean + neighbours.weights[i] * to;
+        reach2 = std::max(reach2, dot(to, to));
+    }
+    return dot(mean, mean) <= tolerance * tolerance * reach2;
+}
+
+NaturalNeighbours corners_of(const QueryIndex& index, const Tri& t, Point p) {
+    NaturalNeighbours result;
+    const std::array<double, 3> weights = linear_weights(index.vertices.data(), t, p);
+    for (unsigned i = 0; i < 3; ++i) {
+        result.vertices.emplace_back(index.point_ids[t.v[i]]);
+        result.weights.push_back(std::max(weights[i], 0.0));
+    }
+    return result;
+}
+
 }  // namespace
 
 NaturalNeighbours natural_neighbours_at(const QueryIndex& index, Index found, Point p) {
@@ -137,6 +161,7 @@ NaturalNeighbours natural_neighbours_at(const QueryIndex& index, Index found, Po
         result.vertices.emplace_back(index.point_ids[s.a]);
         result.weights.push_back(std::max(s.area2, 0.0) / sum_of_areas);
     }
+    if (!reproduces(index, cavity, result, p)) return corners_of(index, t, p);
     return result;
 }
 

@@ -3,6 +3,7 @@
 // that a walk gets from anywhere to anywhere.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -75,5 +76,9 @@ NaturalNeighbours natural_neighbours_at(const QueryIndex& index, Index found, Po
 /// exact range, and where there are no triangles. The order is that of the curve.
 void for_each_found(const QueryIndex& index, std::span<const Point> queries,
                     const std::function<void(std::size_t, Index)>& answer);
+
+/// Returns the weights of the corners of t whose mean is p, which lies in or on t. They add up to 1, and are right but
+/// for rounding also where the corners lie on a line up to rounding.
+std::array<double, 3> linear_weights(const Point* vertices, const Tri& t, Point p);
 
 }  // namespace lamina::delaunay::queries

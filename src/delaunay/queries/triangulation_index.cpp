@@ -1,4 +1,5 @@
 // The queries of TriangulationIndex, one by one and in batches.
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -42,13 +43,11 @@ double linear_value(const QueryIndex& index, const Tri& t, std::span<const doubl
     const Point* const v = index.vertices.data();
     const double f[3] = {values[index.point_ids[t.v[0]]], values[index.point_ids[t.v[1]]],
                          values[index.point_ids[t.v[2]]]};
-    double weight[3];
-    for (unsigned e = 0; e < 3; ++e) weight[e] = cross(v[t.v[next(e)]] - p, v[t.v[previous(e)]] - p);
-    const double sum = weight[0] + weight[1] + weight[2];
+    const std::array<double, 3> weight = linear_weights(v, t, p);
     // From the corner that is nearest in weights, so that a value at a corner comes out as it is.
     const unsigned near = weight[0] >= weight[1] ? (weight[0] >= weight[2] ? 0 : 2) : (weight[1] >= weight[2] ? 1 : 2);
     const unsigned i = next(near), j = previous(near);
-    return f[near] + (weight[i] * (f[i] - f[near]) + weight[j] * (f[j] - f[near])) / sum;
+    return f[near] + (weight[i] * (f[i] - f[near]) + weight[j] * (f[j] - f[near]));
 }
 
 /// Returns the value at p, which the triangle or ghost `found` holds.
