@@ -26,9 +26,9 @@ SOURCE = REPOSITORY / "src"
 PUBLIC = REPOSITORY / "include" / "lamina"
 
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
-OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids", "length",
-                                    "limits", "option", "option_builders", "point", "predicates", "suggestion", "threads",
-                                    "version", "warning")}
+OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids",
+                                    "interruption", "length", "limits", "option", "option_builders", "point",
+                                    "predicates", "suggestion", "threads", "version", "warning")}
 OWNERS["transformation"] = "geometry"
 OWNERS["solution"] = "io"
 OWNERS["solution_sizes"] = "adaptation"

@@ -64,22 +64,22 @@ void require_promised_angles(const MeshResult& result) {
 }
 
 /// Makes a mesh. Returns it with its warnings, the facts about the run, and the columns of the layer: of its cells, and
-/// the vertices at which they begin.
+/// the vertices at which they begin. What `stop` raises ends the run; it is called now and then unless it is None.
 nb::tuple generate(const nb::list& given_sections, const OptionValues& values, const std::optional<Background>& sizes,
-                   const nb::object& callback) {
+                   const nb::object& callback, const nb::object& stop) {
     MeshRequest request = make_request(values);
     if (sizes) request.options.sizing.background = background_of(*sizes);
     request.options.limits = with_default_limits(request.options.limits);
     const std::vector<Section> sections = sections_of(given_sections);
     const Progress progress = python_progress(callback);
     MeshResult result;
-    {
-        const nb::gil_scoped_release unlocked;
-        const Geometry geometry = geometry_of(sections, request.options.geometry);
-        result = generate_mesh(geometry, request.options, progress);
-        if (!request.allow_defects) require_promised_angles(result);
-    }
-    raise_signals();
+    run_unlocked(
+        [&] {
+            const Geometry geometry = geometry_of(sections, request.options.geometry);
+            result = generate_mesh(geometry, request.options, progress);
+            if (!request.allow_defects) require_promised_angles(result);
+        },
+        stop);
     nb::list warnings = warnings_of(result.warnings);
     nb::dict facts = facts_of(result);
     const nb::tuple columns = nb::make_tuple(owning_array<std::uint32_t>(std::move(result.columns)),
@@ -99,10 +99,7 @@ void write(const SharedMesh& mesh, const std::string& file, const std::string& f
 
 nb::dict check(const SharedMesh& mesh, double min_angle, const std::optional<double>& first_height) {
     MeshCheck result;
-    {
-        const nb::gil_scoped_release unlocked;
-        result = check_mesh(*mesh, {.min_angle_deg = min_angle, .first_height = first_height});
-    }
+    run_unlocked([&] { result = check_mesh(*mesh, {.min_angle_deg = min_angle, .first_height = first_height}); });
     return check_of(result);
 }
 
@@ -121,10 +118,7 @@ nb::tuple walls(const SharedMesh& mesh) {
 
 ReadOnlyArray<double> distances(const SharedMesh& mesh) {
     std::vector<double> found;
-    {
-        const nb::gil_scoped_release unlocked;
-        found = wall_distances(*mesh);
-    }
+    run_unlocked([&] { found = wall_distances(*mesh); });
     return owning_array<double>(std::move(found));
 }
 
@@ -218,7 +212,7 @@ void add_meshes(nb::module_& module) {
             return mesh_hash(*mesh);
         });
     module.def("generate", &generate, nb::arg("sections"), nb::arg("values"), nb::arg("sizes").none(),
-               nb::arg("progress").none());
+               nb::arg("progress").none(), nb::arg("stop") = nb::none());
     module.def("read", &read);
     module.def("mesh_of_arrays", &mesh_of_arrays);
     module.def("format_names", [] {

@@ -43,11 +43,7 @@ Choice choice_of(const Choices<Choice>& choices, const std::string& option, cons
 ReadOnlyArray<std::uint32_t> delaunay(const PointsArgument& given) {
     const std::vector<Point> points = points_of(given);
     std::vector<Triangle> triangles;
-    {
-        const nb::gil_scoped_release unlocked;
-        triangles = triangulate(points).triangles;
-    }
-    raise_signals();
+    run_unlocked([&] { triangles = triangulate(points).triangles; });
     return owning_array<std::uint32_t>(std::move(triangles));
 }
 
@@ -69,11 +65,7 @@ nb::tuple constrained_delaunay(const PointsArgument& given, const SegmentsArgume
     options.holes = points_of(holes);
     options.merge_distance = merge_distance;
     ConstrainedTriangulation result;
-    {
-        const nb::gil_scoped_release unlocked;
-        result = triangulate(points, segments, options);
-    }
-    raise_signals();
+    run_unlocked([&] { result = triangulate(points, segments, options); });
     return nb::make_tuple(owning_array<double>(std::move(result.steiner_points)),
                           owning_array<std::uint32_t>(std::move(result.triangles)),
                           owning_array<std::uint32_t>(std::move(result.segments)),
@@ -151,14 +143,12 @@ nb::tuple refine_triangulation(const PointsArgument& given, const TrianglesArgum
     options.split_segments = arguments.split_segments;
     const WorkLimits limits = with_default_limits({.max_triangles = arguments.max_triangles});
     ConstrainedRefinement result;
-    {
-        const nb::gil_scoped_release unlocked;
+    run_unlocked([&] {
         const SizeField size = size_field_of(size_argument, arguments.gradation, domain);
         require_refinement_within(limits, points, triangulation, size, options);
         options.refine.max_points = allowed_points(limits, angle_refinement_cost, options.refine.max_points);
         result = refine(points, triangulation, size, options);
-    }
-    raise_signals();
+    });
     nb::dict stats;
     stats["refused"] = result.stats.refused;
     stats["below_bound"] = result.stats.below_bound;

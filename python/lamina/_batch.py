@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import threading
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -76,10 +77,18 @@ def _path_of(template: str, name: str, swept: dict[str, Any]) -> str:
         raise UsageError(f"write: '{template}' cannot be filled in: {error!r}") from error
 
 
-def _run(job: _Job, options: dict[str, Any]) -> BatchResult:
+class _Left(Exception):
+    """Ends the meshes in hand of a loop that was left. Nobody sees it."""
+
+
+def _run(job: _Job, options: dict[str, Any], left: threading.Event) -> BatchResult:
+    def stop() -> None:
+        if left.is_set():
+            raise _Left
+
     start = time.perf_counter()
     try:
-        mesh = make_mesh(job.sections, None, {"threads": 1, **options, **job.swept}, job.name)
+        mesh = make_mesh(job.sections, None, {"threads": 1, **options, **job.swept}, job.name, stop)
         if job.path is not None:
             mesh.write(job.path)
     except (Error, MemoryError) as error:
@@ -100,8 +109,8 @@ def batch(inputs: Mapping[str, Sections] | Iterable[Sections], *, jobs: int | No
     options: those of `lamina.mesh()`.
 
     An input that cannot be meshed yields a result with `error`, and the others go on. Wrong options raise at once. No
-    more than twice `jobs` meshes are held, besides those that the caller keeps. Leaving the loop ends the work once the
-    meshes in hand are finished.
+    more than twice `jobs` meshes are held, besides those that the caller keeps. Leaving the loop, or Ctrl-C in it, ends the
+    meshes in hand.
     """
     swept = dict(sweep or {})
     for values in itertools.product(*swept.values()):
@@ -115,14 +124,16 @@ def _results(todo: list[_Job], options: dict[str, Any], workers: int) -> Iterato
     queue = iter(todo)
     running: set[Future[BatchResult]] = set()
     pool = ThreadPoolExecutor(workers, thread_name_prefix="lamina")
+    left = threading.Event()
     try:
         while True:
             for job in itertools.islice(queue, 2 * workers - len(running)):
-                running.add(pool.submit(_run, job, options))
+                running.add(pool.submit(_run, job, options, left))
             if not running:
                 return
             done, running = wait(running, return_when=FIRST_COMPLETED)
             while done:
                 yield done.pop().result()
     finally:
+        left.set()
         pool.shutdown(wait=True, cancel_futures=True)

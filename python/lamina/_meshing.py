@@ -33,7 +33,7 @@ def mesh(sections: Sections, *, progress: Callable[[str, RunEstimate | None], ob
     and run in either direction; they are repaired as files are.
 
     progress(stage, estimate) is called when a stage begins; the estimate comes once. What it raises ends the run, and
-    so does Ctrl-C, both when the next stage begins.
+    so does Ctrl-C, within a fraction of a second.
 
     Lengths are numbers of chords, or of units of the input as a text with the suffix u: "0.003u". Positions are in
     units of the input, angles in degrees. None stands for the default. The mesh does not depend on the number of
@@ -50,8 +50,9 @@ def mesh(sections: Sections, *, progress: Callable[[str, RunEstimate | None], ob
 
 
 def make_mesh(sections: Sections, progress: Callable[[str, RunEstimate | None], object] | None,
-              options: dict[str, Any], source: str = "array") -> Mesh:
-    """Does what mesh() does, without issuing warnings. Errors call an array without a name `source`."""
+              options: dict[str, Any], source: str = "array", stop: Callable[[], None] | None = None) -> Mesh:
+    """Does what mesh() does, without issuing warnings. Errors call an array without a name `source`. What `stop`, which
+    is called up to 50 times a second, raises ends the run."""
     options = dict(options)
     given, names = section_list(sections, source)
     if names:
@@ -61,5 +62,5 @@ def make_mesh(sections: Sections, progress: Callable[[str, RunEstimate | None], 
     sizes = None
     if options.get("background") is not None and not isinstance(options["background"], (str, os.PathLike)):
         sizes = _background_arrays(options.pop("background"))
-    data, found, facts, columns = _lamina.generate(given, option_values(options), sizes, progress)
+    data, found, facts, columns = _lamina.generate(given, option_values(options), sizes, progress, stop)
     return Mesh._from(data, [MeshWarning._from(warning) for warning in found], facts, columns)

@@ -8,11 +8,16 @@
 
 #include <lamina/threads.hpp>
 
+#include "core/interruption_point.hpp"
+
 namespace lamina::core {
 
 void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f) {
     assert(grain > 0);
-    for (std::size_t begin = 0; begin < n; begin += grain) f(begin, std::min(n, begin + grain));
+    for (std::size_t begin = 0; begin < n; begin += grain) {
+        check_interruption();
+        f(begin, std::min(n, begin + grain));
+    }
 }
 
 void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g) {

@@ -20,6 +20,8 @@
 
 #include <lamina/threads.hpp>
 
+#include "core/interruption_point.hpp"
+
 namespace lamina::core {
 
 void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f) {
@@ -28,7 +30,10 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
     const std::size_t workers = std::min<std::size_t>(blocks, thread_count());
     const auto run_block = [&](std::size_t b) { f(b * grain, std::min(n, (b + 1) * grain)); };
     if (workers <= 1) {
-        for (std::size_t b = 0; b < blocks; ++b) run_block(b);
+        for (std::size_t b = 0; b < blocks; ++b) {
+            check_interruption();
+            run_block(b);
+        }
         return;
     }
 
@@ -39,17 +44,24 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
     std::mutex failure_mutex;
     std::size_t failed_block = blocks;
     std::exception_ptr failure;
+    const Interruption* const interruption = current_interruption;
     const auto run_worker = [&](std::size_t) {
-        for (std::size_t b; (b = next.fetch_add(1)) < blocks;) {
-            try {
+        const InterruptionScope scope(interruption);
+        std::size_t b = 0;
+        try {
+            for (;;) {
+                // No block is taken that does not run: others may wait for it.
+                check_interruption();
+                b = next.fetch_add(1);
+                if (b >= blocks) break;
                 run_block(b);
-            } catch (...) {
-                next = blocks;
-                const std::lock_guard lock(failure_mutex);
-                if (b < failed_block) {
-                    failed_block = b;
-                    failure = std::current_exception();
-                }
+            }
+        } catch (...) {
+            next = blocks;
+            const std::lock_guard lock(failure_mutex);
+            if (b < failed_block) {
+                failed_block = b;
+                failure = std::current_exception();
             }
         }
         finished.fetch_add(1, std::memory_order_release);
@@ -77,7 +89,9 @@ void parallel_invoke(const std::function<void()>& f, const std::function<void()>
     } else {
         std::atomic<int> finished;  // for the thread sanitizer
         finished.store(0, std::memory_order_release);
+        const Interruption* const interruption = current_interruption;
         const auto run = [&](const std::function<void()>& task, std::exception_ptr& failure) {
+            const InterruptionScope scope(interruption);
             if (finished.load(std::memory_order_acquire) <= 1) guarded(task, failure);
             finished.fetch_add(1, std::memory_order_release);
         };
@@ -128,7 +142,9 @@ void with_threads(unsigned threads, const std::function<void()>& f) {
     std::atomic<bool> handed_over, returned;  // for the thread sanitizer: f may run on another thread
     returned.store(false, std::memory_order_relaxed);
     handed_over.store(true, std::memory_order_release);
+    const core::Interruption* const interruption = core::current_interruption;
     arena.execute([&] {
+        const core::InterruptionScope scope(interruption);
         if (handed_over.load(std::memory_order_acquire)) f();
         returned.store(true, std::memory_order_release);
     });

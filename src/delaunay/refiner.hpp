@@ -18,6 +18,7 @@
 
 #include <lamina/delaunay.hpp>
 
+#include "core/interruption_point.hpp"
 #include "core/predicates.hpp"
 #include "core/reproducible_math.hpp"
 #include "delaunay/advancing_front.hpp"
@@ -177,9 +178,13 @@ protected:
     /// Returns whether the refinement stopped because it may make no more Steiner points.
     bool stopped() const { return stopped_; }
 
-    /// Adds a vertex and its size. Throws MeshError where there are too many.
+    /// Refinement looks whether it is still wanted whenever it has added so many vertices: every few milliseconds.
+    static constexpr std::size_t vertices_between_looks = 4096;
+
+    /// Adds a vertex and its size. Throws MeshError where there are too many, and Interrupted.
     Index add_vertex(Point p, float size) {
         const std::size_t count = points_.size();
+        if (count % vertices_between_looks == 0) core::check_interruption();
         if (count - input_count_ >= options_.max_points) fail_too_many_points(options_.max_points);
         points_.push_back(p);
         sizes_.push_back(size);

@@ -22,6 +22,7 @@
 
 #include <lamina/point.hpp>
 
+#include "core/interruption_point.hpp"
 #include "core/predicates.hpp"
 #include "delaunay/cavity.hpp"
 #include "delaunay/triangle_shape.hpp"
@@ -208,6 +209,7 @@ private:
 
     /// Moves every free vertex to the mean of its neighbours. Each of its triangles contributes one of them.
     void move_to_neighbours() {
+        core::check_interruption();
         sums_.assign(points_.size(), Point{0, 0});
         Point* const sums = sums_.data();
         Point* const points = points_.data();
@@ -220,6 +222,7 @@ private:
     /// Sends vertices back to where they were until all triangles of moved ones are allowed, Delaunay, and not
     /// ill-shaped or not worse than before. Notes ill-shaped triangles.
     void return_where_worse() {
+        core::check_interruption();
         returned_.clear();
         ill_shaped_.clear();
         const double least_share = std::max(0.0, 1 - rules_.size_error() - max_move * rules_.gradation());
@@ -282,10 +285,13 @@ private:
     // ---- one vertex after another -------------------------------------------------------------------------------
 
     void mend_ill_shaped() {
+        constexpr std::size_t triangles_between_looks = 4096;
         std::vector<Index> touched;
+        std::size_t seen = 0;
         for (unsigned round = 0; round < mending_rounds && !ill_shaped_.empty(); ++round) {
             touched.clear();
             for (const Index t : ill_shaped_) {
+                if (++seen % triangles_between_looks == 0) core::check_interruption();
                 for (unsigned corner = 0; corner < 3 && is_ill_shaped(t); ++corner) {
                     if (!move(t, corner)) continue;
                     for (const StarTriangle& s : star_) touched.push_back(s.t);

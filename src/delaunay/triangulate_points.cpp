@@ -12,6 +12,7 @@
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
+#include "core/interruption_point.hpp"
 #include "core/text.hpp"
 #include "delaunay/arguments.hpp"
 #include "delaunay/brio.hpp"
@@ -137,7 +138,9 @@ void insert_vertices(std::span<const Point> vertices, std::span<const Point> poi
                      Tris& tris) {
     Cavity cavity;
     Index recent = 0;
+    constexpr Index vertices_between_looks = 1u << 14;
     for (Index vertex = 4; vertex < vertices.size(); ++vertex) {
+        if (vertex % vertices_between_looks == 0) core::check_interruption();
         const Point p = vertices[vertex];
         const Index start = locate(vertices.data(), tris.data(), recent, vertices[vertex - 1], p);
         const RelativeTriangle relative = relative_to(vertices.data(), tris[start], p);

@@ -1,6 +1,7 @@
 """lamina.batch(): many meshes, of which some fail."""
 
 import gc
+import time
 
 import pytest
 
@@ -57,6 +58,18 @@ def test_a_loop_may_be_left():
             break
     gc.collect()
     assert count == 3
+
+
+def test_leaving_a_loop_ends_the_meshes_in_hand():
+    results = lamina.batch({"short": "naca:0012", "long": "naca:4412"}, jobs=2, sweep={"wall_size": [0.05, 1e-4]},
+                           preset="euler", gradation=0.003)
+    first = next(results)
+    assert first.options["wall_size"] == 0.05
+    before = time.process_time()
+    results.close()
+    assert time.process_time() - before < 2
+    with pytest.raises(StopIteration):
+        next(results)
 
 
 def test_meshes_in_hand_are_few():

@@ -7,6 +7,7 @@ import pickle
 import signal
 import subprocess
 import threading
+import time
 import warnings
 
 import numpy as np
@@ -216,6 +217,44 @@ def test_interrupt():
 def interrupted():
     with pytest.raises(KeyboardInterrupt):
         lamina.mesh("naca:0012", progress=lambda stage, _: os.kill(os.getpid(), signal.SIGINT))
+
+
+def square():
+    return lamina.constrained_delaunay([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0]])
+
+
+LONG_CALLS = {
+    "mesh": lambda: lamina.mesh("naca:0012", preset="euler", wall_size=1e-4, gradation=0.003, threads=2),
+    "mesh on one thread": lambda: lamina.mesh("naca:0012", preset="euler", wall_size=1e-4, gradation=0.003, threads=1),
+    "refinement": lambda: lamina.refine(square(), 3e-4),
+    "refinement to an angle": lambda: lamina.refine(
+        lamina.constrained_delaunay(np.random.default_rng(1).random((400_000, 2)), np.zeros((0, 2), int)), 10.0,
+        min_angle=30),
+    "constrained triangulation": lambda: lamina.constrained_delaunay(
+        np.random.default_rng(1).random((6_000_000, 2)), np.zeros((0, 2), int)),
+}
+
+
+@pytest.mark.parametrize("name", LONG_CALLS)
+def test_interrupt_ends_a_call_of_seconds_at_once(name):
+    """Ctrl-C need not wait for the end of a stage."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    at = [0.0]
+
+    def interrupt():
+        at[0] = time.process_time()
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(1.0, interrupt)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            LONG_CALLS[name]()
+        # Processor time, since others may use the machine.
+        assert time.process_time() - at[0] < 1
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, before)
 
 
 def resident_bytes():
