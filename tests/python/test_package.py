@@ -80,13 +80,26 @@ def test_example(example, tmp_path):
         assert lamina.check(lamina.read(mesh)).valid
 
 
-def test_data_set(repository, tmp_path):
+def arrays_of(archive):
+    """Returns the arrays of a NumPy archive or of an HDF5 file."""
+    if archive.suffix == ".npz":
+        return dict(np.load(archive))
+    import h5py
+
+    with h5py.File(archive) as file:
+        return {name: item.asstr()[:] if item.dtype.kind == "S" else item[:] for name, item in file.items()}
+
+
+@pytest.mark.parametrize("suffix", ["npz", "h5"])
+def test_data_set(repository, tmp_path, suffix):
     """The archive holds walls and layers that stack, and meshes that are valid and the program's."""
+    if suffix == "h5":
+        pytest.importorskip("h5py")
     example = runpy.run_path(str(repository / "examples/python/data_set.py"))
-    archive = tmp_path / "sections.npz"
+    archive = tmp_path / f"sections.{suffix}"
     subprocess.run([sys.executable, str(repository / "examples/python/data_set.py"), "--sections", "4", "--jobs", "2",
                     "--seed", "7", "-o", str(archive)], check=True, capture_output=True, timeout=120)
-    data = np.load(archive)
+    data = arrays_of(archive)
     assert list(data["name"]) == [f"cst{s:05d}" for s in range(4)] and len(data["failed"]) == 0
     rays = example["POINTS"] + example["OPTIONS"]["fan_rays"] - 1
     assert data["wall"].shape == (4, example["POINTS"], 2)
