@@ -47,7 +47,14 @@ constexpr std::array other_ways{
     RefinementWay{.off_centre_share = 0.85, .diametral_circles = true, .more_angle_deg = 0.5},
     RefinementWay{.diametral_circles = true},
     RefinementWay{.part_share = 0.65},
+    RefinementWay{.part_share = 1.2},
+    RefinementWay{.part_share = 1.05},
+    RefinementWay{.part_share = 0.83, .off_centre_share = 0.9, .diametral_circles = true},
+    RefinementWay{.part_share = 0.55, .off_centre_share = 0.9},
 };
+/// The same for handfuls of triangles, in all combinations.
+constexpr std::array part_shares_of_handfuls{1.2, 1.05, 0.9, 0.75, 0.6};
+constexpr std::array off_centre_shares_of_handfuls{1.0, 0.9, 0.8, 0.7, 0.6};
 /// Other ways are tried as long as all meshes together have no more triangles than this.
 constexpr std::size_t max_triangles_of_ways = 6000;
 
@@ -280,13 +287,24 @@ bool is_better(const ConstrainedRefinement& mesh, const ConstrainedRefinement& o
            std::pair{beyond(other.stats), other.triangles.size()};
 }
 
+/// Returns the ways that are tried besides the first one, in their order.
+std::vector<RefinementWay> ways_to_try() {
+    std::vector<RefinementWay> ways(other_ways.begin(), other_ways.end());
+    for (const double part_share : part_shares_of_handfuls)
+        for (const double off_centre_share : off_centre_shares_of_handfuls)
+            for (const bool circles : {false, true})
+                ways.push_back(
+                    {.part_share = part_share, .off_centre_share = off_centre_share, .diametral_circles = circles});
+    return ways;
+}
+
 /// Refines in other ways as well, the more the smaller the mesh is, and returns the best mesh.
 ConstrainedRefinement choose_best(Outcome best, const FieldPatches& filled, const RefinementTask& task) {
     if (best.mesh.stats.stopped) return std::move(best.mesh);
     ConstrainedRefineOptions options = task.options;
     options.refine.stop_at_max_points = false;
     std::size_t triangles = 0;
-    for (const RefinementWay& way : other_ways) {
+    for (const RefinementWay& way : ways_to_try()) {
         triangles += best.mesh.triangles.size();
         if (triangles > max_triangles_of_ways) break;
         options.refine.max_points = best.inserted;

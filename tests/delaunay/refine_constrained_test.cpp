@@ -210,6 +210,21 @@ TEST(RefineConstrained, TriangleCountsOfSlits) {
     }
 }
 
+TEST(RefineConstrained, TriangleCountsOfSmallGraphs) {
+    // Counts of Triangle 1.6 at 33 degrees, without a bound of the area, for graphs that once took 1.5 to 2 times as many.
+    struct Case {
+        std::uint64_t seed;
+        std::size_t triangles;
+    };
+    for (const Case& c : {Case{10380, 14}, Case{10840, 14}, Case{11499, 17}, Case{200916, 80}, Case{201190, 162},
+                          Case{300445, 26}, Case{401293, 20}}) {
+        const Refined r =
+            refine_and_check(random_planar_graph(c.seed).graph, SizeField(1e4), {.refine = {.min_angle_deg = 33}});
+        EXPECT_LE(2 * r.refinement.triangles.size(), 3 * c.triangles) << c.seed;
+        EXPECT_EQ(r.refinement.stats.below_bound, r.refinement.stats.exempt) << c.seed;
+    }
+}
+
 TEST(RefineConstrained, PartsOfSlitsAreAsLongAsTheBoundAdmits) {
     // Parts of 2 w cot(bound) face each other with their middles. One on either side of the slit goes with about 16
     // triangles; halving, whatever the width, made up to 53.
