@@ -18,7 +18,7 @@ namespace lamina::bench {
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
-constexpr std::size_t usual_points = 200'000;
+constexpr std::size_t usual_points = 100'000;
 
 Point on_circle(Point centre, double radius, double angle) {
     return centre + radius * Point{std::cos(angle), std::sin(angle)};
@@ -220,7 +220,7 @@ BENCHMARK_CAPTURE(segments_of, contours, contours_family)->Apply(medians_of_five
 BENCHMARK_CAPTURE(segments_of, long_lines, long_lines_family)->Apply(medians_of_five);
 // CDT takes O(n^2) here.
 BENCHMARK_CAPTURE(segments_of, hub, hub_family)
-    ->Arg(20'000)
+    ->Arg(5'000)
     ->Iterations(5)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);

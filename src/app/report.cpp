@@ -116,7 +116,8 @@ Json decomposition_report(const DecompositionStats& stats) {
     return {{"pieces", stats.pieces},
             {"piece_vertices", stats.piece_vertices},
             {"largest_piece_vertices", stats.largest_piece},
-            {"rejected_cuts", {{"crossing", stats.crossing_cuts}, {"unbalanced", stats.unbalanced_cuts}, {"long", stats.long_cuts}}},
+            {"rejected_cuts",
+             {{"crossing", stats.crossing_cuts}, {"unbalanced", stats.unbalanced_cuts}, {"long", stats.long_cuts}}},
             {"uncut_pieces", stats.uncut},
             {"sequential_fallbacks", stats.fallbacks}};
 }
