@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the results of lamina_bench_families: for each family how many times the speed of each other program lamina has.
+"""Draws the results of lamina_bench_families: how many times as fast as other programs lamina is, for each family.
 
 usage: bench_picture.py RESULTS.json PICTURE.svg
 
@@ -52,7 +52,7 @@ def mark(shape, x, y, colour):
 def draw(rows):
     """Returns the picture as SVG."""
     bottom = TOP + ROW * len(rows)
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {RIGHT + 90} {bottom + 46}" '
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {RIGHT + 120} {bottom + 46}" '
              'font-family="sans-serif" font-size="13">', '<rect width="100%" height="100%" fill="white"/>',
              f'<text x="{LEFT}" y="22" font-size="15">How many times as fast as others: one thread, medians of five'
              "</text>"]
@@ -61,10 +61,11 @@ def draw(rows):
     ticks = [2.0**k for k in range(int(math.log2(LOWEST)), int(math.log2(HIGHEST)) + 1)]
     for tick in ticks:
         x, width = place(tick), 2 if tick == 1 else 0.5
-        parts += [f'<line x1="{x:.1f}" y1="{TOP - 12}" x2="{x:.1f}" y2="{bottom}" stroke="#888" stroke-width="{width}"/>',
+        parts += [f'<line x1="{x:.1f}" y1="{TOP - 12}" x2="{x:.1f}" y2="{bottom}" stroke="#888" '
+                  f'stroke-width="{width}"/>',
                   f'<text x="{x:.1f}" y="{bottom + 18}" text-anchor="middle">{tick:g}</text>']
-    parts.append(f'<text x="{(LEFT + RIGHT) / 2}" y="{bottom + 38}" text-anchor="middle">time of the other program over '
-                 "that of lamina</text>")
+    parts.append(f'<text x="{(LEFT + RIGHT) / 2}" y="{bottom + 38}" text-anchor="middle">'
+                 "time of the other program over that of lamina</text>")
     for i, (family, points, seconds, ratios) in enumerate(rows):
         y = TOP + ROW * i
         parts += [f'<text x="{LEFT - 12}" y="{y + 4}" text-anchor="end">{escape(family)}</text>',
