@@ -61,8 +61,8 @@ struct Triangulation {
 /// Hardwick, D. Talmor, Algorithmica 24 (1999); J. K. Pardue, thesis (2015), chapter 4.
 LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points);
 
-/// Returns the same triangulation, made in the pieces that the options demand, whatever the number of points. Throws
-/// OptionError for options out of range, too.
+/// Returns the same triangulation, made in the pieces that the options demand, whatever the number of points; but points
+/// that lie on few lines or circles stay in one. Throws OptionError for options out of range, too.
 LAMINA_EXPORT Triangulation triangulate(std::span<const Point> points, const DecompositionOptions& options);
 
 // ---- constrained triangulation ----

@@ -227,6 +227,24 @@ TEST(Pieces, LargeSetsAreCut) {
     EXPECT_EQ(triangulate(random_points(10'000, 4)).decomposition.pieces, 1u);
 }
 
+TEST(Pieces, PointsOnLinesStayInOne) {
+    Random random(4);
+    for (const double slope : {0.0, 0.3}) {
+        std::vector<Point> lines(60'000), cross(60'000);
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            const double x = random.real();
+            lines[i] = {x, slope * x + static_cast<double>(i % 2)};
+            const double along = random.real(-1, 1);
+            cross[i] = along * (i % 2 == 0 ? Point{1, slope} : Point{-slope, 1});
+        }
+        for (const auto& points : {lines, cross}) {
+            const Triangulation t = triangulate(points);
+            EXPECT_EQ(t.decomposition.pieces, 1u);
+            EXPECT_EQ(canonical(t.triangles), triangulated_at_once(points));
+        }
+    }
+}
+
 TEST(Pieces, NoPathRunsRoundLargeCircles) {
     // The paths from one side of such a set to the other would hold half the points of each circle that they meet.
     Random random(8);
