@@ -8,7 +8,7 @@ from collections import Counter
 
 # Files with these endings are no coordinates of sections: documents, pictures, meshes and other inputs.
 NOT_SECTIONS = frozenset(
-    ".md .py .json .toml .html .pdf .png .svg .jpg .gif .zip .gz .cpp .hpp "
+    ".md .py .sh .json .toml .html .pdf .png .svg .jpg .gif .zip .gz .cpp .hpp "
     ".poly .node .ele .neigh .su2 .vtu .vtk .msh .cgns .ugrid .mesh .stl".split())
 NOT_SECTION_NAMES = frozenset(["CMakeLists.txt"])
 
