@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,32 @@ struct Mesh {
     /// Interior edges that the triangulation was constrained to, which are exempt from the Delaunay property: the outer
     /// borders of the layer. Each with the smaller vertex first; sorted.
     std::vector<Segment> constraints;
+};
+
+/// A mesh whose arrays lie anywhere: in a Mesh, or in files that are mapped into memory. The members mean what those of
+/// Mesh mean. Whoever makes a view keeps the arrays alive.
+struct MeshView {
+    std::span<const Point> points;         ///< the vertices
+    std::span<const Triangle> triangles;   ///< indices into points
+    std::span<const Quad> quads;           ///< indices into points
+    std::span<const Marker> markers;       ///< together, all edges of the boundary
+    std::span<const Region> region;        ///< per cell
+    std::span<const std::uint32_t> piece;  ///< per cell
+    std::span<const std::uint16_t> layer;  ///< per cell
+    std::span<const Segment> constraints;  ///< sorted
+
+    /// Makes a view of nothing.
+    MeshView() = default;
+    /// Makes a view of a mesh. It is implicit, so that functions that take a view take a mesh as well.
+    MeshView(const Mesh& mesh)  // NOLINT(google-explicit-constructor)
+        : points(mesh.points),
+          triangles(mesh.triangles),
+          quads(mesh.quads),
+          markers(mesh.markers),
+          region(mesh.region),
+          piece(mesh.piece),
+          layer(mesh.layer),
+          constraints(mesh.constraints) {}
 };
 
 /// One way in which a mesh is not valid.
@@ -154,6 +181,9 @@ struct MeshCheckOptions {
     /// The height that first cells should have, in units of the input; empty: their median on each marker.
     std::optional<double> first_height{};
     std::vector<double> first_heights{};  ///< one per marker, in place of first_height; empty: all have the same
+    /// Memory that the search for neighbours may take beside the mesh: a check that would need more reads the cells
+    /// several times, but needs at least 64 MiB and 4 bytes for each vertex. Empty: no limit. The result is the same.
+    std::optional<std::size_t> max_memory_bytes{};
 };
 
 /// Returns the table of these options, with names, ranges and help.
@@ -167,17 +197,17 @@ LAMINA_EXPORT void validate(const MeshCheckOptions& options);
 /// characteristic, simple boundary loops, no vertex without cells, no vertex that the boundary passes twice); each
 /// boundary edge is in exactly one marker, and each edge of a marker is on the boundary. The Delaunay property and the
 /// quality are measured but not required. Throws OptionError for options out of range.
-LAMINA_EXPORT MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {});
+LAMINA_EXPORT MeshCheck check_mesh(const MeshView& mesh, const MeshCheckOptions& options = {});
 
 /// Returns regions for a mesh without them, judged by the shapes of the cells. Thin cells are quadrilaterals, and
 /// triangles with an angle below proved_min_angle_deg. Those that hang together with a wall, from vertex to vertex
 /// through thin and right-angled cells, are taken for the layer, and so are those that one cell parts from it; a marker
 /// counts as a wall unless it is a far field or a symmetry. Other cells of a layer, such as its last rows, count as
 /// isotropic. Empty where no cell is taken for the layer. Precondition: all indices are in range.
-LAMINA_EXPORT std::vector<Region> estimate_regions(const Mesh& mesh);
+LAMINA_EXPORT std::vector<Region> estimate_regions(const MeshView& mesh);
 
 /// Returns the distance of each point to the nearest edge of a marker of kind wall; infinite where there is none.
-LAMINA_EXPORT std::vector<double> wall_distances(const Mesh& mesh);
+LAMINA_EXPORT std::vector<double> wall_distances(const MeshView& mesh);
 
 /// The vertices of the walls, body by body in the order of the outline, counter-clockwise round each. The arrays have
 /// one entry per vertex.
@@ -197,6 +227,6 @@ LAMINA_EXPORT WallVertices wall_vertices(const Mesh& mesh);
 /// on the file format: it is the sum modulo 2^128 of one hash per cell and per marker edge. Each covers the IEEE bits
 /// of the vertices' coordinates (-0 as +0), from the lexicographically smallest vertex of a cell on, and the name of
 /// the marker. src/mesh/hash.cpp spells out the bytes. Precondition: all indices are in range.
-LAMINA_EXPORT std::string mesh_hash(const Mesh& mesh);
+LAMINA_EXPORT std::string mesh_hash(const MeshView& mesh);
 
 }  // namespace lamina

@@ -18,8 +18,8 @@ namespace lamina::mesh {
 /// the next one and has the cell on its left.
 class CellEdges {
 public:
-    /// The mesh must outlive this object.
-    explicit CellEdges(const Mesh& mesh) : mesh_(mesh), triangle_edges_(3 * mesh.triangles.size()) {}
+    /// The arrays of the mesh must outlive this object.
+    explicit CellEdges(const MeshView& mesh) : mesh_(mesh), triangle_edges_(3 * mesh.triangles.size()) {}
 
     /// Returns the number of directed edges.
     std::size_t size() const { return triangle_edges_ + 4 * mesh_.quads.size(); }
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    const Mesh& mesh_;
+    MeshView mesh_;
     std::size_t triangle_edges_;
 };
 
@@ -73,7 +73,7 @@ struct Adjacency {
 /// through a small hash table each. Edges whose ends are both shared with other blocks, which are few where successive
 /// cells are neighbours, are distributed by hash and matched in the same way. Takes 12 to 14 bytes a triangle.
 /// Precondition: all indices are in range. Throws MeshError from 2^32 directed edges on.
-LAMINA_EXPORT Adjacency find_adjacency(const Mesh& mesh);
+LAMINA_EXPORT Adjacency find_adjacency(const MeshView& mesh);
 
 /// The pairs of opposite edges in a list of directed edges, which are numbered by their places in it.
 struct EdgePairs {
@@ -85,8 +85,16 @@ struct EdgePairs {
 /// Finds the pairs in linear time. Throws MeshError from 2^32 - 1 edges on.
 LAMINA_EXPORT EdgePairs pair_edges(std::span<const Segment> edges);
 
-/// Returns for each segment the lowest directed edge between its ends, in either direction, or no_edge; takes linear
-/// time. Precondition: all indices are in range.
-LAMINA_EXPORT std::vector<std::uint32_t> find_edges(const Mesh& mesh, std::span<const Segment> segments);
+/// Two opposite directed edges, numbered by CellEdges; the first has the lower number.
+struct EdgePair {
+    std::uint32_t edge = no_edge, twin = no_edge;
+};
+
+/// Returns for each segment the lowest directed edge between its ends, in either direction, or no_edge, and the twin that
+/// find_adjacency() finds for it; takes linear time. Precondition: all indices are in range.
+LAMINA_EXPORT std::vector<EdgePair> find_pairs(const MeshView& mesh, std::span<const Segment> segments);
+
+/// Returns the edges alone.
+LAMINA_EXPORT std::vector<std::uint32_t> find_edges(const MeshView& mesh, std::span<const Segment> segments);
 
 }  // namespace lamina::mesh

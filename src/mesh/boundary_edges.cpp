@@ -7,7 +7,7 @@ namespace lamina::mesh {
 namespace {
 
 /// Returns the height of a cell over one of its edges: the mean distance of its other corners from the edge's line.
-double height_over(const Mesh& mesh, const CellEdges& edges, std::uint32_t edge) {
+double height_over(const MeshView& mesh, const CellEdges& edges, std::uint32_t edge) {
     const Point a = mesh.points[edges.origin(edge).index()], b = mesh.points[edges.target(edge).index()];
     const std::size_t cell = edges.cell_of(edge), corners = edges.corners(cell), first = edge - edges.first(cell);
     double sum = 0;
@@ -20,11 +20,11 @@ double height_over(const Mesh& mesh, const CellEdges& edges, std::uint32_t edge)
 
 }  // namespace
 
-std::vector<BoundaryEdge> find_boundary_edges(const Mesh& mesh, const Adjacency& adjacency) {
+std::vector<BoundaryEdge> find_boundary_edges(const MeshView& mesh, std::span<const std::uint32_t> edges_of_one_cell) {
     const CellEdges edges(mesh);
     std::vector<BoundaryEdge> boundary;
-    boundary.reserve(adjacency.boundary.size());
-    for (const std::uint32_t e : adjacency.boundary) {
+    boundary.reserve(edges_of_one_cell.size());
+    for (const std::uint32_t e : edges_of_one_cell) {
         const std::size_t cell = edges.cell_of(e);
         BoundaryEdge& edge = boundary.emplace_back(BoundaryEdge{{edges.origin(e), edges.target(e)}});
         edge.in_first_layer =

@@ -18,8 +18,8 @@ struct BoundaryEdge {
     double height = 0;                ///< of the cell over the edge; of cells in the first layer alone
 };
 
-/// Returns the edges that one cell alone has, in the order of Adjacency::boundary.
-std::vector<BoundaryEdge> find_boundary_edges(const Mesh& mesh, const Adjacency& adjacency);
+/// Returns the edges that one cell alone has, in the order in which they are given: Adjacency::boundary.
+std::vector<BoundaryEdge> find_boundary_edges(const MeshView& mesh, std::span<const std::uint32_t> edges_of_one_cell);
 
 /// Returns their ends, sorted.
 std::vector<Segment> sorted_ends(std::span<const BoundaryEdge> edges);

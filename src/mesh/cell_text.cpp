@@ -4,7 +4,7 @@
 
 namespace lamina::mesh {
 
-std::string cell_text(const Mesh& mesh, std::size_t cell) {
+std::string cell_text(const MeshView& mesh, std::size_t cell) {
     if (cell < mesh.triangles.size()) {
         const VertexId* v = mesh.triangles[cell].v;
         return fmt::format("triangle {} ({}, {}, {})", cell, v[0].value, v[1].value, v[2].value);

@@ -8,7 +8,7 @@
 namespace lamina::mesh {
 
 /// Returns the number of a cell and its vertices: "triangle 7 (3, 5, 9)". Cells are the triangles, then the quads.
-std::string cell_text(const Mesh& mesh, std::size_t cell);
+std::string cell_text(const MeshView& mesh, std::size_t cell);
 
 /// Returns the ends of an edge: "3-5".
 std::string edge_text(const Segment& edge);

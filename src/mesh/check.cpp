@@ -7,6 +7,7 @@
 #include <lamina/mesh.hpp>
 
 #include "mesh/adjacency.hpp"
+#include "mesh/boundary_edges.hpp"
 #include "mesh/cell_text.hpp"
 #include "mesh/check_arrays.hpp"
 #include "mesh/check_boundary.hpp"
@@ -19,25 +20,25 @@ namespace lamina::mesh {
 
 namespace {
 
-void check_topology(const Mesh& mesh, const Adjacency& adjacency, DefectList& defects) {
+void check_topology(const MeshView& mesh, const EdgeTotals& totals, DefectList& defects) {
     const CellEdges edges(mesh);
-    for (const std::uint32_t e : adjacency.overused)
+    for (const std::uint32_t e : totals.overused)
         defects.add([&] {
             return MeshDefect{
                 fmt::format("{} shares its edge {} with more than one cell or with one on the same side",
                             cell_text(mesh, edges.cell_of(e)), edge_text(Segment{edges.origin(e), edges.target(e)})),
                 mesh.points[edges.origin(e).index()]};
         });
-    for (const VertexId v : adjacency.orphans)
+    for (const VertexId v : totals.orphans)
         defects.add([&] {
             return MeshDefect{fmt::format("vertex {} belongs to no cell", v.value), mesh.points[v.index()]};
         });
 }
 
 /// Returns vertices - edges + cells. Vertices of no cell are not counted.
-long euler_characteristic(const Mesh& mesh, const Adjacency& adjacency) {
+long euler_characteristic(const MeshView& mesh, const EdgeTotals& totals) {
     const std::size_t cells = mesh.triangles.size() + mesh.quads.size();
-    return static_cast<long>(mesh.points.size() - adjacency.orphans.size()) - static_cast<long>(adjacency.edges) +
+    return static_cast<long>(mesh.points.size() - totals.orphans.size()) - static_cast<long>(totals.edges) +
            static_cast<long>(cells);
 }
 
@@ -49,7 +50,7 @@ namespace lamina {
 
 using namespace mesh;
 
-MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
+MeshCheck check_mesh(const MeshView& mesh, const MeshCheckOptions& options) {
     validate(options);
     if (!options.first_heights.empty() && options.first_heights.size() != mesh.markers.size())
         throw OptionError("first_heights", "need one entry per marker");
@@ -63,24 +64,26 @@ MeshCheck check_mesh(const Mesh& mesh, const MeshCheckOptions& options) {
     check_arrays(mesh, defects);
     if (!defects.empty()) return finish();
 
-    const Adjacency adjacency = find_adjacency(mesh);
-    CellsSummary cells = check_cells(mesh, adjacency, options.min_angle_deg);
+    CheckedCells checked = check_cells(mesh, options.min_angle_deg, options.max_memory_bytes);
+    CellsSummary& cells = checked.summary;
     defects.append(std::move(cells.defects));
     check.area = cells.area;
-    check_topology(mesh, adjacency, defects);
-    check.euler_characteristic = euler_characteristic(mesh, adjacency);
+    check_topology(mesh, checked.edges, defects);
+    check.euler_characteristic = euler_characteristic(mesh, checked.edges);
+    const std::vector<BoundaryEdge> boundary = find_boundary_edges(mesh, checked.edges.boundary);
+    const bool conforming = checked.edges.overused.empty();
 
     const std::vector<Segment> constraints = sorted_constraints(mesh);
-    subtract_constraints(mesh, adjacency, constraints, cells.delaunay, defects);
+    subtract_constraints(mesh, constraints, cells.delaunay, defects);
     check.interior_edges = cells.delaunay.edges;
     check.delaunay_violations = cells.delaunay.violations;
     check.transition = summarize_transition(std::move(cells.transition));
     check.layer = cells.layer.summary();
     check.isotropic = cells.isotropic.summary();
-    check.unexcused_cells = find_unexcused(mesh, adjacency, constraints, cells.narrow);
-    check.isotropic.exempt = cells.narrow.size() - check.unexcused_cells.size();
-    check_whole_boundary(mesh.points, mesh.markers, find_boundary_edges(mesh, adjacency), adjacency.overused.empty(),
-                         options, check, defects);
+    const std::size_t narrow = cells.narrow.size();
+    check.unexcused_cells = find_unexcused(mesh, std::move(checked), constraints);
+    check.isotropic.exempt = narrow - check.unexcused_cells.size();
+    check_whole_boundary(mesh.points, mesh.markers, boundary, conforming, options, check, defects);
     return finish();
 }
 

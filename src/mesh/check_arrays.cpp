@@ -23,7 +23,7 @@ void check_blocks(std::size_t n, DefectList& defects, F&& check_one) {
     for (DefectList& found : core::parallel_blocks(n, cells_per_block, check_block)) defects.append(std::move(found));
 }
 
-void check_lengths(const Mesh& mesh, std::size_t cells, DefectList& defects) {
+void check_lengths(const MeshView& mesh, std::size_t cells, DefectList& defects) {
     if (cells == 0) defects.add([] { return MeshDefect{"no cells", {}}; });
     const auto check_length = [&](const char* array, std::size_t length) {
         if (length != 0 && length != cells)
@@ -38,7 +38,7 @@ void check_lengths(const Mesh& mesh, std::size_t cells, DefectList& defects) {
 
 }  // namespace
 
-void check_arrays(const Mesh& mesh, DefectList& defects) {
+void check_arrays(const MeshView& mesh, DefectList& defects) {
     const std::size_t vertices = mesh.points.size();
     const CellEdges edges(mesh);
     const auto in_range = [&](const Segment& s) { return s.a.index() < vertices && s.b.index() < vertices; };

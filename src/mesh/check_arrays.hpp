@@ -9,6 +9,6 @@ namespace lamina::mesh {
 
 /// Reports meshes without cells, arrays of the wrong length, coordinates outside the exact range and indices out of
 /// range.
-void check_arrays(const Mesh& mesh, DefectList& defects);
+void check_arrays(const MeshView& mesh, DefectList& defects);
 
 }  // namespace lamina::mesh

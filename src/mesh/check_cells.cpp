@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
+#include <span>
 #include <utility>
 
+#include "core/in_order.hpp"
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
 #include "mesh/adjacency.hpp"
@@ -25,7 +28,7 @@ double quad_orientation(const Point* p) {
 }
 
 /// Reports a cell whose orientation has this sign unless the sign is positive.
-void require_positive(double sign, const Mesh& mesh, std::size_t cell, Point at, CellsSummary& summary) {
+void require_positive(double sign, const MeshView& mesh, std::size_t cell, Point at, CellsSummary& summary) {
     if (sign > 0) return;
     summary.defects.add([&] {
         return MeshDefect{fmt::format("{} {}", sign < 0 ? "clockwise or folded" : "flat", cell_text(mesh, cell)), at};
@@ -33,7 +36,7 @@ void require_positive(double sign, const Mesh& mesh, std::size_t cell, Point at,
 }
 
 /// Checks the orientation and the shape of one quadrilateral, and returns its area.
-double check_quad(const Mesh& mesh, std::size_t cell, double min_angle_deg, CellsSummary& summary) {
+double check_quad(const MeshView& mesh, std::size_t cell, double min_angle_deg, CellsSummary& summary) {
     Point p[4];
     for (std::size_t i = 0; i < 4; ++i) p[i] = mesh.points[mesh.quads[cell - mesh.triangles.size()].v[i].index()];
     require_positive(quad_orientation(p), mesh, cell, p[0], summary);
@@ -46,7 +49,7 @@ double check_quad(const Mesh& mesh, std::size_t cell, double min_angle_deg, Cell
 }
 
 /// Adds the shapes of the triangles from `first` on, which may belong to both regions.
-void add_shapes(const Mesh& mesh, std::size_t first, const TriangleShapes& shapes, double min_angle_deg,
+void add_shapes(const MeshView& mesh, std::size_t first, const TriangleShapes& shapes, double min_angle_deg,
                 CellsSummary& summary) {
     std::size_t isotropic = 0;
     for (std::size_t i = 0; i < shapes.size; ++i) isotropic += is_isotropic(mesh, first + i);
@@ -67,12 +70,12 @@ void add_shapes(const Mesh& mesh, std::size_t first, const TriangleShapes& shape
 }
 
 /// Checks the orientation and the shapes of triangles, and stores their areas.
-void check_triangles(const Mesh& mesh, std::size_t begin, std::size_t end, double min_angle_deg,
+void check_triangles(const MeshView& mesh, std::size_t begin, std::size_t end, double min_angle_deg,
                      std::vector<double>& areas, CellsSummary& summary) {
     TriangleShapes shapes;
     for (std::size_t first = begin; first < end; first += TriangleShapes::capacity) {
         const std::size_t count = std::min(TriangleShapes::capacity, end - first);
-        measure_triangles(mesh.points.data(), std::span(mesh.triangles).subspan(first, count), shapes);
+        measure_triangles(mesh.points.data(), mesh.triangles.subspan(first, count), shapes);
         std::copy_n(shapes.area, count, areas.data() + (first - begin));
         for (std::size_t i = 0; i < count; ++i) {
             if (shapes.turn[i] > 0) continue;
@@ -85,54 +88,68 @@ void check_triangles(const Mesh& mesh, std::size_t begin, std::size_t end, doubl
 
 /// Checks an edge between two cells. area_of_cell(cell) returns the area of a cell.
 template <class AreaOfCell>
-void check_edge(const Mesh& mesh, const CellEdges& edges, std::size_t edge, std::size_t twin, AreaOfCell&& area_of_cell,
-                CellsSummary& summary) {
-    const std::size_t cell = edges.cell_of(edge), other = edges.cell_of(twin);
+void check_edge(const MeshView& mesh, const CellEdges& edges, EdgePair pair, AreaOfCell&& area_of_cell,
+                CellsSummary& summary, VertexMarks& frozen) {
+    const std::size_t cell = edges.cell_of(pair.edge), other = edges.cell_of(pair.twin);
     const bool isotropic = is_isotropic(mesh, cell), other_isotropic = is_isotropic(mesh, other);
     if (!isotropic && !other_isotropic) return;
     const double area = area_of_cell(cell), other_area = area_of_cell(other);
+    const auto freeze = [&] {
+        frozen.add(edges.origin(pair.edge));
+        frozen.add(edges.target(pair.edge));
+    };
     if (isotropic != other_isotropic) {
         summary.transition.push_back(isotropic ? other_area / area : area / other_area);
+        const std::size_t edge = isotropic ? pair.edge : pair.twin;
+        summary.outline.push_back({edges.origin(edge), edges.target(edge)});
+        freeze();
         return;
     }
+    if (!mesh.piece.empty() && mesh.piece[cell] != mesh.piece[other]) freeze();
     summary.isotropic.add_neighbours(area, other_area);
     if (!is_isotropic_triangle(mesh, cell) || !is_isotropic_triangle(mesh, other)) return;
     ++summary.delaunay.edges;
-    summary.delaunay.violations += violates_delaunay(mesh, edge, twin);
+    summary.delaunay.violations += violates_delaunay(mesh, pair.edge, pair.twin);
 }
 
-/// Returns the edges in [begin, end) that have a twin with a higher number, so that each pair is returned once. Selects
-/// them without a branch, which the processor would mispredict half of the time.
-std::vector<std::uint32_t> first_of_pairs(const Adjacency& adjacency, std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> firsts(end - begin + 1);
+/// What a thread needs to check one block after the other.
+struct BlockMemory {
+    std::vector<std::uint32_t> twin;  ///< per edge of the block, both counted from the first one
+    std::vector<std::uint32_t> firsts;
+    std::vector<double> areas;  ///< per cell of the block
+};
+
+/// Sets `firsts` to the edges that have a twin with a higher number, so that each pair is there once. Selects them without
+/// a branch, which the processor would mispredict half of the time.
+void select_first_of_pairs(BlockMemory& block) {
+    block.firsts.resize(block.twin.size() + 1);
     std::size_t n = 0;
-    for (std::size_t e = begin; e < end; ++e) {
-        firsts[n] = static_cast<std::uint32_t>(e);
-        n += static_cast<unsigned>(adjacency.twin[e] > e) & static_cast<unsigned>(adjacency.twin[e] != no_edge);
+    for (std::size_t e = 0; e < block.twin.size(); ++e) {
+        block.firsts[n] = static_cast<std::uint32_t>(e);
+        n += static_cast<unsigned>(block.twin[e] > e) & static_cast<unsigned>(block.twin[e] != no_edge);
     }
-    firsts.resize(n);
-    return firsts;
+    block.firsts.resize(n);
 }
 
-/// Checks the cells [begin, end) and the edges between them and later ones.
-void check_block(const Mesh& mesh, const Adjacency& adjacency, std::size_t begin, std::size_t end, double min_angle_deg,
-                 CellsSummary& summary) {
+/// Checks the cells [begin, end) and the edges between them.
+void check_block(const MeshView& mesh, std::size_t begin, std::size_t end, double min_angle_deg, BlockMemory& block,
+                 CellsSummary& summary, VertexMarks& frozen) {
     const CellEdges edges(mesh);
-    std::vector<double> areas(end - begin);
+    block.areas.resize(end - begin);
     const std::size_t triangles_end = std::clamp(mesh.triangles.size(), begin, end);
-    check_triangles(mesh, begin, triangles_end, min_angle_deg, areas, summary);
+    check_triangles(mesh, begin, triangles_end, min_angle_deg, block.areas, summary);
     for (std::size_t cell = triangles_end; cell < end; ++cell)
-        areas[cell - begin] = check_quad(mesh, cell, min_angle_deg, summary);
-    const auto area_of_cell = [&](std::size_t cell) {
-        return begin <= cell && cell < end ? areas[cell - begin] : area_of(mesh, edges, cell);
-    };
-    for (const std::uint32_t e : first_of_pairs(adjacency, edges.first(begin), edges.first(end)))
-        check_edge(mesh, edges, e, adjacency.twin[e], area_of_cell, summary);
+        block.areas[cell - begin] = check_quad(mesh, cell, min_angle_deg, summary);
+    const auto area_of_cell = [&](std::size_t cell) { return block.areas[cell - begin]; };
+    select_first_of_pairs(block);
+    const auto first = static_cast<std::uint32_t>(edges.first(begin));
+    for (const std::uint32_t e : block.firsts)
+        check_edge(mesh, edges, {first + e, first + block.twin[e]}, area_of_cell, summary, frozen);
 }
 
 }  // namespace
 
-double area_of(const Mesh& mesh, const CellEdges& edges, std::size_t cell) {
+double area_of(const MeshView& mesh, const CellEdges& edges, std::size_t cell) {
     const auto corner = [&](std::size_t i) { return mesh.points[edges.corner(cell, i).index()]; };
     return edges.corners(cell) == 3 ? 0.5 * cross(corner(1) - corner(0), corner(2) - corner(0))
                                     : 0.5 * cross(corner(2) - corner(0), corner(3) - corner(1));
@@ -146,22 +163,40 @@ void CellsSummary::append(CellsSummary&& part) {
     delaunay.edges += part.delaunay.edges;
     delaunay.violations += part.delaunay.violations;
     transition.insert(transition.end(), part.transition.begin(), part.transition.end());
+    outline.insert(outline.end(), part.outline.begin(), part.outline.end());
     defects.append(std::move(part.defects));
 }
 
-CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, double min_angle_deg) {
-    // One summary serves several blocks, since summaries are appended on one thread.
-    constexpr std::size_t blocks = 4;
-    const auto check_blocks = [&](std::size_t begin, std::size_t end) {
+CheckedCells check_cells(const MeshView& mesh, double min_angle_deg, std::optional<std::size_t> max_bytes) {
+    // One summary serves several blocks, since summaries are appended by one thread at a time.
+    constexpr std::size_t cells_per_part = 4 * cells_per_block;
+    const CellEdges edges(mesh);
+    EdgeSurvey survey(mesh, max_bytes);
+    CheckedCells checked{CellsSummary(min_angle_deg), {}, VertexMarks(mesh.points.size())};
+    core::InOrder<CellsSummary> in_order([&](CellsSummary part) { checked.summary.append(std::move(part)); });
+    core::parallel_for(edges.cells(), cells_per_part, [&](std::size_t begin, std::size_t end) {
         CellsSummary summary(min_angle_deg);
-        for (; begin < end; begin += cells_per_block)
-            check_block(mesh, adjacency, begin, std::min(end, begin + cells_per_block), min_angle_deg, summary);
-        return summary;
-    };
-    CellsSummary all(min_angle_deg);
-    for (CellsSummary& part : core::parallel_blocks(CellEdges(mesh).cells(), blocks * cells_per_block, check_blocks))
-        all.append(std::move(part));
-    return all;
+        BlockMemory block;
+        for (std::size_t first = begin; first < end; first += cells_per_block) {
+            const std::size_t last = std::min(end, first + cells_per_block);
+            survey.match_block(first, last, block.twin);
+            check_block(mesh, first, last, min_angle_deg, block, summary, checked.frozen);
+        }
+        in_order.put(begin / cells_per_part, std::move(summary));
+    });
+    // Nothing that is added here depends on the order: counts, maxima, and numbers that will be sorted.
+    std::mutex mutex;
+    survey.match_between([&](std::span<const EdgePair> pairs) {
+        CellsSummary summary(min_angle_deg);
+        for (const EdgePair pair : pairs)
+            check_edge(
+                mesh, edges, pair, [&](std::size_t cell) { return area_of(mesh, edges, cell); }, summary,
+                checked.frozen);
+        const std::lock_guard lock(mutex);
+        checked.summary.append(std::move(summary));
+    });
+    checked.edges = survey.take_totals();
+    return checked;
 }
 
 TransitionSummary summarize_transition(std::vector<double> area_ratios) {

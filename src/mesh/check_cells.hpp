@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <lamina/mesh.hpp>
@@ -10,7 +11,9 @@
 #include "mesh/adjacency.hpp"
 #include "mesh/defects.hpp"
 #include "mesh/delaunay_count.hpp"
+#include "mesh/edge_survey.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/vertex_marks.hpp"
 
 namespace lamina::mesh {
 
@@ -21,6 +24,7 @@ struct CellsSummary {
     DelaunayCount delaunay;             ///< over all edges between isotropic triangles, constraints included
     /// For each edge between the regions, the area of the layer's cell divided by the area of the isotropic cell.
     std::vector<double> transition;
+    std::vector<Segment> outline;  ///< these edges, directed as the isotropic cell has them
     DefectList defects;
 
     explicit CellsSummary(double min_angle_bound_deg = 0)
@@ -28,11 +32,19 @@ struct CellsSummary {
     void append(CellsSummary&& part);
 };
 
-/// Checks all cells against this bound on the smallest angle. The result does not depend on the number of threads.
-CellsSummary check_cells(const Mesh& mesh, const Adjacency& adjacency, double min_angle_deg);
+/// The findings of check_cells().
+struct CheckedCells {
+    CellsSummary summary;
+    EdgeTotals edges;
+    VertexMarks frozen;  ///< the ends of edges between isotropic cells and the layer, or isotropic cells of two pieces
+};
+
+/// Checks all cells against this bound on the smallest angle, and the edges between them. `max_bytes` is that of
+/// EdgeSurvey. The result does not depend on the number of threads. Precondition: all indices are in range.
+CheckedCells check_cells(const MeshView& mesh, double min_angle_deg, std::optional<std::size_t> max_bytes = {});
 
 /// Returns the area of a cell, rounded.
-double area_of(const Mesh& mesh, const CellEdges& edges, std::size_t cell);
+double area_of(const MeshView& mesh, const CellEdges& edges, std::size_t cell);
 
 /// Summarizes the area ratios at the edges between the regions.
 TransitionSummary summarize_transition(std::vector<double> area_ratios);

@@ -10,8 +10,8 @@
 
 namespace lamina::mesh {
 
-std::vector<Segment> sorted_constraints(const Mesh& mesh) {
-    std::vector<Segment> constraints = mesh.constraints;
+std::vector<Segment> sorted_constraints(const MeshView& mesh) {
+    std::vector<Segment> constraints(mesh.constraints.begin(), mesh.constraints.end());
     for (Segment& edge : constraints)
         if (edge.b < edge.a) std::swap(edge.a, edge.b);
     std::sort(constraints.begin(), constraints.end());
@@ -19,22 +19,21 @@ std::vector<Segment> sorted_constraints(const Mesh& mesh) {
     return constraints;
 }
 
-void subtract_constraints(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
-                          DelaunayCount& count, DefectList& defects) {
+void subtract_constraints(const MeshView& mesh, const std::vector<Segment>& constraints, DelaunayCount& count,
+                          DefectList& defects) {
     const CellEdges edges(mesh);
-    const std::vector<std::uint32_t> edge_of = find_edges(mesh, constraints);
+    const std::vector<EdgePair> pairs = find_pairs(mesh, constraints);
     for (std::size_t i = 0; i < constraints.size(); ++i) {
         const Segment& constraint = constraints[i];
-        const std::uint32_t found = edge_of[i];
-        if (found == no_edge) {
+        const auto [edge, twin] = pairs[i];
+        if (edge == no_edge) {
             defects.add([&] {
                 return MeshDefect{fmt::format("constraint {} is no edge of the mesh", edge_text(constraint)),
                                   mesh.points[constraint.a.index()]};
             });
             continue;
         }
-        if (adjacency.twin[found] == no_edge) continue;
-        const std::size_t edge = std::min(found, adjacency.twin[found]), twin = adjacency.twin[edge];
+        if (twin == no_edge) continue;
         if (!is_isotropic_triangle(mesh, edges.cell_of(edge)) || !is_isotropic_triangle(mesh, edges.cell_of(twin)))
             continue;
         --count.edges;

@@ -26,7 +26,7 @@ inline bool is_strictly_in_circle(Point a, Point b, Point c, Point d) {
 
 /// Returns whether the vertex opposite to `twin` lies strictly inside the circle of the triangle that has `edge`.
 /// Precondition: both are edges of triangles.
-inline bool violates_delaunay(const Mesh& mesh, std::size_t edge, std::size_t twin) {
+inline bool violates_delaunay(const MeshView& mesh, std::size_t edge, std::size_t twin) {
     const VertexId* v = mesh.triangles[edge / 3].v;
     const VertexId opposite = mesh.triangles[twin / 3].v[(twin + 2) % 3];
     return is_strictly_in_circle(mesh.points[v[0].index()], mesh.points[v[1].index()], mesh.points[v[2].index()],
@@ -34,11 +34,11 @@ inline bool violates_delaunay(const Mesh& mesh, std::size_t edge, std::size_t tw
 }
 
 /// Returns the constraints of the mesh, each once and with its smaller vertex first, sorted.
-std::vector<Segment> sorted_constraints(const Mesh& mesh);
+std::vector<Segment> sorted_constraints(const MeshView& mesh);
 
 /// Takes the constraints between isotropic triangles out of a count of all interior edges: they are few, so this is
 /// cheaper than to look up each edge. Reports constraints that are no edges of the mesh.
-void subtract_constraints(const Mesh& mesh, const Adjacency& adjacency, const std::vector<Segment>& constraints,
-                          DelaunayCount& count, DefectList& defects);
+void subtract_constraints(const MeshView& mesh, const std::vector<Segment>& constraints, DelaunayCount& count,
+                          DefectList& defects);
 
 }  // namespace lamina::mesh

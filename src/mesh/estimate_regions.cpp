@@ -42,7 +42,7 @@ enum class Look {
     other
 };
 
-Look look_of(const Mesh& mesh, std::size_t cell) {
+Look look_of(const MeshView& mesh, std::size_t cell) {
     constexpr double max_slant_deg = 4;  // rows whose height changes along the wall lean
     if (cell >= mesh.triangles.size()) return Look::thin;
     const auto& v = mesh.triangles[cell].v;
@@ -53,7 +53,8 @@ Look look_of(const Mesh& mesh, std::size_t cell) {
 }
 
 /// Adds to the layer those of the cells that one other cell parts from it at most.
-void add_thin_cells_near_layer(const Mesh& mesh, std::span<const std::uint32_t> thin, std::vector<Region>& regions) {
+void add_thin_cells_near_layer(const MeshView& mesh, std::span<const std::uint32_t> thin,
+                               std::vector<Region>& regions) {
     if (thin.empty()) return;
     const CellEdges cells(mesh);
     std::vector<char> in_layer(mesh.points.size(), 0), near(mesh.points.size(), 0);  // per vertex
@@ -81,7 +82,7 @@ namespace lamina {
 
 using namespace mesh;
 
-std::vector<Region> estimate_regions(const Mesh& mesh) {
+std::vector<Region> estimate_regions(const MeshView& mesh) {
     const CellEdges cells(mesh);
     VertexSets sets(mesh.points.size());
     std::vector<std::uint32_t> thin;

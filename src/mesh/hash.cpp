@@ -143,7 +143,7 @@ void add_in_parallel(std::span<const Point> points, std::span<const Cell> cells,
 
 }  // namespace
 
-std::string mesh_hash(const Mesh& mesh) {
+std::string mesh_hash(const MeshView& mesh) {
     mesh::HashOfParts hash;
     add_in_parallel<Triangle>(mesh.points, mesh.triangles, hash);
     add_in_parallel<Quad>(mesh.points, mesh.quads, hash);

@@ -6,11 +6,11 @@
 namespace lamina::mesh {
 
 /// Returns whether a cell is isotropic. In a mesh without regions all cells are.
-inline bool is_isotropic(const Mesh& mesh, std::size_t cell) {
+inline bool is_isotropic(const MeshView& mesh, std::size_t cell) {
     return mesh.region.empty() || mesh.region[cell] == Region::isotropic;
 }
 
-inline bool is_isotropic_triangle(const Mesh& mesh, std::size_t cell) {
+inline bool is_isotropic_triangle(const MeshView& mesh, std::size_t cell) {
     return cell < mesh.triangles.size() && is_isotropic(mesh, cell);
 }
 

@@ -50,10 +50,10 @@ PiecewiseCheck::PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOp
 void PiecewiseCheck::add_layer(const Mesh& layer, std::span<const Segment> constraints) {
     check_arrays(layer, layer_.defects);
     if (!layer_.defects.empty()) return;
-    const Adjacency adjacency = find_adjacency(layer);
-    layer_.append(check_cells(layer, adjacency, options_.min_angle_deg));
+    CheckedCells checked = check_cells(layer, options_.min_angle_deg);
+    layer_.append(std::move(checked.summary));
     const CellEdges edges(layer);
-    for (const std::uint32_t e : adjacency.overused)
+    for (const std::uint32_t e : checked.edges.overused)
         layer_.defects.add([&] {
             return MeshDefect{fmt::format("{} of the layer shares an edge with more than one cell or with one on the "
                                           "same side",
@@ -62,10 +62,10 @@ void PiecewiseCheck::add_layer(const Mesh& layer, std::span<const Segment> const
         });
     for_vertices_of_cells(layer, [&](VertexId v) { used_[v.index()] = 1; });
     cells_ += edges.cells();
-    inner_edges_ += adjacency.edges - adjacency.boundary.size();
-    const std::vector<BoundaryEdge> boundary = find_boundary_edges(layer, adjacency);
+    inner_edges_ += checked.edges.edges - checked.edges.boundary.size();
+    const std::vector<BoundaryEdge> boundary = find_boundary_edges(layer, checked.edges.boundary);
     for (std::size_t i = 0; i < boundary.size(); ++i)
-        layer_edges_.push_back({boundary[i], area_of(layer, edges, edges.cell_of(adjacency.boundary[i]))});
+        layer_edges_.push_back({boundary[i], area_of(layer, edges, edges.cell_of(checked.edges.boundary[i]))});
     is_layer_constraint_.clear();
     for (const std::uint32_t e : find_edges(layer, constraints)) is_layer_constraint_.push_back(e != no_edge);
 }

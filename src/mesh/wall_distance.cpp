@@ -11,7 +11,7 @@
 
 namespace lamina {
 
-std::vector<double> wall_distances(const Mesh& mesh) {
+std::vector<double> wall_distances(const MeshView& mesh) {
     struct WallSegment {
         Point a, b;
     };

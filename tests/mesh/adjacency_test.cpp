@@ -1,14 +1,18 @@
-// find_adjacency() and find_edges() against a map of all edges, on whole and damaged meshes of several blocks.
+// find_adjacency(), find_edges() and the survey of edges against a map of all edges, on whole and damaged meshes of several blocks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
 #include "mesh/adjacency.hpp"
+#include "mesh/edge_survey.hpp"
 #include "support/sample_meshes.hpp"
 
 namespace lamina {
@@ -51,6 +55,38 @@ Expected adjacency_by_map(const Mesh& mesh) {
     return expected;
 }
 
+/// Runs a survey in so much memory, and returns how often it has read the cells.
+std::size_t expect_survey(const Mesh& mesh, const Expected& expected, std::optional<std::size_t> max_bytes) {
+    const CellEdges edges(mesh);
+    mesh::EdgeSurvey survey(mesh, max_bytes, 1 << 16);
+    std::vector<std::uint32_t> twin(edges.size(), no_edge);
+    const auto set = [&](mesh::EdgePair pair) {
+        EXPECT_LT(pair.edge, pair.twin);
+        EXPECT_EQ(twin[pair.edge], no_edge);
+        twin[pair.edge] = pair.twin;
+        twin[pair.twin] = pair.edge;
+    };
+    core::parallel_for(edges.cells(), mesh::cells_per_block, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> within;
+        survey.match_block(begin, end, within);
+        const auto first = static_cast<std::uint32_t>(edges.first(begin));
+        for (std::uint32_t e = 0; e < within.size(); ++e)
+            if (within[e] != no_edge && within[e] > e) set({first + e, first + within[e]});
+    });
+    std::mutex mutex;
+    survey.match_between([&](std::span<const mesh::EdgePair> pairs) {
+        const std::lock_guard lock(mutex);
+        for (const mesh::EdgePair pair : pairs) set(pair);
+    });
+    const mesh::EdgeTotals totals = survey.take_totals();
+    EXPECT_EQ(twin, expected.twin);
+    EXPECT_EQ(totals.boundary, expected.boundary);
+    EXPECT_EQ(totals.overused, expected.overused);
+    EXPECT_EQ(totals.orphans, expected.orphans);
+    EXPECT_EQ(totals.edges, expected.users.size());
+    return survey.passes();
+}
+
 void expect_agreement(const Mesh& mesh) {
     const Expected expected = adjacency_by_map(mesh);
     for (const unsigned threads : {1u, 4u})
@@ -63,6 +99,9 @@ void expect_agreement(const Mesh& mesh) {
             EXPECT_EQ(adjacency.orphans, expected.orphans);
             EXPECT_EQ(adjacency.edges, expected.users.size());
 
+            EXPECT_EQ(expect_survey(mesh, expected, {}), 1u);
+            expect_survey(mesh, expected, 20000);
+
             std::vector<Segment> segments;
             std::vector<std::uint32_t> lowest;
             for (const auto& [ends, users] : expected.users) {
@@ -74,6 +113,9 @@ void expect_agreement(const Mesh& mesh) {
             segments.push_back({VertexId{0}, VertexId{0}});
             lowest.push_back(no_edge);
             EXPECT_EQ(mesh::find_edges(mesh, segments), lowest);
+            const std::vector<mesh::EdgePair> pairs = mesh::find_pairs(mesh, segments);
+            for (std::size_t i = 0; i < pairs.size(); ++i)
+                EXPECT_EQ(pairs[i].twin, lowest[i] == no_edge ? no_edge : expected.twin[lowest[i]]);
         });
 }
 
@@ -94,6 +136,11 @@ TEST(Adjacency, AgreesWithAMapOfAllEdges) {
     for (std::size_t i = 0; i < spokes; ++i)
         wheel.triangles.push_back({{VertexId{0}, VertexId{1 + i}, VertexId{1 + (i + 1) % spokes}}});
     expect_agreement(wheel);
+}
+
+TEST(Adjacency, ReadsCellsSeveralTimesWhereMemoryIsShort) {
+    const Mesh mesh = test::shuffled(large_meshes().front(), 1);
+    EXPECT_GT(expect_survey(mesh, adjacency_by_map(mesh), 4 * mesh.points.size()), 3u);
 }
 
 TEST(Adjacency, FindsEveryDefect) {
