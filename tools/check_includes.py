@@ -33,6 +33,7 @@ OWNERS["transformation"] = "geometry"
 OWNERS["solution"] = "io"
 OWNERS["solution_sizes"] = "adaptation"
 OWNERS["triangle_files"] = "io"
+OWNERS["stored_mesh"] = "io"
 for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_triangulation triangulation voronoi".split():
     OWNERS[name] = "delaunay"
 OWNERS["places"] = "mesh"

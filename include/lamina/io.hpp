@@ -41,7 +41,8 @@ struct WriteOptions {
 /// Writes a mesh. Files get temporary names beside the target and are renamed, so that a failure leaves nothing
 /// half-written. Coordinates are read back exactly. Throws IoError; UsageError for an unknown format or extension, and
 /// for marker names that the format cannot hold; MeshError for a mesh that the format cannot hold.
-LAMINA_EXPORT void write_mesh(const Mesh& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
+LAMINA_EXPORT void write_mesh(const MeshView& mesh, const std::filesystem::path& file,
+                              const WriteOptions& options = {});
 
 /// Writes a table of the walls as CSV: one line for each wall vertex, body by body in the order of the outline.
 /// Columns: marker, vertex (from 0), x, y, arc length from the body's first vertex, unit normal into the flow (the

@@ -19,7 +19,13 @@ RegionOrigin require_regions(Mesh& mesh) {
     return mesh.region.empty() ? RegionOrigin::none : RegionOrigin::estimate;
 }
 
-MeshCheck check_file_mesh(const Mesh& mesh, RegionOrigin regions, const MeshCheckOptions& options) {
+RegionOrigin require_regions(StoredMesh& mesh) {
+    if (!mesh.view().region.empty()) return RegionOrigin::file;
+    mesh.set_region(estimate_regions(mesh.view()));
+    return mesh.view().region.empty() ? RegionOrigin::none : RegionOrigin::estimate;
+}
+
+MeshCheck check_file_mesh(const MeshView& mesh, RegionOrigin regions, const MeshCheckOptions& options) {
     MeshCheck check = check_mesh(mesh, options);
     // The last thin cell of a layer is rarely the last one.
     if (regions == RegionOrigin::estimate) check.transition = {};
@@ -40,7 +46,8 @@ const char* kind_name(MarkerKind kind) {
     return "other";
 }
 
-Json check_report(const Mesh& mesh, const MeshCheck& check, RegionOrigin regions, const Shortcomings& shortcomings) {
+Json check_report(const MeshView& mesh, const MeshCheck& check, RegionOrigin regions,
+                  const Shortcomings& shortcomings) {
     Json defects = Json::array();
     for (const MeshDefect& defect : check.defects) {
         defects.push_back({{"what", defect.description}, {"at", {defect.at.x, defect.at.y}}});

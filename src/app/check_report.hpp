@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <lamina/mesh.hpp>
+#include <lamina/stored_mesh.hpp>
 
 #include "app/report.hpp"
 
@@ -22,14 +23,15 @@ enum class RegionOrigin {
 
 /// Gives a mesh from a file regions where it has none.
 RegionOrigin require_regions(Mesh& mesh);
+RegionOrigin require_regions(StoredMesh& mesh);
 
 /// Checks a mesh from a file.
-MeshCheck check_file_mesh(const Mesh& mesh, RegionOrigin regions, const MeshCheckOptions& options = {});
+MeshCheck check_file_mesh(const MeshView& mesh, RegionOrigin regions, const MeshCheckOptions& options = {});
 
 /// Returns the kind of a marker in words: "far field".
 const char* kind_name(MarkerKind kind);
 
 /// Returns the result of `lamina check --json`.
-Json check_report(const Mesh& mesh, const MeshCheck& check, RegionOrigin regions, const Shortcomings& shortcomings);
+Json check_report(const MeshView& mesh, const MeshCheck& check, RegionOrigin regions, const Shortcomings& shortcomings);
 
 }  // namespace lamina::app

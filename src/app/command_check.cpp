@@ -1,5 +1,6 @@
 // lamina check: checks whether a mesh file is valid, and measures its quality.
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,7 +10,10 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
+#include <lamina/limits.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/pipeline.hpp>
+#include <lamina/stored_mesh.hpp>
 
 #include "app/check_report.hpp"
 #include "app/commands.hpp"
@@ -30,21 +34,29 @@ struct CheckArguments {
     std::vector<std::string> walls;
     std::string far_field;
     bool require_delaunay = false;
-    std::string min_angle, first_height;
+    std::string min_angle, first_height, max_memory;
 };
 
 /// Gives the marker of this name its kind, whatever the file says. Adds a shortcoming where it is missing or empty.
-void require_marker(Mesh& mesh, const std::string& name, MarkerKind kind, Shortcomings& shortcomings) {
-    const auto marker = std::find_if(mesh.markers.begin(), mesh.markers.end(),
-                                     [&](const Marker& candidate) { return candidate.name == name; });
-    if (marker == mesh.markers.end() || marker->edges.empty()) {
+void require_marker(std::vector<Marker>& markers, const std::string& name, MarkerKind kind,
+                    Shortcomings& shortcomings) {
+    const auto marker =
+        std::find_if(markers.begin(), markers.end(), [&](const Marker& candidate) { return candidate.name == name; });
+    if (marker == markers.end() || marker->edges.empty()) {
         shortcomings.push_back("no marker '" + name + "'");
     } else {
         marker->kind = kind;
     }
 }
 
-std::string check_summary(const std::string& file, const Mesh& mesh, const MeshCheck& check, RegionOrigin regions,
+/// Throws UsageError where the text is no size.
+WorkLimits memory_limit(const std::string& text) {
+    CaseOptions options;
+    set_by_name(case_option_table(), "max-memory", text, options);
+    return options.limits;
+}
+
+std::string check_summary(const std::string& file, const MeshView& mesh, const MeshCheck& check, RegionOrigin regions,
                           const Shortcomings& shortcomings) {
     std::string text = fmt::format("{}: {}\n", file, check.valid() ? "valid" : "not valid");
     for (const MeshDefect& defect : check.defects)
@@ -87,13 +99,20 @@ void check(const CheckArguments& arguments) {
 
     require_format(arguments.mesh, arguments.format, "--input-format");
     const std::string name = input_name(arguments.mesh);
-    Mesh mesh = read_mesh(arguments.mesh, {.format = arguments.format});
+    // A third of the memory is left to the mesh itself, of which large files keep in memory what the system has room for.
+    const std::size_t memory =
+        with_default_limits(memory_limit(arguments.max_memory)).max_memory_bytes.value_or(SIZE_MAX);
+    StoredMesh stored =
+        read_stored_mesh(arguments.mesh, {.format = arguments.format, .max_bytes_in_memory = memory / 4});
+    options.max_memory_bytes = memory / 3 * 2;
     Shortcomings shortcomings;
-    for (const std::string& wall : arguments.walls) require_marker(mesh, wall, MarkerKind::wall, shortcomings);
+    for (const std::string& wall : arguments.walls)
+        require_marker(stored.markers(), wall, MarkerKind::wall, shortcomings);
     if (!arguments.far_field.empty()) {
-        require_marker(mesh, arguments.far_field, MarkerKind::far_field, shortcomings);
+        require_marker(stored.markers(), arguments.far_field, MarkerKind::far_field, shortcomings);
     }
-    const RegionOrigin regions = require_regions(mesh);
+    const RegionOrigin regions = require_regions(stored);
+    const MeshView mesh = stored.view();
     const MeshCheck result = check_file_mesh(mesh, regions, options);
     if (arguments.require_delaunay && result.delaunay_violations > 0) {
         shortcomings.push_back(fmt::format("{} edges between isotropic triangles violate the Delaunay property",
@@ -126,6 +145,11 @@ void add_check_command(CLI::App& app) {
                       "require the Delaunay property of all edges between isotropic triangles (exact test)");
     add_table_option(*command, mesh_check_option_table(), "min-angle", arguments->min_angle);
     add_table_option(*command, mesh_check_option_table(), "first-height", arguments->first_height);
+    command
+        ->add_option("--max-memory", arguments->max_memory,
+                     "memory that the check may take, such as 500M or 2G: the arrays of larger files lie in temporary "
+                     "files, in the folder that TMPDIR names or in /var/tmp; default: 80 % of what is free")
+        ->type_name("SIZE");
     command->callback([arguments] { check(*arguments); });
 }
 

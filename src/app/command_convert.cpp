@@ -10,6 +10,7 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
+#include <lamina/stored_mesh.hpp>
 
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
@@ -26,11 +27,12 @@ struct ConvertArguments {
 };
 
 /// Sets the kind of the markers of these names, since not all formats hold kinds.
-void set_kind(Mesh& mesh, const std::vector<std::string>& names, MarkerKind kind, const std::string& file) {
+void set_kind(std::vector<Marker>& markers, const std::vector<std::string>& names, MarkerKind kind,
+              const std::string& file) {
     for (const std::string& name : names) {
-        const auto marker = std::find_if(mesh.markers.begin(), mesh.markers.end(),
+        const auto marker = std::find_if(markers.begin(), markers.end(),
                                          [&](const Marker& candidate) { return candidate.name == name; });
-        if (marker == mesh.markers.end()) throw InputError({file, 0, {}}, "no marker '" + name + "'");
+        if (marker == markers.end()) throw InputError({file, 0, {}}, "no marker '" + name + "'");
         marker->kind = kind;
     }
 }
@@ -44,12 +46,12 @@ void convert(const ConvertArguments& arguments) {
         outputs.push_back({file, "OUT"});
     require_distinct(files_of_mesh(arguments.from, arguments.from_format), outputs);
     const SignalGuard guard(outputs);
-    Mesh mesh = read_mesh(arguments.from, {.format = arguments.from_format});
+    StoredMesh mesh = read_stored_mesh(arguments.from, {.format = arguments.from_format});
     const std::string name = input_name(arguments.from);
-    set_kind(mesh, arguments.walls, MarkerKind::wall, name);
-    set_kind(mesh, arguments.far_fields, MarkerKind::far_field, name);
-    set_kind(mesh, arguments.symmetries, MarkerKind::symmetry, name);
-    write_mesh(mesh, arguments.to, arguments.options);
+    set_kind(mesh.markers(), arguments.walls, MarkerKind::wall, name);
+    set_kind(mesh.markers(), arguments.far_fields, MarkerKind::far_field, name);
+    set_kind(mesh.markers(), arguments.symmetries, MarkerKind::symmetry, name);
+    write_mesh(mesh.view(), arguments.to, arguments.options);
 }
 
 }  // namespace

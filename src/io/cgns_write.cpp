@@ -51,7 +51,7 @@ std::string section_name(const CellBlock& block) {
 
 class CgnsWriter {
 public:
-    CgnsWriter(const Mesh& mesh, CgnsVariant variant, const fs::path& target)
+    CgnsWriter(const MeshView& mesh, CgnsVariant variant, const fs::path& target)
         : mesh_(mesh), variant_(variant), target_(target) {}
 
     void write(const fs::path& file) {
@@ -150,7 +150,7 @@ private:
         }
     }
 
-    const Mesh& mesh_;
+    MeshView mesh_;
     CgnsVariant variant_;
     const fs::path& target_;
     int file_ = 0, base_ = 0, zone_ = 0;
@@ -160,14 +160,14 @@ private:
 
 /// Returns a generous estimate of the size of the file. HDF5 crashes the program at its end after a failed write, so a
 /// full disk must be noticed before anything is written.
-std::size_t bytes_needed(const Mesh& mesh, CgnsVariant variant) {
+std::size_t bytes_needed(const MeshView& mesh, CgnsVariant variant) {
     return (variant.three_coordinates ? 24 : 16) * mesh.points.size() +
            sizeof(cgsize_t) * (3 * mesh.triangles.size() + 4 * mesh.quads.size() + 2 * count_marker_edges(mesh)) +
            50'000 * (3 + mesh.markers.size());
 }
 
 /// Throws UsageError for meshes that a CGNS file cannot hold.
-void require_fit(const Mesh& mesh, const fs::path& file) {
+void require_fit(const MeshView& mesh, const fs::path& file) {
     require_marker_names(mesh.markers, file, "CGNS", "/", 32);
     for (const CellBlock& block : cell_blocks(mesh))
         for (const Marker& marker : mesh.markers)
@@ -181,7 +181,7 @@ void require_fit(const Mesh& mesh, const fs::path& file) {
 
 }  // namespace
 
-void write_cgns(const Mesh& mesh, const fs::path& file, CgnsVariant variant) {
+void write_cgns(const MeshView& mesh, const fs::path& file, CgnsVariant variant) {
     require_fit(mesh, file);
     core::require_room(file, bytes_needed(mesh, variant));
     core::write_atomically(file, [&](const fs::path& temporary) {

@@ -25,7 +25,7 @@ namespace {
 
 /// Writes one file by a function that writes to a stream.
 template <auto write_to_stream>
-void write_one_file(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+void write_one_file(const MeshView& mesh, const fs::path& file, const WriteOptions&) {
     core::write_stream_atomically(file, [&](std::ostream& out) { write_to_stream(mesh, file, out); });
 }
 
@@ -33,7 +33,7 @@ std::vector<fs::path> one_file(const fs::path& file) { return {file}; }
 
 /// Writes several files by a function that sees to them itself.
 template <auto write>
-void write_files(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+void write_files(const MeshView& mesh, const fs::path& file, const WriteOptions&) {
     write(mesh, file);
 }
 
@@ -43,12 +43,12 @@ Mesh read_one_file(const fs::path& file) {
 }
 
 template <bool version_4, bool binary>
-void write_msh_variant(const Mesh& mesh, const fs::path& file, std::ostream& out) {
+void write_msh_variant(const MeshView& mesh, const fs::path& file, std::ostream& out) {
     write_msh(mesh, file, {version_4, binary}, out);
 }
 
 template <bool compressed>
-void write_vtu_variant(const Mesh& mesh, const fs::path& file, const WriteOptions& options) {
+void write_vtu_variant(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
     core::write_stream_atomically(file, [&](std::ostream& out) {
         write_vtu(mesh, {compressed, options.wall_distance}, out);
     });
@@ -56,7 +56,7 @@ void write_vtu_variant(const Mesh& mesh, const fs::path& file, const WriteOption
 
 #ifdef LAMINA_WITH_CGNS
 template <bool adf, bool three_coordinates>
-void write_cgns_variant(const Mesh& mesh, const fs::path& file, const WriteOptions&) {
+void write_cgns_variant(const MeshView& mesh, const fs::path& file, const WriteOptions&) {
     write_cgns(mesh, file, {adf, three_coordinates});
 }
 #endif
@@ -70,6 +70,7 @@ FormatRow su2_row() {
             .write = write_one_file<write_su2>,
             .files = one_file,
             .read = read_one_file<read_su2>,
+            .read_stored = read_su2_arrays,
             .open_sink = open_su2_sink,
             .one_stream = true};
 }
@@ -127,6 +128,7 @@ std::vector<FormatRow> vtu_rows() {
                         .write = write,
                         .files = one_file,
                         .read = read_one_file<read_vtu>,
+                        .read_stored = read_vtu_arrays,
                         .read_sizes = read_vtu_sizes,
                         .one_stream = true});
     };
@@ -267,6 +269,15 @@ const FormatRow& find_format(const fs::path& file, const std::string& name) {
             fmt::format("format '{}' is not one stream of bytes, so standard input and output cannot carry "
                         "it ({} can)",
                         format.name, fmt::join(stream_formats(), ", ")));
+    return format;
+}
+
+const FormatRow& format_to_read(const fs::path& file, const std::string& name) {
+    if (name.empty())
+        for (const FormatRow& format : format_table())
+            if (format.recognizes != nullptr && format.recognizes(file)) return format;
+    const FormatRow& format = find_format(file, name);
+    if (format.read == nullptr) throw UsageError(fmt::format("format '{}' is only written, not read", format.name));
     return format;
 }
 

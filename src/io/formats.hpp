@@ -20,6 +20,8 @@
 
 namespace lamina::io {
 
+struct MeshArrays;
+
 /// A row of the table of formats.
 struct FormatRow {
     const char* name = nullptr;
@@ -29,13 +31,16 @@ struct FormatRow {
     const char* description = nullptr;  ///< one line for help and guide
     /// Writes all files of the mesh, whole or not at all. Throws IoError; UsageError and MeshError for what the format
     /// cannot hold.
-    void (*write)(const Mesh&, const std::filesystem::path&, const WriteOptions&) = nullptr;
+    void (*write)(const MeshView&, const std::filesystem::path&, const WriteOptions&) = nullptr;
     /// Returns the files that `write` creates or replaces, or the one folder where the format is a folder.
     std::vector<std::filesystem::path> (*files)(const std::filesystem::path&) = nullptr;
     /// Throws IoError where the mesh certainly cannot be written. Null: it can where each of its files can.
     void (*check)(const std::filesystem::path&) = nullptr;
     /// Reads a mesh. Throws IoError, InputError. Null: the format is not read.
     Mesh (*read)(const std::filesystem::path&) = nullptr;
+    /// Reads the same mesh into arrays that may lie in files, in constant memory beside the markers where the variant of
+    /// the format allows it. Null: meshes are read as a whole.
+    void (*read_stored)(const std::filesystem::path&, MeshArrays&) = nullptr;
     /// Reads a mesh and its sizes from the bytes of a file. Throws InputError. Null: the format holds no sizes.
     PointValues (*read_sizes)(const std::string& bytes, const std::filesystem::path&) = nullptr;
     /// Returns whether the path holds a mesh of this format, whatever its name. Null: the name alone decides.
@@ -54,6 +59,10 @@ const std::vector<FormatRow>& format_table();
 /// one stream.
 const FormatRow& find_format(const std::filesystem::path& file, const std::string& name = {});
 
+/// Returns the format that a file is read in: the one of this name, or else one that recognizes the file, or else the one
+/// that its name stands for. Throws UsageError where there is none, or where it is only written.
+const FormatRow& format_to_read(const std::filesystem::path& file, const std::string& name = {});
+
 // --- The functions of the formats
 //
 // Writers of a single file write its contents to `out`; other writers see to their files themselves. Most readers take
@@ -64,8 +73,9 @@ const FormatRow& find_format(const std::filesystem::path& file, const std::strin
 void require_su2_marker_names(std::span<const Marker> markers, const std::filesystem::path& file);
 /// Opens a sink that writes what write_su2() writes.
 std::unique_ptr<MeshSink> open_su2_sink(const std::filesystem::path& file);
-void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);
+void write_su2(const MeshView& mesh, const std::filesystem::path& file, std::ostream& out);
 Mesh read_su2(const std::string& bytes, const std::filesystem::path& file);
+void read_su2_arrays(const std::filesystem::path& file, MeshArrays& arrays);
 
 struct VtuVariant {
     bool compressed = false;     ///< by zlib
@@ -73,8 +83,9 @@ struct VtuVariant {
 };
 /// Opens a sink that writes what write_vtu() writes, neither compressed nor with distances.
 std::unique_ptr<MeshSink> open_vtu_sink(const std::filesystem::path& file);
-void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out);
+void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
+void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays);
 /// Reads the mesh and these fields.
 Solution read_vtu_solution(const std::string& bytes, const std::filesystem::path& file,
                            std::span<const FieldRequest> fields);
@@ -87,9 +98,9 @@ struct MshVariant {
     bool version_4 = true;  ///< 4.1, else 2.2
     bool binary = false;
 };
-void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out);
+void write_msh(const MeshView& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out);
 /// Writes version 2.2, ASCII, one cell thick.
-void write_msh_extruded(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out);
+void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, std::ostream& out);
 /// Reads either version, ASCII or binary.
 Mesh read_msh(const std::string& bytes, const std::filesystem::path& file);
 /// Reads the mesh and the $NodeData that size_array() names.
@@ -99,7 +110,7 @@ struct CgnsVariant {
     bool adf = false;                ///< writes the older container in place of HDF5
     bool three_coordinates = false;  ///< writes CoordinateZ = 0, for readers that accept no plane meshes
 };
-void write_cgns(const Mesh& mesh, const std::filesystem::path& file, CgnsVariant variant);
+void write_cgns(const MeshView& mesh, const std::filesystem::path& file, CgnsVariant variant);
 Mesh read_cgns(const std::filesystem::path& file);
 
 /// The patch for the two sides of meshes that are one cell thick.
@@ -107,7 +118,7 @@ inline constexpr const char* front_and_back = "frontAndBack";
 /// Returns the folder alone.
 std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& file);
 void check_openfoam_writable(const std::filesystem::path& file);
-void write_openfoam(const Mesh& mesh, const std::filesystem::path& file);
+void write_openfoam(const MeshView& mesh, const std::filesystem::path& file);
 Mesh read_openfoam(const std::filesystem::path& file);
 /// A mesh, and the number of each of its cells in the files it was read from: triangles, then quads.
 struct NumberedCells {
@@ -127,15 +138,15 @@ bool holds_openfoam_mesh(const std::filesystem::path& file);
 /// Returns the file and the .mapbc file beside it, which holds the names of the boundaries.
 std::vector<std::filesystem::path> ugrid_files(const std::filesystem::path& file);
 /// Writes a plane mesh in ASCII.
-void write_ugrid(const Mesh& mesh, const std::filesystem::path& file);
+void write_ugrid(const MeshView& mesh, const std::filesystem::path& file);
 /// Writes a mesh one cell thick: big-endian for .b8.ugrid, little-endian for .lb8.ugrid, else in ASCII.
-void write_fun3d(const Mesh& mesh, const std::filesystem::path& file);
+void write_fun3d(const MeshView& mesh, const std::filesystem::path& file);
 /// Reads what write_ugrid() and write_fun3d() write.
 Mesh read_ugrid(const std::string& bytes, const std::filesystem::path& file);
 
 /// Returns the four files of one stem that hold the mesh.
 std::vector<std::filesystem::path> triangle_mesh_files(const std::filesystem::path& file);
-void write_triangle_mesh(const Mesh& mesh, const std::filesystem::path& file);
+void write_triangle_mesh(const MeshView& mesh, const std::filesystem::path& file);
 Mesh read_triangle_mesh(const std::filesystem::path& file);
 
 }  // namespace lamina::io

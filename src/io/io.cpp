@@ -14,18 +14,13 @@ using namespace io;
 
 namespace fs = std::filesystem;
 
-void write_mesh(const Mesh& mesh, const fs::path& file, const WriteOptions& options) {
+void write_mesh(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
     check_writable(file, options);
     find_format(file, options.format).write(mesh, file, options);
 }
 
 Mesh read_mesh(const fs::path& file, const ReadOptions& options) {
-    if (options.format.empty())
-        for (const FormatRow& format : format_table())
-            if (format.recognizes != nullptr && format.recognizes(file)) return format.read(file);
-    const FormatRow& format = find_format(file, options.format);
-    if (format.read == nullptr) throw UsageError(fmt::format("format '{}' is only written, not read", format.name));
-    return format.read(file);
+    return format_to_read(file, options.format).read(file);
 }
 
 void check_writable(const fs::path& file, const WriteOptions& options) {

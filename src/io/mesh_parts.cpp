@@ -11,7 +11,7 @@
 
 namespace lamina::io {
 
-std::vector<CellBlock> cell_blocks(const Mesh& mesh) {
+std::vector<CellBlock> cell_blocks(const MeshView& mesh) {
     constexpr std::array<const char*, 2> names{"layer", "isotropic"};
     std::vector<CellBlock> blocks;
     const auto add_blocks = [&](std::size_t corners, std::size_t first, std::size_t count) {
@@ -30,7 +30,7 @@ std::vector<CellBlock> cell_blocks(const Mesh& mesh) {
     return blocks;
 }
 
-std::size_t count_marker_edges(const Mesh& mesh) {
+std::size_t count_marker_edges(const MeshView& mesh) {
     std::size_t edges = 0;
     for (const Marker& marker : mesh.markers) edges += marker.edges.size();
     return edges;
@@ -70,10 +70,10 @@ void require_marker_names(std::span<const Marker> markers, const std::filesystem
         throw UsageError(fmt::format("{}: {} cannot hold two markers named '{}'", file.string(), format, *twice));
 }
 
-void orient_markers(Mesh& mesh) {
+void orient_markers(const MeshView& mesh, std::vector<Marker>& markers) {
     // Cells have far more edges than the boundary, so only those with both ends on a marker are kept.
     std::vector<bool> on_marker(mesh.points.size(), false);
-    for (const Marker& marker : mesh.markers)
+    for (const Marker& marker : markers)
         for (const Segment& edge : marker.edges) on_marker[edge.a.index()] = on_marker[edge.b.index()] = true;
     std::vector<Segment> cell_edges;
     const auto add = [&](VertexId a, VertexId b) {
@@ -88,7 +88,7 @@ void orient_markers(Mesh& mesh) {
     const auto has = [&](VertexId a, VertexId b) {
         return std::binary_search(cell_edges.begin(), cell_edges.end(), Segment{a, b});
     };
-    for (Marker& marker : mesh.markers)
+    for (Marker& marker : markers)
         for (Segment& edge : marker.edges)
             if (!has(edge.a, edge.b) && has(edge.b, edge.a)) std::swap(edge.a, edge.b);
 }

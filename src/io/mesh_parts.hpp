@@ -19,16 +19,16 @@ struct CellBlock {
     std::vector<std::uint32_t> cells;  ///< indices of mesh.triangles or mesh.quads, ascending
 
     /// Returns the vertices of cell i of the block.
-    const VertexId* vertices(const Mesh& mesh, std::size_t i) const {
+    const VertexId* vertices(const MeshView& mesh, std::size_t i) const {
         return corners == 3 ? mesh.triangles[cells[i]].v : mesh.quads[cells[i]].v;
     }
 };
 
 /// Returns the blocks of a mesh: triangles before quads, and the layer before the rest. No block is empty.
-std::vector<CellBlock> cell_blocks(const Mesh& mesh);
+std::vector<CellBlock> cell_blocks(const MeshView& mesh);
 
 /// Returns the number of edges of all markers.
-std::size_t count_marker_edges(const Mesh& mesh);
+std::size_t count_marker_edges(const MeshView& mesh);
 
 /// Sets `region` to the region of this name, which is that of a group of cells in a file. Returns false for other
 /// names.
@@ -45,7 +45,8 @@ void require_marker_names(std::span<const Marker> markers, const std::filesystem
 
 /// Reverses the marker edges that no cell has in their direction but that one has in the other: some programs write
 /// edges of the boundary either way round. Precondition: all indices are in range.
-void orient_markers(Mesh& mesh);
+void orient_markers(const MeshView& cells, std::vector<Marker>& markers);
+inline void orient_markers(Mesh& mesh) { orient_markers(mesh, mesh.markers); }
 
 /// Finds the edge that a side face of a mesh one cell thick stands on: two successive corners in the lower plane, which
 /// are the valid ones. Returns false where these are not two successive ones of four corners.

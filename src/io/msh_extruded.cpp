@@ -19,7 +19,7 @@ namespace {
 
 class ExtrudedWriter {
 public:
-    ExtrudedWriter(const Mesh& mesh, std::ostream& out)
+    ExtrudedWriter(const MeshView& mesh, std::ostream& out)
         : mesh_(mesh), out_(out), blocks_(cell_blocks(mesh)), points_(mesh.points.size()) {
         for (const CellBlock& block : blocks_)
             if (std::find(volumes_.begin(), volumes_.end(), block.region) == volumes_.end())
@@ -99,7 +99,7 @@ private:
         next_element_ += count;
     }
 
-    const Mesh& mesh_;
+    MeshView mesh_;
     std::ostream& out_;
     std::vector<CellBlock> blocks_;
     std::size_t points_;
@@ -109,7 +109,7 @@ private:
 
 }  // namespace
 
-void write_msh_extruded(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out) {
+void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, std::ostream& out) {
     require_marker_names(mesh.markers, file, "MSH", "\"", 127);
     ExtrudedWriter(mesh, out).write();
 }

@@ -32,7 +32,7 @@ struct ElementBlock {
     const CellBlock* cells;  ///< for triangles and quadrilaterals, else null
 
     /// Returns the number of node k of element i of the block.
-    std::size_t node(const Mesh& mesh, std::size_t i, std::size_t k) const {
+    std::size_t node(const MeshView& mesh, std::size_t i, std::size_t k) const {
         if (marker != nullptr) return (k == 0 ? marker->edges[i].a : marker->edges[i].b).index() + 1;
         return cells->vertices(mesh, i)[k].index() + 1;
     }
@@ -47,7 +47,7 @@ struct PhysicalGroup {
 
 class MshWriter {
 public:
-    MshWriter(const Mesh& mesh, MshVariant variant, std::ostream& out)
+    MshWriter(const MeshView& mesh, MshVariant variant, std::ostream& out)
         : mesh_(mesh), variant_(variant), out_(out), cells_(cell_blocks(mesh)) {
         find_groups();
         find_elements();
@@ -231,7 +231,7 @@ private:
         }
     }
 
-    const Mesh& mesh_;
+    MeshView mesh_;
     MshVariant variant_;
     std::ostream& out_;
     std::vector<CellBlock> cells_;
@@ -242,7 +242,7 @@ private:
 
 }  // namespace
 
-void write_msh(const Mesh& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out) {
+void write_msh(const MeshView& mesh, const std::filesystem::path& file, MshVariant variant, std::ostream& out) {
     require_marker_names(mesh.markers, file, "MSH", "\"", 127);
     constexpr std::size_t max_items = std::numeric_limits<std::int32_t>::max() / 2;
     const std::size_t items = mesh.points.size() + mesh.triangles.size() + mesh.quads.size();

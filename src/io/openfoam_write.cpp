@@ -61,7 +61,7 @@ SideFaces internal_faces(const mesh::CellEdges& edges, const mesh::Adjacency& ad
 
 /// Returns the faces on the edges of the markers, marker by marker. Throws MeshError where such an edge is not on the
 /// boundary or has its cell on the right.
-SideFaces marker_faces(const Mesh& mesh, const mesh::CellEdges& edges, const mesh::Adjacency& adjacency,
+SideFaces marker_faces(const MeshView& mesh, const mesh::CellEdges& edges, const mesh::Adjacency& adjacency,
                        const fs::path& file) {
     std::vector<Segment> marked;
     for (const Marker& marker : mesh.markers) marked.insert(marked.end(), marker.edges.begin(), marker.edges.end());
@@ -95,7 +95,7 @@ const char* patch_type(MarkerKind kind) {
 
 class PolyMeshWriter {
 public:
-    PolyMeshWriter(const Mesh& mesh, const fs::path& file)
+    PolyMeshWriter(const MeshView& mesh, const fs::path& file)
         : mesh_(mesh), file_(file), edges_(mesh), adjacency_(mesh::find_adjacency(mesh)) {
         if (!adjacency_.overused.empty())
             throw MeshError(fmt::format("{}: OpenFOAM cannot hold a mesh that is not conforming", file.string()));
@@ -200,7 +200,7 @@ private:
         out << ")\n";
     }
 
-    const Mesh& mesh_;
+    MeshView mesh_;
     const fs::path& file_;
     mesh::CellEdges edges_;
     mesh::Adjacency adjacency_;
@@ -237,7 +237,7 @@ void check_openfoam_writable(const fs::path& file) {
     check_folder_writable(outermost_missing == folder ? folder.parent_path() / "points" : outermost_missing);
 }
 
-void write_openfoam(const Mesh& mesh, const fs::path& file) {
+void write_openfoam(const MeshView& mesh, const fs::path& file) {
     require_marker_names(mesh.markers, file, "OpenFOAM", " \"'/;{}()$#", 1000);
     for (const Marker& marker : mesh.markers)
         if (marker.name == front_and_back)

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string_view>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
 #include "io/formats.hpp"
+#include "io/mesh_arrays.hpp"
 #include "io/mesh_parts.hpp"
 #include "io/su2_lines.hpp"
 #include "io/text_lines.hpp"
@@ -23,12 +26,20 @@ namespace {
 
 /// Reads the sections in any order. It looks up NPOIN first, so that a vertex index out of range is reported with its
 /// line.
+template <class Target>
 class Su2Reader {
 public:
-    Su2Reader(const std::string& bytes, const std::string& file)
-        : in_(bytes, file, '%'), points_(find_npoin(bytes, file)) {}
+    /// Fills the target, a Mesh or MeshArrays. `forget(place)` says that the bytes before this place are no longer needed.
+    Su2Reader(
+        std::string_view bytes, const std::string& file, Target& target,
+        std::function<void(std::size_t)> forget = [](std::size_t) {})
+        : in_(bytes, file, '%'),
+          bytes_(bytes.size()),
+          points_(find_npoin(bytes, file, forget)),
+          mesh_(target),
+          forget_(std::move(forget)) {}
 
-    Mesh read() {
+    void read() {
         while (in_.next()) {
             const auto key = in_.key();
             if (!key) in_.fail(fmt::format("'{}' belongs to no section", in_.text().substr(0, 30)));
@@ -47,15 +58,17 @@ public:
             // Other keys (NZONE, AOA ...) are skipped: they say nothing about the mesh of one zone.
         }
         require_complete();
-        orient_markers(mesh_);
-        return std::move(mesh_);
+        orient_markers(view_of(mesh_), mesh_.markers);
     }
 
 private:
-    static std::size_t find_npoin(const std::string& bytes, const std::string& file) {
+    static std::size_t find_npoin(std::string_view bytes, const std::string& file,
+                                  const std::function<void(std::size_t)>& forget) {
         TextLines in(bytes, file, '%');
-        while (in.next())
+        while (in.next()) {
+            if (in.line() % lines_between == 0) forget(bytes.size() - in.bytes_left());
             if (in.key() == "NPOIN") return in.number<std::size_t>("number of points");
+        }
         in.fail("the file ends without NPOIN=");
     }
 
@@ -77,6 +90,7 @@ private:
         return n;
     }
     void next_line(std::size_t i, std::size_t n, const char* section) {
+        if (i % lines_between == 0) forget_(bytes_ - in_.bytes_left());
         if (!in_.next()) in_.fail(fmt::format("the file ends after {} of {} lines of {}", i, n, section));
     }
     VertexId vertex() {
@@ -96,6 +110,7 @@ private:
     }
     void read_cells() {
         cells_ = read_count(cells_, "NELEM");
+        reserve_cells(mesh_, *cells_);
         for (std::size_t i = 0; i < *cells_; ++i) {
             next_line(i, *cells_, "NELEM");
             const auto type = in_.number<unsigned>("cell type");
@@ -142,16 +157,20 @@ private:
         }
     }
 
+    static constexpr std::size_t lines_between = 1 << 20;  ///< lines between two calls of forget_
+
     TextLines in_;
+    std::size_t bytes_;   ///< size of the file
     std::size_t points_;  ///< number of points that the file announces
-    Mesh mesh_;
+    Target& mesh_;
+    std::function<void(std::size_t)> forget_;
     std::optional<std::size_t> dimension_, cells_, points_read_, announced_markers_;  ///< of the sections read so far
     bool open_tag_ = false;  ///< whether the last marker has a name, but no edges yet
 };
 
 }  // namespace
 
-void write_su2(const Mesh& mesh, const std::filesystem::path& file, std::ostream& out) {
+void write_su2(const MeshView& mesh, const std::filesystem::path& file, std::ostream& out) {
     require_su2_marker_names(mesh.markers, file);
     const std::size_t triangles = mesh.triangles.size(), cells = triangles + mesh.quads.size();
     out << "NDIME= 2\nNELEM= " << cells << '\n';
@@ -182,7 +201,17 @@ void write_su2_markers(std::span<const Marker> markers, std::ostream& out) {
 }
 
 Mesh read_su2(const std::string& bytes, const std::filesystem::path& file) {
-    return Su2Reader(bytes, file.string()).read();
+    Mesh mesh;
+    Su2Reader<Mesh>(bytes, file.string(), mesh).read();
+    return mesh;
+}
+
+void read_su2_arrays(const std::filesystem::path& file, MeshArrays& arrays) {
+    const core::FileBytes mapped(file);
+    // The number of points stands behind the cells, so the cells are gone through twice.
+    Su2Reader<MeshArrays>(mapped.bytes(), input_name(file), arrays, [&](std::size_t place) {
+        mapped.forget_before(place);
+    }).read();
 }
 
 }  // namespace lamina::io

@@ -31,7 +31,7 @@ constexpr std::array<const char*, 4> kind_names{"wall", "far_field", "symmetry",
 fs::path stem_of(const fs::path& file) { return fs::path(file).replace_extension(); }
 
 /// Adds each edge of the mesh once, from its smaller vertex, with the number of its marker.
-void add_edges(const Mesh& mesh, TriangleOutput& output) {
+void add_edges(const MeshView& mesh, TriangleOutput& output) {
     const mesh::Adjacency adjacency = mesh::find_adjacency(mesh);
     const mesh::CellEdges edges(mesh);
     std::map<std::pair<VertexId, VertexId>, long> markers;
@@ -82,14 +82,14 @@ std::vector<fs::path> triangle_mesh_files(const fs::path& file) {
     return files;
 }
 
-void write_triangle_mesh(const Mesh& mesh, const fs::path& file) {
+void write_triangle_mesh(const MeshView& mesh, const fs::path& file) {
     require_marker_names(mesh.markers, file, "Triangle's .poly", "", 1000);
     if (!mesh.quads.empty())
         throw UsageError(fmt::format("{}: Triangle's files cannot hold quadrilaterals", file.string()));
     TriangleOutput output;
-    output.points = mesh.points;
+    output.points.assign(mesh.points.begin(), mesh.points.end());
     output.markers.assign(mesh.points.size(), 0);
-    output.triangles = mesh.triangles;
+    output.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
     for (const Region region : mesh.region) output.triangle_attributes.push_back(static_cast<double>(region));
     for (std::size_t m = mesh.markers.size(); m-- > 0;)  // a vertex gets the first of its markers
         for (const Segment& edge : mesh.markers[m].edges)

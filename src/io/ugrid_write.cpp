@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-MapbcCode code_of(const Mesh& mesh, const Marker& marker) {
+MapbcCode code_of(const MeshView& mesh, const Marker& marker) {
     switch (marker.kind) {
         case MarkerKind::wall:
             return mapbc_viscous_wall;
@@ -39,7 +39,7 @@ MapbcCode code_of(const Mesh& mesh, const Marker& marker) {
     return mapbc_unknown;  // the user has to fill in the condition
 }
 
-void write_mapbc(const Mesh& mesh, bool with_planes, std::ostream& out) {
+void write_mapbc(const MeshView& mesh, bool with_planes, std::ostream& out) {
     out << mesh.markers.size() + (with_planes ? 2 : 0) << '\n';
     std::size_t number = 0;
     for (const Marker& marker : mesh.markers)
@@ -49,7 +49,7 @@ void write_mapbc(const Mesh& mesh, bool with_planes, std::ostream& out) {
     out << fmt::format("{} {} y1\n", ++number, int{mapbc_symmetry_y});
 }
 
-void write_plane(const Mesh& mesh, std::ostream& out) {
+void write_plane(const MeshView& mesh, std::ostream& out) {
     out << fmt::format("{} {} {} 0 0 0 0\n", mesh.points.size(), mesh.triangles.size(), mesh.quads.size());
     write_lines(out, mesh.points.size(), [&](LineText& line, std::size_t i) { line << mesh.points[i] << "0"; });
     write_lines(out, mesh.triangles.size(), [&](LineText& line, std::size_t i) {
@@ -94,18 +94,18 @@ private:
 /// Writes a mesh one cell thick.
 class ThickMeshWriter {
 public:
-    ThickMeshWriter(const Mesh& mesh, UgridEncoding encoding, std::ostream& out)
+    ThickMeshWriter(const MeshView& mesh, UgridEncoding encoding, std::ostream& out)
         : mesh_(mesh), points_(mesh.points.size()), writer_(out, encoding) {}
 
     void write() {
         write_counts();
         write_nodes();
-        write_plane_faces(mesh_.triangles);
+        write_plane_faces<Triangle>(mesh_.triangles);
         for (const Marker& marker : mesh_.markers) write_side_faces(marker);
-        write_plane_faces(mesh_.quads);
+        write_plane_faces<Quad>(mesh_.quads);
         write_marker_numbers();
-        write_volumes(mesh_.triangles);
-        write_volumes(mesh_.quads);
+        write_volumes<Triangle>(mesh_.triangles);
+        write_volumes<Quad>(mesh_.quads);
     }
 
 private:
@@ -131,7 +131,7 @@ private:
 
     /// Writes the faces at y = 0, which run clockwise in x-z, and those at y = 1, which run counter-clockwise.
     template <class Cell>
-    void write_plane_faces(const std::vector<Cell>& cells) {
+    void write_plane_faces(std::span<const Cell> cells) {
         constexpr std::size_t corners = corners_of<Cell>;
         writer_.write_list<std::size_t>(cells.size(), corners, [&](std::size_t i, auto emit) {
             for (std::size_t k = corners; k-- > 0;) emit(cells[i].v[k].index() + 1);
@@ -160,7 +160,7 @@ private:
         write(quads, markers + 2);
     }
     template <class Cell>
-    void write_volumes(const std::vector<Cell>& cells) {
+    void write_volumes(std::span<const Cell> cells) {
         constexpr std::size_t corners = corners_of<Cell>;
         writer_.write_list<std::size_t>(cells.size(), 2 * corners, [&](std::size_t i, auto emit) {
             for (const std::size_t shift : {points_, std::size_t{0}})
@@ -168,12 +168,12 @@ private:
         });
     }
 
-    const Mesh& mesh_;
+    MeshView mesh_;
     std::size_t points_;
     NumberWriter writer_;
 };
 
-void write_with_mapbc(const Mesh& mesh, const fs::path& file, bool thick) {
+void write_with_mapbc(const MeshView& mesh, const fs::path& file, bool thick) {
     require_marker_names(mesh.markers, file, "UGRID", " ", 1000);
     if (mesh.points.size() > std::numeric_limits<std::int32_t>::max() / 2)
         throw UsageError(fmt::format("{}: UGRID numbers no more than 2^31 nodes", file.string()));
@@ -188,8 +188,8 @@ void write_with_mapbc(const Mesh& mesh, const fs::path& file, bool thick) {
 
 }  // namespace
 
-void write_ugrid(const Mesh& mesh, const fs::path& file) { write_with_mapbc(mesh, file, false); }
+void write_ugrid(const MeshView& mesh, const fs::path& file) { write_with_mapbc(mesh, file, false); }
 
-void write_fun3d(const Mesh& mesh, const fs::path& file) { write_with_mapbc(mesh, file, true); }
+void write_fun3d(const MeshView& mesh, const fs::path& file) { write_with_mapbc(mesh, file, true); }
 
 }  // namespace lamina::io

@@ -55,12 +55,12 @@ public:
 
     /// Reads this number of bytes. The result is valid until the next call.
     std::string_view read(std::size_t count) {
-        const std::string& all = file_.bytes_;
+        const std::string_view all = file_.bytes_;
         // Four characters of base64 make three bytes, so the file must hold at least `count` bytes in either case.
         if (at_ > all.size() || all.size() - at_ + carried_.size() < count) fail();
         if (base64_) return read_base64(count);
         at_ += count;
-        return std::string_view(all).substr(at_ - count, count);
+        return all.substr(at_ - count, count);
     }
     /// Reads a number of the header.
     std::size_t read_number() {
@@ -108,7 +108,7 @@ private:
     std::string carried_;  ///< decoded bytes behind them
 };
 
-VtkXmlFile::VtkXmlFile(const std::string& bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {
+VtkXmlFile::VtkXmlFile(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {
     read_tags();
 }
 
@@ -171,7 +171,7 @@ bool VtkXmlFile::read_appended_tag(const VtkTag& tag, std::size_t position) {
     if (word_attribute(tag, "encoding", "base64", {"raw", "base64"}) == "base64")
         appended_encoding_ = ArrayEncoding::base64;
     const std::size_t underscore = bytes_.find('_', position);
-    if (underscore == std::string::npos) return false;
+    if (underscore == std::string_view::npos) return false;
     appended_start_ = underscore + 1;
     return true;
 }
@@ -268,8 +268,7 @@ std::vector<T> VtkXmlFile::ascii_values(const std::string& name) const {
 }
 
 template <class T, class Stored>
-std::vector<T> VtkXmlFile::binary_values(const std::string& name) const {
-    const std::string plain = plain_bytes(name);
+std::vector<T> VtkXmlFile::converted(std::string_view plain, const std::string& name) const {
     if (plain.size() % sizeof(Stored) != 0) fail(fmt::format("array '{}' has a broken length", name));
     std::vector<T> result(plain.size() / sizeof(Stored));
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -289,21 +288,72 @@ std::vector<T> VtkXmlFile::binary_values(const std::string& name) const {
     return result;
 }
 
+/// Converts the bytes of a binary array.
+template <class T>
+std::vector<T> VtkXmlFile::values_of(std::string_view plain, const std::string& name) const {
+    const ArrayHeader& stored = header_of(name);
+    if (stored.type == "Float64") return converted<T, double>(plain, name);
+    if (stored.type == "Float32") return converted<T, float>(plain, name);
+    if (stored.type == "Int64") return converted<T, std::int64_t>(plain, name);
+    if (stored.type == "UInt64") return converted<T, std::uint64_t>(plain, name);
+    if (stored.type == "Int32") return converted<T, std::int32_t>(plain, name);
+    if (stored.type == "UInt32") return converted<T, std::uint32_t>(plain, name);
+    if (stored.type == "Int16") return converted<T, std::int16_t>(plain, name);
+    if (stored.type == "UInt16") return converted<T, std::uint16_t>(plain, name);
+    if (stored.type == "Int8") return converted<T, std::int8_t>(plain, name);
+    if (stored.type == "UInt8") return converted<T, std::uint8_t>(plain, name);
+    fail(fmt::format("array '{}' has the unknown type '{}'", name, stored.type));
+}
+
 template <class T>
 std::vector<T> VtkXmlFile::values(const std::string& name) const {
     const ArrayHeader& stored = header_of(name);
     if (stored.encoding == ArrayEncoding::ascii && !stored.appended) return ascii_values<T>(name);
-    if (stored.type == "Float64") return binary_values<T, double>(name);
-    if (stored.type == "Float32") return binary_values<T, float>(name);
-    if (stored.type == "Int64") return binary_values<T, std::int64_t>(name);
-    if (stored.type == "UInt64") return binary_values<T, std::uint64_t>(name);
-    if (stored.type == "Int32") return binary_values<T, std::int32_t>(name);
-    if (stored.type == "UInt32") return binary_values<T, std::uint32_t>(name);
-    if (stored.type == "Int16") return binary_values<T, std::int16_t>(name);
-    if (stored.type == "UInt16") return binary_values<T, std::uint16_t>(name);
-    if (stored.type == "Int8") return binary_values<T, std::int8_t>(name);
-    if (stored.type == "UInt8") return binary_values<T, std::uint8_t>(name);
-    fail(fmt::format("array '{}' has the unknown type '{}'", name, stored.type));
+    return is_raw(name) ? values_of<T>(raw_bytes(name), name) : values_of<T>(plain_bytes(name), name);
+}
+
+bool VtkXmlFile::is_raw(const std::string& name) const {
+    return header_of(name).appended && appended_encoding_ == ArrayEncoding::raw && !compressed_;
+}
+
+/// Returns the bytes of an array that is stored raw.
+std::string_view VtkXmlFile::raw_bytes(const std::string& name) const {
+    ByteStream stream(*this, name, start_of(header_of(name), name), appended_encoding_);
+    return stream.read(stream.read_number());
+}
+
+/// Returns the number of bytes of a stored value.
+std::size_t VtkXmlFile::stored_bytes(const std::string& name) const {
+    constexpr std::array<std::pair<std::string_view, std::size_t>, 4> widths{
+        {{"64", 8}, {"32", 4}, {"16", 2}, {"8", 1}}};
+    const std::string& type = header_of(name).type;
+    for (const auto& [ending, bytes] : widths)
+        if (type.ends_with(ending)) return bytes;
+    fail(fmt::format("array '{}' has the unknown type '{}'", name, type));
+}
+
+std::size_t VtkXmlFile::size(const std::string& name) const {
+    if (!is_raw(name)) return values<double>(name).size();
+    const std::size_t bytes = raw_bytes(name).size(), width = stored_bytes(name);
+    if (bytes % width != 0) fail(fmt::format("array '{}' has a broken length", name));
+    return bytes / width;
+}
+
+template <class T>
+std::vector<T> VtkXmlFile::part(const std::string& name, std::size_t first, std::size_t count) const {
+    const auto require_room = [&](std::size_t size) {
+        if (first > size || count > size - first) fail(fmt::format("array '{}' has only {} values", name, size));
+    };
+    if (!is_raw(name)) {
+        const std::vector<T> all = values<T>(name);
+        require_room(all.size());
+        const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first);
+        return {begin, begin + static_cast<std::ptrdiff_t>(count)};
+    }
+    const std::string_view bytes = raw_bytes(name);
+    const std::size_t width = stored_bytes(name);
+    require_room(bytes.size() / width);
+    return values_of<T>(bytes.substr(first * width, count * width), name);
 }
 
 template <class T>
@@ -314,6 +364,10 @@ std::vector<T> VtkXmlFile::values(const std::string& name, std::size_t expected)
     return result;
 }
 
+template std::vector<double> VtkXmlFile::part(const std::string&, std::size_t, std::size_t) const;
+template std::vector<std::uint8_t> VtkXmlFile::part(const std::string&, std::size_t, std::size_t) const;
+template std::vector<std::uint32_t> VtkXmlFile::part(const std::string&, std::size_t, std::size_t) const;
+template std::vector<std::int64_t> VtkXmlFile::part(const std::string&, std::size_t, std::size_t) const;
 template std::vector<double> VtkXmlFile::values(const std::string&, std::size_t) const;
 template std::vector<std::uint8_t> VtkXmlFile::values(const std::string&) const;
 template std::vector<std::uint8_t> VtkXmlFile::values(const std::string&, std::size_t) const;

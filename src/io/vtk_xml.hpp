@@ -20,7 +20,7 @@ namespace lamina::io {
 class VtkXmlFile {
 public:
     /// Reads the tags. `bytes` must outlive this object.
-    VtkXmlFile(const std::string& bytes, std::string file);
+    VtkXmlFile(std::string_view bytes, std::string file);
 
     /// Return the numbers of points and cells that the file announces.
     std::size_t points() const { return points_; }
@@ -40,6 +40,15 @@ public:
     /// Fails unless the array has this number of values.
     template <class T>
     std::vector<T> values(const std::string& name, std::size_t expected) const;
+
+    /// Returns `count` values of an array from value `first` on. Only these are looked at where the array is stored raw.
+    /// Fails where it has not so many.
+    template <class T>
+    std::vector<T> part(const std::string& name, std::size_t first, std::size_t count) const;
+    /// Returns the number of values of an array.
+    std::size_t size(const std::string& name) const;
+    /// Returns whether part() reads an array in place.
+    bool is_raw(const std::string& name) const;
 
     [[noreturn]] void fail(const std::string& reason) const;
 
@@ -70,9 +79,13 @@ private:
     template <class T>
     std::vector<T> ascii_values(const std::string& name) const;
     template <class T, class Stored>
-    std::vector<T> binary_values(const std::string& name) const;
+    std::vector<T> converted(std::string_view plain, const std::string& name) const;
+    template <class T>
+    std::vector<T> values_of(std::string_view plain, const std::string& name) const;
+    std::size_t stored_bytes(const std::string& name) const;
+    std::string_view raw_bytes(const std::string& name) const;
 
-    const std::string& bytes_;
+    std::string_view bytes_;
     std::string file_;
     std::map<std::string, ArrayHeader> arrays_;
     std::size_t appended_start_ = 0;  ///< first byte of the appended data

@@ -3,6 +3,7 @@
 // VTK User's Guide, "VTK File Formats", XML.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,11 +11,15 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/files.hpp>
 
 #include "io/formats.hpp"
+#include "io/mesh_arrays.hpp"
 #include "io/sizes.hpp"
 #include "io/vtk_cell_types.hpp"
 #include "io/vtk_xml.hpp"
@@ -32,16 +37,55 @@ std::int64_t corners_of(std::uint8_t type) {
 
 bool is_ignored(std::uint8_t type) { return type == vtk_vertex || type == vtk_poly_vertex || type == vtk_poly_line; }
 
+/// The values of an array one after the other. Of an array that is stored raw only some are in memory at a time.
+template <class T>
+class ValuesInOrder {
+public:
+    /// The file must outlive this object.
+    ValuesInOrder(const VtkXmlFile& file, std::string name) : file_(&file), name_(std::move(name)) {
+        whole_ = !file.is_raw(name_);
+        if (whole_) window_ = file.values<T>(name_);
+        size_ = whole_ ? window_.size() : file.size(name_);
+    }
+    /// Fails unless the array has this number of values.
+    ValuesInOrder(const VtkXmlFile& file, std::string name, std::size_t expected)
+        : ValuesInOrder(file, std::move(name)) {
+        if (size_ != expected)
+            file.fail(fmt::format("array '{}' has {} values where {} are announced", name_, size_, expected));
+    }
+    std::size_t size() const { return size_; }
+    T operator[](std::size_t i) {
+        constexpr std::size_t window = std::size_t{1} << 16;
+        if (i < first_ || i - first_ >= window_.size()) {
+            first_ = i;
+            window_ = file_->part<T>(name_, i, std::min(window, size_ - i));
+        }
+        return window_[i - first_];
+    }
+
+private:
+    const VtkXmlFile* file_;
+    std::string name_;
+    bool whole_ = false;
+    std::size_t first_ = 0, size_ = 0;
+    std::vector<T> window_;
+};
+
+/// Fills a target, a Mesh or MeshArrays.
+template <class Target>
 class VtuReader {
 public:
     /// The program that wrote the file. Only points and cells are read from the files of others, since their arrays may
     /// have the names of ours and other meanings.
     enum class Writer { lamina, anyone };
 
-    VtuReader(const std::string& bytes, const std::filesystem::path& file, Writer writer)
-        : xml_(bytes, file.string()), file_(file), bytes_(bytes.size()), writer_(writer) {}
+    VtuReader(std::string_view bytes, const std::filesystem::path& file,
+              Writer writer) requires std::is_default_constructible_v<Target>
+        : VtuReader(bytes, file, writer, Target{}) {}
+    VtuReader(std::string_view bytes, const std::filesystem::path& file, Writer writer, Target target)
+        : xml_(bytes, file.string()), file_(file), bytes_(bytes.size()), writer_(writer), mesh_(std::move(target)) {}
 
-    Mesh read() {
+    Target read() {
         read_points();
         if (writer_ == Writer::lamina) read_markers_and_constraints();
         read_cells();
@@ -67,7 +111,7 @@ public:
         if (!xml_.has(at_cells)) throw UsageError(fmt::format("{}: no array '{}'", file_.string(), request.array));
         const std::vector<double> all = part(request, at_cells, xml_.cells());
         SolutionField field{request.name, true, {}};
-        for (const std::size_t cell : cells_) field.values.push_back(all[cell]);
+        for_each_cell([&](std::size_t cell) { field.values.push_back(all[cell]); });
         return field;
     }
 
@@ -79,12 +123,12 @@ private:
 
     void read_points() {
         if (xml_.points() > bytes_) xml_.fail("NumberOfPoints exceeds the file");
-        const std::vector<double> coordinates = xml_.values<double>("Points/", 3 * xml_.points());
-        mesh_.points.resize(xml_.points());
-        for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
-            mesh_.points[i] = {coordinates[3 * i], coordinates[3 * i + 1]};
-            if (!std::isfinite(mesh_.points[i].x) || !std::isfinite(mesh_.points[i].y))
-                xml_.fail(fmt::format("point {} is not finite", i));
+        ValuesInOrder<double> coordinates(xml_, "Points/", 3 * xml_.points());
+        mesh_.points.reserve(xml_.points());
+        for (std::size_t i = 0; i < xml_.points(); ++i) {
+            const Point p{coordinates[3 * i], coordinates[3 * i + 1]};
+            if (!std::isfinite(p.x) || !std::isfinite(p.y)) xml_.fail(fmt::format("point {} is not finite", i));
+            mesh_.points.push_back(p);
         }
     }
 
@@ -119,76 +163,102 @@ private:
 
     void read_cells() {
         if (xml_.cells() > bytes_) xml_.fail("NumberOfCells exceeds the file");
-        types_ = xml_.values<std::uint8_t>("Cells/types", xml_.cells());
-        offsets_ = xml_.values<std::int64_t>("Cells/offsets", xml_.cells());
-        connectivity_ = xml_.values<std::int64_t>("Cells/connectivity");
-        const bool has_markers = writer_ == Writer::lamina && xml_.has("CellData/marker");
-        markers_ = has_markers ? xml_.values<std::uint32_t>("CellData/marker", xml_.cells())
-                               : std::vector<std::uint32_t>(xml_.cells(), 0);
-        for (std::size_t i = 0; i < xml_.cells(); ++i) read_cell(i);
+        CellArrays arrays{{xml_, "Cells/types", xml_.cells()},
+                          {xml_, "Cells/offsets", xml_.cells()},
+                          {xml_, "Cells/connectivity"},
+                          {}};
+        if (writer_ == Writer::lamina && xml_.has("CellData/marker"))
+            arrays.markers.emplace(xml_, "CellData/marker", xml_.cells());
+        reserve_cells(mesh_, xml_.cells());
+        std::int64_t first = 0;
+        for (std::size_t i = 0; i < xml_.cells(); ++i) first = read_cell(i, first, arrays);
+        triangles_ = mesh_.triangles.size();
+        quads_ = mesh_.quads.size();
 
-        cells_ = std::move(triangles_);
-        cells_.insert(cells_.end(), quads_.begin(), quads_.end());
         read_cell_array("CellData/region", static_cast<std::size_t>(Region::isotropic), mesh_.region);
         read_cell_array("CellData/piece", std::numeric_limits<std::uint32_t>::max(), mesh_.piece);
         read_cell_array("CellData/layer", std::numeric_limits<std::uint16_t>::max(), mesh_.layer);
     }
-    void read_cell(std::size_t i) {
-        const std::int64_t first = i == 0 ? 0 : offsets_[i - 1], end = offsets_[i];
-        const std::int64_t corners = corners_of(types_[i]);
-        if (is_ignored(types_[i])) {
-            if (end < 0 || static_cast<std::size_t>(end) > connectivity_.size())
+    struct CellArrays {
+        ValuesInOrder<std::uint8_t> types;
+        ValuesInOrder<std::int64_t> offsets;       ///< per cell of the file: the end of its vertices in `connectivity`
+        ValuesInOrder<std::int64_t> connectivity;  ///< the vertices of all cells
+        std::optional<ValuesInOrder<std::uint32_t>> markers;  ///< per cell of the file: its marker, from 1, or 0
+    };
+    /// Reads a cell whose vertices begin at `first`, and returns where they end.
+    std::int64_t read_cell(std::size_t i, std::int64_t first, CellArrays& arrays) {
+        const std::int64_t end = arrays.offsets[i];
+        const std::uint8_t type = arrays.types[i];
+        const std::int64_t corners = corners_of(type);
+        if (is_ignored(type)) {
+            if (end < 0 || static_cast<std::size_t>(end) > arrays.connectivity.size())
                 xml_.fail(fmt::format("cell {} ends behind the last vertex", i));
-            return;
+            return end;
         }
-        if (corners == 0) xml_.fail(fmt::format("cell {} has the unknown type {}", i, types_[i]));
-        if (end != first + corners || static_cast<std::size_t>(end) > connectivity_.size())
+        if (corners == 0) xml_.fail(fmt::format("cell {} has the unknown type {}", i, type));
+        if (end != first + corners || static_cast<std::size_t>(end) > arrays.connectivity.size())
             xml_.fail(fmt::format("cell {} has not the {} vertices of its type", i, corners));
-        const auto corner = [&](std::int64_t k) { return vertex(connectivity_[static_cast<std::size_t>(first + k)]); };
+        VertexId v[4];
+        const std::uint32_t marker = arrays.markers ? (*arrays.markers)[i] : 0;
+        if (corners == 2 && marker == 0) return end;
+        for (std::int64_t k = 0; k < corners; ++k)
+            v[k] = vertex(arrays.connectivity[static_cast<std::size_t>(first + k)]);
         if (corners == 3) {
-            triangles_.push_back(i);
-            mesh_.triangles.push_back({{corner(0), corner(1), corner(2)}});
+            mesh_.triangles.push_back({{v[0], v[1], v[2]}});
         } else if (corners == 4) {
-            quads_.push_back(i);
-            mesh_.quads.push_back({{corner(0), corner(1), corner(2), corner(3)}});
-        } else if (markers_[i] != 0) {
-            if (markers_[i] > mesh_.markers.size()) xml_.fail(fmt::format("cell {} has a marker without a name", i));
-            mesh_.markers[markers_[i] - 1].edges.push_back({corner(0), corner(1)});
+            mesh_.quads.push_back({{v[0], v[1], v[2], v[3]}});
+        } else {
+            if (marker > mesh_.markers.size()) xml_.fail(fmt::format("cell {} has a marker without a name", i));
+            mesh_.markers[marker - 1].edges.push_back({v[0], v[1]});
+        }
+        return end;
+    }
+    /// Calls f(i) for the positions of the mesh's cells in the file: the triangles, then the quads.
+    template <class F>
+    void for_each_cell(F&& f) const {
+        for (const auto& [corners, count] : {std::pair{3, triangles_}, std::pair{4, quads_}}) {
+            if (count == 0) continue;
+            ValuesInOrder<std::uint8_t> types(xml_, "Cells/types", xml_.cells());
+            for (std::size_t i = 0; i < xml_.cells(); ++i)
+                if (corners_of(types[i]) == corners) f(i);
         }
     }
     /// Reads an array of cell data, where the file has it, for the triangles and quads. Fails for values above the
     /// limit.
-    template <class T>
-    void read_cell_array(const char* name, std::size_t limit, std::vector<T>& target) const {
+    template <class Values>
+    void read_cell_array(const char* name, std::size_t limit, Values& target) const {
         if (writer_ != Writer::lamina || !xml_.has(name)) return;
-        const auto all = xml_.values<std::uint32_t>(name, xml_.cells());
-        for (const std::size_t i : cells_) {
-            if (all[i] > limit) xml_.fail(fmt::format("array '{}' holds a value that is out of range", name));
-            target.push_back(static_cast<T>(all[i]));
-        }
+        ValuesInOrder<std::uint32_t> all(xml_, name, xml_.cells());
+        target.reserve(triangles_ + quads_);
+        for_each_cell([&](std::size_t i) {
+            const std::uint32_t value = all[i];
+            if (value > limit) xml_.fail(fmt::format("array '{}' holds a value that is out of range", name));
+            target.push_back(static_cast<typename Values::value_type>(value));
+        });
     }
 
     VtkXmlFile xml_;
     std::filesystem::path file_;
     std::size_t bytes_;  ///< size of the file
     Writer writer_;
-    std::vector<std::uint8_t> types_;             ///< per cell of the file
-    std::vector<std::int64_t> offsets_;           ///< per cell of the file: the end of its vertices in connectivity_
-    std::vector<std::int64_t> connectivity_;      ///< the vertices of all cells
-    std::vector<std::uint32_t> markers_;          ///< per cell of the file: its marker, from 1, or 0
-    std::vector<std::size_t> triangles_, quads_;  ///< positions of the mesh's cells in the file
-    std::vector<std::size_t> cells_;              ///< the same for triangles and quads, once all are read
-    Mesh mesh_;
+    std::size_t triangles_ = 0, quads_ = 0;  ///< numbers of the mesh's cells, also once the mesh is handed out
+    Target mesh_;
 };
 
 }  // namespace
 
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file) {
-    return VtuReader(bytes, file, VtuReader::Writer::lamina).read();
+    return VtuReader<Mesh>(bytes, file, VtuReader<Mesh>::Writer::lamina).read();
+}
+
+void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays) {
+    const core::FileBytes mapped(file);
+    using Reader = VtuReader<MeshArrays>;
+    arrays = Reader(mapped.bytes(), input_name(file), Reader::Writer::lamina, std::move(arrays)).read();
 }
 
 PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path& file) {
-    VtuReader reader(bytes, file, VtuReader::Writer::anyone);
+    VtuReader<Mesh> reader(bytes, file, VtuReader<Mesh>::Writer::anyone);
     const std::optional<double> gradation = reader.gradation();
     PointValues result = read_point_values(std::move(reader));
     result.gradation = gradation;
@@ -197,7 +267,7 @@ PointValues read_vtu_sizes(const std::string& bytes, const std::filesystem::path
 
 Solution read_vtu_solution(const std::string& bytes, const std::filesystem::path& file,
                            std::span<const FieldRequest> fields) {
-    VtuReader reader(bytes, file, VtuReader::Writer::lamina);
+    VtuReader<Mesh> reader(bytes, file, VtuReader<Mesh>::Writer::lamina);
     Solution solution{reader.read(), {}};
     for (const FieldRequest& field : fields) solution.fields.push_back(reader.field(field));
     return solution;

@@ -33,7 +33,7 @@ namespace {
 
 /// The cells of the file: triangles, quads, then the lines of all markers.
 struct VtuCells {
-    explicit VtuCells(const Mesh& m) : mesh(m), triangles(m.triangles.size()), quads(m.quads.size()) {
+    explicit VtuCells(const MeshView& m) : mesh(m), triangles(m.triangles.size()), quads(m.quads.size()) {
         for (std::size_t i = 0; i < m.markers.size(); ++i)
             for (const Segment& edge : m.markers[i].edges) lines.push_back({edge, static_cast<std::uint32_t>(i + 1)});
     }
@@ -66,7 +66,7 @@ struct VtuCells {
         Segment edge;
         std::uint32_t marker;  ///< from 1
     };
-    const Mesh& mesh;
+    MeshView mesh;
     std::size_t triangles, quads;
     std::vector<MarkerLine> lines;
 };
@@ -85,7 +85,7 @@ void add_point_data(const PointArray& array, VtuWriter& vtu) {
     vtu.xml += "      </PointData>\n";
 }
 
-void add_cell_data(const Mesh& mesh, const VtuCells& cells, VtuWriter& vtu) {
+void add_cell_data(const MeshView& mesh, const VtuCells& cells, VtuWriter& vtu) {
     const auto put = [&]<class T>(const char* name, const auto& values, T value_on_lines) {
         if (values.empty()) return;
         vtu.add_array<T>(name, cells.count(), 1, [&values, value_on_lines](std::size_t i) {
@@ -103,7 +103,7 @@ void add_cell_data(const Mesh& mesh, const VtuCells& cells, VtuWriter& vtu) {
     vtu.xml += "      </CellData>\n";
 }
 
-void add_points(const Mesh& mesh, VtuWriter& vtu) {
+void add_points(const MeshView& mesh, VtuWriter& vtu) {
     vtu.xml += "      <Points>\n";
     vtu.add_array<double>("Points", mesh.points.size(), 3, [&mesh](std::size_t i) {
         const Point p = mesh.points[i / 3];
@@ -121,7 +121,7 @@ void add_cells(const VtuCells& cells, VtuWriter& vtu) {
     vtu.xml += "      </Cells>\n";
 }
 
-void write_grid(const Mesh& mesh, const PointArray& array, bool compressed, std::optional<double> size_gradation,
+void write_grid(const MeshView& mesh, const PointArray& array, bool compressed, std::optional<double> size_gradation,
                 std::ostream& out) {
     const VtuCells cells(mesh);
     VtuWriter vtu(compressed);
@@ -170,7 +170,7 @@ void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment
     vtu.xml += "    </FieldData>\n";
 }
 
-void write_vtu(const Mesh& mesh, VtuVariant variant, std::ostream& out) {
+void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out) {
     const std::vector<double> distances = variant.wall_distance ? wall_distances(mesh) : std::vector<double>{};
     write_grid(mesh, {"wall_distance", distances}, variant.compressed, {}, out);
 }

@@ -1,0 +1,46 @@
+#include <lamina/stored_mesh.hpp>
+
+#include <lamina/files.hpp>
+
+#include "io/formats.hpp"
+#include "io/mesh_arrays.hpp"
+
+namespace lamina {
+
+namespace fs = std::filesystem;
+
+StoredMesh::StoredMesh(Mesh mesh) : arrays_(std::make_unique<Arrays>(std::move(mesh))) {}
+StoredMesh::StoredMesh(std::unique_ptr<Arrays> arrays) : arrays_(std::move(arrays)) {}
+StoredMesh::StoredMesh(StoredMesh&&) noexcept = default;
+StoredMesh& StoredMesh::operator=(StoredMesh&&) noexcept = default;
+StoredMesh::~StoredMesh() = default;
+
+MeshView StoredMesh::view() const {
+    MeshView view = arrays_->has_arrays ? arrays_->arrays.view() : MeshView(arrays_->mesh);
+    if (arrays_->has_region) view.region = arrays_->region;
+    return view;
+}
+
+std::vector<Marker>& StoredMesh::markers() {
+    return arrays_->has_arrays ? arrays_->arrays.markers : arrays_->mesh.markers;
+}
+
+void StoredMesh::set_region(std::vector<Region> region) {
+    arrays_->region = std::move(region);
+    arrays_->has_region = true;
+}
+
+bool StoredMesh::in_files() const { return arrays_->in_files; }
+
+StoredMesh read_stored_mesh(const fs::path& file, const StoreOptions& options) {
+    const io::FormatRow& format = io::format_to_read(file, options.format);
+    std::error_code error;
+    const std::uintmax_t size = is_standard_stream(file) ? 0 : fs::file_size(file, error);
+    const bool large = !error && size > options.max_bytes_in_memory;
+    if (!large || format.read_stored == nullptr) return StoredMesh(format.read(file));
+    auto arrays = std::make_unique<StoredMesh::Arrays>(true);
+    format.read_stored(file, arrays->arrays);
+    return StoredMesh(std::move(arrays));
+}
+
+}  // namespace lamina
