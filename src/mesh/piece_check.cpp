@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <lamina/predicates.hpp>
@@ -248,6 +249,19 @@ private:
 };
 
 }  // namespace
+
+bool is_even_behind(Point a, Point b, Point apex, double ratio) {
+    // The rounding errors of all products below are far smaller, and so is that of ratios in single precision.
+    constexpr double margin = 1e-6;
+    const Point to_a = a - apex, to_b = b - apex;
+    const double scalar = dot(to_a, to_b);
+    const double size = std::abs(to_a.x * to_b.x) + std::abs(to_a.y * to_b.y);
+    if (!(scalar > margin * size)) return false;
+    constexpr double equilateral = 0.86602540378443865;  // twice its area over its squared edge
+    const double relative = cross(b - a, apex - a) / (equilateral * squared_length(b - a));
+    const double bound = std::sqrt(ratio) * (1 - margin);
+    return relative < bound && relative * bound > 1;
+}
 
 PieceFindings check_piece(const LinkedPiece& piece, double min_angle_deg) {
     return PieceChecker(piece, min_angle_deg).check();

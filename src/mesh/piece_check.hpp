@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,6 +43,14 @@ struct PieceBorderEdge {
     VertexId a, b;  ///< ids in the mesh
     Point apex;     ///< the third vertex of the triangle
 };
+
+/// Stands for the apex of a triangle that nothing is known of.
+inline constexpr Point unknown_apex{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+
+/// Returns whether the triangle (a, b, apex) has no obtuse angle at its apex, for certain, and an area that differs by
+/// less than the root of `ratio` from that of the equilateral triangle over the edge. Two such triangles on the sides of
+/// an edge are Delaunay, and the ratio of their areas is below `ratio`.
+LAMINA_EXPORT bool is_even_behind(Point a, Point b, Point apex, double ratio);
 
 /// The cell of a piece that is the worst in some way; the first of several.
 struct WorstCell {

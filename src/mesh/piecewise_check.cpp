@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <lamina/error.hpp>
@@ -25,6 +26,13 @@ struct EdgeTriangle {
 
 bool violates(const EdgeTriangle& one, const EdgeTriangle& other) {
     return is_strictly_in_circle(one.a, one.b, one.apex, other.apex);
+}
+
+/// Returns the place of the edge among the constraints, which are sorted with their smaller vertices first, each once.
+std::span<const Segment>::iterator find_constraint(std::span<const Segment> constraints, Segment edge) {
+    const auto [a, b] = std::minmax(edge.a, edge.b);
+    const auto at = std::lower_bound(constraints.begin(), constraints.end(), Segment{a, b});
+    return at != constraints.end() && *at == Segment{a, b} ? at : constraints.end();
 }
 
 /// Calls f(v) for the vertices of all cells.
@@ -103,7 +111,7 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
     if (cells_ == 0) defects.add([] { return MeshDefect{"no cells", {}}; });
     if (!defects.empty()) return finished();
 
-    const Seams seams = match_seams();
+    const Seams& seams = match_seams();
     for (const std::uint32_t e : seams.pairs.overused)
         defects.add([&] {
             return MeshDefect{
@@ -114,7 +122,7 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
     check.area = layer_.area + pieces_.area;
     check.euler_characteristic = static_cast<long>(shared_points_.size() - orphans + vertices_) -
                                  static_cast<long>(inner_edges_ + seams.pairs.edges) + static_cast<long>(cells_);
-    measure_across(seams);
+    measure_across(seams, constraints);
     subtract_constraints(seams, constraints, defects);
     check.interior_edges = pieces_.delaunay.edges;
     check.delaunay_violations = pieces_.delaunay.violations;
@@ -135,19 +143,43 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
 }
 
 void PiecewiseCheck::forget_borders() {
+    seams_.reset();
     layer_edges_ = {};
     border_ = {};
     apexes_ = {};
     candidates_ = {};
 }
 
-PiecewiseCheck::Seams PiecewiseCheck::match_seams() const {
-    Seams seams;
-    seams.edges.reserve(layer_edges_.size() + border_.size());
-    for (const LayerEdge& edge : layer_edges_) seams.edges.push_back(edge.edge.ends);
-    seams.edges.insert(seams.edges.end(), border_.begin(), border_.end());
-    seams.pairs = pair_edges(seams.edges);
-    return seams;
+const PiecewiseCheck::Seams& PiecewiseCheck::match_seams() {
+    if (seams_) return *seams_;
+    seams_.emplace();
+    seams_->edges.reserve(layer_edges_.size() + border_.size());
+    for (const LayerEdge& edge : layer_edges_) seams_->edges.push_back(edge.edge.ends);
+    seams_->edges.insert(seams_->edges.end(), border_.begin(), border_.end());
+    seams_->pairs = pair_edges(seams_->edges);
+    return *seams_;
+}
+
+double PiecewiseCheck::even_ratio() const {
+    // More than one in a thousand ratios of all edges are this large or larger, so the percentile is not below it.
+    constexpr double share = 0.003;
+    if (inner_edges_ < 3 * border_.size()) return 1;
+    return pieces_.isotropic.area_ratio_exceeded_by(share);
+}
+
+void PiecewiseCheck::set_apex(std::size_t border_edge, Point apex) { apexes_[border_edge] = apex; }
+
+bool PiecewiseCheck::is_known(std::size_t seam_edge) const {
+    return seam_edge < layer_edges_.size() || !std::isnan(apexes_[seam_edge - layer_edges_.size()].x);
+}
+
+std::vector<std::size_t> PiecewiseCheck::wanted_apexes() {
+    std::vector<std::size_t> wanted;
+    const Seams& seams = match_seams();
+    for (std::size_t e = layer_edges_.size(); e < seams.edges.size(); ++e)
+        if (const std::uint32_t twin = seams.pairs.twin[e]; twin != no_edge && !is_known(e) && is_known(twin))
+            wanted.push_back(e - layer_edges_.size());
+    return wanted;
 }
 
 std::size_t PiecewiseCheck::report_orphans(DefectList& defects) const {
@@ -160,47 +192,44 @@ std::size_t PiecewiseCheck::report_orphans(DefectList& defects) const {
     return orphans;
 }
 
-void PiecewiseCheck::measure_across(const Seams& seams) {
+void PiecewiseCheck::measure_across(const Seams& seams, std::span<const Segment> constraints) {
     const auto triangle = [&](std::size_t e) {
         return EdgeTriangle{shared_points_[seams.edges[e].a.index()], shared_points_[seams.edges[e].b.index()],
                             apexes_[e - layer_edges_.size()]};
     };
+    std::size_t even = 0;
     // Edges of the layer have the lower numbers, and none has its twin in the layer.
     for (std::size_t e = 0; e < seams.edges.size(); ++e) {
         const std::uint32_t twin = seams.pairs.twin[e];
         if (twin == no_edge || twin < e || twin < layer_edges_.size()) continue;
-        const EdgeTriangle other = triangle(twin);
         if (e < layer_edges_.size()) {
-            pieces_.transition.push_back(layer_edges_[e].area / other.area());
+            pieces_.transition.push_back(layer_edges_[e].area / triangle(twin).area());
             continue;
         }
-        const EdgeTriangle one = triangle(e);
-        pieces_.isotropic.add_neighbours(one.area(), other.area());
         ++pieces_.delaunay.edges;
-        pieces_.delaunay.violations += violates(one, other);
+        if (!is_known(e) || !is_known(twin)) {
+            ++even;
+            continue;
+        }
+        const EdgeTriangle one = triangle(e), other = triangle(twin);
+        pieces_.isotropic.add_neighbours(one.area(), other.area());
+        if (violates(one, other) && find_constraint(constraints, seams.edges[e]) == constraints.end())
+            ++pieces_.delaunay.violations;
     }
+    pieces_.isotropic.add_even_neighbours(even);
 }
 
 void PiecewiseCheck::subtract_constraints(const Seams& seams, std::span<const Segment> constraints,
                                           DefectList& defects) {
-    // The constraints are sorted with their smaller vertices first, each once.
     std::vector<bool> found(constraints.size(), false);
     for (std::size_t i = 0; i < std::min(constraints.size(), is_layer_constraint_.size()); ++i)
         found[i] = is_layer_constraint_[i];
-    const std::size_t layer_edges = layer_edges_.size();
     for (std::size_t e = 0; e < seams.edges.size(); ++e) {
-        const auto [a, b] = std::minmax(seams.edges[e].a, seams.edges[e].b);
-        const auto at = std::lower_bound(constraints.begin(), constraints.end(), Segment{a, b});
-        if (at == constraints.end() || *at != Segment{a, b}) continue;
+        const auto at = find_constraint(constraints, seams.edges[e]);
+        if (at == constraints.end()) continue;
         found[static_cast<std::size_t>(at - constraints.begin())] = true;
         const std::uint32_t twin = seams.pairs.twin[e];
-        if (e < layer_edges || twin == no_edge || twin < e) continue;
-        const auto triangle = [&](std::size_t edge) {
-            return EdgeTriangle{shared_points_[seams.edges[edge].a.index()],
-                                shared_points_[seams.edges[edge].b.index()], apexes_[edge - layer_edges]};
-        };
-        --pieces_.delaunay.edges;
-        pieces_.delaunay.violations -= violates(triangle(e), triangle(twin));
+        if (e >= layer_edges_.size() && twin != no_edge && twin >= e) --pieces_.delaunay.edges;
     }
     for (std::size_t i = 0; i < constraints.size(); ++i)
         if (!found[i])

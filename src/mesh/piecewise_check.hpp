@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,17 @@ public:
     LAMINA_EXPORT void add_layer(const Mesh& layer, std::span<const Segment> constraints);
     /// Adds the findings of the next piece. Sums depend on the order of the pieces in their last bits.
     LAMINA_EXPORT void add_piece(PieceFindings findings);
+
+    /// Where other processes hold the pieces, their findings come with unknown_apex behind border edges. Neither
+    /// triangle of a pair need be known where both are is_even_behind() their edge, with this ratio: a smaller ratio of
+    /// areas changes neither the largest one nor the 99.9th percentile.
+    LAMINA_EXPORT double even_ratio() const;
+    /// Says what lies behind a border edge; the edges of all pieces are numbered in the order in which they were added.
+    LAMINA_EXPORT void set_apex(std::size_t border_edge, Point apex);
+    /// Returns the border edges whose apexes finish() needs beyond those that are known: the one of a pair whose other
+    /// is known, and those on the layer. Ascending.
+    LAMINA_EXPORT std::vector<std::size_t> wanted_apexes();
+
     /// Returns the check of the mesh, with MeshCheck::unexcused_cells numbered by `first_triangle`, which has one entry
     /// for each piece in the order in which they were added. Constraints are as in Mesh::constraints, each once. May be
     /// called once.
@@ -48,15 +60,17 @@ private:
         std::vector<Segment> edges;
         EdgePairs pairs;
     };
-    Seams match_seams() const;
+    const Seams& match_seams();
+    bool is_known(std::size_t seam_edge) const;
     /// Frees the memory that grows with the borders.
     void forget_borders();
     /// Reports the shared vertices of no cell, and returns their number.
     std::size_t report_orphans(DefectList& defects) const;
-    void measure_across(const Seams& seams);
+    void measure_across(const Seams& seams, std::span<const Segment> constraints);
     void subtract_constraints(const Seams& seams, std::span<const Segment> constraints, DefectList& defects);
     void find_unexcused(const Seams& seams, std::span<const std::size_t> first_triangle);
 
+    std::optional<Seams> seams_;  ///< once they are matched
     std::span<const Point> shared_points_;
     MeshCheckOptions options_;
     CellsSummary layer_, pieces_;

@@ -65,36 +65,36 @@ double shape_of_quad(Point a, Point b, Point c, Point d) {
 }
 
 void QualityCollector::add(const CellShape& shape) {
-    ++cells_;
-    min_angle_ = std::min(min_angle_, shape.min_angle_deg);
-    max_angle_ = std::max(max_angle_, shape.max_angle_deg);
-    min_angle_sum_ += shape.min_angle_deg;
-    max_angle_sum_ += shape.max_angle_deg;
-    mean_ratio_sum_ += shape.mean_ratio;
-    max_aspect_ = std::max(max_aspect_, shape.aspect_ratio);
-    below_bound_ += shape.min_angle_deg < bound_;
-    ++angle_histogram_[angle_bin(shape.min_angle_deg)];
+    ++totals_.cells;
+    totals_.min_angle = std::min(totals_.min_angle, shape.min_angle_deg);
+    totals_.max_angle = std::max(totals_.max_angle, shape.max_angle_deg);
+    totals_.min_angle_sum += shape.min_angle_deg;
+    totals_.max_angle_sum += shape.max_angle_deg;
+    totals_.mean_ratio_sum += shape.mean_ratio;
+    totals_.max_aspect = std::max(totals_.max_aspect, shape.aspect_ratio);
+    totals_.below_bound += shape.min_angle_deg < bound_;
+    ++totals_.angle_histogram[angle_bin(shape.min_angle_deg)];
 }
 
 void QualityCollector::add(const TriangleShapes& shapes, const ShapeTotals& totals) {
-    cells_ += shapes.size;
-    min_angle_ = std::min(min_angle_, totals.min_angle_deg);
-    max_angle_ = std::max(max_angle_, totals.max_angle_deg);
-    min_angle_sum_ += totals.min_angle_sum;
-    max_angle_sum_ += totals.max_angle_sum;
-    mean_ratio_sum_ += totals.mean_ratio_sum;
-    max_aspect_ = std::max(max_aspect_, totals.max_aspect_ratio);
-    for (std::size_t i = 0; i < shapes.size; ++i) ++angle_histogram_[angle_bin(shapes.min_angle_deg[i])];
+    totals_.cells += shapes.size;
+    totals_.min_angle = std::min(totals_.min_angle, totals.min_angle_deg);
+    totals_.max_angle = std::max(totals_.max_angle, totals.max_angle_deg);
+    totals_.min_angle_sum += totals.min_angle_sum;
+    totals_.max_angle_sum += totals.max_angle_sum;
+    totals_.mean_ratio_sum += totals.mean_ratio_sum;
+    totals_.max_aspect = std::max(totals_.max_aspect, totals.max_aspect_ratio);
+    for (std::size_t i = 0; i < shapes.size; ++i) ++totals_.angle_histogram[angle_bin(shapes.min_angle_deg[i])];
     if (totals.min_angle_deg < bound_)
-        below_bound_ += static_cast<std::size_t>(std::count_if(shapes.min_angle_deg, shapes.min_angle_deg + shapes.size,
-                                                               [&](double angle) { return angle < bound_; }));
+        totals_.below_bound += static_cast<std::size_t>(std::count_if(
+            shapes.min_angle_deg, shapes.min_angle_deg + shapes.size, [&](double angle) { return angle < bound_; }));
 }
 
 void QualityCollector::add_area_ratios(std::span<const double> ratios) {
     if (ratios.empty()) return;
     if (area_ratios_.empty()) area_ratios_.assign(ratio_bins, 0);
     for (const double ratio : ratios) {
-        max_area_ratio_ = std::max(max_area_ratio_, ratio);
+        totals_.max_area_ratio = std::max(totals_.max_area_ratio, ratio);
         ++area_ratios_[bin_of(static_cast<float>(ratio))];
     }
 }
@@ -104,19 +104,44 @@ void QualityCollector::add_neighbours(double area, double other_area) {
     add_area_ratios({&ratio, 1});
 }
 
+void QualityCollector::add_even_neighbours(std::size_t pairs) {
+    if (pairs == 0) return;
+    if (area_ratios_.empty()) area_ratios_.assign(ratio_bins, 0);
+    area_ratios_.front() += static_cast<std::uint32_t>(pairs);
+}
+
 void QualityCollector::append(const QualityCollector& part) {
-    cells_ += part.cells_;
-    below_bound_ += part.below_bound_;
-    min_angle_ = std::min(min_angle_, part.min_angle_);
-    max_angle_ = std::max(max_angle_, part.max_angle_);
-    min_angle_sum_ += part.min_angle_sum_;
-    max_angle_sum_ += part.max_angle_sum_;
-    mean_ratio_sum_ += part.mean_ratio_sum_;
-    max_aspect_ = std::max(max_aspect_, part.max_aspect_);
-    for (std::size_t i = 0; i < angle_histogram_.size(); ++i) angle_histogram_[i] += part.angle_histogram_[i];
-    max_area_ratio_ = std::max(max_area_ratio_, part.max_area_ratio_);
-    if (area_ratios_.empty()) area_ratios_.assign(part.area_ratios_.size(), 0);
-    for (std::size_t i = 0; i < part.area_ratios_.size(); ++i) area_ratios_[i] += part.area_ratios_[i];
+    append(part.totals_);
+    append_area_ratios(part.area_ratios_);
+}
+
+void QualityCollector::append(const QualityTotals& part) {
+    totals_.cells += part.cells;
+    totals_.below_bound += part.below_bound;
+    totals_.min_angle = std::min(totals_.min_angle, part.min_angle);
+    totals_.max_angle = std::max(totals_.max_angle, part.max_angle);
+    totals_.min_angle_sum += part.min_angle_sum;
+    totals_.max_angle_sum += part.max_angle_sum;
+    totals_.mean_ratio_sum += part.mean_ratio_sum;
+    totals_.max_aspect = std::max(totals_.max_aspect, part.max_aspect);
+    totals_.max_area_ratio = std::max(totals_.max_area_ratio, part.max_area_ratio);
+    for (std::size_t i = 0; i < part.angle_histogram.size(); ++i) totals_.angle_histogram[i] += part.angle_histogram[i];
+}
+
+void QualityCollector::append_area_ratios(std::span<const std::uint32_t> counts) {
+    if (counts.empty()) return;
+    if (area_ratios_.empty()) area_ratios_.assign(ratio_bins, 0);
+    for (std::size_t i = 0; i < std::min(counts.size(), ratio_bins); ++i) area_ratios_[i] += counts[i];
+}
+
+double QualityCollector::area_ratio_exceeded_by(double share) const {
+    const auto n = std::accumulate(area_ratios_.begin(), area_ratios_.end(), std::size_t{0});
+    std::size_t above = 0;
+    for (std::size_t bin = area_ratios_.size(); bin-- > 0;) {
+        above += area_ratios_[bin];
+        if (static_cast<double>(above) >= share * static_cast<double>(n)) return bin > 0 ? upper_end_of(bin - 1) : 1.0;
+    }
+    return 1;
 }
 
 double QualityCollector::area_ratio_percentile_999() const {
@@ -125,24 +150,25 @@ double QualityCollector::area_ratio_percentile_999() const {
     const std::size_t rank = (n - 1) - (n - 1) / 1000;
     std::size_t bin = 0;
     for (std::size_t count_below = area_ratios_[0]; count_below <= rank; count_below += area_ratios_[bin]) ++bin;
-    return bin + 1 < ratio_bins ? std::min(upper_end_of(bin), max_area_ratio_) : max_area_ratio_;
+    return bin + 1 < ratio_bins ? std::min(upper_end_of(bin), totals_.max_area_ratio) : totals_.max_area_ratio;
 }
 
 QualitySummary QualityCollector::summary() const {
     QualitySummary summary;
-    if (cells_ == 0) return summary;
-    summary.cells = cells_;
-    summary.min_angle_deg = min_angle_;
-    summary.max_angle_deg = max_angle_;
-    summary.mean_min_angle_deg = min_angle_sum_ / static_cast<double>(cells_);
-    summary.mean_max_angle_deg = max_angle_sum_ / static_cast<double>(cells_);
-    summary.mean_ratio = mean_ratio_sum_ / static_cast<double>(cells_);
-    summary.angles_below_bound = below_bound_;
-    summary.max_aspect_ratio = max_aspect_;
-    summary.angle_histogram = angle_histogram_;
-    const auto below_40 = std::accumulate(angle_histogram_.begin(), angle_histogram_.begin() + 8, std::size_t{0});
-    summary.share_below_40_deg = static_cast<double>(below_40) / static_cast<double>(cells_);
-    summary.max_neighbour_area_ratio = max_area_ratio_;
+    if (totals_.cells == 0) return summary;
+    summary.cells = totals_.cells;
+    summary.min_angle_deg = totals_.min_angle;
+    summary.max_angle_deg = totals_.max_angle;
+    summary.mean_min_angle_deg = totals_.min_angle_sum / static_cast<double>(totals_.cells);
+    summary.mean_max_angle_deg = totals_.max_angle_sum / static_cast<double>(totals_.cells);
+    summary.mean_ratio = totals_.mean_ratio_sum / static_cast<double>(totals_.cells);
+    summary.angles_below_bound = totals_.below_bound;
+    summary.max_aspect_ratio = totals_.max_aspect;
+    summary.angle_histogram = totals_.angle_histogram;
+    const auto below_40 =
+        std::accumulate(totals_.angle_histogram.begin(), totals_.angle_histogram.begin() + 8, std::size_t{0});
+    summary.share_below_40_deg = static_cast<double>(below_40) / static_cast<double>(totals_.cells);
+    summary.max_neighbour_area_ratio = totals_.max_area_ratio;
     summary.p999_neighbour_area_ratio = area_ratio_percentile_999();
     return summary;
 }

@@ -27,6 +27,14 @@ LAMINA_EXPORT CellShape measure_quad(Point a, Point b, Point c, Point d);
 LAMINA_EXPORT double shape_of_triangle(Point a, Point b, Point c);
 LAMINA_EXPORT double shape_of_quad(Point a, Point b, Point c, Point d);
 
+/// Counts, sums and extremes of the shapes of cells.
+struct QualityTotals {
+    std::size_t cells = 0, below_bound = 0;
+    double min_angle = 180, max_angle = 0, min_angle_sum = 0, max_angle_sum = 0, mean_ratio_sum = 0, max_aspect = 0;
+    double max_area_ratio = 0;
+    std::array<std::size_t, 18> angle_histogram{};  ///< smallest angles in bins of 5 degrees
+};
+
 /// Collects statistics of the shapes of cells. Several collectors that each hold a part of the cells are appended in a
 /// fixed order, so that sums do not depend on the number of threads.
 class QualityCollector {
@@ -40,22 +48,28 @@ public:
     void add_area_ratios(std::span<const double> ratios);
     /// Adds the areas of two cells with a common edge.
     void add_neighbours(double area, double other_area);
+    /// Adds pairs of neighbours whose ratios of areas are below area_ratio_exceeded_by() of some share.
+    void add_even_neighbours(std::size_t pairs);
     void append(const QualityCollector& part);
     QualitySummary summary() const;
+
+    /// The same in two parts, for collectors of other processes: the histogram of ratios is larger than all the rest.
+    const QualityTotals& totals() const { return totals_; }
+    std::span<const std::uint32_t> area_ratios() const { return area_ratios_; }
+    LAMINA_EXPORT void append(const QualityTotals& totals);
+    LAMINA_EXPORT void append_area_ratios(std::span<const std::uint32_t> counts);
+    /// Returns a ratio that at least this share of the ratios of areas reach: the lower end of a bin of the histogram.
+    LAMINA_EXPORT double area_ratio_exceeded_by(double share) const;
 
 private:
     double area_ratio_percentile_999() const;
 
     double bound_;
-    std::size_t cells_ = 0, below_bound_ = 0;
-    double min_angle_ = 180, max_angle_ = 0, min_angle_sum_ = 0, max_angle_sum_ = 0, mean_ratio_sum_ = 0,
-           max_aspect_ = 0;
-    std::array<std::size_t, 18> angle_histogram_{};  ///< smallest angles in bins of 5 degrees
+    QualityTotals totals_;
     /// Histogram of the ratios of neighbouring areas, from 1 on, in bins 0.2 % wide, the last of which has no upper
     /// end. A percentile taken from it needs no sorting and no memory in proportion to the mesh. Empty until the first
     /// ratio is added.
     std::vector<std::uint32_t> area_ratios_;
-    double max_area_ratio_ = 0;
 };
 
 }  // namespace lamina::mesh

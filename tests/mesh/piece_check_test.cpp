@@ -5,9 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <lamina/predicates.hpp>
 
 #include "core/edge_links.hpp"
 #include "mesh/adjacency.hpp"
@@ -126,6 +129,68 @@ Mesh uneven_box(std::size_t n = 21) {
             p = {p.x + 0.2 * std::sin(3 * p.x + 5 * p.y), p.y + 0.2 * std::sin(7 * p.x - 2 * p.y)};
     }
     return mesh;
+}
+
+/// Checks the pieces without what lies behind their border edges, but for what is uneven and what is asked for then.
+MeshCheck check_pieces_elsewhere(const CutMesh& cut, std::size_t& told, std::size_t& border_edges) {
+    PiecewiseCheck check(cut.shared, {});
+    std::vector<std::size_t> first;
+    std::vector<mesh::PieceBorderEdge> border;
+    std::size_t next = 0;
+    for (const OwnedPiece& piece : cut.pieces) {
+        mesh::PieceFindings findings = mesh::check_piece(
+            {piece.border, piece.ids, piece.inner, piece.triangles, piece.links, cut.shared}, proved_min_angle_deg);
+        border.insert(border.end(), findings.border.begin(), findings.border.end());
+        for (mesh::PieceBorderEdge& edge : findings.border) edge.apex = mesh::unknown_apex;
+        check.add_piece(std::move(findings));
+        first.push_back(next);
+        next += piece.triangles.size();
+    }
+    for (std::size_t e = 0; e < border.size(); ++e) {
+        const auto [a, b, apex] = border[e];
+        if (mesh::is_even_behind(cut.shared[a.index()], cut.shared[b.index()], apex, check.even_ratio())) continue;
+        check.set_apex(e, apex);
+        ++told;
+    }
+    for (const std::size_t e : check.wanted_apexes()) {
+        check.set_apex(e, border[e].apex);
+        ++told;
+    }
+    border_edges = border.size();
+    return check.finish(cut.markers, cut.constraints, first);
+}
+
+TEST(PieceCheck, NeedsFewTrianglesBehindBorders) {
+    for (const std::size_t n : {21u, 61u}) {
+        const CutMesh pieces = cut_mesh(uneven_box(n), 10.5);
+        const MeshCheck expected = check_pieces(pieces);
+        ASSERT_TRUE(expected.valid());
+        std::size_t told = 0, border_edges = 0;
+        const MeshCheck check = check_pieces_elsewhere(pieces, told, border_edges);
+        ASSERT_TRUE(check.valid());
+        EXPECT_EQ(check.euler_characteristic, expected.euler_characteristic);
+        EXPECT_EQ(check.interior_edges, expected.interior_edges);
+        EXPECT_EQ(check.delaunay_violations, expected.delaunay_violations);
+        EXPECT_EQ(check.isotropic.max_neighbour_area_ratio, expected.isotropic.max_neighbour_area_ratio);
+        EXPECT_EQ(check.isotropic.p999_neighbour_area_ratio, expected.isotropic.p999_neighbour_area_ratio);
+        EXPECT_LT(told, border_edges);
+    }
+}
+
+TEST(PieceCheck, CallsNoPairEvenThatIsNotDelaunay) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> x(-1.5, 2.5), y(0.01, 2);
+    const Point a{0, 0}, b{1, 0};
+    std::size_t even = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Point above{x(random), y(random)}, below{x(random), -y(random)};
+        constexpr double ratio = 2;
+        if (!mesh::is_even_behind(a, b, above, ratio) || !mesh::is_even_behind(b, a, below, ratio)) continue;
+        ++even;
+        EXPECT_FALSE(incircle(a, b, above, below) > 0);
+        EXPECT_LT(std::max(above.y / -below.y, below.y / -above.y), ratio);
+    }
+    EXPECT_GT(even, 100u);
 }
 
 TEST(PieceCheck, FindsWhatTheCheckOfTheMeshFinds) {
