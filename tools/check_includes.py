@@ -26,9 +26,9 @@ SOURCE = REPOSITORY / "src"
 PUBLIC = REPOSITORY / "include" / "lamina"
 
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
-OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids",
-                                    "interruption", "length", "limits", "option", "option_builders", "point",
-                                    "predicates", "suggestion", "threads", "version", "warning")}
+OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids", "interruption",
+                                    "length", "limits", "option", "option_builders", "point", "predicates", "ranks",
+                                    "suggestion", "threads", "version", "warning")}
 OWNERS["transformation"] = "geometry"
 OWNERS["solution"] = "io"
 OWNERS["solution_sizes"] = "adaptation"
@@ -40,6 +40,8 @@ OWNERS["places"] = "mesh"
 OWNERS["presets"] = "pipeline"
 OWNERS["mesh_sink"] = "mesh"
 OWNERS["stream"] = "pipeline"
+OWNERS["shared_mesh"] = "pipeline"
+OWNERS["mpi_ranks"] = "mpi"
 OWNERS["solver_case"] = "cases"
 
 # The colours of docs/images/stages.dot.

@@ -10,6 +10,7 @@
 #include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/mesh_sink.hpp>
+#include <lamina/ranks.hpp>
 #include <lamina/sizing.hpp>
 
 namespace lamina {
@@ -74,6 +75,13 @@ LAMINA_EXPORT void check_writable(const std::filesystem::path& file, const Write
 /// alone. Throws UsageError for formats that are written as a whole, and what check_writable() throws.
 LAMINA_EXPORT std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::path& file,
                                                        const WriteOptions& options = {});
+
+/// Collective: writes one file from the parts of a mesh that several processes hold, with the bytes of write_mesh(). Nothing
+/// appears under its name before all have written their parts. /dev/null takes no bytes. Throws what open_mesh_sink()
+/// throws, UsageError for standard output and for devices, IoError where a process cannot write, which must then call
+/// Ranks::fail(), and RankFailure where another has failed.
+LAMINA_EXPORT void write_shared_mesh(const MeshParts& parts, const MeshFrame& frame, Ranks& ranks,
+                                     const std::filesystem::path& file, const WriteOptions& options = {});
 
 /// Throws UsageError for formats that open_mesh_sink() refuses, without opening anything.
 LAMINA_EXPORT void require_streamable(const std::filesystem::path& file, const WriteOptions& options = {});

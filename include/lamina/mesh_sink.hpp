@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,28 @@ struct MeshCounts {
     std::size_t triangles = 0;        ///< number of triangles
     std::size_t quads = 0;            ///< number of quadrilaterals
     std::size_t layer_triangles = 0;  ///< how many of the triangles belong to the layer
+};
+
+/// The parts of a mesh that one process holds, where several processes hold it together.
+class MeshParts {
+public:
+    MeshParts() = default;
+    MeshParts(const MeshParts&) = delete;
+    MeshParts& operator=(const MeshParts&) = delete;
+    virtual ~MeshParts() = default;
+
+    /// Returns the places of these parts in the order of all parts of the mesh, ascending. Places of other processes lie
+    /// between them.
+    virtual std::vector<std::uint64_t> places() const = 0;
+    /// Calls take() with part i of these. May be called on several threads at once. Throws IoError.
+    virtual void visit(std::size_t i, const std::function<void(const MeshPart&)>& take) const = 0;
+};
+
+/// What there is to a mesh beside its parts.
+struct MeshFrame {
+    MeshCounts counts;                     ///< its size
+    std::span<const Marker> markers;       ///< as Mesh::markers
+    std::span<const Segment> constraints;  ///< as Mesh::constraints
 };
 
 /// A mesh file in the making. What it has taken is gone without a trace where commit() is not called.

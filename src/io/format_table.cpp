@@ -71,7 +71,7 @@ FormatRow su2_row() {
             .files = one_file,
             .read = read_one_file<read_su2>,
             .read_stored = read_su2_arrays,
-            .open_sink = open_su2_sink,
+            .layout = su2_layout,
             .one_stream = true};
 }
 
@@ -133,7 +133,7 @@ std::vector<FormatRow> vtu_rows() {
                         .one_stream = true});
     };
     add("vtu", "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>);
-    rows.back().open_sink = open_vtu_sink;
+    rows.back().layout = vtu_layout;
     add("vtu-zlib", "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>);
     return rows;
 }

@@ -16,6 +16,7 @@
 #include <lamina/solution.hpp>
 
 #include "io/field_request.hpp"
+#include "io/mesh_layout.hpp"
 #include "io/sizes.hpp"
 
 namespace lamina::io {
@@ -45,8 +46,8 @@ struct FormatRow {
     PointValues (*read_sizes)(const std::string& bytes, const std::filesystem::path&) = nullptr;
     /// Returns whether the path holds a mesh of this format, whatever its name. Null: the name alone decides.
     bool (*recognizes)(const std::filesystem::path&) = nullptr;
-    /// Opens a sink that writes the mesh part by part. Null: the format is written as a whole.
-    std::unique_ptr<MeshSink> (*open_sink)(const std::filesystem::path&) = nullptr;
+    /// Returns how the file is written part by part. Null: the format is written as a whole.
+    std::unique_ptr<MeshLayout> (*layout)(const std::filesystem::path&) = nullptr;
     bool quads = true;        ///< whether the format holds quadrilaterals, too
     bool one_stream = false;  ///< whether standard input and standard output can carry it
 };
@@ -71,8 +72,6 @@ const FormatRow& format_to_read(const std::filesystem::path& file, const std::st
 
 /// Throws UsageError where the format cannot hold the names.
 void require_su2_marker_names(std::span<const Marker> markers, const std::filesystem::path& file);
-/// Opens a sink that writes what write_su2() writes.
-std::unique_ptr<MeshSink> open_su2_sink(const std::filesystem::path& file);
 void write_su2(const MeshView& mesh, const std::filesystem::path& file, std::ostream& out);
 Mesh read_su2(const std::string& bytes, const std::filesystem::path& file);
 void read_su2_arrays(const std::filesystem::path& file, MeshArrays& arrays);
@@ -81,8 +80,6 @@ struct VtuVariant {
     bool compressed = false;     ///< by zlib
     bool wall_distance = false;  ///< written as point data
 };
-/// Opens a sink that writes what write_vtu() writes, neither compressed nor with distances.
-std::unique_ptr<MeshSink> open_vtu_sink(const std::filesystem::path& file);
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out);
 Mesh read_vtu(const std::string& bytes, const std::filesystem::path& file);
 void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays);

@@ -31,17 +31,17 @@ void check_writable(const fs::path& file, const WriteOptions& options) {
 
 void require_streamable(const fs::path& file, const WriteOptions& options) {
     const FormatRow& format = find_format(file, options.format);
-    if (format.open_sink != nullptr) return;
+    if (format.layout != nullptr) return;
     std::string names;
     for (const FormatRow& row : format_table())
-        if (row.open_sink != nullptr) names += (names.empty() ? "" : ", ") + std::string(row.name);
+        if (row.layout != nullptr) names += (names.empty() ? "" : ", ") + std::string(row.name);
     throw UsageError(fmt::format("format '{}' is written as a whole: a mesh is streamed as {}", format.name, names));
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const fs::path& file, const WriteOptions& options) {
     require_streamable(file, options);
     check_writable(file, options);
-    return find_format(file, options.format).open_sink(file);
+    return open_layout_sink(find_format(file, options.format).layout(file), file);
 }
 
 std::vector<fs::path> output_files(const fs::path& file, const WriteOptions& options) {

@@ -3,20 +3,19 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <ostream>
 #include <string_view>
 
+#include "core/unnamed_file.hpp"
+
 namespace lamina::io {
 
-/// A temporary file without a name, which vanishes with this object or with the process.
+/// A part of a file that waits on the disk, without a name, until it can be written.
 class SectionFile {
 public:
-    /// Opens the file on the disk of the target, or on that of the system's temporary files where the target is a device
-    /// or standard output. For /dev/null bytes are counted alone. Throws IoError about the target.
+    /// As core::UnnamedFile does. For /dev/null bytes are counted alone. Throws IoError about the target.
     explicit SectionFile(const std::filesystem::path& target);
-    ~SectionFile();
-    SectionFile(const SectionFile&) = delete;
-    SectionFile& operator=(const SectionFile&) = delete;
 
     /// Throws IoError about the target.
     void append(std::string_view bytes);
@@ -26,11 +25,8 @@ public:
     void move_to(std::ostream& out);
 
 private:
-    std::filesystem::path target_;
-    int file_ = -1;
+    std::unique_ptr<core::UnnamedFile> file_;  ///< null: bytes are counted alone
     std::size_t size_ = 0;
-
-    [[noreturn]] void fail(int reason) const;
 };
 
 /// Returns whether the file takes everything and keeps nothing.

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <span>
@@ -20,7 +20,7 @@
 
 #include "core/parallel.hpp"
 #include "io/binary_output.hpp"
-#include "io/section_file.hpp"
+#include "io/mesh_layout.hpp"
 #include "io/vtk_cell_types.hpp"
 
 namespace lamina::io {
@@ -49,33 +49,50 @@ public:
         announce<T>(name, tuples, components, in_field_data);
         const std::size_t count = tuples * components;
         const auto fill = [value = std::move(value)](char* p, std::size_t i) { store(p, static_cast<T>(value(i))); };
+        FileStretch array;
         if (compress_) {
-            appended_.push_back([bytes = compressed(count, sizeof(T), fill)](std::ostream& out) { out << bytes; });
+            array.text = compressed(count, sizeof(T), fill);
         } else {
-            appended_.push_back([count, fill](std::ostream& out) {
-                write_value(out, std::uint64_t{count * sizeof(T)});
-                write_records(out, count, sizeof(T), fill);
-            });
+            array.text = length_text(count * sizeof(T));
+            array.count = count;
+            array.record_bytes = sizeof(T);
+            array.fill = fill;
             offset_ += sizeof(std::uint64_t) + count * sizeof(T);
         }
+        appended_.push_back(std::move(array));
     }
-    /// Announces an array whose bytes a section holds. Precondition: no compression.
+    /// Announces an array of so many bytes that a section holds, but for these at its end. Precondition: no compression.
     template <class T>
-    void add_section(const char* name, std::size_t components, SectionFile& section) {
+    void add_section(const char* name, std::size_t components, std::size_t section, std::size_t bytes,
+                     std::string end) {
         announce<T>(name, 0, components, false);
-        appended_.push_back([&section](std::ostream& out) {
-            write_value(out, std::uint64_t{section.size()});
-            section.move_to(out);
-        });
-        offset_ += sizeof(std::uint64_t) + section.size();
+        offset_ += sizeof(std::uint64_t) + bytes + end.size();
+        appended_.push_back({.text = length_text(bytes + end.size()), .section = section});
+        if (!end.empty()) appended_.push_back({.text = std::move(end)});
     }
-    void write(std::ostream& out) const {
-        out << xml << "  <AppendedData encoding=\"raw\">\n_";
-        for (const auto& write_array : appended_) write_array(out);
-        out << "\n  </AppendedData>\n</VTKFile>\n";
+    /// Returns the file.
+    std::vector<FileStretch> take() {
+        std::vector<FileStretch> stretches;
+        stretches.push_back({.text = xml + "  <AppendedData encoding=\"raw\">\n_"});
+        std::move(appended_.begin(), appended_.end(), std::back_inserter(stretches));
+        stretches.push_back({.text = "\n  </AppendedData>\n</VTKFile>\n"});
+        return stretches;
+    }
+    /// Writes a file without sections.
+    void write(std::ostream& out) {
+        for (const FileStretch& stretch : take()) {
+            out << stretch.text;
+            stretch.write_records(out);
+        }
     }
 
 private:
+    static std::string length_text(std::uint64_t bytes) {
+        std::string text(sizeof bytes, '\0');
+        store(text.data(), bytes);
+        return text;
+    }
+
     template <class T>
     void announce(const char* name, std::size_t tuples, std::size_t components, bool in_field_data) {
         xml += fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" ", vtu_type_name<T>(),
@@ -112,8 +129,8 @@ private:
     }
 
     bool compress_;
-    std::vector<std::function<void(std::ostream&)>> appended_;  ///< writers of the arrays
-    std::size_t offset_ = 0;                                    ///< offset of the next array
+    std::vector<FileStretch> appended_;  ///< the arrays
+    std::size_t offset_ = 0;             ///< offset of the next array
 };
 
 /// Returns the number of vertices of cell i and of all cells before it, where the triangles come first, then the other

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include <lamina/predicates.hpp>
@@ -250,17 +251,35 @@ private:
 
 }  // namespace
 
-bool is_even_behind(Point a, Point b, Point apex, double ratio) {
-    // The rounding errors of all products below are far smaller, and so is that of ratios in single precision.
-    constexpr double margin = 1e-6;
+namespace {
+
+/// The ratios of areas that class 1 begins with, and that the lower ends of successive classes have.
+constexpr double first_class = 0.62, class_step = 1.065;
+
+}  // namespace
+
+std::uint8_t shape_class_behind(Point a, Point b, Point apex) {
+    constexpr double margin = 1e-6;  // far larger than the rounding errors of the products below
     const Point to_a = a - apex, to_b = b - apex;
     const double scalar = dot(to_a, to_b);
     const double size = std::abs(to_a.x * to_b.x) + std::abs(to_a.y * to_b.y);
-    if (!(scalar > margin * size)) return false;
+    if (!(scalar > margin * size)) return 0;
     constexpr double equilateral = 0.86602540378443865;  // twice its area over its squared edge
     const double relative = cross(b - a, apex - a) / (equilateral * squared_length(b - a));
-    const double bound = std::sqrt(ratio) * (1 - margin);
-    return relative < bound && relative * bound > 1;
+    if (!(relative >= first_class)) return 0;
+    double end = first_class;
+    for (std::uint8_t number = 1; number < 16; ++number) {
+        end *= class_step;
+        if (relative < end) return number;
+    }
+    return 0;
+}
+
+double area_ratio_bound(std::uint8_t one, std::uint8_t other) {
+    if (one == 0 || other == 0) return HUGE_VAL;
+    double bound = 1 + 1e-6;  // for rounding, also to single precision
+    for (int steps = std::abs(one - other); steps >= 0; --steps) bound *= class_step;
+    return bound;
 }
 
 PieceFindings check_piece(const LinkedPiece& piece, double min_angle_deg) {

@@ -40,17 +40,20 @@ struct NarrowTriangle {
 
 /// An edge without a neighbour in its piece, the piece on its left.
 struct PieceBorderEdge {
-    VertexId a, b;  ///< ids in the mesh
-    Point apex;     ///< the third vertex of the triangle
+    VertexId a, b;                 ///< ids in the mesh
+    Point apex;                    ///< the third vertex of the triangle
+    std::uint8_t shape_class = 0;  ///< as shape_class_behind() where the apex is not known
 };
 
 /// Stands for the apex of a triangle that nothing is known of.
 inline constexpr Point unknown_apex{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
-/// Returns whether the triangle (a, b, apex) has no obtuse angle at its apex, for certain, and an area that differs by
-/// less than the root of `ratio` from that of the equilateral triangle over the edge. Two such triangles on the sides of
-/// an edge are Delaunay, and the ratio of their areas is below `ratio`.
-LAMINA_EXPORT bool is_even_behind(Point a, Point b, Point apex, double ratio);
+/// Returns a number up to 15 for the triangle (a, b, apex): 0 where its angle at the apex may be obtuse or where its area
+/// is far from that of the equilateral triangle over the edge, else one of 15 classes of the ratio of the two areas.
+LAMINA_EXPORT std::uint8_t shape_class_behind(Point a, Point b, Point apex);
+/// Returns a bound of the ratio of the areas on both sides of an edge that have these classes. Where neither is 0, the
+/// edge is Delaunay; where one is, the bound is infinite.
+LAMINA_EXPORT double area_ratio_bound(std::uint8_t one, std::uint8_t other);
 
 /// The cell of a piece that is the worst in some way; the first of several.
 struct WorstCell {

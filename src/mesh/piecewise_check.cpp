@@ -85,6 +85,7 @@ void PiecewiseCheck::add_piece(PieceFindings findings) {
     for (const PieceBorderEdge& edge : findings.border) {
         border_.push_back({edge.a, edge.b});
         apexes_.push_back(edge.apex);
+        shape_classes_.push_back(edge.shape_class);
     }
     if (findings.cells.defects.empty())
         for (const VertexId v : findings.border_vertices) used_[v.index()] = 1;
@@ -147,6 +148,7 @@ void PiecewiseCheck::forget_borders() {
     layer_edges_ = {};
     border_ = {};
     apexes_ = {};
+    shape_classes_ = {};
     candidates_ = {};
 }
 
@@ -160,6 +162,7 @@ const PiecewiseCheck::Seams& PiecewiseCheck::match_seams() {
     return *seams_;
 }
 
+/// Ratios of areas below this one need not be known.
 double PiecewiseCheck::even_ratio() const {
     // More than one in a thousand ratios of all edges are this large or larger, so the percentile is not below it.
     constexpr double share = 0.003;
@@ -176,9 +179,14 @@ bool PiecewiseCheck::is_known(std::size_t seam_edge) const {
 std::vector<std::size_t> PiecewiseCheck::wanted_apexes() {
     std::vector<std::size_t> wanted;
     const Seams& seams = match_seams();
-    for (std::size_t e = layer_edges_.size(); e < seams.edges.size(); ++e)
-        if (const std::uint32_t twin = seams.pairs.twin[e]; twin != no_edge && !is_known(e) && is_known(twin))
-            wanted.push_back(e - layer_edges_.size());
+    const double ratio = even_ratio();
+    const std::size_t first = layer_edges_.size();
+    for (std::size_t e = first; e < seams.edges.size(); ++e) {
+        const std::uint32_t twin = seams.pairs.twin[e];
+        if (twin == no_edge || is_known(e)) continue;
+        if (twin < first || area_ratio_bound(shape_classes_[e - first], shape_classes_[twin - first]) > ratio)
+            wanted.push_back(e - first);
+    }
     return wanted;
 }
 

@@ -12,15 +12,6 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// The facts about one piece.
-struct PieceFacts {
-    mesh::PieceFindings findings;
-    RefineStats stats;
-    double estimated_triangles = 0;
-    double edge_over_size = 0;  ///< mean
-    mesh::WorstCell oversized;
-};
-
 /// Calls f(a, b, c) for the corners of every `stride`-th triangle.
 template <class F>
 void for_triangles(const Subdomain& subdomain, const Refinement& refinement, std::size_t stride, F&& f) {
@@ -71,6 +62,23 @@ PieceFacts facts_of(const Decoupling& decoupling, const Subdomain& subdomain, co
     return facts;
 }
 
+}  // namespace
+
+CheckedPiece refine_and_check_piece(const Decoupling& decoupling, std::size_t subdomain, double min_angle_deg,
+                                    core::BusyTimes& times, PieceWork work) {
+    // Together enough for a mean that is known within 0.5 %.
+    const std::size_t samples = 32 + 4096 / decoupling.subdomains.size();
+    const Subdomain& region = decoupling.subdomains[subdomain];
+    delaunay::LinkedRefinement linked;
+    {
+        const core::BusyTimes::Scope busy(&times, work.refining);
+        linked = delaunay::refine_linked(region.points, region.segments, region.size, region.refine);
+    }
+    const core::BusyTimes::Scope busy(&times, work.checking);
+    PieceFacts facts = facts_of(decoupling, region, linked, min_angle_deg, samples);
+    return {std::move(linked.refinement), std::move(facts)};
+}
+
 void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& check) {
     const std::size_t made = facts.findings.triangles;
     const auto triangles = static_cast<double>(made);
@@ -84,28 +92,16 @@ void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& c
     check.add_piece(std::move(facts.findings));
 }
 
-}  // namespace
-
 PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
                                core::BusyTimes& times, PieceWork work, mesh::PiecewiseCheck& check,
                                const PieceKeeper& keeper) {
-    // Together enough for a mean that is known within 0.5 %.
-    const std::size_t samples = 32 + 4096 / std::max<std::size_t>(order.size(), 1);
     PiecesSummary summary;
     core::InOrder<PieceFacts> in_order([&](PieceFacts facts) { add_piece(std::move(facts), summary, check); });
     const auto make_piece = [&](std::size_t place) {
         if (keeper.begin) keeper.begin(place);
-        const Subdomain& subdomain = decoupling.subdomains[order[place]];
-        delaunay::LinkedRefinement linked;
-        {
-            const core::BusyTimes::Scope busy(&times, work.refining);
-            linked = delaunay::refine_linked(subdomain.points, subdomain.segments, subdomain.size, subdomain.refine);
-        }
-        {
-            const core::BusyTimes::Scope busy(&times, work.checking);
-            in_order.put(place, facts_of(decoupling, subdomain, linked, min_angle_deg, samples));
-        }
-        keeper.keep(place, order[place], std::move(linked.refinement));
+        CheckedPiece piece = refine_and_check_piece(decoupling, order[place], min_angle_deg, times, work);
+        in_order.put(place, std::move(piece.facts));
+        keeper.keep(place, order[place], std::move(piece.refinement));
     };
     core::parallel_for(order.size(), 1, [&](std::size_t place, std::size_t) {
         try {

@@ -41,6 +41,28 @@ struct PieceKeeper {
     std::function<void()> fail{};
 };
 
+/// The facts about one piece.
+struct PieceFacts {
+    mesh::PieceFindings findings;
+    RefineStats stats;
+    double estimated_triangles = 0;
+    double edge_over_size = 0;  ///< mean
+    mesh::WorstCell oversized;
+};
+
+/// A piece, and the facts about it.
+struct CheckedPiece {
+    Refinement refinement;
+    PieceFacts facts;
+};
+
+/// Refines one subdomain and checks the piece.
+CheckedPiece refine_and_check_piece(const Decoupling& decoupling, std::size_t subdomain, double min_angle_deg,
+                                    core::BusyTimes& times, PieceWork work);
+
+/// Adds the facts about the next piece to the summary and to the check.
+void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& check);
+
 /// Refines all subdomains in parallel in this order. Each piece is checked while it lies in the cache of the thread that
 /// has made it, its findings are added to the check, and the piece is handed to the keeper. The result does not depend
 /// on the number of threads.

@@ -8,6 +8,11 @@ namespace lamina::pipeline {
 /// The cost of stream_mesh() (docs/decisions/0045).
 inline constexpr WorkCost stream_cost{40e6, 2.5, 0.35e-6};
 
+/// Returns the cost of share_mesh() for each of this many processes, which keep their pieces in memory or not.
+constexpr WorkCost shared_cost(unsigned processes, bool in_memory) {
+    return {40e6, 2.5 + (in_memory ? 24.0 : 0.0) / processes, 0.35e-6 / processes};
+}
+
 /// Throws LimitError where a single option asks for far more triangles than the limits allow. It takes no time.
 void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
                             const Box& domain, const WorkCost& cost);

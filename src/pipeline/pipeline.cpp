@@ -3,16 +3,19 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <lamina/shared_mesh.hpp>
 #include <lamina/stream.hpp>
 #include <lamina/threads.hpp>
 
 #include "core/busy_times.hpp"
+#include "core/packing.hpp"
 #include "core/parallel.hpp"
 #include "decoupling/far_field.hpp"
 #include "decoupling/refine_all.hpp"
@@ -20,9 +23,11 @@
 #include "pipeline/assemble.hpp"
 #include "pipeline/checked_pieces.hpp"
 #include "pipeline/flow_guidance.hpp"
+#include "pipeline/held_parts.hpp"
 #include "pipeline/mesh_limits.hpp"
 #include "pipeline/piece_streamer.hpp"
 #include "pipeline/ray_plan.hpp"
+#include "pipeline/shared_pieces.hpp"
 #include "pipeline/warnings.hpp"
 
 namespace lamina::pipeline {
@@ -142,11 +147,29 @@ std::vector<double> first_heights_of_markers(const MeshResult& result, std::span
     return heights;
 }
 
-/// A mesh with the triangles that MeshCheck::unexcused_cells numbers. Where it is streamed, the sink holds its cells.
+/// What becomes of a mesh: it is kept as a whole, unless it goes to sinks or stays with the processes that make it.
+struct Destination {
+    const OpenSink* open_sink = nullptr;
+    Ranks* ranks = nullptr;
+    std::optional<std::filesystem::path> beside{};  ///< as in share_mesh()
+
+    bool keeps_mesh() const { return open_sink == nullptr && ranks == nullptr; }
+    /// Returns whether this process completes the check of the mesh.
+    bool checks() const { return ranks == nullptr || ranks->rank() == 0; }
+    WorkCost cost() const {
+        if (ranks != nullptr) return shared_cost(ranks->size(), !beside);
+        return open_sink != nullptr ? stream_cost : mesh_cost;
+    }
+};
+
+/// A mesh with the triangles that MeshCheck::unexcused_cells numbers. Where it is not kept, a sink or parts hold its
+/// cells.
 struct MadeMesh {
     MeshResult result;
     std::vector<mesh::NarrowTriangle> unexcused{};
     std::unique_ptr<MeshSink> sink{};
+    std::unique_ptr<MeshParts> parts{};
+    std::vector<Segment> constraints{};
     MeshCounts counts{};
     std::string hash{};
 };
@@ -197,8 +220,17 @@ struct MadePieces {
     LayerCells cells{};
     PiecesSummary summary{};
     std::vector<std::size_t> first_triangle{};  ///< of the subdomains in the mesh, in the order of the work
-    std::vector<Refinement> refinements{};      ///< empty where they have gone to a sink
+    std::vector<Refinement> refinements{};      ///< empty where they are not kept
+    HeldNumbers held{};                         ///< of a shared mesh
+    Mesh layer{};                               ///< its cells as a mesh, once they are part of the check
 };
+
+/// Makes the layer a part of the check.
+void check_layer(const PiecesWork& work, MadePieces& made) {
+    made.layer = layer_mesh(work.layer, made.cells);
+    if (!made.layer.triangles.empty() || !made.layer.quads.empty())
+        work.check.add_layer(made.layer, work.layer.edges.interfaces);
+}
 
 /// Makes all pieces and keeps them. Large ones come first, so that no thread is left with a large one at the end.
 MadePieces make_pieces(const PiecesWork& work) {
@@ -234,11 +266,56 @@ MadePieces stream_pieces(const PiecesWork& work, const OpenSink& open_sink, Made
     return made;
 }
 
+/// Makes the pieces that this process gets and keeps them. Rank 0 alone fills the layer, and checks it.
+MadePieces share_pieces(const PiecesWork& work, const Destination& destination, MadeMesh& mesh) {
+    Ranks& ranks = *destination.ranks;
+    MadePieces made;
+    const std::vector<std::size_t> order = decoupling::largest_first(work.decoupling.subdomains);
+    made.held.store = std::make_unique<PieceStore>(order.size(), destination.beside);
+    const double min_angle_deg = work.options.refine.min_angle_deg;
+    require_same_decoupling(work.decoupling, ranks);
+    ranks.reset_counter();
+    HeldPieces held;
+    const auto fill_layer = [&] {
+        if (!destination.checks()) return;
+        made.cells = work.fill_layer();
+        check_layer(work, made);
+    };
+    core::parallel_invoke(fill_layer, [&] {
+        held = take_and_refine(work.decoupling, order, min_angle_deg, work.times, {refinement_work, check_work}, ranks,
+                               *made.held.store);
+    });
+    CountedMesh counted = count_and_check(work.decoupling, held, made.cells, min_angle_deg, ranks,
+                                          destination.checks() ? &work.check : nullptr);
+    for (const HeldPiece& piece : held.pieces) made.held.pieces.push_back(piece.piece);
+    made.held.numbers = std::move(counted.numbers);
+    made.held.layer_pieces = counted.layer_pieces;
+    made.summary = counted.summary;
+    made.first_triangle = std::move(counted.first_triangle);
+    mesh.counts = counted.counts;
+    if (!destination.checks()) return made;
+    mesh::HashOfParts hash = counted.hash;
+    hash.add(work.decoupling.points, std::span<const Triangle>(made.cells.triangles));
+    hash.add(work.decoupling.points, std::span<const Quad>(made.cells.quads));
+    hash.add(work.decoupling.points, work.markers);
+    mesh.hash = hash.text();
+    return made;
+}
+
+/// Makes the narrow triangles of rank 0, which has checked the mesh, known to all.
+void share_unexcused(Ranks& ranks, std::vector<mesh::NarrowTriangle>& unexcused) {
+    core::Packer packer;
+    packer.put_all<mesh::NarrowTriangle>(unexcused);
+    const std::string packed = ranks.broadcast(packer.take());
+    core::Unpacker unpacker(packed);
+    unexcused = unpacker.get_all<mesh::NarrowTriangle>();
+}
+
 /// Makes the mesh on these rays: the stages from the layer's border to the check. `seconds` holds the times so far;
-/// `announce_estimate` says whether the estimate is part of the progress. Without `open_sink` the mesh is kept.
-MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const OpenSink* open_sink, StageClock& clock,
-                      StageSeconds seconds, bool announce_estimate) {
-    const WorkCost& cost = open_sink ? stream_cost : mesh_cost;
+/// `announce_estimate` says whether the estimate is part of the progress.
+MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Destination& destination,
+                      StageClock& clock, StageSeconds seconds, bool announce_estimate) {
+    const WorkCost cost = destination.cost();
     MadeMesh made;
     MeshResult& result = made.result;
     result.geometry = plan.geometry;
@@ -271,43 +348,62 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Ope
     clock.begin("layer triangulation, refinement and check of pieces");
     core::BusyTimes times;
     PiecesWork work{plan, options, layer, decoupling, check, times, markers};
-    MadePieces pieces = open_sink ? stream_pieces(work, *open_sink, made) : make_pieces(work);
+    MadePieces pieces = destination.ranks       ? share_pieces(work, destination, made)
+                        : destination.open_sink ? stream_pieces(work, *destination.open_sink, made)
+                                                : make_pieces(work);
     record_shared_times(times, clock.lap(), seconds, result.thread_seconds);
 
     clock.begin("check");
-    Mesh of_layer = layer_mesh(layer, pieces.cells);
-    if (!of_layer.triangles.empty() || !of_layer.quads.empty()) check.add_layer(of_layer, constraints);
-    result.check = check.finish(markers, constraints, pieces.first_triangle);
-    require_valid(result.check);
-    made.unexcused = check.unexcused();
+    if (destination.checks()) {
+        if (destination.ranks == nullptr) check_layer(work, pieces);
+        result.check = check.finish(markers, constraints, pieces.first_triangle);
+        require_valid(result.check);
+        made.unexcused = check.unexcused();
+    }
+    if (destination.ranks != nullptr) share_unexcused(*destination.ranks, made.unexcused);
     seconds.check += clock.lap();
 
     clock.begin("assembly");
     summarize_layer(layer, pieces.cells, result);
     record_columns(layer, pieces.cells, result);
     summarize_refinement(pieces.summary, result);
-    if (open_sink) {
-        result.mesh.markers = std::move(markers);
-    } else {
-        of_layer = {};  // so that memory does not peak here
+    if (destination.keeps_mesh()) {
+        pieces.layer = {};  // so that memory does not peak here
         result.mesh = assemble(std::move(markers), layer, std::move(pieces.cells), std::move(decoupling),
                                std::move(pieces.refinements));
         made.counts = {.triangles = result.mesh.triangles.size(), .quads = result.mesh.quads.size()};
+    } else {
+        result.mesh.markers = std::move(markers);
     }
     require_made_within(options.limits, made.counts.triangles, made.counts.quads, cost);
-    result.warnings = find_warnings(
-        result, options,
-        {check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle, made.unexcused},
-        open_sink ? of_layer : result.mesh);
+    if (destination.checks())
+        result.warnings = find_warnings(
+            result, options,
+            {check.widest().middle, check.narrowest().middle, pieces.summary.oversized.middle, made.unexcused},
+            destination.keeps_mesh() ? result.mesh : pieces.layer);
+    if (destination.ranks != nullptr) {
+        made.constraints = layer.edges.interfaces;
+        made.parts = std::make_unique<HeldParts>(std::move(decoupling), std::move(pieces.cells), std::move(pieces.held),
+                                                 made.counts, destination.checks());
+    }
     seconds.assembly += clock.lap();
     result.seconds = seconds;
     return made;
 }
 
+/// Tells all other processes that this one has failed.
+void fail_elsewhere(Ranks& ranks, const Error& error) {
+    try {
+        ranks.fail(error.exit_code(), error.what());
+    } catch (const RankFailure&) {
+        // All of them know it now.
+    }
+}
+
 /// Replaces the mesh by others, on shorter rays and with shorter edges of borders, for as long as fewer and fewer
 /// triangles have an angle below the bound that no sharp corner excuses. A bound above the proved one is no promise, so
 /// nothing is done for it.
-void make_room(const CaseOptions& options, const OpenSink* open_sink, RayPlan& plan, StageClock& clock,
+void make_room(const CaseOptions& options, const Destination& destination, RayPlan& plan, StageClock& clock,
                MadeMesh& best) {
     constexpr int max_rounds_without_gain = 2, max_rounds = 12;
     constexpr double gain = 0.9;  // the share of such triangles that a round must leave at most
@@ -321,9 +417,12 @@ void make_room(const CaseOptions& options, const OpenSink* open_sink, RayPlan& p
         next = {};  // so that no more than two meshes are held
         clock.begin("layers, thinned");
         try {
-            next = mesh_on_rays(plan, options, open_sink, clock, seconds, false);
-        } catch (const Error&) {
+            next = mesh_on_rays(plan, options, destination, clock, seconds, false);
+        } catch (const RankFailure&) {
             return;  // the best mesh so far is valid
+        } catch (const Error& error) {
+            if (destination.ranks != nullptr) fail_elsewhere(*destination.ranks, error);
+            return;
         }
         last = &next;
         const auto before = static_cast<double>(best.unexcused.size()),
@@ -375,7 +474,7 @@ CaseOptions with_tunnel_sizes(CaseOptions options, double chord) {
     return options;
 }
 
-MadeMesh run(const Geometry& given, const CaseOptions& given_options, const OpenSink* open_sink, StageClock& clock,
+MadeMesh run(const Geometry& given, const CaseOptions& given_options, const Destination& destination, StageClock& clock,
              double geometry_seconds) {
     StageSeconds seconds;
     clock.lap();
@@ -402,14 +501,14 @@ MadeMesh run(const Geometry& given, const CaseOptions& given_options, const Open
     Geometry prepared = prepare_surfaces(given, options.surface, limits, conditions.chord);
     require_options_within(options, growth, sized_bodies(prepared, conditions),
                            place_far_field(bounding_box(prepared), conditions.chord, options.far_field).box(),
-                           open_sink ? stream_cost : mesh_cost);
+                           destination.cost());
     seconds.geometry = geometry_seconds + clock.lap();
 
     clock.begin("layers");
     RayPlan plan = plan_rays(std::move(prepared), conditions, options, growth, std::move(wakes));
     refine_walls_below_borders(given, options, limits, growth, plan);
-    MadeMesh made = mesh_on_rays(plan, options, open_sink, clock, seconds, true);
-    make_room(options, open_sink, plan, clock, made);
+    MadeMesh made = mesh_on_rays(plan, options, destination, clock, seconds, true);
+    make_room(options, destination, plan, clock, made);
     MeshResult& result = made.result;
     if (flow) result.warnings.insert(result.warnings.begin(), flow->warnings.begin(), flow->warnings.end());
     result.flow = std::move(flow);
@@ -429,8 +528,8 @@ using namespace pipeline;
 namespace {
 
 /// Reads the inputs, and runs all stages on them.
-MadeMesh read_and_run(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink* open_sink,
-                      const Progress& progress) {
+MadeMesh read_and_run(const std::vector<std::string>& inputs, const CaseOptions& options,
+                      const Destination& destination, const Progress& progress) {
     validate(options);
     MadeMesh made;
     with_threads(options.threads, [&] {
@@ -438,7 +537,7 @@ MadeMesh read_and_run(const std::vector<std::string>& inputs, const CaseOptions&
         clock.begin("geometry");
         const Geometry geometry = read_geometry(inputs, options.geometry);
         const double geometry_seconds = clock.lap();
-        made = run(geometry, options, open_sink, clock, geometry_seconds);
+        made = run(geometry, options, destination, clock, geometry_seconds);
     });
     return made;
 }
@@ -450,19 +549,26 @@ MeshResult generate_mesh(const Geometry& geometry, const CaseOptions& options, c
     MeshResult result;
     with_threads(options.threads, [&] {
         StageClock clock(progress);
-        result = run(geometry, options, nullptr, clock, 0).result;
+        result = run(geometry, options, {}, clock, 0).result;
     });
     return result;
 }
 
 MeshResult generate_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const Progress& progress) {
-    return read_and_run(inputs, options, nullptr, progress).result;
+    return read_and_run(inputs, options, {}, progress).result;
 }
 
 StreamedMesh stream_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, const OpenSink& open_sink,
                          const Progress& progress) {
-    MadeMesh made = read_and_run(inputs, options, &open_sink, progress);
+    MadeMesh made = read_and_run(inputs, options, {.open_sink = &open_sink}, progress);
     return {std::move(made.result), made.counts, std::move(made.hash), std::move(made.sink)};
+}
+
+SharedMesh share_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, Ranks& ranks,
+                      const std::optional<std::filesystem::path>& beside, const Progress& progress) {
+    MadeMesh made = read_and_run(inputs, options, {.ranks = &ranks, .beside = beside}, progress);
+    return {std::move(made.result), made.counts, std::move(made.hash), std::move(made.constraints),
+            std::move(made.parts)};
 }
 
 }  // namespace lamina

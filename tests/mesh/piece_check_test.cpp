@@ -131,7 +131,7 @@ Mesh uneven_box(std::size_t n = 21) {
     return mesh;
 }
 
-/// Checks the pieces without what lies behind their border edges, but for what is uneven and what is asked for then.
+/// Checks the pieces without what lies behind their border edges, but for what is asked for.
 MeshCheck check_pieces_elsewhere(const CutMesh& cut, std::size_t& told, std::size_t& border_edges) {
     PiecewiseCheck check(cut.shared, {});
     std::vector<std::size_t> first;
@@ -141,16 +141,14 @@ MeshCheck check_pieces_elsewhere(const CutMesh& cut, std::size_t& told, std::siz
         mesh::PieceFindings findings = mesh::check_piece(
             {piece.border, piece.ids, piece.inner, piece.triangles, piece.links, cut.shared}, proved_min_angle_deg);
         border.insert(border.end(), findings.border.begin(), findings.border.end());
-        for (mesh::PieceBorderEdge& edge : findings.border) edge.apex = mesh::unknown_apex;
+        for (mesh::PieceBorderEdge& edge : findings.border) {
+            edge.shape_class =
+                mesh::shape_class_behind(cut.shared[edge.a.index()], cut.shared[edge.b.index()], edge.apex);
+            edge.apex = mesh::unknown_apex;
+        }
         check.add_piece(std::move(findings));
         first.push_back(next);
         next += piece.triangles.size();
-    }
-    for (std::size_t e = 0; e < border.size(); ++e) {
-        const auto [a, b, apex] = border[e];
-        if (mesh::is_even_behind(cut.shared[a.index()], cut.shared[b.index()], apex, check.even_ratio())) continue;
-        check.set_apex(e, apex);
-        ++told;
     }
     for (const std::size_t e : check.wanted_apexes()) {
         check.set_apex(e, border[e].apex);
@@ -184,11 +182,12 @@ TEST(PieceCheck, CallsNoPairEvenThatIsNotDelaunay) {
     std::size_t even = 0;
     for (int i = 0; i < 20000; ++i) {
         const Point above{x(random), y(random)}, below{x(random), -y(random)};
-        constexpr double ratio = 2;
-        if (!mesh::is_even_behind(a, b, above, ratio) || !mesh::is_even_behind(b, a, below, ratio)) continue;
+        const double bound =
+            mesh::area_ratio_bound(mesh::shape_class_behind(a, b, above), mesh::shape_class_behind(b, a, below));
+        if (std::isinf(bound)) continue;
         ++even;
         EXPECT_FALSE(incircle(a, b, above, below) > 0);
-        EXPECT_LT(std::max(above.y / -below.y, below.y / -above.y), ratio);
+        EXPECT_LT(std::max(above.y / -below.y, below.y / -above.y), bound);
     }
     EXPECT_GT(even, 100u);
 }

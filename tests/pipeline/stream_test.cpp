@@ -14,45 +14,11 @@
 #include <lamina/io.hpp>
 #include <lamina/stream.hpp>
 
-#include "pipeline/cases.hpp"
+#include "pipeline/stream_cases.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lamina::test {
 namespace {
-
-struct StreamCase {
-    std::string name;
-    std::vector<std::string> inputs;
-    CaseOptions options;
-};
-
-std::vector<StreamCase> stream_cases() {
-    const auto small = [](const std::function<void(CaseOptions&)>& change) {
-        CaseOptions options = quick_options(6);
-        options.decoupling.pieces_target = 1000;
-        change(options);
-        return options;
-    };
-    return {
-        {"many pieces", {"naca:0012:60"}, small([](CaseOptions&) {})},
-        {"few pieces", {"naca:0012:60"}, quick_options(6)},
-        {"quads", {"naca:4412:60"}, small([](CaseOptions& o) { o.layer.topology = LayerTopology::quads; })},
-        {"Delaunay layers", {"naca:4412:60"}, small([](CaseOptions& o) {
-             o.layer.topology = LayerTopology::delaunay;
-         })},
-        {"no layers", {"naca:2412:60"}, small([](CaseOptions& o) { o.layer.enabled = false; })},
-        {"lattices", {"naca:0012:60"}, small([](CaseOptions& o) {
-             o.far_field.shape = FarFieldShape::circle;
-             o.sizing.sources.push_back({.a = {2, 0}, .b = {2, 0}, .size = 0.05, .radius = 1.5});
-             o.decoupling.pieces_target = 4000;
-         })},
-        {"inlet and outlet", {"naca:0012:60:blunt"}, small([](CaseOptions& o) {
-             o.inlet_outlet = true;
-             o.assemble.base_marker = true;
-             o.layer.layers.reset();
-         })},
-    };
-}
 
 void expect_same_check(const MeshCheck& made, const MeshCheck& found) {
     EXPECT_TRUE(found.valid());
@@ -133,20 +99,16 @@ private:
     bool failed_ = false;
 };
 
-/// A plate with a slit of 3 degrees, whose layers are thinned: a better mesh replaces the first one.
 TEST(Stream, ReplacesAMeshByABetterOne) {
     const TemporaryFolder folder;
-    const std::string plate =
-        folder.write("plate.dat", "plate\n0 0\n1 0\n1 0.1\n0.62 0.1\n0.2 0.03\n0.6 0.1\n0 0.1\n0 0\n").string();
-    CaseOptions options;
-    options.far_field.size = 4;
-    const MeshResult whole = generate_mesh({plate}, options);
+    const auto [name, inputs, options] = thinned_case(folder);
+    const MeshResult whole = generate_mesh(inputs, options);
     ASSERT_GT(whole.thinned_rays, 0u);
     ASSERT_GT(whole.check.isotropic.exempt, 1u);
     expect_same_check(whole.check, check_mesh(whole.mesh));
     write_mesh(whole.mesh, folder / "whole.su2");
     std::size_t sinks = 0;
-    const StreamedMesh streamed = stream_mesh({plate}, options, [&] {
+    const StreamedMesh streamed = stream_mesh(inputs, options, [&] {
         ++sinks;
         return open_mesh_sink(folder / "stream.su2");
     });

@@ -1,0 +1,111 @@
+// Several processes that make one mesh together, as MPI starts them. The library knows this interface alone; src/mpi
+// implements it.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/export.hpp>
+
+namespace lamina {
+
+/// A failure that all processes of a run know of: each throws the same one.
+class LAMINA_EXPORT RankFailure : public Error {
+public:
+    /// Makes an error whose what() is this line.
+    RankFailure(ExitCode code, const std::string& line) : Error(code, line) {}
+};
+
+/// The bytes and messages that a process has handed over to be sent to others.
+struct RankTraffic {
+    std::size_t messages = 0;  ///< number of messages; one for each call of a collective function, and for each number
+    std::size_t bytes = 0;     ///< bytes in them, without what the transport adds
+};
+
+/// A file that all processes write together.
+class LAMINA_EXPORT SharedFile {
+public:
+    /// Bytes at a place in the file.
+    struct Block {
+        std::uint64_t offset = 0;
+        std::string_view bytes{};
+    };
+
+    SharedFile() = default;
+    SharedFile(const SharedFile&) = delete;
+    SharedFile& operator=(const SharedFile&) = delete;
+    virtual ~SharedFile() = default;
+
+    /// Collective: writes the blocks of each process, which ascend and do not overlap. A failure is kept for close().
+    virtual void write(const std::vector<Block>& blocks) = 0;
+    /// Collective: closes the file. Returns what has failed in this process; empty: nothing.
+    virtual std::string close() = 0;
+};
+
+/// The processes of a run, and how they speak with each other. Each has a number, its rank; rank 0 reports to the user.
+///
+/// Functions marked as collective are called by all ranks in the same order, each by one thread at a time. They begin with
+/// a question: has any rank failed? A rank that fails answers it through fail(), wherever the others are. All ranks then
+/// throw the RankFailure of the lowest rank that has failed.
+class LAMINA_EXPORT Ranks {
+public:
+    Ranks() = default;
+    Ranks(const Ranks&) = delete;
+    Ranks& operator=(const Ranks&) = delete;
+    virtual ~Ranks() = default;
+
+    /// Returns the number of this process, from 0.
+    virtual unsigned rank() const = 0;
+    /// Returns the number of processes.
+    virtual unsigned size() const = 0;
+
+    /// Collective: sets the counter that all ranks share to 0.
+    void reset_counter();
+    /// Returns the counter and adds 1 to it, at once for all ranks. Any thread may call it, and no rank waits for another.
+    std::uint64_t next_number();
+
+    /// Collective: does nothing but ask whether a rank has failed.
+    void agree();
+    /// Collective: returns the bytes of all ranks, in their order, on rank 0; nothing elsewhere.
+    std::vector<std::string> gather(std::string_view bytes);
+    /// Collective: returns on each rank the bytes that rank 0 has for it. The argument of other ranks does not count.
+    std::string scatter(const std::vector<std::string>& bytes);
+    /// Collective: returns the bytes of rank 0.
+    std::string broadcast(std::string_view bytes);
+    /// Collective: creates or replaces a file, for all ranks to write to. Throws IoError about the target on ranks that
+    /// cannot open it.
+    std::unique_ptr<SharedFile> open_file(const std::filesystem::path& file, const std::filesystem::path& target);
+
+    /// Ends the work of all ranks with this line: takes the place of the next collective function. Throws RankFailure, that
+    /// of the lowest rank that fails.
+    [[noreturn]] void fail(ExitCode code, const std::string& line);
+
+    /// Returns what this rank has sent so far.
+    RankTraffic traffic() const { return {messages_, bytes_}; }
+
+protected:
+    /// Collective, as all of these: returns the lowest rank that has failed, or size().
+    virtual unsigned lowest_failed(bool failed) = 0;
+    virtual std::vector<std::string> do_gather(std::string_view bytes) = 0;
+    virtual std::string do_scatter(const std::vector<std::string>& bytes) = 0;
+    virtual std::string do_broadcast(std::string_view bytes, unsigned from) = 0;
+    virtual void do_reset_counter() = 0;
+    virtual std::unique_ptr<SharedFile> do_open_file(const std::filesystem::path& file,
+                                                     const std::filesystem::path& target) = 0;
+    /// Not collective: returns the counter and adds a number to it. Any thread may call it.
+    virtual std::uint64_t do_add_to_counter(std::uint64_t number) = 0;
+
+private:
+    std::atomic<std::size_t> messages_ = 0, bytes_ = 0;
+
+    void count(std::size_t bytes);
+};
+
+}  // namespace lamina

@@ -1,0 +1,80 @@
+// What all kinds of ranks have in common: the question before each collective function, and the count of what is sent.
+#include <lamina/ranks.hpp>
+
+#include "core/packing.hpp"
+
+namespace lamina {
+
+namespace {
+
+/// A number beyond all that are handed out, so that ranks that take numbers end soon.
+constexpr std::uint64_t beyond_all = std::uint64_t{1} << 48;
+
+}  // namespace
+
+void Ranks::count(std::size_t bytes) {
+    ++messages_;
+    bytes_ += bytes;
+}
+
+void Ranks::agree() {
+    count(sizeof(int));
+    const unsigned failed = lowest_failed(false);
+    if (failed == size()) return;
+    const std::string packed = do_broadcast({}, failed);
+    core::Unpacker failure(packed);
+    const auto code = failure.get<ExitCode>();
+    throw RankFailure(code, failure.get_text());
+}
+
+void Ranks::fail(ExitCode code, const std::string& line) {
+    do_add_to_counter(beyond_all);
+    core::Packer failure;
+    failure.put(code);
+    failure.put_text(line);
+    const std::string packed = failure.take();
+    count(sizeof(int) + packed.size());
+    const unsigned failed = lowest_failed(true);
+    const std::string of_lowest = do_broadcast(packed, failed);
+    core::Unpacker lowest(of_lowest);
+    const auto its_code = lowest.get<ExitCode>();
+    throw RankFailure(its_code, lowest.get_text());
+}
+
+void Ranks::reset_counter() {
+    agree();
+    do_reset_counter();
+}
+
+std::uint64_t Ranks::next_number() {
+    count(sizeof(std::uint64_t));
+    return do_add_to_counter(1);
+}
+
+std::vector<std::string> Ranks::gather(std::string_view bytes) {
+    agree();
+    count(rank() == 0 ? 0 : bytes.size());
+    return do_gather(bytes);
+}
+
+std::string Ranks::scatter(const std::vector<std::string>& bytes) {
+    agree();
+    std::size_t sent = 0;
+    if (rank() == 0)
+        for (std::size_t i = 1; i < bytes.size(); ++i) sent += bytes[i].size();
+    count(sent);
+    return do_scatter(bytes);
+}
+
+std::string Ranks::broadcast(std::string_view bytes) {
+    agree();
+    count(rank() == 0 ? (size() - 1) * bytes.size() : 0);
+    return do_broadcast(bytes, 0);
+}
+
+std::unique_ptr<SharedFile> Ranks::open_file(const std::filesystem::path& file, const std::filesystem::path& target) {
+    agree();
+    return do_open_file(file, target);
+}
+
+}  // namespace lamina

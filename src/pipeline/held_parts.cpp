@@ -1,0 +1,43 @@
+#include "pipeline/held_parts.hpp"
+
+#include <utility>
+
+#include "pipeline/parts.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+/// Places begin with the kind of part: more than there can be parts of one kind.
+constexpr std::uint64_t parts_of_kind = std::uint64_t{1} << 40;
+
+}  // namespace
+
+HeldParts::HeldParts(Decoupling decoupling, LayerCells cells, HeldNumbers held, const MeshCounts& counts,
+                     bool has_layer)
+    : decoupling_(std::move(decoupling)), cells_(std::move(cells)), held_(std::move(held)) {
+    if (!has_layer) return;
+    before_ = parts_before_pieces(decoupling_, cells_);
+    behind_ = parts_behind_pieces(decoupling_, cells_, counts.triangles);
+}
+
+std::vector<std::uint64_t> HeldParts::places() const {
+    std::vector<std::uint64_t> places;
+    for (std::size_t i = 0; i < before_.size(); ++i) places.push_back(i);
+    for (const std::size_t piece : held_.pieces) places.push_back(parts_of_kind + piece);
+    for (std::size_t i = 0; i < behind_.size(); ++i) places.push_back(2 * parts_of_kind + i);
+    return places;
+}
+
+void HeldParts::visit(std::size_t i, const std::function<void(const MeshPart&)>& take) const {
+    if (i < before_.size()) return take(before_[i]);
+    i -= before_.size();
+    if (i >= held_.pieces.size()) return take(behind_[i - held_.pieces.size()]);
+    const std::size_t piece = held_.pieces[i];
+    Refinement refinement = held_.store->get(piece);
+    number_in_mesh(decoupling_.subdomains[piece], held_.numbers[i].first_vertex, refinement);
+    take(part_of_piece(decoupling_, held_.layer_pieces, piece, held_.numbers[i].first_vertex,
+                       held_.numbers[i].first_triangle, refinement));
+}
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,65 @@
+// The pieces of a mesh that several processes make together (docs/decisions/0047).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include <lamina/layers.hpp>
+#include <lamina/mesh_sink.hpp>
+#include <lamina/ranks.hpp>
+
+#include "mesh/hash.hpp"
+#include "pipeline/checked_pieces.hpp"
+#include "pipeline/piece_store.hpp"
+
+namespace lamina::pipeline {
+
+/// A piece that this process has made, with what it leaves behind once it is stored.
+struct HeldPiece {
+    std::size_t piece = 0;
+    PieceFacts facts;                         ///< without the border and without the histogram of area ratios
+    std::vector<Point> apexes;                ///< behind the edges of border_chain()
+    std::vector<std::uint8_t> shape_classes;  ///< of the triangles there
+};
+
+/// All pieces that this process has made.
+struct HeldPieces {
+    std::vector<HeldPiece> pieces;          ///< in ascending order
+    mesh::QualityCollector area_ratios{0};  ///< the histogram of all of them
+    mesh::HashOfParts hash;                 ///< of their triangles
+};
+
+/// Collective: throws MeshError on rank 0 where another process has another decoupling. Its numbers would mean other
+/// vertices, which no check of a piece by itself can see.
+void require_same_decoupling(const Decoupling& decoupling, Ranks& ranks);
+
+/// Refines and checks the pieces that this process gets: whoever is free takes the next one of the order from a counter
+/// that all share. Each piece goes to the store. Where a piece fails, all processes end soon.
+HeldPieces take_and_refine(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
+                           core::BusyTimes& times, PieceWork work, Ranks& ranks, PieceStore& store);
+
+/// Where the vertices and triangles of a piece begin in the mesh.
+struct PieceNumbers {
+    std::uint64_t first_vertex = 0, first_triangle = 0;
+};
+
+/// What the processes know of the whole mesh once they have counted it together.
+struct CountedMesh {
+    MeshCounts counts;
+    std::size_t layer_pieces = 0;
+    std::vector<PieceNumbers> numbers;        ///< of the held pieces
+    PiecesSummary summary;                    ///< on rank 0
+    std::vector<std::size_t> first_triangle;  ///< of all pieces; on rank 0
+    mesh::HashOfParts hash;                   ///< of all pieces; on rank 0
+};
+
+/// Collective: numbers all pieces in their order, behind the triangles of the layer, and completes the check with them and
+/// with what their borders need of each other. `check` is that of rank 0, which has its layer; null elsewhere. Nor does
+/// the layer count elsewhere.
+CountedMesh count_and_check(const Decoupling& decoupling, HeldPieces& held, const LayerCells& layer,
+                            double min_angle_deg, Ranks& ranks, mesh::PiecewiseCheck* check);
+
+}  // namespace lamina::pipeline
