@@ -11,7 +11,7 @@
 
 namespace lamina::app {
 
-void add_mesh_command(CLI::App& app) {
+void add_mesh_command(CLI::App& app, Ranks* ranks) {
     CLI::App* command = app.add_subcommand("mesh", "make a mesh round airfoils and write it");
     auto options = std::make_shared<GivenOptions>(add_mesh_options(*command));
     command->footer(format_help());
@@ -20,14 +20,15 @@ void add_mesh_command(CLI::App& app) {
         ->group("Run");
     command->add_flag("--options-as-markdown", *markdown, "print a table of all options, and do nothing else")
         ->group("Run");
-    command->callback([options, dump, markdown] {
+    command->callback([options, dump, markdown, ranks] {
         if (*markdown) return print_result(options_as_markdown());
         MeshCase mesh_case = case_of_command_line(*options);
         prefer_quads_for_openfoam(mesh_case);
         require_consistent(mesh_case);
-        if (!*dump)
-            return (mesh_case.stream ? stream_mesh_of_case : run_mesh)(mesh_case, destination_of_outputs(mesh_case));
-        print_result(dump_case(mesh_case));
+        if (*dump) return print_result(dump_case(mesh_case));
+        const MeshDestination destination = destination_of_outputs(mesh_case);
+        if (ranks != nullptr && ranks->size() > 1) return share_mesh_of_case(mesh_case, destination, *ranks);
+        (mesh_case.stream ? stream_mesh_of_case : run_mesh)(mesh_case, destination);
     });
 }
 

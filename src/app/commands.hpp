@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <lamina/ranks.hpp>
+
 namespace lamina::app {
 
-void add_mesh_command(CLI::App& app);
+/// `ranks`: the processes that make the mesh together; null: this one alone.
+void add_mesh_command(CLI::App& app, Ranks* ranks);
 void add_family_command(CLI::App& app);
 void add_sizes_command(CLI::App& app);
 void add_batch_command(CLI::App& app);

@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/page.hpp>
+#include <lamina/shared_mesh.hpp>
 #include <lamina/solver_case.hpp>
 #include <lamina/stream.hpp>
 
@@ -37,6 +42,30 @@ bool holds_quads(const std::string& output, const MeshCase& mesh_case) {
     const std::string name = format_name(output, write_options(mesh_case));
     return std::any_of(formats.begin(), formats.end(),
                        [&](const MeshFormat& format) { return format.name == name && format.quads; });
+}
+
+/// Throws UsageError where the case asks for what needs the whole mesh in one place; `who` does not have it.
+void require_one_part_file(const MeshCase& mesh_case, const std::string& who) {
+    const auto refuse = [&](const char* what) { throw UsageError(who + ": " + what); };
+    if (mesh_case.outputs.size() != 1) refuse("writes one mesh file: give one --output");
+    if (!mesh_case.wall_data.empty()) refuse("holds no mesh for --wall-data");
+    if (mesh_case.wall_distance) refuse("holds no mesh for --wall-distance");
+    if (!mesh_case.html.empty()) refuse("holds no mesh for --html");
+    require_streamable(mesh_case.outputs.front(), write_options(mesh_case));
+}
+
+/// Collective: returns what all processes have sent, on rank 0.
+RankTraffic total_traffic(Ranks& ranks) {
+    const RankTraffic own = ranks.traffic();
+    RankTraffic total;
+    for (const std::string& text : ranks.gather(fmt::format("{} {}", own.messages, own.bytes))) {
+        std::istringstream numbers(text);
+        RankTraffic one;
+        numbers >> one.messages >> one.bytes;
+        total.messages += one.messages;
+        total.bytes += one.bytes;
+    }
+    return total;
 }
 
 }  // namespace
@@ -126,13 +155,8 @@ void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination) {
 }
 
 void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination) {
-    const auto refuse = [](const char* what) { throw UsageError(std::string("option --stream: ") + what); };
-    if (mesh_case.outputs.size() != 1) refuse("writes one mesh file: give one --output");
-    if (!mesh_case.wall_data.empty()) refuse("holds no mesh for --wall-data");
-    if (mesh_case.wall_distance) refuse("holds no mesh for --wall-distance");
-    if (!mesh_case.html.empty()) refuse("holds no mesh for --html");
+    require_one_part_file(mesh_case, "option --stream");
     const std::string& output = mesh_case.outputs.front();
-    require_streamable(output, write_options(mesh_case));
     require_inputs(mesh_case);
     require_outputs(mesh_case, destination);
     const std::vector<RunFile> outputs = files_written(mesh_case, destination);
@@ -154,6 +178,47 @@ void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& desti
                    to_text(mesh_report(mesh_case, streamed.result, {streamed.counts, streamed.hash}, seconds)));
     if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, streamed.result, streamed.counts, seconds), outputs);
     require_no_warnings(streamed.result.warnings, mesh_case.strict);
+}
+
+void share_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination, Ranks& ranks) {
+    require_one_part_file(mesh_case, "a run of several processes");
+    if (std::any_of(mesh_case.inputs.begin(), mesh_case.inputs.end(), is_standard_stream))
+        throw UsageError("INPUT: '-' reaches one of several processes alone: give a file");
+    const std::string& output = mesh_case.outputs.front();
+    require_inputs(mesh_case);
+    require_outputs(mesh_case, destination);
+    const std::vector<RunFile> outputs = files_written(mesh_case, destination);
+    const SignalGuard guard(outputs);
+    const CaseOptions options = options_with_files(mesh_case);
+    const bool reports = ranks.rank() == 0;
+    ProgressPrinter progress(mesh_case.progress, mesh_case.quiet || !reports);
+    std::optional<std::filesystem::path> beside;
+    if (mesh_case.stream) beside = output;
+    const SharedMesh shared =
+        share_mesh(mesh_case.inputs, options, ranks, beside, [&](const auto& event) { progress.begin(event); });
+    const MeshResult& result = shared.result;
+    if (reports) {
+        print_warnings(result.warnings);
+        require_promised_angles(result.check, mesh_case.allow_defects);
+    }
+
+    progress.begin({"writing"});
+    Stopwatch watch;
+    write_shared_mesh(*shared.parts, {shared.counts, result.mesh.markers, shared.constraints}, ranks, output,
+                      write_options(mesh_case));
+    const double seconds = watch.lap();
+    const RankTraffic traffic = total_traffic(ranks);
+    if (!reports) return;
+    if (!mesh_case.report.empty()) {
+        Json report = mesh_report(mesh_case, result, {shared.counts, shared.hash}, seconds);
+        report["ranks"] = {{"processes", ranks.size()}, {"messages", traffic.messages}, {"bytes", traffic.bytes}};
+        write_file(mesh_case.report, to_text(report));
+    }
+    if (!mesh_case.quiet)
+        print_summary(mesh_summary(mesh_case, result, shared.counts, seconds) +
+                          traffic_line(ranks.size(), traffic, result.inviscid_pieces),
+                      outputs);
+    require_no_warnings(result.warnings, mesh_case.strict);
 }
 
 void prefer_quads(MeshCase& mesh_case) {

@@ -7,6 +7,7 @@
 
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/ranks.hpp>
 #include <lamina/warning.hpp>
 
 #include "app/case.hpp"
@@ -51,6 +52,10 @@ void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination);
 /// Does so for `lamina mesh --stream`, which writes the mesh while it is made. Throws UsageError for outputs that need the
 /// whole mesh.
 void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination);
+
+/// Collective: does so for several processes, of which each writes the pieces that it has made. With --stream the pieces
+/// wait on the disk.
+void share_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination, Ranks& ranks);
 
 /// Throws UsageError where the case asks for a mesh that is written while it is made: for commands that need all of it.
 void require_whole(const MeshCase& mesh_case);

@@ -137,4 +137,10 @@ std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, co
     return text;
 }
 
+std::string traffic_line(unsigned processes, const RankTraffic& traffic, std::size_t pieces) {
+    const auto each = static_cast<double>(traffic.bytes) / static_cast<double>(std::max<std::size_t>(pieces, 1));
+    return summary_line("processes", fmt::format("{}, which sent {} messages of {} bytes in all: {:.0f} bytes a piece",
+                                                 processes, traffic.messages, traffic.bytes, each));
+}
+
 }  // namespace lamina::app

@@ -6,6 +6,7 @@
 #include <lamina/mesh.hpp>
 #include <lamina/mesh_sink.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/ranks.hpp>
 
 #include "app/case.hpp"
 
@@ -20,5 +21,8 @@ std::string quality_summary(const MeshCheck& check);
 /// Returns the summary of `lamina mesh` for a mesh of this size.
 std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, const MeshCounts& counts,
                          double write_seconds);
+
+/// Returns the line about what so many processes have sent each other for a mesh of so many pieces.
+std::string traffic_line(unsigned processes, const RankTraffic& traffic, std::size_t pieces);
 
 }  // namespace lamina::app

@@ -1,0 +1,33 @@
+// A file that all processes write by collective MPI-IO.
+#pragma once
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <lamina/ranks.hpp>
+
+namespace lamina::mpi {
+
+class MpiFile : public SharedFile {
+public:
+    /// Collective: creates the file, or empties it. Where a process cannot open it, all of them know, and nothing is
+    /// written.
+    MpiFile(MPI_Comm all, const std::filesystem::path& file);
+    ~MpiFile() override;
+
+    void write(const std::vector<Block>& blocks) override;
+    std::string close() override;
+
+private:
+    MPI_Comm all_;
+    MPI_File file_ = MPI_FILE_NULL;
+    std::string failure_;
+
+    void note(int code);
+    void write_at_once(const std::vector<Block>& blocks);
+};
+
+}  // namespace lamina::mpi
