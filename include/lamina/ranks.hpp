@@ -79,7 +79,7 @@ public:
     std::string scatter(const std::vector<std::string>& bytes);
     /// Collective: returns the bytes of rank 0.
     std::string broadcast(std::string_view bytes);
-    /// Collective: creates or replaces a file, for all ranks to write to. Throws IoError about the target on ranks that
+    /// Collective: opens a file, or creates it, for all ranks to write to. Throws IoError about the target on ranks that
     /// cannot open it.
     std::unique_ptr<SharedFile> open_file(const std::filesystem::path& file, const std::filesystem::path& target);
 

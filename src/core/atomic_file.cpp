@@ -126,18 +126,28 @@ void write_folder_atomically(const fs::path& target, const std::function<void(co
 }
 
 #ifdef __linux__
+void reserve_room(const fs::path& file, const fs::path& target, std::size_t bytes) {
+    const int opened = ::open(file.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0666);
+    const bool has_room =
+        opened >= 0 && (::fallocate(opened, 0, 0, static_cast<off_t>(bytes)) == 0 || errno == EOPNOTSUPP);
+    const int reason = errno;
+    if (opened >= 0) ::close(opened);
+    if (!has_room) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(reason));
+}
+
 void require_room(const fs::path& target, std::size_t bytes) {
     const fs::path trial = temporary_beside(target, room_purpose);
-    const int file = ::open(trial.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
-    const bool has_room = file >= 0 && (::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0 || errno == EOPNOTSUPP);
-    const int reason = errno;
-    if (file >= 0) ::close(file);
-    ::unlink(trial.c_str());
-    if (!has_room) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(reason));
+    const auto remove = [&] { ::unlink(trial.c_str()); };
+    work_or_undo(
+        target, [&] { reserve_room(trial, target, bytes); }, remove);
+    remove();
 }
 #else
 // Elsewhere nothing reserves room without writing, so a full disk shows only while the file is written.
 void require_room(const fs::path&, std::size_t) {}
+void reserve_room(const fs::path& file, const fs::path& target, std::size_t) {
+    write_stream(file, target, [](std::ostream&) {});
+}
 #endif
 
 void write_stream(const fs::path& file, const fs::path& target, const std::function<void(std::ostream&)>& write) {

@@ -37,6 +37,11 @@ LAMINA_EXPORT void write_folder_atomically(const std::filesystem::path& target,
 /// can tell. Writers that do not survive a full disk need this.
 LAMINA_EXPORT void require_room(const std::filesystem::path& target, std::size_t bytes);
 
+/// Creates or empties a file of this many bytes, and has the disk keep room for them, as far as the file system can. Throws
+/// IoError about the target where there is none.
+LAMINA_EXPORT void reserve_room(const std::filesystem::path& file, const std::filesystem::path& target,
+                                std::size_t bytes);
+
 /// Calls write(stream) with a binary stream to `file`, and throws IoError, which names `target`, where the stream has
 /// failed in the end.
 LAMINA_EXPORT void write_stream(const std::filesystem::path& file, const std::filesystem::path& target,

@@ -249,12 +249,15 @@ void write_shared_mesh(const MeshParts& parts, const MeshFrame& frame, Ranks& ra
         if (const std::string failure = shared->close(); !failure.empty()) throw IoError(file.string(), failure);
         ranks.agree();
     };
-    // The file gets its name on rank 0, when all have written.
-    if (ranks.rank() == 0)
-        core::write_atomically(
-            file, [&](const std::filesystem::path& temporary) { write(ranks.broadcast(temporary.string())); });
-    else
+    // The file gets its name on rank 0, when all have written. Not every MPI reports a full disk, so there is room before.
+    if (ranks.rank() == 0) {
+        core::write_atomically(file, [&](const std::filesystem::path& temporary) {
+            core::reserve_room(temporary, file, writer.size());
+            write(ranks.broadcast(temporary.string()));
+        });
+    } else {
         write(ranks.broadcast({}));
+    }
     ranks.agree();
 }
 

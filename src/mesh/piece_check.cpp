@@ -275,11 +275,18 @@ std::uint8_t shape_class_behind(Point a, Point b, Point apex) {
     return 0;
 }
 
-double area_ratio_bound(std::uint8_t one, std::uint8_t other) {
+double largest_area_ratio(std::uint8_t one, std::uint8_t other) {
     if (one == 0 || other == 0) return HUGE_VAL;
     double bound = 1 + 1e-6;  // for rounding, also to single precision
     for (int steps = std::abs(one - other); steps >= 0; --steps) bound *= class_step;
     return bound;
+}
+
+double least_area_ratio(std::uint8_t one, std::uint8_t other) {
+    if (one == 0 || other == 0) return 1;
+    double bound = 1 - 1e-6;
+    for (int steps = std::abs(one - other); steps > 1; --steps) bound *= class_step;
+    return std::max(1.0, bound);
 }
 
 PieceFindings check_piece(const LinkedPiece& piece, double min_angle_deg) {

@@ -21,7 +21,6 @@ namespace {
 /// A triangle on the left of an edge.
 struct EdgeTriangle {
     Point a, b, apex;
-    double area() const { return 0.5 * cross(b - a, apex - a); }
 };
 
 bool violates(const EdgeTriangle& one, const EdgeTriangle& other) {
@@ -149,6 +148,7 @@ void PiecewiseCheck::forget_borders() {
     border_ = {};
     apexes_ = {};
     shape_classes_ = {};
+    areas_ = {};
     candidates_ = {};
 }
 
@@ -162,30 +162,45 @@ const PiecewiseCheck::Seams& PiecewiseCheck::match_seams() {
     return *seams_;
 }
 
-/// Ratios of areas below this one need not be known.
-double PiecewiseCheck::even_ratio() const {
-    // More than one in a thousand ratios of all edges are this large or larger, so the percentile is not below it.
-    constexpr double share = 0.003;
-    if (inner_edges_ < 3 * border_.size()) return 1;
-    return pieces_.isotropic.area_ratio_exceeded_by(share);
+/// Returns a ratio of areas that the 99.9th percentile reaches at least: smaller ones need not be known.
+double PiecewiseCheck::even_ratio(const Seams& seams) const {
+    constexpr double share = 0.00101;
+    const std::size_t first = layer_edges_.size();
+    QualityCollector ratios = pieces_.isotropic;
+    std::vector<double> at_least;
+    for (std::size_t e = first; e < seams.edges.size(); ++e)
+        if (const std::uint32_t twin = seams.pairs.twin[e]; twin != no_edge && twin > e)
+            at_least.push_back(least_area_ratio(shape_classes_[e - first], shape_classes_[twin - first]));
+    ratios.add_area_ratios(at_least);
+    return ratios.area_ratio_exceeded_by(share);
 }
 
 void PiecewiseCheck::set_apex(std::size_t border_edge, Point apex) { apexes_[border_edge] = apex; }
+
+void PiecewiseCheck::set_area(std::size_t border_edge, double area) { areas_[border_edge] = area; }
 
 bool PiecewiseCheck::is_known(std::size_t seam_edge) const {
     return seam_edge < layer_edges_.size() || !std::isnan(apexes_[seam_edge - layer_edges_.size()].x);
 }
 
-std::vector<std::size_t> PiecewiseCheck::wanted_apexes() {
-    std::vector<std::size_t> wanted;
+double PiecewiseCheck::area_behind(std::size_t seam_edge) const {
+    const std::size_t border_edge = seam_edge - layer_edges_.size();
+    if (const auto told = areas_.find(border_edge); told != areas_.end()) return told->second;
+    const Segment ends = border_[border_edge];
+    return area_over(shared_points_[ends.a.index()], shared_points_[ends.b.index()], apexes_[border_edge]);
+}
+
+std::vector<PiecewiseCheck::Wanted> PiecewiseCheck::wanted() {
+    std::vector<Wanted> wanted;
     const Seams& seams = match_seams();
-    const double ratio = even_ratio();
+    const double ratio = even_ratio(seams);
     const std::size_t first = layer_edges_.size();
     for (std::size_t e = first; e < seams.edges.size(); ++e) {
         const std::uint32_t twin = seams.pairs.twin[e];
         if (twin == no_edge || is_known(e)) continue;
-        if (twin < first || area_ratio_bound(shape_classes_[e - first], shape_classes_[twin - first]) > ratio)
-            wanted.push_back(e - first);
+        const double bound =
+            twin < first ? 0 : largest_area_ratio(shape_classes_[e - first], shape_classes_[twin - first]);
+        if (twin < first || bound > ratio) wanted.push_back({e - first, std::isinf(bound)});
     }
     return wanted;
 }
@@ -211,17 +226,19 @@ void PiecewiseCheck::measure_across(const Seams& seams, std::span<const Segment>
         const std::uint32_t twin = seams.pairs.twin[e];
         if (twin == no_edge || twin < e || twin < layer_edges_.size()) continue;
         if (e < layer_edges_.size()) {
-            pieces_.transition.push_back(layer_edges_[e].area / triangle(twin).area());
+            pieces_.transition.push_back(layer_edges_[e].area / area_behind(twin));
             continue;
         }
         ++pieces_.delaunay.edges;
-        if (!is_known(e) || !is_known(twin)) {
+        const double area = area_behind(e), other_area = area_behind(twin);
+        if (std::isnan(area) || std::isnan(other_area)) {
             ++even;
             continue;
         }
-        const EdgeTriangle one = triangle(e), other = triangle(twin);
-        pieces_.isotropic.add_neighbours(one.area(), other.area());
-        if (violates(one, other) && find_constraint(constraints, seams.edges[e]) == constraints.end())
+        pieces_.isotropic.add_neighbours(area, other_area);
+        // Where an area alone is known, the edge is Delaunay.
+        if (is_known(e) && is_known(twin) && violates(triangle(e), triangle(twin)) &&
+            find_constraint(constraints, seams.edges[e]) == constraints.end())
             ++pieces_.delaunay.violations;
     }
     pieces_.isotropic.add_even_neighbours(even);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include <lamina/export.hpp>
@@ -29,13 +30,19 @@ public:
     /// Adds the findings of the next piece. Sums depend on the order of the pieces in their last bits.
     LAMINA_EXPORT void add_piece(PieceFindings findings);
 
+    /// A border edge behind which finish() needs the area of the triangle, or all of it.
+    struct Wanted {
+        std::size_t border_edge = 0;  ///< the edges of all pieces are numbered in the order in which they were added
+        bool apex = false;            ///< whether the area alone will not do
+    };
     /// Where other processes hold the pieces, their findings come with unknown_apex and with shape classes behind border
-    /// edges. Returns the border edges whose apexes finish() needs; the edges of all pieces are numbered in the order in
-    /// which they were added. They are few: no angle is obtuse on either side of most edges, and the ratio of the areas is
-    /// so small that it changes neither the largest one nor the 99.9th percentile. Ascending.
-    LAMINA_EXPORT std::vector<std::size_t> wanted_apexes();
-    /// Says what lies behind a border edge.
+    /// edges. Returns what finish() needs beyond that, in ascending order. It is little: no angle is obtuse on either side
+    /// of most edges, and the ratio of the areas is so small that it changes neither the largest one nor the 99.9th
+    /// percentile.
+    LAMINA_EXPORT std::vector<Wanted> wanted();
+    /// Say what lies behind a border edge: everything, or the area of a triangle whose apex is not wanted.
     LAMINA_EXPORT void set_apex(std::size_t border_edge, Point apex);
+    LAMINA_EXPORT void set_area(std::size_t border_edge, double area);
 
     /// Returns the check of the mesh, with MeshCheck::unexcused_cells numbered by `first_triangle`, which has one entry
     /// for each piece in the order in which they were added. Constraints are as in Mesh::constraints, each once. May be
@@ -60,7 +67,8 @@ private:
     };
     const Seams& match_seams();
     bool is_known(std::size_t seam_edge) const;
-    double even_ratio() const;
+    double area_behind(std::size_t seam_edge) const;
+    double even_ratio(const Seams& seams) const;
     /// Frees the memory that grows with the borders.
     void forget_borders();
     /// Reports the shared vertices of no cell, and returns their number.
@@ -74,12 +82,13 @@ private:
     MeshCheckOptions options_;
     CellsSummary layer_, pieces_;
     std::size_t cells_ = 0, vertices_ = 0, inner_edges_ = 0;
-    std::vector<LayerEdge> layer_edges_;       ///< edges that one cell of the layer alone has
-    std::vector<std::uint8_t> used_;           ///< per shared point: whether a cell has it
-    std::vector<bool> is_layer_constraint_;    ///< per constraint: whether it is an edge of a cell of the layer
-    std::vector<Segment> border_;              ///< of all pieces, one after the other
-    std::vector<Point> apexes_;                ///< of the triangles behind these edges
-    std::vector<std::uint8_t> shape_classes_;  ///< of these triangles
+    std::vector<LayerEdge> layer_edges_;             ///< edges that one cell of the layer alone has
+    std::vector<std::uint8_t> used_;                 ///< per shared point: whether a cell has it
+    std::vector<bool> is_layer_constraint_;          ///< per constraint: whether it is an edge of a cell of the layer
+    std::vector<Segment> border_;                    ///< of all pieces, one after the other
+    std::vector<Point> apexes_;                      ///< of the triangles behind these edges
+    std::vector<std::uint8_t> shape_classes_;        ///< of these triangles
+    std::unordered_map<std::size_t, double> areas_;  ///< behind border edges whose apex is not known
     std::vector<NarrowTriangle> candidates_;
     std::vector<std::size_t> first_candidate_;  ///< per piece
     std::vector<NarrowTriangle> unexcused_;

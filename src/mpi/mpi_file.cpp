@@ -40,9 +40,7 @@ MpiFile::MpiFile(MPI_Comm all, const std::filesystem::path& file) : all_(all) {
     if (failed != 0) {
         if (file_ != MPI_FILE_NULL) MPI_File_close(&file_);
         file_ = MPI_FILE_NULL;
-        return;
     }
-    note(MPI_File_set_size(file_, 0));
 }
 
 MpiFile::~MpiFile() {

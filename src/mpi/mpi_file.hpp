@@ -13,7 +13,7 @@ namespace lamina::mpi {
 
 class MpiFile : public SharedFile {
 public:
-    /// Collective: creates the file, or empties it. Where a process cannot open it, all of them know, and nothing is
+    /// Collective: opens the file, or creates it. Where a process cannot open it, all of them know, and nothing is
     /// written.
     MpiFile(MPI_Comm all, const std::filesystem::path& file);
     ~MpiFile() override;

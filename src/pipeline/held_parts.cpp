@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/parallel.hpp"
 #include "pipeline/parts.hpp"
 
 namespace lamina::pipeline {
@@ -16,6 +17,11 @@ constexpr std::uint64_t parts_of_kind = std::uint64_t{1} << 40;
 HeldParts::HeldParts(Decoupling decoupling, LayerCells cells, HeldNumbers held, const MeshCounts& counts,
                      bool has_layer)
     : decoupling_(std::move(decoupling)), cells_(std::move(cells)), held_(std::move(held)) {
+    core::parallel_for(held_.pieces.size(), 1, [&](std::size_t i, std::size_t) {
+        const std::size_t piece = held_.pieces[i];
+        if (Refinement* refinement = held_.store->in_memory(piece))
+            number_in_mesh(decoupling_.subdomains[piece], held_.numbers[i].first_vertex, *refinement);
+    });
     if (!has_layer) return;
     before_ = parts_before_pieces(decoupling_, cells_);
     behind_ = parts_behind_pieces(decoupling_, cells_, counts.triangles);
@@ -34,10 +40,15 @@ void HeldParts::visit(std::size_t i, const std::function<void(const MeshPart&)>&
     i -= before_.size();
     if (i >= held_.pieces.size()) return take(behind_[i - held_.pieces.size()]);
     const std::size_t piece = held_.pieces[i];
-    Refinement refinement = held_.store->get(piece);
+    const auto take_piece = [&](const Refinement& refinement) {
+        take(part_of_piece(decoupling_, held_.layer_pieces, piece, held_.numbers[i].first_vertex,
+                           held_.numbers[i].first_triangle, refinement));
+    };
+    const PieceStore& store = *held_.store;
+    if (const Refinement* refinement = store.in_memory(piece)) return take_piece(*refinement);
+    Refinement refinement = store.read(piece);
     number_in_mesh(decoupling_.subdomains[piece], held_.numbers[i].first_vertex, refinement);
-    take(part_of_piece(decoupling_, held_.layer_pieces, piece, held_.numbers[i].first_vertex,
-                       held_.numbers[i].first_triangle, refinement));
+    take_piece(refinement);
 }
 
 }  // namespace lamina::pipeline

@@ -29,8 +29,7 @@ void PieceStore::put(std::size_t piece, Refinement refinement) {
     stored_[piece] = {offset, refinement.steiner_points.size(), refinement.triangles.size()};
 }
 
-Refinement PieceStore::get(std::size_t piece) const {
-    if (!file_) return in_memory_[piece];
+Refinement PieceStore::read(std::size_t piece) const {
     const Stored& stored = stored_[piece];
     Refinement refinement;
     refinement.steiner_points.resize(stored.points);

@@ -22,8 +22,11 @@ public:
 
     /// Stores points and triangles of a piece, once for each. Any thread may call it. Throws IoError.
     void put(std::size_t piece, Refinement refinement);
-    /// Returns them, without statistics. Any thread may call it. Throws IoError.
-    Refinement get(std::size_t piece) const;
+    /// Returns the piece where it lies in memory; null: it is on the disk.
+    Refinement* in_memory(std::size_t piece) { return file_ ? nullptr : &in_memory_[piece]; }
+    const Refinement* in_memory(std::size_t piece) const { return file_ ? nullptr : &in_memory_[piece]; }
+    /// Returns a piece from the disk, without statistics. Any thread may call it. Throws IoError.
+    Refinement read(std::size_t piece) const;
 
 private:
     struct Stored {

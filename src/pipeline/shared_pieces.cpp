@@ -141,36 +141,35 @@ std::string pack_held(const HeldPieces& held) {
     return packer.take();
 }
 
-/// The border edges of a piece that rank 0 asks for.
-struct BorderEdges {
-    std::size_t piece = 0;
-    std::vector<std::size_t> edges;  ///< numbers in its border_chain(), ascending
-};
+using Wanted = mesh::PiecewiseCheck::Wanted;
 
-void pack_edges(const BorderEdges& wanted, Packer& packer) {
-    packer.put_short(wanted.piece);
-    packer.put_short(wanted.edges.size());
+/// Puts a question of rank 0 for border edges of a piece, numbered in its border_chain().
+void pack_question(std::size_t piece, std::span<const Wanted> wanted, Packer& packer) {
+    packer.put_short(piece);
+    packer.put_short(wanted.size());
     std::size_t last = 0;
-    for (const std::size_t edge : wanted.edges) packer.put_short(edge - std::exchange(last, edge));
-}
-
-BorderEdges unpack_edges(Unpacker& unpacker) {
-    BorderEdges wanted{unpacker.get_short(), {}};
-    wanted.edges.resize(unpacker.get_short());
-    std::size_t last = 0;
-    for (std::size_t& edge : wanted.edges) edge = last += unpacker.get_short();
-    return wanted;
+    for (const auto [edge, apex] : wanted) packer.put_short(2 * (edge - std::exchange(last, edge)) + (apex ? 1 : 0));
 }
 
 /// Returns what lies behind the border edges of the held pieces that rank 0 asks for, in its order.
-std::string pack_wanted(const HeldPieces& held, Unpacker& questions) {
+std::string pack_answers(const Decoupling& decoupling, const HeldPieces& held, Unpacker& questions) {
     Packer packer;
     while (!questions.at_end()) {
-        const BorderEdges wanted = unpack_edges(questions);
-        const auto piece =
-            std::lower_bound(held.pieces.begin(), held.pieces.end(), wanted.piece,
-                             [](const HeldPiece& one, std::size_t number) { return one.piece < number; });
-        for (const std::size_t edge : wanted.edges) packer.put(piece->apexes[edge]);
+        const std::size_t number = questions.get_short();
+        const auto piece = std::lower_bound(held.pieces.begin(), held.pieces.end(), number,
+                                            [](const HeldPiece& one, std::size_t n) { return one.piece < n; });
+        const std::vector<Segment> chain = border_chain(decoupling.subdomains[number]);
+        std::size_t edge = 0;
+        for (std::size_t left = questions.get_short(); left > 0; --left) {
+            const std::size_t question = questions.get_short();
+            edge += question / 2;
+            const Point apex = piece->apexes[edge];
+            if (question % 2 == 1)
+                packer.put(apex);
+            else
+                packer.put(mesh::area_over(decoupling.points[chain[edge].a.index()],
+                                           decoupling.points[chain[edge].b.index()], apex));
+        }
     }
     return packer.take();
 }
@@ -226,18 +225,19 @@ public:
             packers[rank].put_all<PieceNumbers>(numbers);
         }
         asked_.resize(packers.size());
-        BorderEdges wanted;
+        std::size_t piece = 0;
+        std::vector<Wanted> of_piece;
         const auto ask = [&] {
-            if (!wanted.edges.empty()) pack_edges(wanted, packers[rank_of_[wanted.piece]]);
-            wanted.edges.clear();
+            if (!of_piece.empty()) pack_question(piece, of_piece, packers[rank_of_[piece]]);
+            of_piece.clear();
         };
-        for (const std::size_t edge : check_.wanted_apexes()) {
-            const auto piece = static_cast<std::size_t>(std::upper_bound(first_edge_.begin(), first_edge_.end(), edge) -
-                                                        first_edge_.begin() - 1);
-            if (piece != wanted.piece) ask();
-            wanted.piece = piece;
-            wanted.edges.push_back(edge - first_edge_[piece]);
-            asked_[rank_of_[piece]].push_back(edge);
+        for (const Wanted& wanted : check_.wanted()) {
+            const auto its_piece = static_cast<std::size_t>(
+                std::upper_bound(first_edge_.begin(), first_edge_.end(), wanted.border_edge) - first_edge_.begin() - 1);
+            if (its_piece != piece) ask();
+            piece = its_piece;
+            of_piece.push_back({wanted.border_edge - first_edge_[piece], wanted.apex});
+            asked_[rank_of_[piece]].push_back(wanted);
         }
         ask();
         std::vector<std::string> texts;
@@ -245,11 +245,15 @@ public:
         return texts;
     }
 
-    /// Takes what pack_wanted() returns on all ranks.
-    void take_wanted(const std::vector<std::string>& of_ranks) {
+    /// Takes what pack_answers() returns on all ranks.
+    void take_answers(const std::vector<std::string>& of_ranks) {
         for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) {
             Unpacker unpacker(of_ranks[rank]);
-            for (const std::size_t edge : asked_[rank]) check_.set_apex(edge, unpacker.get<Point>());
+            for (const auto [edge, apex] : asked_[rank])
+                if (apex)
+                    check_.set_apex(edge, unpacker.get<Point>());
+                else
+                    check_.set_area(edge, unpacker.get<double>());
         }
     }
 
@@ -261,7 +265,7 @@ private:
     std::vector<std::uint32_t> rank_of_;               ///< per piece
     std::vector<std::size_t> first_edge_;              ///< per piece: of its border, in the numbers of the check
     std::size_t next_edge_ = 0;
-    std::vector<std::vector<std::size_t>> asked_;  ///< per rank: the border edges it was asked for
+    std::vector<std::vector<Wanted>> asked_;  ///< per rank: what it was asked for
 
     void take_piece(std::size_t piece, ToldPiece told, PiecesSummary& summary) {
         const Subdomain& subdomain = decoupling_.subdomains[piece];
@@ -382,9 +386,9 @@ CountedMesh count_and_check(const Decoupling& decoupling, HeldPieces& held, cons
     counted.counts = unpacker.get<MeshCounts>();
     counted.layer_pieces = unpacker.get_short();
     counted.numbers = unpacker.get_all<PieceNumbers>();
-    const std::vector<std::string> wanted = ranks.gather(pack_wanted(held, unpacker));
+    const std::vector<std::string> told = ranks.gather(pack_answers(decoupling, held, unpacker));
     if (!check) return counted;
-    assembly->take_wanted(wanted);
+    assembly->take_answers(told);
     of_mesh.numbers = std::move(counted.numbers);
     return of_mesh;
 }

@@ -106,7 +106,7 @@ protected:
         return taken;
     }
     std::unique_ptr<SharedFile> do_open_file(const std::filesystem::path& file, const std::filesystem::path&) override {
-        if (rank_ == 0) std::ofstream(file, std::ios::binary);
+        if (rank_ == 0) std::ofstream(file, std::ios::binary | std::ios::app);
         wait();
         return std::make_unique<ThreadFile>(file, hub_);
     }
