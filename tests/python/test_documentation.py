@@ -21,7 +21,9 @@ def names_of_readers():
     naca = lamina.naca("2412")
     points = np.random.default_rng(1).random((200, 2))
     grid = np.array([[x, y] for y in (-1, 0, 1, 2) for x in (-1, 0, 1, 2)], dtype=float)
-    return {"np": np, "lamina": lamina, "coordinates": naca, "x": naca[:, 0], "y": naca[:, 1], "section": naca,
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    return {"queries": 0.2 + 0.6 * points, "frame": square, "outer": square, "inner": 0.3 + 0.4 * square[::-1],
+            "more_points": 2 + points, "np": np, "lamina": lamina, "coordinates": naca, "x": naca[:, 0], "y": naca[:, 1], "section": naca,
             "main": naca, "flap": 0.3 * naca + [1.02, -0.08], "files": ["naca:0012", "naca:2412"], "points": points,
             "segments": [[0, 1]], "grid": grid, "grid_triangles": lamina.delaunay(grid).triangles,
             "grid_sizes": np.full(len(grid), 0.2),
