@@ -18,11 +18,11 @@ std::optional<SortedPoints> sort_for_cuts(std::span<const Point> points, const D
 }
 
 bool is_beyond_cuts(std::span<const Point> points, const DecompositionOptions& options) {
-    constexpr std::size_t points_per_sample = 64, least_samples = 200;
-    if (points.size() < points_per_sample * least_samples || options.depth == 0) return false;
+    constexpr std::size_t run_length = 64, least_samples = 200;
+    if (points.size() < run_length * least_samples || options.depth == 0) return false;
     std::vector<Point> sample;  // one point of each run, since points may stand in rows
-    for (std::size_t i = 0; i + points_per_sample <= points.size(); i += points_per_sample)
-        sample.push_back(points[i + core::splitmix64(i) % points_per_sample]);
+    for (std::size_t i = 0; i + run_length <= points.size(); i += run_length)
+        sample.push_back(points[i + core::splitmix64(i) % run_length]);
     std::optional<SortedPoints> sorted = sort_points(sample);
     if (!sorted) return false;
     const Piece whole = whole_region(*sorted, convex_hull(*sorted));
