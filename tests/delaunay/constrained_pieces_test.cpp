@@ -17,7 +17,7 @@
 namespace lamina::test {
 namespace {
 
-const DecompositionOptions whole{.depth = 0}, deep{.depth = 6, .leaf_vertices = 20};
+const DecompositionOptions in_one_piece{.depth = 0}, in_many_pieces{.depth = 6, .leaf_vertices = 20};
 
 ConstrainedTriangulation triangulated(const ConstrainedCase& c, ConstrainedOptions options,
                                       const DecompositionOptions& decomposition) {
@@ -27,8 +27,8 @@ ConstrainedTriangulation triangulated(const ConstrainedCase& c, ConstrainedOptio
 
 /// Compares all but the order of the triangles.
 void expect_same_as_whole(const ConstrainedCase& c, const ConstrainedOptions& options = {},
-                          const DecompositionOptions& decomposition = deep) {
-    const ConstrainedTriangulation expected = triangulated(c, options, whole),
+                          const DecompositionOptions& decomposition = in_many_pieces) {
+    const ConstrainedTriangulation expected = triangulated(c, options, in_one_piece),
                                    t = triangulated(c, options, decomposition);
     EXPECT_EQ(canonical(t.triangles), canonical(expected.triangles));
     EXPECT_EQ(t.segments, expected.segments);
@@ -92,7 +92,7 @@ TEST(ConstrainedPieces, MakeTheTriangulationOfTheWhole) {
     for (const unsigned depth : {1u, 2u, 3u, 8u})
         expect_same_as_whole(stretched_edges_case(3000, 4), {}, {.depth = depth, .leaf_vertices = 5});
     const ConstrainedCase c = stretched_edges_case(3000, 3);
-    const ConstrainedTriangulation t = triangulated(c, {}, deep);
+    const ConstrainedTriangulation t = triangulated(c, {}, in_many_pieces);
     EXPECT_GT(t.decomposition.pieces, 30u);
     expect_valid(c.points, t.triangles, t.segments);
 }
@@ -119,8 +119,8 @@ TEST(ConstrainedPieces, MakeTheSameOfCrossings) {
         }
         return "none";
     };
-    EXPECT_NE(refusal(whole), "none");
-    EXPECT_EQ(refusal(deep), refusal(whole));
+    EXPECT_NE(refusal(in_one_piece), "none");
+    EXPECT_EQ(refusal(in_many_pieces), refusal(in_one_piece));
 }
 
 TEST(ConstrainedPieces, MakeTheSameOfBadInput) {
@@ -130,10 +130,10 @@ TEST(ConstrainedPieces, MakeTheSameOfBadInput) {
     expect_same_as_whole(c);
     c.points.push_back(c.points[17]);
     expect_same_as_whole(c, {.merge_distance = 0.0});
-    EXPECT_THROW(triangulated(c, {}, deep), InputError);
+    EXPECT_THROW(triangulated(c, {}, in_many_pieces), InputError);
     c.points.pop_back();
     c.segments.push_back({VertexId{0u}, VertexId{5000u}});
-    EXPECT_THROW(triangulated(c, {}, deep), InputError);
+    EXPECT_THROW(triangulated(c, {}, in_many_pieces), InputError);
     EXPECT_THROW(triangulated(c, {}, {.depth = 100}), OptionError);
 }
 
