@@ -34,8 +34,8 @@ class LAMINA_EXPORT SharedFile {
 public:
     /// Bytes at a place in the file.
     struct Block {
-        std::uint64_t offset = 0;
-        std::string_view bytes{};
+        std::uint64_t offset = 0;  ///< from the begin of the file
+        std::string_view bytes{};  ///< what stands there
     };
 
     SharedFile() = default;
@@ -93,10 +93,15 @@ public:
 protected:
     /// Collective, as all of these: returns the lowest rank that has failed, or size().
     virtual unsigned lowest_failed(bool failed) = 0;
+    /// Returns what gather() returns.
     virtual std::vector<std::string> do_gather(std::string_view bytes) = 0;
+    /// Returns what scatter() returns.
     virtual std::string do_scatter(const std::vector<std::string>& bytes) = 0;
+    /// Returns the bytes of rank `from`.
     virtual std::string do_broadcast(std::string_view bytes, unsigned from) = 0;
+    /// Sets the counter to 0.
     virtual void do_reset_counter() = 0;
+    /// Returns what open_file() returns.
     virtual std::unique_ptr<SharedFile> do_open_file(const std::filesystem::path& file,
                                                      const std::filesystem::path& target) = 0;
     /// Not collective: returns the counter and adds a number to it. Any thread may call it.

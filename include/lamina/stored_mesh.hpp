@@ -18,8 +18,10 @@ class LAMINA_EXPORT StoredMesh {
 public:
     /// Holds a mesh in memory.
     explicit StoredMesh(Mesh mesh);
-    StoredMesh(StoredMesh&&) noexcept;
-    StoredMesh& operator=(StoredMesh&&) noexcept;
+    /// Takes over the arrays of another object, of which only the destructor may be called then.
+    StoredMesh(StoredMesh&& other) noexcept;
+    /// Does the same, and gives up the arrays that this object has.
+    StoredMesh& operator=(StoredMesh&& other) noexcept;
     ~StoredMesh();
 
     /// Returns the whole mesh. The view holds as long as this object lives and is not changed.
@@ -32,6 +34,7 @@ public:
     bool in_files() const;
 
     struct Arrays;
+    /// Holds arrays that a reader has filled.
     explicit StoredMesh(std::unique_ptr<Arrays> arrays);
 
 private:
