@@ -9,6 +9,8 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 
+#include "core/unnamed_file.hpp"
+
 #ifdef __linux__
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -39,10 +41,8 @@ std::string scratch_folder() {
 ScratchMemory::ScratchMemory(std::size_t capacity, bool in_file) : capacity_(std::max<std::size_t>(capacity, 1)) {
     if (in_file) {
         folder_ = scratch_folder();
-        std::string name = (fs::path(folder_) / ".lamina-XXXXXX").string();
-        file_ = ::mkstemp(name.data());
+        file_ = open_unnamed_file(folder_);
         if (file_ < 0) fail(folder_, errno);
-        ::unlink(name.c_str());
     }
     void* const mapped = ::mmap(nullptr, capacity_, PROT_READ | PROT_WRITE,
                                 in_file ? MAP_SHARED : MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, file_, 0);

@@ -17,18 +17,21 @@ namespace lamina::core {
 
 namespace fs = std::filesystem;
 
-UnnamedFile::UnnamedFile(const fs::path& target) : target_(target) {
-    const bool beside = !is_standard_stream(target) && !is_device(target);
-    const fs::path folder = beside ? folder_of(target) : fs::temp_directory_path();
+int open_unnamed_file(const fs::path& folder) {
 #ifdef O_TMPFILE
-    file_ = ::open(folder.c_str(), O_TMPFILE | O_RDWR, 0600);
-    if (file_ >= 0) return;
+    if (const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR, 0600); file >= 0) return file;
 #endif
     // Some file systems have no files without names. This one loses its name at once, and lives until it is closed.
     std::string name = (folder / ".lamina-XXXXXX").string();
-    file_ = ::mkstemp(name.data());
+    const int file = ::mkstemp(name.data());
+    if (file >= 0) ::unlink(name.c_str());
+    return file;
+}
+
+UnnamedFile::UnnamedFile(const fs::path& target) : target_(target) {
+    const bool beside = !is_standard_stream(target) && !is_device(target);
+    file_ = open_unnamed_file(beside ? folder_of(target) : fs::temp_directory_path());
     if (file_ < 0) fail(errno);
-    ::unlink(name.c_str());
 }
 
 UnnamedFile::~UnnamedFile() {

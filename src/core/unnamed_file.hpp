@@ -10,6 +10,9 @@
 
 namespace lamina::core {
 
+/// Opens a file without a name in a folder, to be read and written. Returns its descriptor, or -1 with the reason in errno.
+int open_unnamed_file(const std::filesystem::path& folder);
+
 /// A temporary file without a name, which vanishes with this object or with the process.
 class LAMINA_EXPORT UnnamedFile {
 public:
