@@ -8,8 +8,8 @@
 
 namespace lamina {
 
-/// What a call ends with that is no longer wanted. It is no Error: nothing is wrong, and nobody who mends errors may take
-/// it for one.
+/// A call that is no longer wanted ends with this exception. It is no Error: nothing is wrong, and nobody who mends errors
+/// may take it for one.
 class LAMINA_EXPORT Interrupted : public std::exception {
 public:
     /// Returns "interrupted".

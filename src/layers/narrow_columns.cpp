@@ -32,6 +32,8 @@ namespace {
 constexpr double narrow_share = 0.8;
 /// A column has this length at least, so that the string goes forward.
 constexpr double least_length = 1e-6;
+/// It has this length at most, as columns without layers do, so that sums of lengths are exact enough for short ones.
+constexpr double most_length = 100;
 
 /// A place that the string goes through.
 struct Gate {
@@ -93,7 +95,8 @@ void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd>
         const RayLine &a = set.lines[i], &b = set.lines[j];
         const double height = std::min(ends[i].height, ends[j].height);
         const double width = length(b.origin - a.origin + height * (b.direction - a.direction));
-        return width / std::max(ends[i].last_spacing, ends[j].last_spacing);
+        const double spacing = std::max(ends[i].last_spacing, ends[j].last_spacing);
+        return width < most_length * spacing ? std::max(width / spacing, least_length) : most_length;
     };
     const auto is_free = [&](std::size_t i) {
         return length_of(rays.previous[i], i) < narrow_share || length_of(i, rays.next[i]) < narrow_share;
@@ -108,7 +111,7 @@ void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd>
             const bool held = i == first || !is_free(i);
             const LayerRange range = held ? LayerRange{counts[i], counts[i]} : ends[i].layers;
             gates.push_back({along, double(range.least), double(range.most)});
-            along += std::max(length_of(i, rays.next[i]), least_length);
+            along += length_of(i, rays.next[i]);
             i = rays.next[i];
         } while (i != first);
         gates.push_back({along, gates[0].least, gates[0].most});

@@ -161,6 +161,25 @@ TEST(NarrowColumns, KeepTheRangesOfTheirRays) {
     }
 }
 
+TEST(NarrowColumns, MayStandBesideRaysWithoutLayers) {
+    const std::size_t rays = 40;
+    for (const double apart : {0.0, 0.01, 2.0}) {
+        std::vector<std::uint32_t> counts(rays, 3);
+        std::vector<layers::ColumnEnd> ends(rays, {1, 0.1, {1, 5}});
+        for (std::size_t i = 10; i < 30; ++i) {
+            counts[i] = 0;
+            ends[i] = {0, 0, {0, 0}};
+        }
+        const std::vector<std::uint32_t> wanted = counts;
+        layers::keep_counts_on_narrow_columns(parallel_rays(rays, apart), ends, counts);
+        for (std::size_t i = 0; i < rays; ++i) {
+            EXPECT_GE(counts[i], ends[i].layers.least);
+            EXPECT_LE(counts[i], ends[i].layers.most);
+        }
+        if (apart == 2) EXPECT_EQ(counts, wanted);
+    }
+}
+
 TEST(NarrowColumns, ChangeEvenlyWhereTheyMustChange) {
     std::vector<std::uint32_t> counts(41, 30);
     std::vector<layers::ColumnEnd> ends(41, {1, 0.1, {20, 40}});
