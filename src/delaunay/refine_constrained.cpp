@@ -13,6 +13,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
+#include "core/interruption_point.hpp"
 #include "delaunay/arguments.hpp"
 #include "delaunay/border_lines.hpp"
 #include "delaunay/constrained_input.hpp"
@@ -106,8 +107,10 @@ void append(FieldPatches& all, const LatticePatches& some, std::uint32_t field) 
     const std::size_t offset = all.patches.points.size();
     const auto shifted = [offset](VertexId v) { return VertexId{offset + v.index()}; };
     all.patches.points.insert(all.patches.points.end(), some.points.begin(), some.points.end());
+    core::check_interruption();
     for (const Triangle& t : some.triangles)
         all.patches.triangles.push_back({{shifted(t.v[0]), shifted(t.v[1]), shifted(t.v[2])}});
+    core::check_interruption();
     for (const Segment& s : some.boundary) all.patches.boundary.push_back({shifted(s.a), shifted(s.b)});
     for (const VertexId v : some.collar) all.patches.collar.push_back(shifted(v));
     all.fields.resize(all.patches.triangles.size(), field);
@@ -123,6 +126,7 @@ FieldPatches fill_fields(const ConstrainedInput& input, std::span<const LatticeO
         const std::vector<Segment> edges = edges_round_field(input, field);
         if (edges.empty()) continue;
         const LatticePatches patches = fill_with_lattice(input.points, edges, *size, options, obstacles);
+        core::check_interruption();
         append(all, patches, field);
     }
     if (all.patches.points.size() > options.max_points) {
@@ -230,13 +234,16 @@ ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulati
     r.steiner_points.resize(vertices.size() - user_points + patches.points.size() - seam.shared.size());
     for (std::size_t v = user_points; v < vertices.size(); ++v)
         r.steiner_points[ids[v].index() - user_points] = vertices[v];
+    core::check_interruption();
     for (std::size_t i = 0; i < patches.points.size(); ++i)
         r.steiner_points[first_of_patch + i - user_points] = patches.points[i];
+    core::check_interruption();
     for (std::size_t t = 0; t < patches.triangles.size(); ++t) {
         Triangle& triangle = r.triangles.emplace_back(patches.triangles[t]);
         for (VertexId& v : triangle.v) v = VertexId{first_of_patch + v.index()};
         r.regions.push_back(region_of_field(filled.fields[t]));
     }
+    core::check_interruption();
     for (Index t = 0; t < refiner.tris().size(); ++t) {
         const Index* v = refiner.tris()[t].v;
         r.triangles.push_back({{ids[v[0]], ids[v[1]], ids[v[2]]}});

@@ -30,6 +30,11 @@ public:
     explicit atomic_ref(T& value) : value_(value) {}
     T load(memory_order = memory_order_seq_cst) const { return value_; }
     void store(T value, memory_order = memory_order_seq_cst) const { value_ = value; }
+    T fetch_or(T bits, memory_order = memory_order_seq_cst) const {
+        const T before = value_;
+        value_ |= bits;
+        return before;
+    }
     bool compare_exchange_strong(T& expected, T desired, memory_order = memory_order_seq_cst) const {
         if (value_ != expected) {
             expected = value_;
