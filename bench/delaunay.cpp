@@ -101,25 +101,8 @@ std::vector<Point> flat_plate_at_10_degrees(std::size_t n) {
     return test::flat_plate_points(n, 0.984807753012208, 0.17364817766693033);
 }
 
-/// Returns points on two lines parallel to the x axis, or slanted.
-std::vector<Point> two_lines(std::size_t n, double slope) {
-    test::Random random(4);
-    std::vector<Point> points(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const double x = random.real();
-        points[i] = {x, slope * x + static_cast<double>(i % 2)};
-    }
-    return points;
-}
-std::vector<Point> two_flat_lines(std::size_t n) { return two_lines(n, 0); }
-std::vector<Point> two_slanted_lines(std::size_t n) { return two_lines(n, 0.3); }
-/// Returns points on the two axes.
-std::vector<Point> points_on_a_cross(std::size_t n) {
-    test::Random random(4);
-    std::vector<Point> points(n);
-    for (std::size_t i = 0; i < n; ++i) (i % 2 == 0 ? points[i].x : points[i].y) = random.real(-1, 1);
-    return points;
-}
+std::vector<Point> two_flat_lines(std::size_t n) { return test::points_on_two_lines(n, 0); }
+std::vector<Point> two_slanted_lines(std::size_t n) { return test::points_on_two_lines(n, 0.3); }
 
 void triangulate(benchmark::State& state, std::vector<Point> (*make)(std::size_t)) {
     const std::vector<Point> points = make(static_cast<std::size_t>(state.range(0)));
@@ -151,7 +134,7 @@ BENCHMARK_CAPTURE(triangulate, flat_plate, flat_plate)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, flat_plate_at_10_degrees, flat_plate_at_10_degrees)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, two_flat_lines, two_flat_lines)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, two_slanted_lines, two_slanted_lines)->Apply(usual);
-BENCHMARK_CAPTURE(triangulate, cross, points_on_a_cross)->Apply(usual);
+BENCHMARK_CAPTURE(triangulate, cross, test::points_on_a_cross)->Apply(usual);
 BENCHMARK_CAPTURE(triangulate, uniform, uniform)->Apply(large);
 BENCHMARK_CAPTURE(triangulate, layer, test::naca_layer_points)->Apply(large);
 

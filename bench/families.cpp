@@ -58,25 +58,8 @@ std::vector<Point> rings_family(std::size_t n) {
     return points;
 }
 
-/// Returns points on two lines at this slope.
-std::vector<Point> on_two_lines(std::size_t n, double slope) {
-    test::Random random(4);
-    std::vector<Point> points(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const double x = random.real();
-        points[i] = {x, slope * x + static_cast<double>(i % 2)};
-    }
-    return points;
-}
-std::vector<Point> two_lines_family(std::size_t n) { return on_two_lines(n, 0); }
-std::vector<Point> slanted_lines_family(std::size_t n) { return on_two_lines(n, 0.3); }
-
-std::vector<Point> cross_family(std::size_t n) {
-    test::Random random(4);
-    std::vector<Point> points(n);
-    for (std::size_t i = 0; i < n; ++i) (i % 2 == 0 ? points[i].x : points[i].y) = random.real(-1, 1);
-    return points;
-}
+std::vector<Point> two_lines_family(std::size_t n) { return test::points_on_two_lines(n, 0); }
+std::vector<Point> slanted_lines_family(std::size_t n) { return test::points_on_two_lines(n, 0.3); }
 
 /// Returns points on an arc, and one that sees all of them.
 std::vector<Point> fan_family(std::size_t n) {
@@ -211,7 +194,7 @@ BENCHMARK_CAPTURE(points_of, circles, circles_family)->Apply(medians_of_five);
 BENCHMARK_CAPTURE(points_of, rings, rings_family)->Apply(medians_of_five);
 BENCHMARK_CAPTURE(points_of, two_lines, two_lines_family)->Apply(medians_of_five);
 BENCHMARK_CAPTURE(points_of, slanted_lines, slanted_lines_family)->Apply(medians_of_five);
-BENCHMARK_CAPTURE(points_of, cross, cross_family)->Apply(medians_of_five);
+BENCHMARK_CAPTURE(points_of, cross, test::points_on_a_cross)->Apply(medians_of_five);
 BENCHMARK_CAPTURE(points_of, fan, fan_family)->Apply(medians_of_five);
 BENCHMARK_CAPTURE(points_of, layer, test::naca_layer_points)->Apply(medians_of_five);
 BENCHMARK_CAPTURE(segments_of, roads, roads_family)->Apply(medians_of_five);

@@ -48,7 +48,7 @@ public:
     virtual void visit(std::size_t i, const std::function<void(const MeshPart&)>& take) const = 0;
 };
 
-/// What there is to a mesh beside its parts.
+/// A frame holds what a mesh has beside the cells and points of its parts.
 struct MeshFrame {
     MeshCounts counts;                     ///< its size
     std::span<const Marker> markers;       ///< as Mesh::markers

@@ -135,36 +135,49 @@ double write_outputs(const MeshCase& mesh_case, const MeshDestination& destinati
     return seconds;
 }
 
+namespace {
+
+/// Every run begins so: its inputs are there, its outputs can be written, and a signal leaves nothing half-written.
+struct StartedRun {
+    std::vector<RunFile> outputs;
+    SignalGuard guard;
+    CaseOptions options;
+
+    StartedRun(const MeshCase& mesh_case, const MeshDestination& destination)
+        : outputs(checked_outputs(mesh_case, destination)), guard(outputs), options(options_with_files(mesh_case)) {}
+
+private:
+    static std::vector<RunFile> checked_outputs(const MeshCase& mesh_case, const MeshDestination& destination) {
+        require_inputs(mesh_case);
+        require_outputs(mesh_case, destination);
+        return files_written(mesh_case, destination);
+    }
+};
+
+}  // namespace
+
 void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination) {
     require_whole(mesh_case);
-    require_inputs(mesh_case);
-    require_outputs(mesh_case, destination);
-    const std::vector<RunFile> outputs = files_written(mesh_case, destination);
-    const SignalGuard guard(outputs);
-    const CaseOptions options = options_with_files(mesh_case);
+    const StartedRun run(mesh_case, destination);
     ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
-    MeshResult result = generate_mesh(mesh_case.inputs, options, [&](const auto& event) { progress.begin(event); });
+    MeshResult result = generate_mesh(mesh_case.inputs, run.options, [&](const auto& event) { progress.begin(event); });
     report_warnings(mesh_case, destination, result);
 
     progress.begin({"writing"});
     const double write_seconds = write_outputs(mesh_case, destination, result);
     const Mesh& mesh = result.mesh;
     const MeshCounts counts{mesh.points.size(), mesh.triangles.size(), mesh.quads.size()};
-    if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, result, counts, write_seconds), outputs);
+    if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, result, counts, write_seconds), run.outputs);
     require_no_warnings(result.warnings, mesh_case.strict);
 }
 
 void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination) {
     require_one_part_file(mesh_case, "option --stream");
     const std::string& output = mesh_case.outputs.front();
-    require_inputs(mesh_case);
-    require_outputs(mesh_case, destination);
-    const std::vector<RunFile> outputs = files_written(mesh_case, destination);
-    const SignalGuard guard(outputs);
-    const CaseOptions options = options_with_files(mesh_case);
+    const StartedRun run(mesh_case, destination);
     ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
     StreamedMesh streamed = stream_mesh(
-        mesh_case.inputs, options, [&] { return open_mesh_sink(output, write_options(mesh_case)); },
+        mesh_case.inputs, run.options, [&] { return open_mesh_sink(output, write_options(mesh_case)); },
         [&](const auto& event) { progress.begin(event); });
     print_warnings(streamed.result.warnings);
     require_promised_angles(streamed.result.check, mesh_case.allow_defects);
@@ -176,7 +189,8 @@ void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& desti
     if (!mesh_case.report.empty())
         write_file(mesh_case.report,
                    to_text(mesh_report(mesh_case, streamed.result, {streamed.counts, streamed.hash}, seconds)));
-    if (!mesh_case.quiet) print_summary(mesh_summary(mesh_case, streamed.result, streamed.counts, seconds), outputs);
+    if (!mesh_case.quiet)
+        print_summary(mesh_summary(mesh_case, streamed.result, streamed.counts, seconds), run.outputs);
     require_no_warnings(streamed.result.warnings, mesh_case.strict);
 }
 
@@ -185,17 +199,13 @@ void share_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destin
     if (std::any_of(mesh_case.inputs.begin(), mesh_case.inputs.end(), is_standard_stream))
         throw UsageError("INPUT: '-' reaches one of several processes alone: give a file");
     const std::string& output = mesh_case.outputs.front();
-    require_inputs(mesh_case);
-    require_outputs(mesh_case, destination);
-    const std::vector<RunFile> outputs = files_written(mesh_case, destination);
-    const SignalGuard guard(outputs);
-    const CaseOptions options = options_with_files(mesh_case);
+    const StartedRun run(mesh_case, destination);
     const bool reports = ranks.rank() == 0;
     ProgressPrinter progress(mesh_case.progress, mesh_case.quiet || !reports);
     std::optional<std::filesystem::path> beside;
     if (mesh_case.stream) beside = output;
     const SharedMesh shared =
-        share_mesh(mesh_case.inputs, options, ranks, beside, [&](const auto& event) { progress.begin(event); });
+        share_mesh(mesh_case.inputs, run.options, ranks, beside, [&](const auto& event) { progress.begin(event); });
     const MeshResult& result = shared.result;
     if (reports) {
         print_warnings(result.warnings);
@@ -217,7 +227,7 @@ void share_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destin
     if (!mesh_case.quiet)
         print_summary(mesh_summary(mesh_case, result, shared.counts, seconds) +
                           traffic_line(ranks.size(), traffic, result.inviscid_pieces),
-                      outputs);
+                      run.outputs);
     require_no_warnings(result.warnings, mesh_case.strict);
 }
 

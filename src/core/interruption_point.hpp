@@ -1,4 +1,4 @@
-// Where work looks whether it is still wanted (with_interruption()). Parallel loops look before each block, so most
+// Work looks here whether it is still wanted (with_interruption()). Parallel loops look before each block, so most
 // stages have no code for it; long loops on one thread look every few thousand steps.
 #pragma once
 
@@ -17,7 +17,8 @@ protected:
     ~Interruption() = default;
 };
 
-/// What the thread works for at present; null: for somebody who will wait. InterruptionScope sets it, and sets it back.
+/// The thread works for this call at present; null: for somebody who will wait. InterruptionScope sets it, and sets it
+/// back.
 inline thread_local const Interruption* current_interruption = nullptr;
 
 /// Throws Interrupted where the work of this thread is no longer wanted. Costs some nanoseconds.

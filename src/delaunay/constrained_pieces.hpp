@@ -20,7 +20,7 @@ struct TriangulatedPieces {
     DecompositionStats stats{};
 };
 
-/// What became of a constrained triangulation in pieces.
+/// A constrained triangulation that was tried in pieces, or the reason why there is none.
 struct PiecesTrial {
     std::optional<TriangulatedPieces> triangulated;
     bool crossed = false;  ///< whether there is none because segments cross

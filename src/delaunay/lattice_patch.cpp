@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "core/interruption_point.hpp"
+
 namespace lamina::delaunay {
 
 namespace {
@@ -283,6 +285,7 @@ void append_patch(const LatticeGrid& grid, const PatchVertices& patch, LatticePa
     if (patches.linked) below = own = {here, here};
     append_row(grid, patch, 0, here, patches);
     for (Row j = 0; j + 1 < grid.rows; ++j) {
+        core::check_interruption();
         append_row(grid, patch, j + 1, above, patches);
         const Strip strip(grid, bits, j, here, above);
         strip.append_triangles(below, own, patches);

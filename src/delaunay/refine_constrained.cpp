@@ -102,15 +102,22 @@ struct FieldPatches {
     std::vector<std::uint32_t> boundary_fields;
 };
 
+/// Looks whether the work is still wanted, each time that so many triangles more have been copied.
+void look_now_and_then(std::size_t triangles) {
+    constexpr std::size_t triangles_between_looks = std::size_t{1} << 16;
+    if (triangles % triangles_between_looks == 0) core::check_interruption();
+}
+
 /// Appends the patches of one field.
 void append(FieldPatches& all, const LatticePatches& some, std::uint32_t field) {
     const std::size_t offset = all.patches.points.size();
     const auto shifted = [offset](VertexId v) { return VertexId{offset + v.index()}; };
     all.patches.points.insert(all.patches.points.end(), some.points.begin(), some.points.end());
     core::check_interruption();
-    for (const Triangle& t : some.triangles)
+    for (const Triangle& t : some.triangles) {
+        look_now_and_then(all.patches.triangles.size());
         all.patches.triangles.push_back({{shifted(t.v[0]), shifted(t.v[1]), shifted(t.v[2])}});
-    core::check_interruption();
+    }
     for (const Segment& s : some.boundary) all.patches.boundary.push_back({shifted(s.a), shifted(s.b)});
     for (const VertexId v : some.collar) all.patches.collar.push_back(shifted(v));
     all.fields.resize(all.patches.triangles.size(), field);
@@ -237,8 +244,8 @@ ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulati
     core::check_interruption();
     for (std::size_t i = 0; i < patches.points.size(); ++i)
         r.steiner_points[first_of_patch + i - user_points] = patches.points[i];
-    core::check_interruption();
     for (std::size_t t = 0; t < patches.triangles.size(); ++t) {
+        look_now_and_then(t);
         Triangle& triangle = r.triangles.emplace_back(patches.triangles[t]);
         for (VertexId& v : triangle.v) v = VertexId{first_of_patch + v.index()};
         r.regions.push_back(region_of_field(filled.fields[t]));

@@ -54,7 +54,7 @@ inline void reserve_cells(MeshArrays& arrays, std::size_t cells) {
 
 namespace lamina {
 
-/// What StoredMesh holds: a mesh in memory, or arrays.
+/// A StoredMesh holds a mesh in memory, or arrays.
 struct StoredMesh::Arrays {
     Mesh mesh;
     bool has_arrays = false, in_files = false;

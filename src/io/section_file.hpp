@@ -14,7 +14,7 @@ namespace lamina::io {
 /// A part of a file that waits on the disk, without a name, until it can be written.
 class SectionFile {
 public:
-    /// As core::UnnamedFile does. For /dev/null bytes are counted alone. Throws IoError about the target.
+    /// Opens a file as core::UnnamedFile does. For /dev/null, bytes are counted alone. Throws IoError about the target.
     explicit SectionFile(const std::filesystem::path& target);
 
     /// Throws IoError about the target.

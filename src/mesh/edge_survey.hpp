@@ -18,7 +18,7 @@
 
 namespace lamina::mesh {
 
-/// What is known of the edges once all have been matched, as in Adjacency.
+/// These totals are known once all edges have been matched, as in Adjacency.
 struct EdgeTotals {
     std::vector<std::uint32_t> boundary, overused;
     std::vector<VertexId> orphans;

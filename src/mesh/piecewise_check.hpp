@@ -35,8 +35,8 @@ public:
         std::size_t border_edge = 0;  ///< the edges of all pieces are numbered in the order in which they were added
         bool apex = false;            ///< whether the area alone will not do
     };
-    /// Where other processes hold the pieces, their findings come with unknown_apex and with shape classes behind border
-    /// edges. Returns what finish() needs beyond that, in ascending order. It is little: no angle is obtuse on either side
+    /// Returns what finish() needs beyond the findings of other processes, in ascending order. Where these hold the
+    /// pieces, findings come with unknown_apex and with shape classes behind border edges. It is little: no angle is obtuse on either side
     /// of most edges, and the ratio of the areas is so small that it changes neither the largest one nor the 99.9th
     /// percentile.
     LAMINA_EXPORT std::vector<Wanted> wanted();

@@ -53,7 +53,8 @@ public:
     void append(const QualityCollector& part);
     QualitySummary summary() const;
 
-    /// The same in two parts, for collectors of other processes: the histogram of ratios is larger than all the rest.
+    /// These give and take the same in two parts, for collectors of other processes: the histogram of ratios is larger
+    /// than all the rest.
     const QualityTotals& totals() const { return totals_; }
     std::span<const std::uint32_t> area_ratios() const { return area_ratios_; }
     LAMINA_EXPORT void append(const QualityTotals& totals);

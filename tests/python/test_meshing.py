@@ -250,8 +250,8 @@ def test_interrupt_ends_a_call_of_seconds_at_once(name):
     try:
         with pytest.raises(KeyboardInterrupt):
             LONG_CALLS[name]()
-        # Processor time, since others may use the machine. It is below a second, but for caches that others take.
-        assert time.process_time() - at[0] < 3
+        # Processor time, since others may use the machine: half a second alone, and the calls take up to five.
+        assert time.process_time() - at[0] < 2
     finally:
         timer.join()
         signal.signal(signal.SIGINT, before)

@@ -32,6 +32,23 @@ std::vector<Point> naca_layer_points(std::size_t n) {
     return points;
 }
 
+std::vector<Point> points_on_two_lines(std::size_t n, double slope) {
+    Random random(4);
+    std::vector<Point> points(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double x = random.real();
+        points[i] = {x, slope * x + static_cast<double>(i % 2)};
+    }
+    return points;
+}
+
+std::vector<Point> points_on_a_cross(std::size_t n) {
+    Random random(4);
+    std::vector<Point> points(n);
+    for (std::size_t i = 0; i < n; ++i) (i % 2 == 0 ? points[i].x : points[i].y) = random.real(-1, 1);
+    return points;
+}
+
 std::vector<Point> flat_plate_points(std::size_t n, double cosine, double sine) {
     constexpr std::size_t points_in_column = 100;
     const std::size_t columns = n / points_in_column;

@@ -18,6 +18,12 @@ std::vector<Point> naca_layer_points(std::size_t n);
 /// cosine and sine. Cells are rectangles, so their four corners are cocircular (up to rounding where turned).
 std::vector<Point> flat_plate_points(std::size_t n, double cosine, double sine);
 
+/// Returns points on two parallel lines with this slope.
+std::vector<Point> points_on_two_lines(std::size_t n, double slope);
+
+/// Returns points on the two axes.
+std::vector<Point> points_on_a_cross(std::size_t n);
+
 /// The unit square, to be refined to h(x) = size + gradation x. Border edges are at most 0.8 h long.
 struct RefinementCase {
     Border border;

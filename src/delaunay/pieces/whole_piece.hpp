@@ -1,4 +1,4 @@
-// What every decomposition begins with: the piece that holds all points.
+// Every decomposition begins with the piece that holds all points.
 #pragma once
 
 #include <optional>
