@@ -19,6 +19,7 @@
 #include "layers/fit_heights.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -44,14 +45,37 @@ double stretched_height(std::span<const double> heights, std::uint32_t n, double
     return height;
 }
 
+/// Returns the factor with which layer n ends at the height, to some 1e-15, by Newton's method from a factor that is too
+/// large: the height is a polynomial of the factor with positive coefficients, so no step goes too far. Returns NaN
+/// where eight steps are not enough.
+double factor_near(double height, std::span<const double> heights, std::uint32_t n, double factor) {
+    const std::uint32_t kept = std::min(last_unstretched(n), n);
+    for (int step = 0; step < 8; ++step) {
+        double reached = heights[kept], slope = 0, product = 1;
+        for (std::uint32_t k = kept; k < n; ++k) {
+            const double thickness = heights[k + 1] - heights[k];
+            slope += (k - kept + 1) * product * thickness;
+            product *= factor;
+            reached += product * thickness;
+        }
+        const double change = (reached - height) / slope;
+        factor -= change;
+        if (std::abs(change) < 1e-12) return factor;
+    }
+    return NAN;
+}
+
 /// Returns the largest factor up to max_stretch with which layer n ends at or below the height; 1 / max_stretch if there
 /// is none.
 double max_factor_below(double height, std::span<const double> heights, std::uint32_t n) {
     double low = 1 / max_stretch, high = max_stretch;
     if (stretched_height(heights, n, high) <= height) return high;
+    const double near = factor_near(height, heights, n, high);
     for (int halving = 0; halving < 48; ++halving) {
         const double middle = 0.5 * (low + high);
-        (stretched_height(heights, n, middle) <= height ? low : high) = middle;
+        const bool is_clear = std::abs(middle - near) > 1e-10;
+        const bool fits = is_clear ? middle < near : stretched_height(heights, n, middle) <= height;
+        (fits ? low : high) = middle;
     }
     return low;
 }
@@ -77,11 +101,10 @@ StretchedLayers layers_up_to(double height, std::span<const double> heights) {
     const double grown = max_factor_below(height, heights, fitting);
     const StretchedLayers as_many{fitting, {grown, last_unstretched(fitting)}};
     if (fitting + std::size_t{1} == heights.size()) return as_many;
-    const double shrunk = max_factor_below(height, heights, fitting + 1);
-    const bool one_more = stretched_height(heights, fitting + 1, shrunk) <= height;
-    const bool shrunk_less = grown == max_stretch || grown * shrunk > 1;
-    if (!one_more || !shrunk_less) return as_many;
-    return {fitting + 1, {shrunk, last_unstretched(fitting + 1)}};
+    // One more layer fits if it shrinks by the largest factor, and is taken if it shrinks by less than the others grow.
+    const double least = grown == max_stretch ? 1 / max_stretch : 1 / grown;
+    if (stretched_height(heights, fitting + 1, least) > height) return as_many;
+    return {fitting + 1, {max_factor_below(height, heights, fitting + 1), last_unstretched(fitting + 1)}};
 }
 
 LayerRange layer_range(double height, std::span<const double> heights, std::uint32_t wanted) {

@@ -60,15 +60,18 @@ Candidates LowerEnvelope::push(const Box& cell, double side, double max_value, c
         for (;;) {
             const SourceGroup& group = groups_[index];
             double apart = distance(group.box, cell);
-            if (group.is_single()) apart = std::max(apart, shapes_[group.shape].distance_to(cell.center()) - radius);
-            const double min_value = group.min_size + gradation_ * apart;
+            double min_value = group.min_size + gradation_ * apart;
+            if (group.is_single() && min_value <= max_value) {
+                apart = std::max(apart, shapes_[group.shape].distance_to(cell.center()) - radius);
+                min_value = group.min_size + gradation_ * apart;
+            }
             if (min_value <= max_value && !group.is_single() && group.extent() > 0.5 * side) {
                 pending_.push_back(group.right);
                 ++index;
                 continue;
             }
             if (min_value <= max_value) {
-                if (group.is_single() && group.min_size < covering && shapes_[group.shape].covers(cell))
+                if (group.is_single() && apart <= 0 && group.min_size < covering && shapes_[group.shape].covers(cell))
                     covering = group.min_size;
                 stack_.push_back(index);
                 result.nearest = std::min(result.nearest, apart);

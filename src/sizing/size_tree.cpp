@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -46,6 +47,11 @@ struct TreeCell {
 /// The exact field at the middles of a cell's edges and at its centre.
 struct CellSamples {
     double south, west, center, east, north;
+};
+
+/// The samples of a cell that its neighbours below and on the left have taken already.
+struct KnownSamples {
+    std::optional<double> south, west;
 };
 
 /// Builds a part of the tree.
@@ -88,7 +94,8 @@ public:
     SizeTree part;  ///< the nodes and leaves made so far
 
 private:
-    CellSamples sample(const TreeCell& c, const Candidates& candidates) {
+    /// Samples a cell, but for the edges whose middles a neighbour has sampled.
+    CellSamples sample(const TreeCell& c, const Candidates& candidates, const KnownSamples& known = {}) {
         const double x0 = c.lower.x, x1 = x0 + 0.5 * c.side, x2 = x0 + c.side;
         const double y0 = c.lower.y, y1 = y0 + 0.5 * c.side, y2 = y0 + c.side;
         // Over half a side the field grows by no more than this.
@@ -96,8 +103,8 @@ private:
             return (std::min(a, b) + 0.5 * gradation_ * c.side) * (1 + rounding);
         };
         CellSamples s;
-        s.south = envelope_.evaluate({x1, y0}, candidates, bound(c.h[0], c.h[1]));
-        s.west = envelope_.evaluate({x0, y1}, candidates, bound(c.h[0], c.h[2]));
+        s.south = known.south ? *known.south : envelope_.evaluate({x1, y0}, candidates, bound(c.h[0], c.h[1]));
+        s.west = known.west ? *known.west : envelope_.evaluate({x0, y1}, candidates, bound(c.h[0], c.h[2]));
         s.center = envelope_.evaluate({x1, y1}, candidates, bound(s.south, s.west));
         s.east = envelope_.evaluate({x2, y1}, candidates, bound(c.h[1], c.h[3]));
         s.north = envelope_.evaluate({x1, y2}, candidates, bound(c.h[2], c.h[3]));
@@ -160,13 +167,16 @@ private:
     template <class OnLeaf, class OnInner>
     void split(const TreeCell& parent, const Candidates& parent_candidates, const CellSamples& samples, OnLeaf on_leaf,
                OnInner on_inner) {
+        std::array<KnownSamples, 4> known;
         for (int q = 0; q < 4; ++q) {
             const TreeCell c = quadrant(parent, samples, q);
             const Candidates candidates = push_candidates(c, parent_candidates);
             if (needs_no_samples(c, candidates)) {
                 on_leaf(q, c);
             } else {
-                const CellSamples s = sample(c, candidates);
+                const CellSamples s = sample(c, candidates, known[q]);
+                if ((q & 1) == 0) known[q + 1].west = s.east;
+                if (q < 2) known[q + 2].south = s.north;
                 if (is_smooth(c, candidates, s))
                     on_leaf(q, c);
                 else
@@ -258,6 +268,13 @@ SizeTree build_size_tree(std::span<const SizeSource> sources, const SizeFieldOpt
     for (bool finish = false; !tasks.empty();) {
         std::vector<TreeBuilder::Task> next;
         std::vector<BuiltPart> parts = build_parts(tasks, finish);
+        std::size_t nodes = tree.nodes.size(), leaves = tree.leaves.size();
+        for (const BuiltPart& built : parts) {
+            nodes += built.part.nodes.size();
+            leaves += built.part.leaves.size();
+        }
+        tree.nodes.reserve(nodes);
+        tree.leaves.reserve(leaves);
         for (std::size_t i = 0; i < tasks.size(); ++i) {
             const std::uint32_t node = tree.append(parts[i].part);
             const bool is_root = node == 0;

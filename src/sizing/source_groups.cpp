@@ -61,8 +61,7 @@ void make_groups(std::span<SizeSource> sources, std::uint32_t index, std::uint32
 
 }  // namespace
 
-bool SourceShape::covers(const Box& box) const {
-    if (radius == 0 && shape == SizeSource::Shape::segment) return false;
+bool SourceShape::covers_corners(const Box& box) const {
     // The shape is convex: it holds a box if it holds the box's corners.
     const std::array<Point, 4> corners = box.corners();
     return std::all_of(corners.begin(), corners.end(), [&](Point p) { return distance_to(p) == 0; });

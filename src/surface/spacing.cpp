@@ -75,10 +75,17 @@ void limit_near_walls(CurveSamples& samples, const SpacingRule& rule) {
     }
     const core::BoxTree tree(std::move(boxes));
     const auto values = tree.group_minima(std::move(spacings));
+    // The search ends early because the limit at the last sample bounds that at the next one, but for rounding.
+    constexpr double rounding = 1e-9;
+    double last_limit = HUGE_VAL;
+    Point last = samples.front().at;
     for (CurveSample& sample : samples) {
-        const double limit = tree.minimum(sample.at, rule.gradation, sample.spacing, values, [&](std::size_t i) {
-            return core::distance_to_segment(sample.at, rule.walls[i].a, rule.walls[i].b);
-        });
+        const double bound = (last_limit + rule.gradation * distance(last, sample.at)) * (1 + rounding);
+        const double limit = tree.minimum(
+            sample.at, rule.gradation, std::min(sample.spacing, bound), values,
+            [&](std::size_t i) { return core::distance_to_segment(sample.at, rule.walls[i].a, rule.walls[i].b); });
+        last_limit = limit < sample.spacing ? limit : HUGE_VAL;
+        last = sample.at;
         sample.spacing = std::min(sample.spacing, std::max(limit, rule.min_spacing));
     }
 }
