@@ -82,6 +82,7 @@ void make_case(const CaseArguments& arguments) {
     if (arguments.folder.empty()) throw UsageError("no output: give -o DIR");
     mesh_case.outputs = {arguments.folder};
     mesh_case.format.clear();
+    options.compressible = mesh_case.options.conditions.mach.has_value();
     apply_preferences(solver, mesh_case);
     require_consistent(mesh_case);
     if (const FlowConditions& flow = mesh_case.options.conditions; !flow.reynolds && !flow.velocity)
@@ -101,7 +102,8 @@ void add_case_command(CLI::App& app) {
     auto arguments = std::make_shared<CaseArguments>();
     command
         ->add_option("SOLVER", arguments->solver,
-                     "openfoam: simpleFoam, run by DIR/Allrun; su2: SU2_CFD, run with DIR/case.cfg")
+                     "openfoam: simpleFoam, or rhoSimpleFoam with --mach, run by DIR/Allrun; su2: SU2_CFD, run with "
+                     "DIR/case.cfg")
         ->required()
         ->type_name("openfoam|su2");
     command

@@ -35,6 +35,27 @@ std::string symmetry_patches(const std::vector<std::string>& names) {
     return patches;
 }
 
+/// Adds what says which solver it is, and what a gas needs.
+void add_medium(const CaseFlow& flow, Words& words) {
+    words["APPLICATION"] = flow.compressible ? "rhoSimpleFoam" : "simpleFoam";
+    words["MACH"] = number(flow.compressible ? flow.mach : 0);
+    if (!flow.compressible) {
+        words["PRESSURE"] = "0";
+        return;
+    }
+    // A gas of density 1 whose speed of sound is velocity / mach. OpenFOAM counts its energy from 298.15 K, where sums
+    // of it round least.
+    constexpr double heat_ratio = 1.4, temperature = 298.15, gas_constant = 8314.46261815324;
+    const double sound_speed = flow.velocity / flow.mach;
+    const double pressure = sound_speed * sound_speed / heat_ratio, per_mass = pressure / temperature;
+    words["PRESSURE"] = number(pressure);
+    words["TEMPERATURE"] = number(temperature);
+    words["MOLAR_WEIGHT"] = number(gas_constant / per_mass);
+    words["HEAT_CAPACITY"] = number(heat_ratio / (heat_ratio - 1) * per_mass);
+    words["ALPHA_T_WALL"] =
+        condition(flow.wall_functions ? "compressible::alphatWallFunction" : "fixedValue", "uniform 0");
+}
+
 /// Adds what the turbulence models need: conditions upstream and at walls.
 void add_turbulence(const CaseFlow& flow, Words& words) {
     const double nu = flow.viscosity;
@@ -64,7 +85,8 @@ Words openfoam_words(const CaseFlow& flow) {
     const double u = flow.velocity * flow.direction.x, v = flow.velocity * flow.direction.y;
     const std::string far_fields = fmt::format("{}", fmt::join(flow.far_fields, "|"));
     Words words;
-    words["TITLE"] = fmt::format("Reynolds number {}, angle of attack {} degrees, chord {}", flow.reynolds,
+    const std::string mach = flow.compressible ? fmt::format("Mach number {}, ", flow.mach) : "";
+    words["TITLE"] = fmt::format("Reynolds number {}, {}angle of attack {} degrees, chord {}", flow.reynolds, mach,
                                  flow.alpha_deg, flow.chord);
     words["FAR_FIELD"] = flow.far_fields.size() > 1 ? "\"(" + far_fields + ")\"" : far_fields;
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
@@ -85,6 +107,7 @@ Words openfoam_words(const CaseFlow& flow) {
     words["VORTEX_Y"] = number(flow.moment_point.y);
     words["MAX_ITERATIONS"] = "8000";
     words["MOMENT_POINT"] = vector(flow.moment_point.x, flow.moment_point.y);
+    add_medium(flow, words);
     add_turbulence(flow, words);
     return words;
 }

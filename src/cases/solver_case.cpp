@@ -48,8 +48,13 @@ fs::path mesh_file(const SolverEntry& entry, const fs::path& folder) {
     return *entry.mesh == '\0' ? folder : folder / entry.mesh;
 }
 
-/// Returns whether the case has this file: fields of the other turbulence model are left out.
-bool belongs_to_case(std::string_view name, TurbulenceModel turbulence) {
+/// Returns whether the case has this file: fields of the other turbulence model are left out, and without
+/// compressibility what describes a gas.
+bool belongs_to_case(std::string_view name, const SolverCaseOptions& options) {
+    constexpr std::array of_gas{"0/T", "0/alphat", "constant/thermophysicalProperties", "system/compress.awk",
+                                "system/medium.compressible"};
+    if (std::find(of_gas.begin(), of_gas.end(), name) != of_gas.end()) return options.compressible;
+    const TurbulenceModel turbulence = options.turbulence;
     if (name == "0/nuTilda") return turbulence == TurbulenceModel::spalart_allmaras;
     if (name == "0/k" || name == "0/omega") return turbulence == TurbulenceModel::k_omega_sst;
     return true;
@@ -78,12 +83,15 @@ Point foremost_wall_vertex(const Mesh& mesh) {
 CaseFlow case_flow(const Mesh& mesh, const SolverConditions& conditions, const SolverCaseOptions& options) {
     const auto& [chord, alpha_deg, reynolds, mach] = conditions.reference;
     if (!reynolds) throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
+    if (options.compressible && !(mach && *mach > 0))
+        throw OptionError("mach", "a compressible flow needs one above 0");
     constexpr double default_mach = 0.15;
     CaseFlow flow;
     flow.chord = chord;
     flow.alpha_deg = alpha_deg;
     flow.reynolds = *reynolds;
     flow.mach = mach.value_or(default_mach);
+    flow.compressible = options.compressible;
     flow.velocity = conditions.velocity.value_or(1);
     flow.viscosity = flow.velocity * chord / *reynolds;
     const double alpha = core::radians(alpha_deg);
@@ -151,7 +159,7 @@ std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mes
     const Words words = entry.words(case_flow(mesh, conditions, options));
     std::vector<SolverCaseFile> files;
     for (const Template& file : templates())
-        if (file.solver == entry.name && belongs_to_case(file.name, options.turbulence))
+        if (file.solver == entry.name && belongs_to_case(file.name, options))
             files.push_back({fs::path(file.name), fill_in(file.text, words), file.text.starts_with("#!")});
     return files;
 }
@@ -174,7 +182,7 @@ std::vector<fs::path> solver_case_outputs(FlowSolver solver, const fs::path& fol
     const SolverEntry& entry = entry_of(solver);
     std::vector<fs::path> outputs = output_files(mesh_file(entry, folder), {.format = entry.format});
     for (const Template& file : templates())
-        if (file.solver == entry.name && belongs_to_case(file.name, options.turbulence))
+        if (file.solver == entry.name && belongs_to_case(file.name, options))
             outputs.push_back(folder / fs::path(file.name));
     return outputs;
 }

@@ -17,6 +17,7 @@ struct CaseFlow {
     double alpha_deg = 0;
     double reynolds = 0;
     double mach = 0;
+    bool compressible = false;  ///< SolverCaseOptions::compressible
     double velocity = 1;
     double viscosity = 0;  ///< kinematic: velocity x chord / Reynolds number
     Point direction;       ///< of the free stream, of length 1

@@ -32,7 +32,8 @@ OptionTable<FlowConditions> make_table() {
         .number("viscosity", "NU", "kinematic viscosity, in squared units of the input per second", positive_numbers,
                 member_at(&FlowConditions::viscosity))
         .needs = {"velocity"};
-    table.number("mach", "M", "Mach number of the free stream", positive_numbers, member_at(&FlowConditions::mach));
+    table.number("mach", "M", "Mach number of the free stream; makes a case of OpenFOAM one of compressible flow",
+                 positive_numbers, member_at(&FlowConditions::mach));
     return table.take();
 }
 

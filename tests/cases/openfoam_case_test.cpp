@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <numbers>
 #include <regex>
+#include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <lamina/error.hpp>
@@ -30,11 +32,12 @@ TEST(SolverCase, NoPlaceholderIsLeft) {
     const std::regex placeholder("@[A-Z_]+@");
     for (const auto& [name, solver] : flow_solvers())
         for (const auto turbulence : {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst})
-            for (const bool wall_functions : {false, true}) {
+            for (const bool special : {false, true}) {
                 SolverConditions conditions = some_conditions();
-                conditions.wall_functions = wall_functions;
-                for (const SolverCaseFile& file :
-                     solver_case_files(solver, case_mesh(), conditions, {.turbulence = turbulence})) {
+                conditions.wall_functions = special;
+                conditions.reference.mach = 0.2;
+                for (const SolverCaseFile& file : solver_case_files(
+                         solver, case_mesh(), conditions, {.turbulence = turbulence, .compressible = special})) {
                     EXPECT_FALSE(std::regex_search(file.text, placeholder)) << name << " " << file.name;
                     EXPECT_EQ(file.executable, file.text.starts_with("#!")) << file.name;
                 }
@@ -85,21 +88,50 @@ std::vector<std::string> patches_of(const std::string& text) {
     return names;
 }
 
-TEST(OpenFoamCase, EveryFieldHasEveryPatch) {
-    for (const auto turbulence : {TurbulenceModel::spalart_allmaras, TurbulenceModel::k_omega_sst}) {
-        const bool sst = turbulence == TurbulenceModel::k_omega_sst;
-        std::vector<std::string> fields;
-        for (const SolverCaseFile& file : openfoam_files(some_conditions(), {.turbulence = turbulence})) {
-            if (!file.name.string().starts_with("0/")) continue;
-            fields.push_back(file.name.filename().string());
-            // All walls are in the group `wall`.
-            EXPECT_EQ(patches_of(file.text), (std::vector<std::string>{"wall", "farfield", "frontAndBack"}))
-                << file.name;
-        }
-        std::sort(fields.begin(), fields.end());
-        EXPECT_EQ(fields, sst ? (std::vector<std::string>{"U", "k", "nut", "omega", "p"})
-                              : (std::vector<std::string>{"U", "nuTilda", "nut", "p"}));
+/// Returns the names of the fields of a case. Each must have all patches; all walls are in the group `wall`.
+std::set<std::string> fields_of(const SolverCaseOptions& options) {
+    SolverConditions conditions = some_conditions();
+    conditions.reference.mach = 0.2;
+    std::set<std::string> fields;
+    for (const SolverCaseFile& file : openfoam_files(conditions, options)) {
+        if (!file.name.string().starts_with("0/")) continue;
+        fields.insert(file.name.filename().string());
+        EXPECT_EQ(patches_of(file.text), (std::vector<std::string>{"wall", "farfield", "frontAndBack"})) << file.name;
     }
+    return fields;
+}
+
+TEST(OpenFoamCase, EveryFieldHasEveryPatch) {
+    using Names = std::set<std::string>;
+    constexpr auto sa = TurbulenceModel::spalart_allmaras, sst = TurbulenceModel::k_omega_sst;
+    EXPECT_EQ(fields_of({.turbulence = sa}), (Names{"U", "nuTilda", "nut", "p"}));
+    EXPECT_EQ(fields_of({.turbulence = sst}), (Names{"U", "k", "nut", "omega", "p"}));
+    EXPECT_EQ(fields_of({.turbulence = sa, .compressible = true}), (Names{"T", "U", "alphat", "nuTilda", "nut", "p"}));
+    EXPECT_EQ(fields_of({.turbulence = sst, .compressible = true}),
+              (Names{"T", "U", "alphat", "k", "nut", "omega", "p"}));
+}
+
+TEST(OpenFoamCase, AGasHasTheMachNumberAndDensityOneUpstream) {
+    for (const double mach : {0.05, 0.2, 0.6}) {
+        SolverConditions conditions = some_conditions();
+        conditions.reference.mach = mach;
+        conditions.velocity = 50;
+        const auto files = openfoam_files(conditions, {.compressible = true});
+        const std::string gas = text_of(files, "constant/thermophysicalProperties");
+        const double per_mass = 8314.46261815324 / std::stod(value_of(gas, "molWeight"));
+        const double heat_capacity = std::stod(value_of(gas, "Cp")), viscosity = std::stod(value_of(gas, "mu"));
+        const double temperature = numbers_in(value_of(text_of(files, "0/T"), "internalField")).at(0);
+        const double pressure = std::stod(value_of(text_of(files, "system/medium.compressible"), "forcePressure"));
+        EXPECT_NEAR(heat_capacity / (heat_capacity - per_mass), 1.4, 1e-12);
+        EXPECT_NEAR(pressure / (per_mass * temperature), 1, 1e-12);
+        EXPECT_NEAR(50 / std::sqrt(1.4 * per_mass * temperature), mach, 1e-12);
+        EXPECT_NEAR(50 * 2 / viscosity, 4e6, 1e-6);
+        EXPECT_EQ(value_of(text_of(files, "system/controlDict"), "application"), "rhoSimpleFoam");
+        EXPECT_NE(text_of(files, "Allrun").find(fmt::format("mach={} pressure={} ", mach, pressure)),
+                  std::string::npos);
+    }
+    EXPECT_EQ(value_of(text_of(openfoam_files(some_conditions()), "system/controlDict"), "application"), "simpleFoam");
+    EXPECT_THROW(openfoam_files(some_conditions(), {.compressible = true}), OptionError) << "no Mach number";
 }
 
 TEST(OpenFoamCase, InletAndOutletBothHaveTheFarFieldsConditions) {
@@ -149,6 +181,12 @@ TEST(SolverCase, FilesAreThoseAnnouncedAndNothingElseIsTouched) {
         fs::create_directories(folder / "case/system");
         folder.write("case/system/notes", "mine");
         const fs::path path = folder / "case";
+        SolverConditions gas = some_conditions();
+        gas.reference.mach = 0.2;
+        write_solver_case(solver, case_mesh(), gas, folder / "gas", {.compressible = true});
+        for (const fs::path& file : solver_case_outputs(solver, folder / "gas", {.compressible = true}))
+            EXPECT_TRUE(fs::exists(file)) << file;
+        fs::remove_all(folder / "gas");
         write_solver_case(solver, case_mesh(), some_conditions(), path);
         for (const fs::path& file : solver_case_outputs(solver, path)) EXPECT_TRUE(fs::exists(file)) << file;
         EXPECT_EQ(folder.read("case/system/notes"), "mine");

@@ -2,12 +2,15 @@
 # lift. A uniform stream, with a far field of 100 chords, costs 0.0011 in the drag coefficient at a lift coefficient of
 # 1; the error grows with the square of the lift.
 #
-#   awk -v patches='NAME ...' -v speed=U -v alpha=DEGREES -v circulation=GAMMA -v x0=X -v y0=Y -f farField.awk \
-#       constant/polyMesh/boundary constant/polyMesh/points constant/polyMesh/faces TIME/U > U
+#   awk -v patches='NAME ...' -v speed=U -v alpha=DEGREES -v circulation=GAMMA -v mach=M -v pressure=P -v x0=X -v y0=Y \
+#       -f farField.awk constant/polyMesh/boundary constant/polyMesh/points constant/polyMesh/faces TIME/U > U
 #
 # prints the field file with new freestreamValues of the patches. Coordinates of faces are means of their corners.
 # Circulation is positive where it lifts: the velocity of the vortex is
 #   (y - y0, x0 - x) circulation / (2 pi r^2),  and the pressure (speed^2 - velocity^2) / 2.
+# At a Mach number above 0, with b^2 = 1 - mach^2, r^2 becomes (along^2 + b^2 across^2) / b, where along and across are
+# the distances in the direction of the stream and across it (Prandtl and Glauert), and the pressure is that of a gas
+# with the same entropy as the free stream, whose pressure is P.
 
 BEGIN {
     pi = 3.14159265358979
@@ -69,11 +72,15 @@ in_patch && $1 == "freestreamValue" {
     for (f = start[patch]; f < start[patch] + faces[patch]; ++f) {
         dx = face_x[f] - x0
         dy = face_y[f] - y0
-        vortex = circulation / (2 * pi * (dx * dx + dy * dy))
+        along = dx * cos(alpha) + dy * sin(alpha)
+        across = dy * cos(alpha) - dx * sin(alpha)
+        b = sqrt(1 - mach * mach)
+        vortex = circulation * b / (2 * pi * (along * along + b * b * across * across))
         u = speed * cos(alpha) + dy * vortex
         v = speed * sin(alpha) - dx * vortex
         if (is_vector) printf "(%.12g %.12g 0)\n", u, v
-        else printf "%.12g\n", (speed * speed - u * u - v * v) / 2
+        else if (mach == 0) printf "%.12g\n", (speed * speed - u * u - v * v) / 2
+        else printf "%.12g\n", pressure * (1 + 0.2 * mach * mach * (1 - (u * u + v * v) / (speed * speed))) ^ 3.5
     }
     print ")\n;"
     next
