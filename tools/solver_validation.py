@@ -4,7 +4,7 @@
   solver_validation.py LAMINA FOLDER PAGE [--levels N] [--jobs N] [--iterations N] [--high-lift SLAT MAIN FLAP]
 
 FOLDER holds the cases. What is steady there already is not run again, so that an interrupted run goes on. PAGE is a
-Markdown file; pictures go into the folder images beside it. Needs simpleFoam, NumPy and matplotlib.
+Markdown file; pictures go into the folder images beside it. Needs rhoSimpleFoam, NumPy and matplotlib.
 """
 import argparse
 import concurrent.futures
@@ -23,27 +23,30 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-# NASA's Turbulence Modeling Resource: NACA 0012 in incompressible flow and the 2-D CRM-HL, Spalart-Allmaras.
-REFERENCES = {0: (None, 0.0082), 10: (1.0786, 0.0123), 15: (1.5287, 0.0212)}
+# NASA's Turbulence Modeling Resource, Spalart-Allmaras: NACA 0012 at Mach 0.15 and the 2-D CRM-HL at Mach 0.2. The
+# lift of incompressible flow is less by Prandtl and Glauert's factor.
+REFERENCES = {0: (None, 0.0082), 10: (1.0909, 0.0123), 15: (1.546, 0.0212)}
+INCOMPRESSIBLE_REFERENCES = {0: (None, 0.0082), 10: (1.0786, 0.0123), 15: (1.5287, 0.0212)}
 HIGH_LIFT_REFERENCE = (3.803, 0.0605)
-SECTION, REYNOLDS = "naca:0012:extended", 6e6
+SECTION, REYNOLDS, MACH, HIGH_LIFT_MACH = "naca:0012:extended", 6e6, 0.15, 0.2
 
 
 class Study:
-    """A family of cases at one angle of attack."""
+    """A family of cases at one angle of attack. Level `base` is what lamina makes of no further option."""
 
-    def __init__(self, title, name, inputs, reynolds, alpha, reference, more=()):
+    def __init__(self, title, name, inputs, reynolds, alpha, reference, levels, base, more=()):
         self.title, self.name, self.alpha, self.reference = title, name, alpha, reference
         self.arguments = [*inputs, "--reynolds", f"{reynolds:g}", "--alpha", f"{alpha:g}", *more]
         self.inputs, self.reynolds = inputs, reynolds
+        self.count, self.base = levels, base
 
-    def make(self, program, folder, levels):
-        """Writes the cases, the last one with what lamina makes of no further option."""
-        self.cases = [folder / f"{self.name}_{level}" for level in range(levels)]
+    def make(self, program, folder):
+        """Writes the cases."""
+        self.cases = [folder / f"{self.name}_{level}" for level in range(self.count)]
         self.table = folder / f"{self.name}_family.csv"
         if not all(case.is_dir() for case in self.cases) or not self.table.exists():
-            subprocess.run([program, "case", "openfoam", *self.arguments, "--levels", str(levels), "--base-level",
-                            str(levels - 1), "-o", str(folder / f"{self.name}_{{level}}"), "--overwrite", "--quiet"],
+            subprocess.run([program, "case", "openfoam", *self.arguments, "--levels", str(self.count), "--base-level",
+                            str(self.base), "-o", str(folder / f"{self.name}_{{level}}"), "--overwrite", "--quiet"],
                            check=True)
 
     def read(self):
@@ -187,10 +190,11 @@ def table_of(study):
 def page(studies, picture, command, version):
     today = datetime.date.today().isoformat()
     lines = ["# Validation", "",
-             f"`./dev test-solvers` wrote this page on {today}, with simpleFoam ({version}), from cases of",
-             "`lamina case openfoam` with no options but those of the flow. The coarser levels are those of",
-             "`--levels`. References are those of NASA's Turbulence Modeling Resource (Spalart-Allmaras; NACA 0012",
-             "in incompressible flow).", "", "```", command, "```", "", "## Forces", ""]
+             f"`./dev test-solvers` wrote this page on {today}, with {version}, from cases of `lamina case openfoam`",
+             "with no options but those of the flow: rhoSimpleFoam where there is a Mach number, else simpleFoam. The",
+             "other levels are those of `--levels`. References are those of NASA's Turbulence Modeling Resource",
+             "(Spalart-Allmaras, compressible; the lift of incompressible flow is theirs over Prandtl and Glauert's",
+             "factor, the drag is theirs).", "", "```", command, "```", "", "## Forces", ""]
     for study in studies:
         lines += table_of(study)
     lines += ["An order is that of the three finest levels, where they converge monotonically. \"Not steady\": drag or",
@@ -219,19 +223,24 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--iterations", type=int, default=4000)
     parser.add_argument("--high-lift", nargs=3, metavar=("SLAT", "MAIN", "FLAP"),
-                        help="the 2-D CRM-HL, too, which takes hours")
+                        help="the 2-D CRM-HL, too, which takes an hour more")
     arguments = parser.parse_args()
     folder = arguments.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
 
-    sections = [Study(f"NACA 0012, {alpha} degrees", f"naca0012_{alpha}", [SECTION], REYNOLDS, alpha, reference)
+    base = arguments.levels - 1
+    # One family goes beyond, to show the order.
+    sections = [Study(f"NACA 0012, Mach {MACH}, {alpha} degrees", f"naca0012_{alpha}", [SECTION], REYNOLDS, alpha,
+                      reference, arguments.levels + (alpha == 10), base, ["--mach", f"{MACH:g}"])
                 for alpha, reference in REFERENCES.items()]
-    studies = list(sections)
+    studies = sections + [Study(f"NACA 0012, incompressible, {alpha} degrees", f"naca0012_{alpha}_incompressible",
+                                [SECTION], REYNOLDS, alpha, reference, arguments.levels, base)
+                          for alpha, reference in INCOMPRESSIBLE_REFERENCES.items()]
     if arguments.high_lift:
-        studies.append(Study("CRM-HL, 16 degrees", "crmhl", arguments.high_lift, 5e6, 16, HIGH_LIFT_REFERENCE,
-                             ["--chord", "1"]))
+        studies.append(Study(f"CRM-HL, Mach {HIGH_LIFT_MACH}, 16 degrees", "crmhl", arguments.high_lift, 5e6, 16,
+                             HIGH_LIFT_REFERENCE, 2, 1, ["--chord", "1", "--mach", f"{HIGH_LIFT_MACH:g}"]))
     for study in studies:
-        study.make(arguments.program, folder, arguments.levels)
+        study.make(arguments.program, folder)
     # The finest take longest and go first.
     cases = sorted((case for study in studies for case in study.cases), key=lambda case: case.name[-1], reverse=True)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
@@ -242,7 +251,7 @@ def main():
     picture = arguments.page.parent / "images" / "validation-walls.png"
     picture.parent.mkdir(parents=True, exist_ok=True)
     draw_walls(arguments.program, sections, folder, picture)
-    log = (sections[0].cases[-1] / "log.simpleFoam").read_text()
+    log = (sections[0].cases[-1] / "log.rhoSimpleFoam").read_text()
     version = "OpenFOAM " + re.search(r"OPENFOAM=(\S+)", log).group(1)
     command = "./dev test-solvers" + (" --high-lift SLAT MAIN FLAP" if arguments.high_lift else "")
     arguments.page.write_text(page(studies, picture, command, version))

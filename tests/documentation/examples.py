@@ -21,6 +21,8 @@ PRELUDE = """#include <cmath>
 #include <lamina/delaunay_queries.hpp>
 #include <lamina/dynamic_triangulation.hpp>
 #include <lamina/error.hpp>
+#include <lamina/io.hpp>
+#include <lamina/pipeline.hpp>
 #include <lamina/voronoi.hpp>
 
 using namespace lamina;
