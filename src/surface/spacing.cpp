@@ -14,11 +14,6 @@ namespace lamina::surface {
 
 namespace {
 
-/// Returns the angle by which a curve turns from one sample to another, in radians, positive to the left.
-double turning_between(const SplineCurve& curve, const CurveSample& from, const CurveSample& to) {
-    return core::angle_between(curve.direction(from.piece, from.share), curve.direction(to.piece, to.share));
-}
-
 /// Samples a curve so closely that it turns by about a degree at most between two samples, and that arc length between
 /// them is nearly linear in the parameter. Spacings are still unbounded.
 CurveSamples sample(const SplineCurve& curve) {
@@ -26,7 +21,9 @@ CurveSamples sample(const SplineCurve& curve) {
     // Curves of few, long pieces need more samples per piece.
     const double min_count = std::clamp(8000 / static_cast<double>(curve.pieces()), 4.0, 32.0);
     constexpr double max_count = 256;
-    CurveSamples samples{{0, 0, 0, curve.at(0, 0), HUGE_VAL}};
+    CurveSamples samples;
+    samples.reserve(1 + curve.pieces() * static_cast<std::size_t>(std::ceil(min_count)));
+    samples.push_back({0, 0, 0, curve.at(0, 0), HUGE_VAL});
     for (std::size_t piece = 0; piece < curve.pieces(); ++piece) {
         double turning = 0;
         for (double share = 0; share < 1; share += 0.25)
@@ -42,12 +39,20 @@ CurveSamples sample(const SplineCurve& curve) {
     return samples;
 }
 
+/// Returns the direction of a curve at each of its samples.
+std::vector<Point> directions_at(const SplineCurve& curve, const CurveSamples& samples) {
+    std::vector<Point> directions(samples.size());
+    std::transform(samples.begin(), samples.end(), directions.begin(),
+                   [&](const CurveSample& sample) { return curve.direction(sample.piece, sample.share); });
+    return directions;
+}
+
 /// Bounds spacings by the curvature and by the largest and the smallest spacing.
-void limit_by_curvature(const SplineCurve& curve, CurveSamples& samples, const SpacingRule& rule) {
+void limit_by_curvature(std::span<const Point> directions, CurveSamples& samples, const SpacingRule& rule) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const CurveSample &before = samples[i > 0 ? i - 1 : i], &after = samples[std::min(i + 1, samples.size() - 1)];
-        const double curvature =
-            std::abs(turning_between(curve, before, after)) / (after.arc_length - before.arc_length);
+        const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, samples.size() - 1);
+        const double curvature = std::abs(core::angle_between(directions[before], directions[after])) /
+                                 (samples[after].arc_length - samples[before].arc_length);
         double spacing = rule.max_spacing;
         if (curvature > 0)
             spacing = std::min({spacing, rule.max_turning / curvature, std::sqrt(8 * rule.tolerance / curvature)});
@@ -55,10 +60,11 @@ void limit_by_curvature(const SplineCurve& curve, CurveSamples& samples, const S
     }
 }
 
-void limit_by_clearance(const SplineCurve& curve, CurveSamples& samples, const SpacingRule& rule) {
+void limit_by_clearance(std::span<const Point> directions, CurveSamples& samples, const SpacingRule& rule) {
     if (!rule.clearance) return;
-    for (CurveSample& sample : samples) {
-        const Point normal = unit(-perpendicular(curve.direction(sample.piece, sample.share)));
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        CurveSample& sample = samples[i];
+        const Point normal = unit(-perpendicular(directions[i]));
         sample.spacing = std::min(sample.spacing,
                                   std::max(rule.clearance_share * rule.clearance(sample.at, normal), rule.min_spacing));
     }
@@ -123,11 +129,12 @@ CurveSamples samples_of_kept(const OutlineCurve& line, double min_spacing) {
 SampledCurve sample_by_rule(const SplineCurve& curve, const SpacingRule& rule) {
     SampledCurve result{curve, sample(curve), 0};
     CurveSamples& samples = result.samples;
-    limit_by_curvature(curve, samples, rule);
-    limit_by_clearance(curve, samples, rule);
+    const std::vector<Point> directions = directions_at(curve, samples);
+    limit_by_curvature(directions, samples, rule);
+    limit_by_clearance(directions, samples, rule);
     limit_near_walls(samples, rule);
     for (std::size_t i = 0; i + 1 < samples.size(); ++i)
-        result.turning += turning_between(curve, samples[i], samples[i + 1]);
+        result.turning += core::angle_between(directions[i], directions[i + 1]);
     return result;
 }
 
