@@ -50,6 +50,8 @@ void add_medium(const CaseFlow& flow, Words& words) {
     const double pressure = sound_speed * sound_speed / heat_ratio, per_mass = pressure / temperature;
     words["PRESSURE"] = number(pressure);
     words["TEMPERATURE"] = number(temperature);
+    words["LEAST_TEMPERATURE"] = number(temperature / 2);
+    words["LARGEST_TEMPERATURE"] = number(2 * temperature);
     words["MOLAR_WEIGHT"] = number(gas_constant / per_mass);
     words["HEAT_CAPACITY"] = number(heat_ratio / (heat_ratio - 1) * per_mass);
     words["ALPHA_T_WALL"] =

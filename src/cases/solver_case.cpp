@@ -51,7 +51,11 @@ fs::path mesh_file(const SolverEntry& entry, const fs::path& folder) {
 /// Returns whether the case has this file: fields of the other turbulence model are left out, and without
 /// compressibility what describes a gas.
 bool belongs_to_case(std::string_view name, const SolverCaseOptions& options) {
-    constexpr std::array of_gas{"0/T", "0/alphat", "constant/thermophysicalProperties", "system/compress.awk",
+    constexpr std::array of_gas{"0/T",
+                                "0/alphat",
+                                "constant/thermophysicalProperties",
+                                "system/compress.awk",
+                                "system/fvOptions.gas",
                                 "system/medium.compressible"};
     if (std::find(of_gas.begin(), of_gas.end(), name) != of_gas.end()) return options.compressible;
     const TurbulenceModel turbulence = options.turbulence;
