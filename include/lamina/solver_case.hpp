@@ -33,7 +33,7 @@ enum class TurbulenceModel {
 struct SolverCaseOptions {
     TurbulenceModel turbulence = TurbulenceModel::spalart_allmaras;  ///< the model that closes the equations
     bool overwrite = false;  ///< whether files of the folder that have the name of a file of the case are replaced
-    /// Whether OpenFOAM's case is that of a gas, at ReferenceConditions::mach, which must be above 0. SU2's always is.
+    /// Whether OpenFOAM's case is that of a gas, at ReferenceConditions::mach, above 0 and below 1. SU2's always is.
     bool compressible = false;
 };
 
@@ -64,7 +64,8 @@ struct SolverCaseFile {
 
 /// Returns the files of a case without the mesh. They do not depend on the machine. Walls of the mesh are its markers
 /// of the kind wall, and its far field is all markers of that kind. Throws OptionError where the Reynolds number is
-/// missing, or the Mach number of a compressible flow, and MeshError where the mesh has no wall or no far field.
+/// missing, or the Mach number of a compressible flow is missing or out of range, and MeshError where the mesh has no
+/// wall or no far field.
 LAMINA_EXPORT std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh,
                                                             const SolverConditions& conditions,
                                                             const SolverCaseOptions& options = {});

@@ -84,11 +84,13 @@ Point foremost_wall_vertex(const Mesh& mesh) {
     return foremost;
 }
 
-CaseFlow case_flow(const Mesh& mesh, const SolverConditions& conditions, const SolverCaseOptions& options) {
+CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
+                   const SolverCaseOptions& options) {
     const auto& [chord, alpha_deg, reynolds, mach] = conditions.reference;
     if (!reynolds) throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
-    if (options.compressible && !(mach && *mach > 0))
-        throw OptionError("mach", "a compressible flow needs one above 0");
+    if (options.compressible && !mach) throw OptionError("mach", "a compressible flow needs it");
+    if (options.compressible && solver == FlowSolver::openfoam && !(*mach > 0 && *mach < 1))
+        throw OptionError("mach", fmt::format("must be above 0 and below 1 in a case of OpenFOAM, not {}", *mach));
     constexpr double default_mach = 0.15;
     CaseFlow flow;
     flow.chord = chord;
@@ -160,7 +162,7 @@ double far_field_for(FlowSolver solver) { return entry_of(solver).far_field; }
 std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
                                               const SolverCaseOptions& options) {
     const SolverEntry& entry = entry_of(solver);
-    const Words words = entry.words(case_flow(mesh, conditions, options));
+    const Words words = entry.words(case_flow(solver, mesh, conditions, options));
     std::vector<SolverCaseFile> files;
     for (const Template& file : templates())
         if (file.solver == entry.name && belongs_to_case(file.name, options))
