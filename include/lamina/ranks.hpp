@@ -75,6 +75,8 @@ public:
     void agree();
     /// Collective: returns the bytes of all ranks, in their order, on rank 0; nothing elsewhere.
     std::vector<std::string> gather(std::string_view bytes);
+    /// Collective: returns the bytes of all ranks, in their order, on all of them.
+    std::vector<std::string> all_gather(std::string_view bytes);
     /// Collective: returns on each rank the bytes that rank 0 has for it. The argument of other ranks does not count.
     std::string scatter(const std::vector<std::string>& bytes);
     /// Collective: returns the bytes of rank 0.
@@ -95,6 +97,8 @@ protected:
     virtual unsigned lowest_failed(bool failed) = 0;
     /// Returns what gather() returns.
     virtual std::vector<std::string> do_gather(std::string_view bytes) = 0;
+    /// Returns what all_gather() returns.
+    virtual std::vector<std::string> do_all_gather(std::string_view bytes) = 0;
     /// Returns what scatter() returns.
     virtual std::string do_scatter(const std::vector<std::string>& bytes) = 0;
     /// Returns the bytes of rank `from`.

@@ -57,6 +57,12 @@ std::vector<std::string> Ranks::gather(std::string_view bytes) {
     return do_gather(bytes);
 }
 
+std::vector<std::string> Ranks::all_gather(std::string_view bytes) {
+    agree();
+    count((size() - 1) * bytes.size());
+    return do_all_gather(bytes);
+}
+
 std::string Ranks::scatter(const std::vector<std::string>& bytes) {
     agree();
     std::size_t sent = 0;

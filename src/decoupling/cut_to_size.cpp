@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "decoupling/separator_search.hpp"
+#include "decoupling/shared_search.hpp"
 
 namespace lamina::decoupling {
 
@@ -67,22 +69,85 @@ private:
     std::vector<EstimatedBorder> done_;
 };
 
+/// Takes the borders of one loop away from the others, and returns them. Their order stays.
+std::vector<SubdomainBorder> take_simple(std::vector<SubdomainBorder>& borders) {
+    const auto rest = std::stable_partition(borders.begin(), borders.end(),
+                                            [](const SubdomainBorder& border) { return border.loops.size() > 1; });
+    std::vector<SubdomainBorder> simple(std::make_move_iterator(rest), std::make_move_iterator(borders.end()));
+    borders.erase(rest, borders.end());
+    return simple;
+}
+
+/// The searches that the processes still have to divide among themselves.
+class SharedSearches {
+public:
+    SharedSearches(std::span<const SubdomainBorder> others, const SeparatorSpacing& spacing, double pieces_target,
+                   Ranks& ranks)
+        : others_(others), spacing_(spacing), pieces_target_(pieces_target), ranks_(ranks) {}
+
+    /// Collective: returns the results for these borders. Processes that have nothing to do with them search some of the
+    /// other borders meanwhile.
+    std::vector<SearchResult> search(std::span<const Point> points, std::span<const SubdomainBorder> borders) {
+        SearchDealer dealer(ranks_.size());
+        std::vector<DealtBorder> dealt;
+        for (const SubdomainBorder& border : borders) dealt.push_back({&border, dealer.deal(border)});
+        for (; next_ < others_.size() && dealer.has_room(others_[next_]); ++next_)
+            dealt.push_back({&others_[next_], dealer.deal(others_[next_])});
+        std::vector<SearchResult> results = search_together(points, dealt, spacing_, pieces_target_, ranks_);
+        const auto rest = results.begin() + static_cast<std::ptrdiff_t>(borders.size());
+        of_others_.insert(of_others_.end(), std::make_move_iterator(rest), std::make_move_iterator(results.end()));
+        results.erase(rest, results.end());
+        return results;
+    }
+
+    /// Collective: returns the results for the other borders.
+    std::vector<SearchResult> finish(std::span<const Point> points) {
+        const std::vector<SearchResult> rest = search(points, others_.subspan(std::exchange(next_, others_.size())));
+        of_others_.insert(of_others_.end(), rest.begin(), rest.end());
+        return std::move(of_others_);
+    }
+
+private:
+    std::span<const SubdomainBorder> others_;
+    const SeparatorSpacing& spacing_;
+    double pieces_target_;
+    Ranks& ranks_;
+    std::size_t next_ = 0;                 ///< the first of the others that is not dealt yet
+    std::vector<SearchResult> of_others_;  ///< of those that are
+};
+
 }  // namespace
 
 std::vector<EstimatedBorder> cut_to_size(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
                                          const SeparatorSpacing& spacing, double pieces_target) {
     // The subdomain round the bodies is cut many times over and would occupy one thread at first. The other threads
     // search the remaining subdomains meanwhile, whose borders hold none of the vertices that these cuts add.
-    const auto rest = std::stable_partition(borders.begin(), borders.end(),
-                                            [](const SubdomainBorder& border) { return border.loops.size() > 1; });
-    std::vector<SubdomainBorder> others(std::make_move_iterator(rest), std::make_move_iterator(borders.end()));
-    borders.erase(rest, borders.end());
+    std::vector<SubdomainBorder> others = take_simple(borders);
     const std::vector<Point> points = skeleton.points;  // a copy, because cutting appends to the skeleton's points
     Bisection bisection(spacing, pieces_target);
     std::vector<SearchResult> results;
     core::parallel_invoke([&] { bisection.cut_all(skeleton, std::move(borders)); },
                           [&] { results = bisection.search(points, others); });
     bisection.cut_all(skeleton, bisection.cut(skeleton, std::move(others), results));
+    return bisection.take_done();
+}
+
+std::vector<EstimatedBorder> cut_to_size_together(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
+                                                  const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks) {
+    // The order of all cuts is that of cut_to_size().
+    std::vector<SubdomainBorder> others = take_simple(borders);
+    Bisection bisection(spacing, pieces_target);
+    SharedSearches searches(others, spacing, pieces_target, ranks);
+    const auto cut_all = [&](SharedSearches& shared, std::vector<SubdomainBorder> parts) {
+        while (!parts.empty()) {
+            const std::vector<SearchResult> results = shared.search(skeleton.points, parts);
+            parts = bisection.cut(skeleton, std::move(parts), results);
+        }
+    };
+    cut_all(searches, std::move(borders));
+    const std::vector<SearchResult> results = searches.finish(skeleton.points);
+    SharedSearches of_parts({}, spacing, pieces_target, ranks);
+    cut_all(of_parts, bisection.cut(skeleton, std::move(others), results));
     return bisection.take_done();
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <lamina/decoupling.hpp>
+#include <lamina/ranks.hpp>
 
 #include "decoupling/border_triangulation.hpp"
 #include "decoupling/separators.hpp"
@@ -23,5 +24,10 @@ struct EstimatedBorder {
 /// first. Adds the new vertices to skeleton.points. The result does not depend on the number of threads.
 std::vector<EstimatedBorder> cut_to_size(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
                                          const SeparatorSpacing& spacing, double pieces_target);
+
+/// Collective: returns what cut_to_size() returns. The processes divide the search for separators among themselves.
+/// Precondition: all arguments are the same everywhere.
+std::vector<EstimatedBorder> cut_to_size_together(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
+                                                  const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks);
 
 }  // namespace lamina::decoupling

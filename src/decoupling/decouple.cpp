@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "decoupling/border_triangulation.hpp"
+#include "decoupling/cut_region.hpp"
 #include "decoupling/cut_to_size.hpp"
 #include "decoupling/far_field.hpp"
 #include "decoupling/rings.hpp"
@@ -36,9 +37,61 @@ Skeleton start_skeleton(std::span<const Point> points, std::span<const std::vect
     return skeleton;
 }
 
-Subdomain make_subdomain(const Skeleton& skeleton, const EstimatedBorder& estimated, const SizeField& size,
+/// Returns the corners of the far field, or of a polygon of many sides in a circle; counter-clockwise.
+std::vector<Point> outline_of(const FarField& far_field) {
+    if (far_field.shape == FarFieldShape::outline) return far_field.outline;
+    if (far_field.shape == FarFieldShape::box) {
+        const auto corners = far_field.box().corners();
+        return {corners.begin(), corners.end()};
+    }
+    constexpr std::size_t sides = 64;
+    return divide_circle(far_field.center, far_field.radius, SizeField(far_field.radius), sides);
+}
+
+/// A skeleton of which nothing is cut to size yet.
+struct UncutSkeleton {
+    Skeleton skeleton;
+    std::vector<Segment> far_field;  ///< edges of the far field; the region lies on their left
+};
+
+UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& spacing) {
+    const FarField& far_field = region.far_field;
+    const bool is_box = far_field.shape == FarFieldShape::box;
+    const Box outermost = inscribed_box(far_field);
+    const auto near_body = near_body_box(box_round(region.points, region.borders), outermost, far_field);
+    UncutSkeleton uncut{start_skeleton(region.points, region.borders), {}};
+    if (near_body || is_box) {
+        const RingBoxes boxes{near_body.value_or(outermost), outermost};
+        const std::vector<Ring> rings = plan_rings(boxes, region.size, region.options.pieces_target);
+        uncut.far_field = add_rings(uncut.skeleton, rings, boxes, spacing, !is_box);
+    }
+    if (!is_box) uncut.far_field = add_far_field_outline(uncut.skeleton, far_field, spacing);
+    return uncut;
+}
+
+}  // namespace
+
+CutRegion cut_region(const OuterRegion& region, Ranks* ranks) {
+    const SeparatorSpacing spacing{region.size, region.options.separators};
+    auto [skeleton, far_field_edges] = draw_skeleton(region, spacing);
+    std::vector<SubdomainBorder> borders = trace_borders(skeleton.points, skeleton.edges);
+    const double target = region.options.pieces_target;
+    CutRegion cut;
+    if (ranks != nullptr && ranks->size() > 1) {
+        require_same_skeleton(skeleton, *ranks);
+        cut.borders = cut_to_size_together(skeleton, std::move(borders), spacing, target, *ranks);
+    } else {
+        cut.borders = cut_to_size(skeleton, std::move(borders), spacing, target);
+    }
+    cut.separator_vertices = skeleton.points.size() - region.points.size();
+    cut.points = std::move(skeleton.points);
+    cut.far_field = std::move(far_field_edges);
+    return cut;
+}
+
+Subdomain make_subdomain(std::span<const Point> points, const EstimatedBorder& estimated, const SizeField& size,
                          const RefineOptions& refine) {
-    LocalBorder border = localize(estimated.border, skeleton.points);
+    LocalBorder border = localize(estimated.border, points);
     Box box;
     for (const Point p : border.points) box.include(p);
     Subdomain subdomain;
@@ -52,19 +105,6 @@ Subdomain make_subdomain(const Skeleton& skeleton, const EstimatedBorder& estima
     subdomain.estimated_triangles = estimated.estimate.triangles;
     return subdomain;
 }
-
-/// Returns the corners of the far field, or of a polygon of many sides in a circle; counter-clockwise.
-std::vector<Point> outline_of(const FarField& far_field) {
-    if (far_field.shape == FarFieldShape::outline) return far_field.outline;
-    if (far_field.shape == FarFieldShape::box) {
-        const auto corners = far_field.box().corners();
-        return {corners.begin(), corners.end()};
-    }
-    constexpr std::size_t sides = 64;
-    return divide_circle(far_field.center, far_field.radius, SizeField(far_field.radius), sides);
-}
-
-}  // namespace
 
 }  // namespace lamina::decoupling
 
@@ -91,31 +131,15 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
                     const RefineOptions& refine) {
     validate(options);
     validate(refine);
-    const bool is_box = far_field.shape == FarFieldShape::box;
-    const Box outermost = inscribed_box(far_field);
-    const auto near_body = near_body_box(box_round(points, borders), outermost, far_field);
-
-    Skeleton skeleton = start_skeleton(points, borders);
-    const SeparatorSpacing spacing{size, options.separators};
-    std::vector<Segment> far_field_edges;
-    if (near_body || is_box) {
-        const RingBoxes boxes{near_body.value_or(outermost), outermost};
-        const std::vector<Ring> rings = plan_rings(boxes, size, options.pieces_target);
-        far_field_edges = add_rings(skeleton, rings, boxes, spacing, !is_box);
-    }
-    if (!is_box) far_field_edges = add_far_field_outline(skeleton, far_field, spacing);
-
-    const std::vector<EstimatedBorder> estimated =
-        cut_to_size(skeleton, trace_borders(skeleton.points, skeleton.edges), spacing, options.pieces_target);
+    CutRegion cut = cut_region({points, borders, size, far_field, options});
     Decoupling result;
-    result.subdomains.resize(estimated.size());
-    core::parallel_for(estimated.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            result.subdomains[i] = make_subdomain(skeleton, estimated[i], size, refine);
+    result.subdomains.resize(cut.borders.size());
+    core::parallel_for(cut.borders.size(), 1, [&](std::size_t i, std::size_t) {
+        result.subdomains[i] = make_subdomain(cut.points, cut.borders[i], size, refine);
     });
-    result.separator_vertices = skeleton.points.size() - points.size();
-    result.points = std::move(skeleton.points);
-    result.far_field = std::move(far_field_edges);
+    result.separator_vertices = cut.separator_vertices;
+    result.points = std::move(cut.points);
+    result.far_field = std::move(cut.far_field);
     return result;
 }
 

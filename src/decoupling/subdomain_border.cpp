@@ -142,7 +142,7 @@ std::vector<SubdomainBorder> trace_borders(std::span<const Point> points, std::s
     std::vector<std::vector<VertexId>> holes;
     for (std::vector<VertexId>& loop : trace_loops(points, edges)) {
         if (const double area = doubled_area(points, loop); area > 0) {
-            borders.push_back({{std::move(loop)}});
+            borders.push_back({{std::move(loop)}, false});
             areas.push_back(area);
         } else {
             holes.push_back(std::move(loop));
@@ -166,7 +166,7 @@ BorderHalves split(const SubdomainBorder& border, std::size_t from, std::size_t 
     append_range(to, from, first);
     second.insert(second.end(), line.rbegin(), line.rend());
     append_range(from, to, second);
-    return {{{std::move(first)}}, {{std::move(second)}}};
+    return {{{std::move(first)}, border.may_dangle}, {{std::move(second)}, border.may_dangle}};
 }
 
 SubdomainBorder join(const SubdomainBorder& border, LoopVertex from, LoopVertex to, std::span<const VertexId> line) {
@@ -180,6 +180,7 @@ SubdomainBorder join(const SubdomainBorder& border, LoopVertex from, LoopVertex 
     append_loop_from(to);
     joined.insert(joined.end(), line.rbegin(), line.rend());
     SubdomainBorder result = border;
+    result.may_dangle = true;
     result.loops[std::min(from.loop, to.loop)] = std::move(joined);
     result.loops.erase(result.loops.begin() + static_cast<std::ptrdiff_t>(std::max(from.loop, to.loop)));
     return result;

@@ -14,6 +14,7 @@ namespace lamina::decoupling {
 /// loop runs along both sides of an edge that dangles in the subdomain and then holds its vertices twice.
 struct SubdomainBorder {
     std::vector<std::vector<VertexId>> loops;
+    bool may_dangle = false;  ///< whether loops were joined, so that edges may dangle
 };
 
 /// A vertex of a border, given by its loop and its index in the loop. A vertex that the border holds twice has two of

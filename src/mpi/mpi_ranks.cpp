@@ -60,10 +60,16 @@ protected:
         std::string joined;
         if (rank_ == 0) joined.resize(offsets_of(sizes, offsets));
         MPI_Gatherv(bytes.data(), mine, MPI_BYTE, joined.data(), sizes.data(), offsets.data(), MPI_BYTE, 0, all_);
-        std::vector<std::string> all;
-        for (std::size_t i = 0; i < sizes.size(); ++i)
-            all.push_back(joined.substr(static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(sizes[i])));
-        return all;
+        return cut(joined, sizes, offsets);
+    }
+
+    std::vector<std::string> do_all_gather(std::string_view bytes) override {
+        const int mine = int_size(bytes.size());
+        std::vector<int> sizes(size()), offsets;
+        MPI_Allgather(&mine, 1, MPI_INT, sizes.data(), 1, MPI_INT, all_);
+        std::string joined(offsets_of(sizes, offsets), '\0');
+        MPI_Allgatherv(bytes.data(), mine, MPI_BYTE, joined.data(), sizes.data(), offsets.data(), MPI_BYTE, all_);
+        return cut(joined, sizes, offsets);
     }
 
     std::string do_scatter(const std::vector<std::string>& bytes) override {
@@ -130,6 +136,15 @@ private:
         }
         int_size(sum);
         return sum;
+    }
+
+    /// Cuts joined texts apart.
+    static std::vector<std::string> cut(const std::string& joined, const std::vector<int>& sizes,
+                                        const std::vector<int>& offsets) {
+        std::vector<std::string> all;
+        for (std::size_t i = 0; i < sizes.size(); ++i)
+            all.push_back(joined.substr(static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(sizes[i])));
+        return all;
     }
 };
 

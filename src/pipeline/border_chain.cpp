@@ -47,15 +47,17 @@ VertexId local_id(const Subdomain& subdomain, VertexId v) {
 
 }  // namespace
 
-std::vector<Segment> border_chain(const Subdomain& subdomain) {
-    const EdgesFrom from(subdomain);
-    std::vector<Segment> chain;
-    chain.reserve(subdomain.segments.size());
-    for (std::size_t i = 0; i < subdomain.segments.size(); ++i)
-        if (!from.dangles(i))
-            chain.push_back(
-                {subdomain.global[subdomain.segments[i].a.index()], subdomain.global[subdomain.segments[i].b.index()]});
-    return chain;
+std::vector<Segment> border_chain(const decoupling::SubdomainBorder& border) {
+    std::vector<Segment> edges;
+    for (const auto& loop : border.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
+    if (!border.may_dangle) return edges;
+    std::vector<Segment> sorted = edges;
+    std::sort(sorted.begin(), sorted.end());
+    std::erase_if(edges, [&](const Segment& edge) {
+        return std::binary_search(sorted.begin(), sorted.end(), Segment{edge.b, edge.a});
+    });
+    return edges;
 }
 
 std::vector<Point> apexes_of(const Subdomain& subdomain, mesh::PieceFindings& findings) {

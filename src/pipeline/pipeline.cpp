@@ -17,6 +17,7 @@
 #include "core/busy_times.hpp"
 #include "core/packing.hpp"
 #include "core/parallel.hpp"
+#include "decoupling/cut_region.hpp"
 #include "decoupling/far_field.hpp"
 #include "decoupling/refine_all.hpp"
 #include "layers/fill.hpp"
@@ -267,13 +268,14 @@ MadePieces stream_pieces(const PiecesWork& work, const OpenSink& open_sink, Made
 }
 
 /// Makes the pieces that this process gets and keeps them. Rank 0 alone fills the layer, and checks it.
-MadePieces share_pieces(const PiecesWork& work, const Destination& destination, MadeMesh& mesh) {
+MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const Destination& destination,
+                        const StageClock& clock, MadeMesh& mesh) {
     Ranks& ranks = *destination.ranks;
     MadePieces made;
     const std::vector<std::size_t> order = decoupling::largest_first(work.decoupling.subdomains);
     made.held.store = std::make_unique<PieceStore>(order.size(), destination.beside);
     const double min_angle_deg = work.options.refine.min_angle_deg;
-    require_same_decoupling(work.decoupling, ranks);
+    decoupling::require_same_borders(work.decoupling.points, shared.borders, ranks);
     ranks.reset_counter();
     HeldPieces held;
     const auto fill_layer = [&] {
@@ -282,11 +284,12 @@ MadePieces share_pieces(const PiecesWork& work, const Destination& destination, 
         check_layer(work, made);
     };
     core::parallel_invoke(fill_layer, [&] {
-        held = take_and_refine(work.decoupling, order, min_angle_deg, work.times, {refinement_work, check_work}, ranks,
+        held = take_and_refine(shared, order, min_angle_deg, work.times, {refinement_work, check_work}, ranks,
                                *made.held.store);
     });
-    CountedMesh counted = count_and_check(work.decoupling, held, made.cells, min_angle_deg, ranks,
-                                          destination.checks() ? &work.check : nullptr);
+    clock.begin("numbering");
+    CountedMesh counted =
+        count_and_check(shared, held, made.cells, min_angle_deg, ranks, destination.checks() ? &work.check : nullptr);
     for (const HeldPiece& piece : held.pieces) made.held.pieces.push_back(piece.piece);
     made.held.numbers = std::move(counted.numbers);
     made.held.layer_pieces = counted.layer_pieces;
@@ -311,6 +314,14 @@ void share_unexcused(Ranks& ranks, std::vector<mesh::NarrowTriangle>& unexcused)
     unexcused = unpacker.get_all<mesh::NarrowTriangle>();
 }
 
+/// Collective: cuts the outer region. The processes divide the work among themselves.
+decoupling::CutRegion share_cuts(const Layer& layer, const SizeField& size, const FarField& far_field,
+                                 const CaseOptions& options, Ranks& ranks) {
+    validate(options.decoupling);
+    validate(options.refine);
+    return decoupling::cut_region({layer.points, layer.borders, size, far_field, options.decoupling}, &ranks);
+}
+
 /// Makes the mesh on these rays: the stages from the layer's border to the check. `seconds` holds the times so far;
 /// `announce_estimate` says whether the estimate is part of the progress.
 MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Destination& destination,
@@ -333,8 +344,14 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     seconds.sizing += clock.lap();
 
     clock.begin("decoupling", announce_estimate ? std::optional(result.estimate) : std::nullopt);
-    Decoupling decoupling = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling,
-                                     refine_options(options, plan.conditions.chord, cost));
+    const RefineOptions refine = refine_options(options, plan.conditions.chord, cost);
+    std::optional<SharedDecoupling> shared;
+    Decoupling alone;
+    if (destination.ranks != nullptr)
+        shared.emplace(share_cuts(layer, size, plan.far_field, options, *destination.ranks), size, refine);
+    else
+        alone = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, refine);
+    Decoupling& decoupling = shared ? shared->decoupling : alone;
     seconds.decoupling += clock.lap();
 
     result.threads = thread_count();
@@ -348,7 +365,7 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     clock.begin("layer triangulation, refinement and check of pieces");
     core::BusyTimes times;
     PiecesWork work{plan, options, layer, decoupling, check, times, markers};
-    MadePieces pieces = destination.ranks       ? share_pieces(work, destination, made)
+    MadePieces pieces = destination.ranks       ? share_pieces(work, *shared, destination, clock, made)
                         : destination.open_sink ? stream_pieces(work, *destination.open_sink, made)
                                                 : make_pieces(work);
     record_shared_times(times, clock.lap(), seconds, result.thread_seconds);

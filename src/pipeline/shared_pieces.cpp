@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <optional>
 #include <string>
 #include <utility>
@@ -152,13 +151,14 @@ void pack_question(std::size_t piece, std::span<const Wanted> wanted, Packer& pa
 }
 
 /// Returns what lies behind the border edges of the held pieces that rank 0 asks for, in its order.
-std::string pack_answers(const Decoupling& decoupling, const HeldPieces& held, Unpacker& questions) {
+std::string pack_answers(const SharedDecoupling& shared, const HeldPieces& held, Unpacker& questions) {
+    const std::vector<Point>& points = shared.decoupling.points;
     Packer packer;
     while (!questions.at_end()) {
         const std::size_t number = questions.get_short();
         const auto piece = std::lower_bound(held.pieces.begin(), held.pieces.end(), number,
                                             [](const HeldPiece& one, std::size_t n) { return one.piece < n; });
-        const std::vector<Segment> chain = border_chain(decoupling.subdomains[number]);
+        const std::vector<Segment> chain = border_chain(shared.borders[number].border);
         std::size_t edge = 0;
         for (std::size_t left = questions.get_short(); left > 0; --left) {
             const std::size_t question = questions.get_short();
@@ -167,8 +167,7 @@ std::string pack_answers(const Decoupling& decoupling, const HeldPieces& held, U
             if (question % 2 == 1)
                 packer.put(apex);
             else
-                packer.put(mesh::area_over(decoupling.points[chain[edge].a.index()],
-                                           decoupling.points[chain[edge].b.index()], apex));
+                packer.put(mesh::area_over(points[chain[edge].a.index()], points[chain[edge].b.index()], apex));
         }
     }
     return packer.take();
@@ -177,11 +176,12 @@ std::string pack_answers(const Decoupling& decoupling, const HeldPieces& held, U
 /// What rank 0 puts together.
 class Assembly {
 public:
-    Assembly(const Decoupling& decoupling, mesh::PiecewiseCheck& check) : decoupling_(decoupling), check_(check) {}
+    Assembly(std::span<const decoupling::EstimatedBorder> borders, mesh::PiecewiseCheck& check)
+        : borders_(borders), check_(check) {}
 
     /// Takes the records of all ranks. `counted` knows the layer.
     void count(const std::vector<std::string>& of_ranks, double min_angle_deg, CountedMesh& counted) {
-        std::vector<ToldPiece> told(decoupling_.subdomains.size());
+        std::vector<ToldPiece> told(borders_.size());
         std::vector<unsigned> made(told.size(), 0);
         mesh::QualityCollector ratios(min_angle_deg);
         pieces_of_.resize(of_ranks.size());
@@ -258,7 +258,7 @@ public:
     }
 
 private:
-    const Decoupling& decoupling_;
+    std::span<const decoupling::EstimatedBorder> borders_;
     mesh::PiecewiseCheck& check_;
     std::vector<std::vector<std::size_t>> pieces_of_;  ///< per rank, in its order
     std::vector<PieceNumbers> numbers_;                ///< per piece
@@ -268,84 +268,64 @@ private:
     std::vector<std::vector<Wanted>> asked_;  ///< per rank: what it was asked for
 
     void take_piece(std::size_t piece, ToldPiece told, PiecesSummary& summary) {
-        const Subdomain& subdomain = decoupling_.subdomains[piece];
         std::vector<mesh::PieceBorderEdge>& border = told.facts.findings.border;
-        for (const Segment& edge : border_chain(subdomain)) {
+        for (const Segment& edge : border_chain(borders_[piece].border)) {
             const std::size_t i = border.size();
             border.push_back({edge.a, edge.b, mesh::unknown_apex,
                               i < told.shape_classes.size() ? told.shape_classes[i] : std::uint8_t{0}});
         }
         first_edge_.push_back(next_edge_);
         next_edge_ += border.size();
-        told.facts.findings.border_vertices = subdomain.global;
+        for (const std::vector<VertexId>& loop : borders_[piece].border.loops)
+            told.facts.findings.border_vertices.insert(told.facts.findings.border_vertices.end(), loop.begin(),
+                                                       loop.end());
         add_piece(std::move(told.facts), summary, check_);
     }
 };
 
-std::vector<std::uint8_t> classes_of(const Decoupling& decoupling, std::size_t piece, std::span<const Point> apexes) {
-    const std::vector<Segment> chain = border_chain(decoupling.subdomains[piece]);
+std::vector<std::uint8_t> classes_of(const SharedDecoupling& shared, std::size_t piece, std::span<const Point> apexes) {
+    const std::vector<Point>& points = shared.decoupling.points;
+    const std::vector<Segment> chain = border_chain(shared.borders[piece].border);
     std::vector<std::uint8_t> classes;
     for (std::size_t i = 0; i < chain.size(); ++i)
-        classes.push_back(mesh::shape_class_behind(decoupling.points[chain[i].a.index()],
-                                                   decoupling.points[chain[i].b.index()], apexes[i]));
+        classes.push_back(mesh::shape_class_behind(points[chain[i].a.index()], points[chain[i].b.index()], apexes[i]));
     return classes;
-}
-
-/// A hash of numbers in their order: FNV-1a with words in place of bytes (http://www.isthe.com/chongo/tech/comp/fnv/).
-class WordHash {
-public:
-    void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3u; }
-    void add(Point p) {
-        add(std::bit_cast<std::uint64_t>(p.x));
-        add(std::bit_cast<std::uint64_t>(p.y));
-    }
-    std::uint64_t value() const { return hash_; }
-
-private:
-    std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
-
-std::uint64_t hash_of(const Decoupling& decoupling) {
-    WordHash hash;
-    for (const Point p : decoupling.points) hash.add(p);
-    for (const Subdomain& subdomain : decoupling.subdomains) {
-        hash.add(subdomain.segments.size());
-        for (const VertexId v : subdomain.global) hash.add(v.value);
-        for (const Segment& s : subdomain.segments) hash.add(std::uint64_t{s.a.value} << 32 | s.b.value);
-    }
-    return hash.value();
 }
 
 }  // namespace
 
-void require_same_decoupling(const Decoupling& decoupling, Ranks& ranks) {
-    Packer packer;
-    packer.put(hash_of(decoupling));
-    const std::vector<std::string> hashes = ranks.gather(packer.take());
-    for (std::size_t rank = 0; rank < hashes.size(); ++rank)
-        if (hashes[rank] != hashes.front())
-            throw MeshError(
-                fmt::format("process {} has cut the domain in another way than process 0: all must run the same "
-                            "program on the same input",
-                            rank));
+SharedDecoupling::SharedDecoupling(decoupling::CutRegion cut, const SizeField& of_region, const RefineOptions& options)
+    : borders(std::move(cut.borders)), size(of_region), refine(options) {
+    decoupling.points = std::move(cut.points);
+    decoupling.far_field = std::move(cut.far_field);
+    decoupling.separator_vertices = cut.separator_vertices;
+    decoupling.subdomains.resize(borders.size());
+    for (std::size_t i = 0; i < borders.size(); ++i)
+        decoupling.subdomains[i].estimated_triangles = borders[i].estimate.triangles;
 }
 
-HeldPieces take_and_refine(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
+void SharedDecoupling::make_subdomain(std::size_t i) {
+    decoupling.subdomains[i] = decoupling::make_subdomain(decoupling.points, borders[i], size, refine);
+}
+
+HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t> order, double min_angle_deg,
                            core::BusyTimes& times, PieceWork work, Ranks& ranks, PieceStore& store) {
     HeldPieces held;
     std::mutex mutex;
     std::atomic<bool> failed = false;
     const auto make_piece = [&](std::size_t number) {
-        CheckedPiece made = refine_and_check_piece(decoupling, number, min_angle_deg, times, work);
+        shared.make_subdomain(number);
+        const Subdomain& subdomain = shared.decoupling.subdomains[number];
+        CheckedPiece made = refine_and_check_piece(shared.decoupling, number, min_angle_deg, times, work);
         mesh::PieceFindings& findings = made.facts.findings;
-        std::vector<Point> apexes = apexes_of(decoupling.subdomains[number], findings);
-        std::vector<std::uint8_t> classes = classes_of(decoupling, number, apexes);
+        std::vector<Point> apexes = apexes_of(subdomain, findings);
+        std::vector<std::uint8_t> classes = classes_of(shared, number, apexes);
         findings.border = {};
         findings.border_vertices = {};
         mesh::QualityCollector totals(min_angle_deg);
         totals.append(findings.cells.isotropic.totals());
         const mesh::QualityCollector shapes = std::exchange(findings.cells.isotropic, std::move(totals));
-        const mesh::HashOfParts hash = hash_of_piece(decoupling.subdomains[number], made.refinement);
+        const mesh::HashOfParts hash = hash_of_piece(subdomain, made.refinement);
         store.put(number, std::move(made.refinement));
         const std::lock_guard lock(mutex);
         held.hash.add(hash);
@@ -366,7 +346,7 @@ HeldPieces take_and_refine(const Decoupling& decoupling, std::span<const std::si
     return held;
 }
 
-CountedMesh count_and_check(const Decoupling& decoupling, HeldPieces& held, const LayerCells& layer,
+CountedMesh count_and_check(const SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer,
                             double min_angle_deg, Ranks& ranks, mesh::PiecewiseCheck* check) {
     const std::vector<std::string> records = ranks.gather(pack_held(held));
     for (HeldPiece& piece : held.pieces) piece.facts = PieceFacts();
@@ -374,9 +354,10 @@ CountedMesh count_and_check(const Decoupling& decoupling, HeldPieces& held, cons
     std::optional<Assembly> assembly;
     std::vector<std::string> to_ranks;
     if (check) {
-        assembly.emplace(decoupling, *check);
+        assembly.emplace(shared.borders, *check);
         of_mesh.layer_pieces = layer.pieces();
-        of_mesh.counts = {decoupling.points.size(), layer.triangles.size(), layer.quads.size(), layer.triangles.size()};
+        of_mesh.counts = {shared.decoupling.points.size(), layer.triangles.size(), layer.quads.size(),
+                          layer.triangles.size()};
         assembly->count(records, min_angle_deg, of_mesh);
         to_ranks = assembly->answers(of_mesh);
     }
@@ -386,7 +367,7 @@ CountedMesh count_and_check(const Decoupling& decoupling, HeldPieces& held, cons
     counted.counts = unpacker.get<MeshCounts>();
     counted.layer_pieces = unpacker.get_short();
     counted.numbers = unpacker.get_all<PieceNumbers>();
-    const std::vector<std::string> told = ranks.gather(pack_answers(decoupling, held, unpacker));
+    const std::vector<std::string> told = ranks.gather(pack_answers(shared, held, unpacker));
     if (!check) return counted;
     assembly->take_answers(told);
     of_mesh.numbers = std::move(counted.numbers);

@@ -11,11 +11,25 @@
 #include <lamina/mesh_sink.hpp>
 #include <lamina/ranks.hpp>
 
+#include "decoupling/cut_region.hpp"
 #include "mesh/hash.hpp"
 #include "pipeline/checked_pieces.hpp"
 #include "pipeline/piece_store.hpp"
 
 namespace lamina::pipeline {
+
+/// A decoupling of which all processes know the borders. Each makes those subdomains that it refines.
+struct SharedDecoupling {
+    Decoupling decoupling;  ///< the subdomains hold their estimates alone until they are made
+    std::vector<decoupling::EstimatedBorder> borders;
+    SizeField size;
+    RefineOptions refine;
+
+    SharedDecoupling(decoupling::CutRegion cut, const SizeField& size, const RefineOptions& refine);
+
+    /// Makes a subdomain. May be called for several of them at the same time.
+    void make_subdomain(std::size_t i);
+};
 
 /// A piece that this process has made, with what it leaves behind once it is stored.
 struct HeldPiece {
@@ -32,13 +46,9 @@ struct HeldPieces {
     mesh::HashOfParts hash;                 ///< of their triangles
 };
 
-/// Collective: throws MeshError on rank 0 where another process has another decoupling. Its numbers would mean other
-/// vertices, which no check of a piece by itself can see.
-void require_same_decoupling(const Decoupling& decoupling, Ranks& ranks);
-
 /// Refines and checks the pieces that this process gets: whoever is free takes the next one of the order from a counter
 /// that all share. Each piece goes to the store. Where a piece fails, all processes end soon.
-HeldPieces take_and_refine(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
+HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t> order, double min_angle_deg,
                            core::BusyTimes& times, PieceWork work, Ranks& ranks, PieceStore& store);
 
 /// Where the vertices and triangles of a piece begin in the mesh.
@@ -59,7 +69,7 @@ struct CountedMesh {
 /// Collective: numbers all pieces in their order, behind the triangles of the layer, and completes the check with them and
 /// with what their borders need of each other. `check` is that of rank 0, which has its layer; null elsewhere. Nor does
 /// the layer count elsewhere.
-CountedMesh count_and_check(const Decoupling& decoupling, HeldPieces& held, const LayerCells& layer,
+CountedMesh count_and_check(const SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer,
                             double min_angle_deg, Ranks& ranks, mesh::PiecewiseCheck* check);
 
 }  // namespace lamina::pipeline

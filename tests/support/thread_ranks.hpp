@@ -80,6 +80,13 @@ protected:
         wait();
         return all;
     }
+    std::vector<std::string> do_all_gather(std::string_view bytes) override {
+        hub_.slots[rank_] = bytes;
+        wait();
+        std::vector<std::string> all = hub_.slots;
+        wait();
+        return all;
+    }
     std::string do_scatter(const std::vector<std::string>& bytes) override {
         if (rank_ == 0) hub_.slots = bytes;
         wait();

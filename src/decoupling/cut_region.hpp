@@ -1,0 +1,51 @@
+// The outer region as it is cut, before its subdomains are made: all that processes need of subdomains that others refine.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+#include <lamina/export.hpp>
+#include <lamina/ranks.hpp>
+
+#include "decoupling/cut_to_size.hpp"
+#include "decoupling/skeleton.hpp"
+
+namespace lamina::decoupling {
+
+/// The borders of all subdomains. The other members are those of Decoupling.
+struct CutRegion {
+    std::vector<Point> points;
+    std::vector<Segment> far_field;
+    std::vector<EstimatedBorder> borders;
+    std::size_t separator_vertices = 0;
+};
+
+/// The outer region with what decides how it is cut: the arguments of decouple().
+struct OuterRegion {
+    std::span<const Point> points;
+    std::span<const std::vector<VertexId>> borders;
+    const SizeField& size;
+    const FarField& far_field;
+    const DecouplingOptions& options;
+};
+
+/// Cuts the outer region as decouple() does, and throws what it throws. Collective where `ranks` are given: they divide
+/// the work among themselves; throws MeshError on rank 0 where another process would cut another region.
+LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr);
+
+/// Makes a subdomain from its border.
+LAMINA_EXPORT Subdomain make_subdomain(std::span<const Point> points, const EstimatedBorder& border,
+                                       const SizeField& size, const RefineOptions& refine);
+
+/// Collective, as the next one: throws MeshError on rank 0 where another process has another skeleton. What it tells of its
+/// cuts would mean something else elsewhere.
+void require_same_skeleton(const Skeleton& skeleton, Ranks& ranks);
+
+/// Throws MeshError on rank 0 where another process has other borders. Its numbers would mean other vertices, which no check
+/// of a piece by itself can see.
+LAMINA_EXPORT void require_same_borders(std::span<const Point> points, std::span<const EstimatedBorder> borders,
+                                        Ranks& ranks);
+
+}  // namespace lamina::decoupling

@@ -1,0 +1,116 @@
+// cut_region() on several ranks: the borders of one process, whatever the number of ranks. Threads stand in for processes.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <lamina/decoupling.hpp>
+
+#include "decoupling/cut_region.hpp"
+#include "support/thread_ranks.hpp"
+
+namespace lamina::test {
+namespace {
+
+/// Discs, with a source for each edge of their borders.
+struct Discs {
+    std::vector<Point> points;
+    std::vector<std::vector<VertexId>> borders;
+    std::vector<SizeSource> sources;
+
+    void add(std::size_t n, Point center, double radius) {
+        auto& border = borders.emplace_back();
+        const auto at = [&](std::size_t i) {
+            const double angle = 2 * std::numbers::pi * double(i % n) / double(n);
+            return center + radius * Point{std::cos(angle), std::sin(angle)};
+        };
+        for (std::size_t i = 0; i < n; ++i) {
+            border.push_back(VertexId{points.size()});
+            points.push_back(at(i));
+            sources.push_back({at(i), at(i + 1), distance(at(i), at(i + 1))});
+        }
+    }
+};
+
+struct CutCase {
+    std::string name;
+    Discs discs;
+    FarField far_field;
+    double gradation, pieces_target;
+};
+
+std::vector<CutCase> cut_cases() {
+    Discs one, three;
+    one.add(90, {0.5, 0}, 0.5);
+    three.add(120, {0.5, 0}, 0.5);
+    three.add(40, {1.4, 0.2}, 0.1);
+    three.add(60, {-0.5, -0.4}, 0.2);
+    return {{"box", one, {FarFieldShape::box, {0.5, 0}, 20}, 0.06, 400},
+            {"circle", one, {FarFieldShape::circle, {0.5, 0}, 12}, 0.08, 500},
+            {"several bodies", three, {FarFieldShape::box, {0.5, 0}, 20}, 0.07, 700},
+            {"no rings", three, {FarFieldShape::box, {0.5, 0}, 1.7}, 0.1, 300},
+            {"one piece", one, {FarFieldShape::box, {0.5, 0}, 5}, 0.2, 1e9}};
+}
+
+SizeField size_of(const CutCase& c) {
+    const double half = c.far_field.radius;
+    return {c.discs.sources, {.gradation = c.gradation}, {{0.5 - half, -half}, {0.5 + half, half}}};
+}
+
+void expect_equal(const decoupling::CutRegion& one, const decoupling::CutRegion& other) {
+    EXPECT_EQ(one.points, other.points);
+    EXPECT_EQ(one.far_field, other.far_field);
+    EXPECT_EQ(one.separator_vertices, other.separator_vertices);
+    ASSERT_EQ(one.borders.size(), other.borders.size());
+    for (std::size_t i = 0; i < one.borders.size(); ++i) {
+        EXPECT_EQ(one.borders[i].border.loops, other.borders[i].border.loops) << i;
+        EXPECT_EQ(one.borders[i].border.may_dangle, other.borders[i].border.may_dangle) << i;
+        EXPECT_EQ(one.borders[i].estimate.triangles, other.borders[i].estimate.triangles) << i;
+        EXPECT_EQ(one.borders[i].estimate.lattice, other.borders[i].estimate.lattice) << i;
+    }
+}
+
+TEST(SharedCuts, AreThoseOfOneProcess) {
+    const DecouplingOptions defaults;
+    for (const CutCase& c : cut_cases()) {
+        SCOPED_TRACE(c.name);
+        const SizeField size = size_of(c);
+        const DecouplingOptions options{defaults.separators, c.pieces_target};
+        const decoupling::OuterRegion region{c.discs.points, c.discs.borders, size, c.far_field, options};
+        const decoupling::CutRegion alone = decoupling::cut_region(region);
+        EXPECT_EQ(alone.borders.size() > 10, c.name != "one piece") << alone.borders.size();
+        for (const unsigned n : {1u, 2u, 3u, 7u}) {
+            SCOPED_TRACE(n);
+            std::atomic<std::size_t> bytes = 0;
+            EXPECT_EQ(run_ranks(n,
+                                [&](Ranks& ranks) {
+                                    expect_equal(alone, decoupling::cut_region(region, &ranks));
+                                    bytes += ranks.traffic().bytes;
+                                }),
+                      "");
+            // The ends of a separator, or an estimate, for each border that was searched; and what each collective
+            // function asks.
+            if (n > 1) {
+                EXPECT_LT(bytes, n * (30 * (alone.borders.size() + 1) + 500));
+            }
+        }
+    }
+}
+
+TEST(SharedCuts, AreRefusedWhereRanksDiffer) {
+    const CutCase c = cut_cases().front();
+    const SizeField size = size_of(c);
+    const std::string line = run_ranks(3, [&](Ranks& ranks) {
+        FarField far_field = c.far_field;
+        if (ranks.rank() == 2) far_field.radius *= 0.99;
+        const DecouplingOptions options{DecouplingOptions{}.separators, c.pieces_target};
+        decoupling::cut_region({c.discs.points, c.discs.borders, size, far_field, options}, &ranks);
+    });
+    EXPECT_NE(line.find("process 2 has cut the domain in another way"), std::string::npos) << line;
+}
+
+}  // namespace
+}  // namespace lamina::test
