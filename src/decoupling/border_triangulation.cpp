@@ -11,8 +11,8 @@
 //         B  right
 #include "decoupling/border_triangulation.hpp"
 
-#include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "core/predicates.hpp"
 #include "core/segments.hpp"
@@ -61,25 +61,39 @@ BorderTriangulation::BorderTriangulation(std::span<const Point> points, const Su
         for (std::size_t i = 0; i < loop.size(); ++i, ++edge) vertices.push_back(edge->a.value);
     }
     tris_ = triangulate_inside(points_, local.segments);
-    loads_ = delaunay::estimate_loads(points_, tris_, size);
+    Box box;
+    for (const Point p : points_) box.include(p);
+    loads_ = delaunay::estimate_loads(points_, tris_, size.restricted_to(box));
     collect_loop_edges();
     if (loops_.size() == 1) sum_up_subtrees();
 }
 
 void BorderTriangulation::collect_loop_edges() {
+    // Most vertices have one edge that begins there.
+    first_edge_.assign(points_.size() + 1, 0);
+    for (const auto& loop : loops_)
+        for (const Index v : loop) ++first_edge_[v + 1];
+    std::partial_sum(first_edge_.begin(), first_edge_.end(), first_edge_.begin());
+    loop_edges_.resize(first_edge_.back());
+    std::vector<Index> free(first_edge_.begin(), first_edge_.end() - 1);
     for (std::size_t l = 0; l < loops_.size(); ++l)
         for (std::size_t i = 0; i < loops_[l].size(); ++i) {
             const LoopVertex from{l, i};
-            loop_edges_.push_back({local_index(from), local_index(next(from)), {}, from});
+            loop_edges_[free[local_index(from)]++] = {local_index(from), local_index(next(from)), {}, from};
         }
-    std::sort(loop_edges_.begin(), loop_edges_.end());
     for (Index t = 0; t < tris_.size(); ++t)
         for (unsigned e = 0; e < 3; ++e) {
             if (!tris_[t].n[e].is_constrained()) continue;
-            const LoopEdge wanted{tris_[t].v[delaunay::next(e)], tris_[t].v[delaunay::previous(e)], {}, {}};
-            const auto found = std::lower_bound(loop_edges_.begin(), loop_edges_.end(), wanted);
-            if (found != loop_edges_.end() && found->a == wanted.a && found->b == wanted.b) found->inside = Link(t, e);
+            LoopEdge* found = find_loop_edge(tris_[t].v[delaunay::next(e)], tris_[t].v[delaunay::previous(e)]);
+            if (found != nullptr) found->inside = Link(t, e);
         }
+}
+
+/// Returns the edge of a loop from a to b; null where there is none.
+BorderTriangulation::LoopEdge* BorderTriangulation::find_loop_edge(Index a, Index b) {
+    for (Index i = first_edge_[a]; i < first_edge_[a + 1]; ++i)
+        if (loop_edges_[i].b == b) return &loop_edges_[i];
+    return nullptr;
 }
 
 double BorderTriangulation::triangles_in(Index t) const {
@@ -115,9 +129,10 @@ double BorderTriangulation::triangles_beyond(Index t, unsigned edge) const {
 }
 
 const BorderTriangulation::LoopEdge& BorderTriangulation::loop_edge(Index a, Index b) const {
-    const auto found = std::lower_bound(loop_edges_.begin(), loop_edges_.end(), LoopEdge{a, b, {}, {}});
-    assert(found != loop_edges_.end() && found->a == a && found->b == b);
-    return *found;
+    Index i = first_edge_[a];
+    while (loop_edges_[i].b != b) ++i;
+    assert(i < first_edge_[a + 1]);
+    return loop_edges_[i];
 }
 
 /// Returns the triangle at a border vertex u that a line from u towards a point enters first, or no_index where the

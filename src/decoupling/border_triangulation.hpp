@@ -57,7 +57,6 @@ private:
         delaunay::Index a, b;
         delaunay::Link inside;
         LoopVertex from;  ///< where a stands in the border
-        friend bool operator<(const LoopEdge& l, const LoopEdge& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; }
     };
 
     delaunay::Index local_index(LoopVertex v) const { return loops_[v.loop][v.index]; }
@@ -65,6 +64,7 @@ private:
     void sum_up_subtrees();
     double triangles_in(delaunay::Index t) const;
     double triangles_beyond(delaunay::Index t, unsigned edge) const;
+    LoopEdge* find_loop_edge(delaunay::Index a, delaunay::Index b);
     const LoopEdge& loop_edge(delaunay::Index a, delaunay::Index b) const;
     delaunay::Index first_triangle(LoopVertex from, Point toward) const;
     delaunay::Link link_out_of(delaunay::Index first, LoopVertex from) const;
@@ -73,7 +73,8 @@ private:
     std::vector<Point> points_;
     delaunay::Tris tris_;
     delaunay::LoadEstimate loads_;
-    std::vector<LoopEdge> loop_edges_;  ///< sorted
+    std::vector<LoopEdge> loop_edges_;         ///< by the vertices that they begin at
+    std::vector<delaunay::Index> first_edge_;  ///< for each vertex the first of its loop edges, and the number of all
     // The triangles inside a border of one loop form a tree, whose root is triangle 0. Without it both arrays are
     // empty.
     std::vector<unsigned char> to_root_;  ///< for each triangle its edge towards the root

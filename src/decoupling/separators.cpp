@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/reproducible_math.hpp"
 
@@ -16,15 +17,15 @@ namespace {
 template <class Curve>
 std::vector<Point> equidistribute(const Curve& curve, double total, const SizeField& size, std::size_t min_segments) {
     std::vector<double> arc_length{0}, integral{0};  // the integral up to each arc length
-    double h = size(curve(0));
+    double h = size(curve(0)), inverse = 1 / h;
     while (arc_length.back() < total) {
         const double step = std::min(h / 8, total - arc_length.back());
         // Rounding might otherwise keep the last step from reaching the end.
         const double s = arc_length.back() + step < total * (1 - 1e-12) ? arc_length.back() + step : total;
-        const double next_h = size(curve(s));
-        integral.push_back(integral.back() + 0.5 * (s - arc_length.back()) * (1 / h + 1 / next_h));
+        h = size(curve(s));
+        const double last_inverse = std::exchange(inverse, 1 / h);
+        integral.push_back(integral.back() + 0.5 * (s - arc_length.back()) * (last_inverse + inverse));
         arc_length.push_back(s);
-        h = next_h;
     }
     const auto n = std::max(min_segments, static_cast<std::size_t>(std::ceil(integral.back() / frozen_share)));
     std::vector<Point> points;
@@ -81,7 +82,11 @@ std::vector<Point> divide_by_k_rule(Point u, Point v, const SizeField& size, std
 }  // namespace
 
 std::vector<Point> divide_separator(Point u, Point v, const SeparatorSpacing& spacing, std::size_t min_segments) {
-    const auto& [size, rule] = spacing;
+    Box box;
+    box.include(u);
+    box.include(v);
+    const SizeField size = spacing.size.restricted_to(box);
+    const SeparatorRule rule = spacing.rule;
     // Lines begin at the finer end, or at the smaller point where both are equally fine, so that both directions give
     // the same points.
     const double h_u = size(u), h_v = size(v);

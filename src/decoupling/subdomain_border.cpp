@@ -117,6 +117,27 @@ std::size_t find_owner(std::span<const Point> points, std::span<const VertexId> 
     return owner;
 }
 
+/// Finds ids in a sorted list. The vertices of a line have successive ids, so most are found beside the last one.
+class LocalIds {
+public:
+    explicit LocalIds(std::span<const VertexId> ids) : ids_(ids) {}
+
+    /// Returns the place of an id. Precondition: the list holds it.
+    VertexId operator()(VertexId v) {
+        if (last_ + 1 < ids_.size() && ids_[last_ + 1] == v)
+            ++last_;
+        else if (last_ > 0 && ids_[last_ - 1] == v)
+            --last_;
+        else
+            last_ = static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), v) - ids_.begin());
+        return VertexId{last_};
+    }
+
+private:
+    std::span<const VertexId> ids_;
+    std::size_t last_ = 0;
+};
+
 }  // namespace
 
 LocalBorder localize(const SubdomainBorder& border, std::span<const Point> points) {
@@ -127,12 +148,20 @@ LocalBorder localize(const SubdomainBorder& border, std::span<const Point> point
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     local.points.reserve(ids.size());
     for (const VertexId v : ids) local.points.push_back(points[v.index()]);
-    const auto local_id = [&](VertexId v) {
-        return VertexId{static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), v) - ids.begin())};
-    };
-    for (const auto& loop : border.loops)
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            local.segments.push_back({local_id(loop[i]), local_id(loop[i + 1 < loop.size() ? i + 1 : 0])});
+    std::size_t edges = 0;
+    for (const auto& loop : border.loops) edges += loop.size();
+    local.segments.reserve(edges);
+    LocalIds local_id(ids);
+    for (const auto& loop : border.loops) {
+        const VertexId first = local_id(loop.front());
+        VertexId a = first;
+        for (std::size_t i = 1; i < loop.size(); ++i) {
+            const VertexId b = local_id(loop[i]);
+            local.segments.push_back({a, b});
+            a = b;
+        }
+        local.segments.push_back({a, first});
+    }
     return local;
 }
 

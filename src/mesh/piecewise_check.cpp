@@ -249,7 +249,11 @@ void PiecewiseCheck::subtract_constraints(const Seams& seams, std::span<const Se
     std::vector<bool> found(constraints.size(), false);
     for (std::size_t i = 0; i < std::min(constraints.size(), is_layer_constraint_.size()); ++i)
         found[i] = is_layer_constraint_[i];
+    // Constraints are edges of the layer, whose vertices have the lowest numbers: most edges need no search.
+    VertexId last{std::size_t{0}};
+    for (const Segment& constraint : constraints) last = std::max(last, constraint.b);
     for (std::size_t e = 0; e < seams.edges.size(); ++e) {
+        if (last < std::max(seams.edges[e].a, seams.edges[e].b)) continue;
         const auto at = find_constraint(constraints, seams.edges[e]);
         if (at == constraints.end()) continue;
         found[static_cast<std::size_t>(at - constraints.begin())] = true;
