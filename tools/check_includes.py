@@ -37,6 +37,7 @@ OWNERS["stored_mesh"] = "io"
 for name in "delaunay_connectivity delaunay_input delaunay_queries dynamic_triangulation triangulation voronoi".split():
     OWNERS[name] = "delaunay"
 OWNERS["places"] = "mesh"
+OWNERS["partition"] = "mesh"
 OWNERS["presets"] = "pipeline"
 OWNERS["mesh_sink"] = "mesh"
 OWNERS["stream"] = "pipeline"

@@ -2,6 +2,7 @@
 // file "-" is standard input or standard output, whose format must be named (files.hpp).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -33,10 +34,15 @@ LAMINA_EXPORT std::vector<MeshFormat> mesh_formats();
 /// The thickness of OpenFOAM's meshes, which are one cell thick, in units of the mesh.
 inline constexpr double openfoam_span = 1;
 
+/// The largest number of parts that write_mesh() divides a mesh into.
+inline constexpr std::size_t max_parts = 65'536;
+
 /// Options of write_mesh().
 struct WriteOptions {
     std::string format{};        ///< a name, or an extension without its dot; empty: by the extension of the file
     bool wall_distance = false;  ///< writes the distance to the nearest wall as point data, in VTU files
+    /// Number of parts of PVTU files. More than one make OpenFOAM's cellDecomposition beside polyMesh, too.
+    std::size_t parts = 1;
 };
 
 /// Writes a mesh. Files get temporary names beside the target and are renamed, so that a failure leaves nothing
@@ -77,7 +83,8 @@ LAMINA_EXPORT std::unique_ptr<MeshSink> open_mesh_sink(const std::filesystem::pa
                                                        const WriteOptions& options = {});
 
 /// Collective: writes one file from the parts of a mesh that several processes hold, with the bytes of write_mesh(). Nothing
-/// appears under its name before all have written their parts. /dev/null takes no bytes. Throws what open_mesh_sink()
+/// appears under its name before all have written their parts. /dev/null takes no bytes. A PVTU file has one part or more
+/// for each process, with the cells that this one holds. Throws what open_mesh_sink()
 /// throws, UsageError for standard output and for devices, IoError where a process cannot write, which must then call
 /// Ranks::fail(), and RankFailure where another has failed.
 LAMINA_EXPORT void write_shared_mesh(const MeshParts& parts, const MeshFrame& frame, Ranks& ranks,
@@ -85,6 +92,9 @@ LAMINA_EXPORT void write_shared_mesh(const MeshParts& parts, const MeshFrame& fr
 
 /// Throws UsageError for formats that open_mesh_sink() refuses, without opening anything.
 LAMINA_EXPORT void require_streamable(const std::filesystem::path& file, const WriteOptions& options = {});
+
+/// Throws UsageError for formats that write_shared_mesh() refuses, without opening anything.
+LAMINA_EXPORT void require_shareable(const std::filesystem::path& file, const WriteOptions& options = {});
 
 /// Returns the name of the format that write_mesh() writes the file in; empty where there is no such format.
 LAMINA_EXPORT std::string format_name(const std::filesystem::path& file, const WriteOptions& options = {});

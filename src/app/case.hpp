@@ -20,6 +20,7 @@ struct MeshCase {
     std::vector<std::string> outputs;       ///< mesh files
     std::string format;                     ///< of every mesh file; empty: by its extension
     bool stream = false;                    ///< whether the mesh is written while it is made
+    std::size_t parts = 1;                  ///< of PVTU files and of OpenFOAM's cellDecomposition
     bool wall_distance = false;             ///< whether VTU files hold the distance to the nearest wall
     std::string wall_data;                  ///< CSV file of the wall vertices; empty: none
     std::string report;                     ///< JSON file; empty: none

@@ -81,6 +81,12 @@ void add_convert_command(CLI::App& app) {
         ->allow_extra_args(false);
     command->add_flag("--wall-distance", arguments->options.wall_distance,
                       "write the distance to the nearest wall as point data, in VTU files");
+    command
+        ->add_option(
+            "--parts", arguments->options.parts,
+            "number of parts of equal size: of PVTU files, and of cellDecomposition beside OpenFOAM's polyMesh")
+        ->check(CLI::Range(std::size_t{1}, max_parts))
+        ->type_name("N");
     command->footer(format_help());
     command->callback([arguments] { convert(*arguments); });
 }

@@ -45,13 +45,12 @@ bool holds_quads(const std::string& output, const MeshCase& mesh_case) {
 }
 
 /// Throws UsageError where the case asks for what needs the whole mesh in one place; `who` does not have it.
-void require_one_part_file(const MeshCase& mesh_case, const std::string& who) {
+void require_one_output(const MeshCase& mesh_case, const std::string& who) {
     const auto refuse = [&](const char* what) { throw UsageError(who + ": " + what); };
     if (mesh_case.outputs.size() != 1) refuse("writes one mesh file: give one --output");
     if (!mesh_case.wall_data.empty()) refuse("holds no mesh for --wall-data");
     if (mesh_case.wall_distance) refuse("holds no mesh for --wall-distance");
     if (!mesh_case.html.empty()) refuse("holds no mesh for --html");
-    require_streamable(mesh_case.outputs.front(), write_options(mesh_case));
 }
 
 /// Collective: returns what all processes have sent, on rank 0.
@@ -71,7 +70,7 @@ RankTraffic total_traffic(Ranks& ranks) {
 }  // namespace
 
 WriteOptions write_options(const MeshCase& mesh_case) {
-    return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance};
+    return {.format = mesh_case.format, .wall_distance = mesh_case.wall_distance, .parts = mesh_case.parts};
 }
 
 MeshDestination destination_of_outputs(const MeshCase& mesh_case) {
@@ -172,7 +171,8 @@ void run_mesh(const MeshCase& mesh_case, const MeshDestination& destination) {
 }
 
 void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination) {
-    require_one_part_file(mesh_case, "option --stream");
+    require_one_output(mesh_case, "option --stream");
+    require_streamable(mesh_case.outputs.front(), write_options(mesh_case));
     const std::string& output = mesh_case.outputs.front();
     const StartedRun run(mesh_case, destination);
     ProgressPrinter progress(mesh_case.progress, mesh_case.quiet);
@@ -195,7 +195,8 @@ void stream_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& desti
 }
 
 void share_mesh_of_case(const MeshCase& mesh_case, const MeshDestination& destination, Ranks& ranks) {
-    require_one_part_file(mesh_case, "a run of several processes");
+    require_one_output(mesh_case, "a run of several processes");
+    require_shareable(mesh_case.outputs.front(), write_options(mesh_case));
     if (std::any_of(mesh_case.inputs.begin(), mesh_case.inputs.end(), is_standard_stream))
         throw UsageError("INPUT: '-' reaches one of several processes alone: give a file");
     const std::string& output = mesh_case.outputs.front();

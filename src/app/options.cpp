@@ -42,6 +42,11 @@ OptionTable<MeshCase> file_options() {
                "write the mesh while it is made, piece by piece, in the memory of a few pieces: the same file; SU2 and "
                "VTU alone",
                true, member_at(&MeshCase::stream));
+    table.count(
+        "parts", "N",
+        "number of parts of equal size: of PVTU files, and of the file cellDecomposition beside OpenFOAM's polyMesh, "
+        "which decomposePar reads",
+        numbers_from_to(1, max_parts), member_at(&MeshCase::parts));
     table.flag("wall-distance", "write the distance to the nearest wall as point data, in VTU files", true,
                member_at(&MeshCase::wall_distance));
     table.text("wall-data", OptionKind::path, "FILE",

@@ -29,7 +29,13 @@ void write_one_file(const MeshView& mesh, const fs::path& file, const WriteOptio
     core::write_stream_atomically(file, [&](std::ostream& out) { write_to_stream(mesh, file, out); });
 }
 
-std::vector<fs::path> one_file(const fs::path& file) { return {file}; }
+std::vector<fs::path> one_file(const fs::path& file, const WriteOptions&) { return {file}; }
+
+/// Returns several files by a function that knows their names.
+template <auto files>
+std::vector<fs::path> named_files(const fs::path& file, const WriteOptions&) {
+    return files(file);
+}
 
 /// Writes several files by a function that sees to them itself.
 template <auto write>
@@ -52,6 +58,22 @@ void write_vtu_variant(const MeshView& mesh, const fs::path& file, const WriteOp
     core::write_stream_atomically(file, [&](std::ostream& out) {
         write_vtu(mesh, {compressed, options.wall_distance}, out);
     });
+}
+
+std::vector<fs::path> pvtu_targets(const fs::path& file, const WriteOptions& options) {
+    return pvtu_files(file, options.parts);
+}
+void write_pvtu_parts(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    write_pvtu(mesh, file, options.parts);
+}
+
+std::vector<fs::path> openfoam_targets(const fs::path& file, const WriteOptions& options) {
+    std::vector<fs::path> files{poly_mesh_folder(file)};
+    if (options.parts > 1) files.push_back(openfoam_parts_file(file));
+    return files;
+}
+void write_openfoam_parts(const MeshView& mesh, const fs::path& file, const WriteOptions& options) {
+    write_openfoam(mesh, file, options.parts);
 }
 
 #ifdef LAMINA_WITH_CGNS
@@ -135,6 +157,12 @@ std::vector<FormatRow> vtu_rows() {
     add("vtu", "VTK unstructured grid, raw binary, for ParaView", write_vtu_variant<false>);
     rows.back().layout = vtu_layout;
     add("vtu-zlib", "VTK unstructured grid, compressed by zlib", write_vtu_variant<true>);
+    rows.push_back({.name = "pvtu",
+                    .extensions = {".pvtu"},
+                    .description = "VTK unstructured grid in parts (--parts), each a VTU file",
+                    .write = write_pvtu_parts,
+                    .files = pvtu_targets,
+                    .write_shared = write_shared_pvtu});
     return rows;
 }
 
@@ -142,8 +170,8 @@ FormatRow openfoam_row() {
     return {.name = "openfoam",
             .extensions = {"polyMesh"},
             .description = "OpenFOAM polyMesh folder, ASCII, one cell thick",
-            .write = write_files<write_openfoam>,
-            .files = openfoam_files,
+            .write = write_openfoam_parts,
+            .files = openfoam_targets,
             .check = check_openfoam_writable,
             .read = read_openfoam,
             .recognizes = holds_openfoam_mesh};
@@ -156,7 +184,7 @@ std::vector<FormatRow> ugrid_rows() {
                         .extensions = std::move(extensions),
                         .description = description,
                         .write = write,
-                        .files = ugrid_files,
+                        .files = named_files<ugrid_files>,
                         .read = read_one_file<read_ugrid>});
     };
     add("ugrid", {".ugrid"}, "UGRID, plane, ASCII, with .mapbc", write_files<write_ugrid>);
@@ -169,7 +197,7 @@ FormatRow triangle_row() {
             .extensions = {".node", ".ele"},
             .description = "Triangle's .node, .ele, .edge and .poly",
             .write = write_files<write_triangle_mesh>,
-            .files = triangle_mesh_files,
+            .files = named_files<triangle_mesh_files>,
             .read = read_triangle_mesh,
             .quads = false};
 }

@@ -34,7 +34,7 @@ struct FormatRow {
     /// cannot hold.
     void (*write)(const MeshView&, const std::filesystem::path&, const WriteOptions&) = nullptr;
     /// Returns the files that `write` creates or replaces, or the one folder where the format is a folder.
-    std::vector<std::filesystem::path> (*files)(const std::filesystem::path&) = nullptr;
+    std::vector<std::filesystem::path> (*files)(const std::filesystem::path&, const WriteOptions&) = nullptr;
     /// Throws IoError where the mesh certainly cannot be written. Null: it can where each of its files can.
     void (*check)(const std::filesystem::path&) = nullptr;
     /// Reads a mesh. Throws IoError, InputError. Null: the format is not read.
@@ -48,6 +48,8 @@ struct FormatRow {
     bool (*recognizes)(const std::filesystem::path&) = nullptr;
     /// Returns how the file is written part by part. Null: the format is written as a whole.
     std::unique_ptr<MeshLayout> (*layout)(const std::filesystem::path&) = nullptr;
+    /// Collective: writes what each process holds. Null: as `layout` says.
+    void (*write_shared)(const MeshParts&, const MeshFrame&, Ranks&, const std::filesystem::path&) = nullptr;
     bool quads = true;        ///< whether the format holds quadrilaterals, too
     bool one_stream = false;  ///< whether standard input and standard output can carry it
 };
@@ -86,6 +88,13 @@ void read_vtu_arrays(const std::filesystem::path& file, MeshArrays& arrays);
 /// Reads the mesh and these fields.
 Solution read_vtu_solution(const std::string& bytes, const std::filesystem::path& file,
                            std::span<const FieldRequest> fields);
+/// Writes a part of a mesh, with the numbers of its vertices in the mesh.
+void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, std::ostream& out);
+/// Returns the list and the files of the parts.
+std::vector<std::filesystem::path> pvtu_files(const std::filesystem::path& file, std::size_t parts);
+void write_pvtu(const MeshView& mesh, const std::filesystem::path& file, std::size_t parts);
+/// Collective: writes the parts that each process holds. Throws what write_shared_mesh() throws.
+void write_shared_pvtu(const MeshParts& parts, const MeshFrame& frame, Ranks& ranks, const std::filesystem::path& file);
 /// Writes sizes as point data.
 void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out);
 /// Reads the mesh and the array of point data that size_array() names.
@@ -112,10 +121,11 @@ Mesh read_cgns(const std::filesystem::path& file);
 
 /// The patch for the two sides of meshes that are one cell thick.
 inline constexpr const char* front_and_back = "frontAndBack";
-/// Returns the folder alone.
-std::vector<std::filesystem::path> openfoam_files(const std::filesystem::path& file);
 void check_openfoam_writable(const std::filesystem::path& file);
-void write_openfoam(const MeshView& mesh, const std::filesystem::path& file);
+/// Writes the folder and, for more than one part, the file of the parts beside it.
+void write_openfoam(const MeshView& mesh, const std::filesystem::path& file, std::size_t parts);
+/// Returns the file beside the folder that says which part a cell belongs to, for decomposePar with the method `manual`.
+std::filesystem::path openfoam_parts_file(const std::filesystem::path& file);
 Mesh read_openfoam(const std::filesystem::path& file);
 /// A mesh, and the number of each of its cells in the files it was read from: triangles, then quads.
 struct NumberedCells {

@@ -26,7 +26,7 @@ Mesh read_mesh(const fs::path& file, const ReadOptions& options) {
 void check_writable(const fs::path& file, const WriteOptions& options) {
     const FormatRow& format = find_format(file, options.format);
     if (format.check != nullptr) return format.check(file);
-    for (const fs::path& written : format.files(file)) check_folder_writable(written);
+    for (const fs::path& written : format.files(file, options)) check_folder_writable(written);
 }
 
 void require_streamable(const fs::path& file, const WriteOptions& options) {
@@ -38,6 +38,10 @@ void require_streamable(const fs::path& file, const WriteOptions& options) {
     throw UsageError(fmt::format("format '{}' is written as a whole: a mesh is streamed as {}", format.name, names));
 }
 
+void require_shareable(const fs::path& file, const WriteOptions& options) {
+    if (find_format(file, options.format).write_shared == nullptr) require_streamable(file, options);
+}
+
 std::unique_ptr<MeshSink> open_mesh_sink(const fs::path& file, const WriteOptions& options) {
     require_streamable(file, options);
     check_writable(file, options);
@@ -45,7 +49,7 @@ std::unique_ptr<MeshSink> open_mesh_sink(const fs::path& file, const WriteOption
 }
 
 std::vector<fs::path> output_files(const fs::path& file, const WriteOptions& options) {
-    return find_format(file, options.format).files(file);
+    return find_format(file, options.format).files(file, options);
 }
 
 std::string format_name(const fs::path& file, const WriteOptions& options) {

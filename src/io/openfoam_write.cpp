@@ -20,6 +20,7 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/io.hpp>
+#include <lamina/partition.hpp>
 
 #include "core/atomic_file.hpp"
 #include "core/parallel.hpp"
@@ -33,6 +34,20 @@ namespace lamina::io {
 namespace fs = std::filesystem;
 
 namespace {
+
+std::string foam_header(const char* type, const std::string& note, const char* location, const char* name) {
+    return fmt::format(
+        "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {};\n{}"
+        "    location    \"{}\";\n    object      {};\n}}\n\n",
+        type, note, location, name);
+}
+
+template <class F>
+void write_list(std::ostream& out, std::size_t n, F&& put_line) {
+    out << n << "\n(\n";
+    write_lines(out, n, put_line);
+    out << ")\n";
+}
 
 /// Side faces, each given by the directed edge of its owner that it stands on (CellEdges).
 using SideFaces = std::vector<std::uint32_t>;
@@ -125,18 +140,9 @@ private:
     void write_part(const fs::path& folder, const char* name, const char* type, const std::string& note,
                     const std::function<void(std::ostream&)>& write) const {
         core::write_stream(folder / name, file_, [&](std::ostream& out) {
-            out << fmt::format(
-                "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {};\n{}"
-                "    location    \"constant/polyMesh\";\n    object      {};\n}}\n\n",
-                type, note, name);
+            out << foam_header(type, note, "constant/polyMesh", name);
             write(out);
         });
-    }
-    template <class F>
-    static void write_list(std::ostream& out, std::size_t n, F&& put_line) {
-        out << n << "\n(\n";
-        write_lines(out, n, put_line);
-        out << ")\n";
     }
 
     void write_points(std::ostream& out) const {
@@ -208,6 +214,16 @@ private:
     std::size_t internal_ = 0;  ///< number of internal faces
 };
 
+/// Writes the part of each cell.
+void write_parts(const MeshView& mesh, std::size_t parts, const fs::path& target) {
+    const std::vector<std::uint32_t> part_of_cell = partition_cells(mesh, parts);
+    core::write_stream_atomically(target, [&](std::ostream& out) {
+        out << foam_header("labelList", "", "constant", "cellDecomposition");
+        write_list(out, part_of_cell.size(),
+                   [&](LineText& line, std::size_t c) { line << std::size_t{part_of_cell[c]}; });
+    });
+}
+
 }  // namespace
 
 fs::path poly_mesh_folder(const fs::path& file) {
@@ -220,7 +236,9 @@ bool holds_openfoam_mesh(const fs::path& file) {
     return fs::exists(poly_mesh_folder(file) / "faces", ignored);
 }
 
-std::vector<fs::path> openfoam_files(const fs::path& file) { return {poly_mesh_folder(file)}; }
+fs::path openfoam_parts_file(const fs::path& file) {
+    return poly_mesh_folder(file).parent_path() / "cellDecomposition";
+}
 
 void check_openfoam_writable(const fs::path& file) {
     const fs::path folder = poly_mesh_folder(file);
@@ -237,13 +255,14 @@ void check_openfoam_writable(const fs::path& file) {
     check_folder_writable(outermost_missing == folder ? folder.parent_path() / "points" : outermost_missing);
 }
 
-void write_openfoam(const MeshView& mesh, const fs::path& file) {
+void write_openfoam(const MeshView& mesh, const fs::path& file, std::size_t parts) {
     require_marker_names(mesh.markers, file, "OpenFOAM", " \"'/;{}()$#", 1000);
     for (const Marker& marker : mesh.markers)
         if (marker.name == front_and_back)
             throw UsageError(fmt::format("{}: OpenFOAM needs the name '{}' for the sides", file.string(), marker.name));
     const PolyMeshWriter writer(mesh, file);
     core::write_folder_atomically(poly_mesh_folder(file), [&](const fs::path& folder) { writer.write(folder); });
+    if (parts > 1) write_parts(mesh, parts, openfoam_parts_file(file));
 }
 
 }  // namespace lamina::io

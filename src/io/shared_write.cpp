@@ -230,11 +230,13 @@ using namespace io;
 
 void write_shared_mesh(const MeshParts& parts, const MeshFrame& frame, Ranks& ranks, const std::filesystem::path& file,
                        const WriteOptions& options) {
-    require_streamable(file, options);
+    require_shareable(file, options);
     const bool keeps = !is_null_device(file);
-    if (is_standard_stream(file) || (keeps && core::is_device(file)))
+    const auto write_parts = find_format(file, options.format).write_shared;
+    if (is_standard_stream(file) || ((keeps || write_parts != nullptr) && core::is_device(file)))
         throw UsageError("several processes write a file together: '" + file.string() + "' is none");
     check_writable(file, options);
+    if (write_parts != nullptr) return write_parts(parts, frame, ranks, file);
     const std::unique_ptr<MeshLayout> layout = find_format(file, options.format).layout(file);
     layout->require_names(frame.markers);
     const Arrangement arrangement = arrange(parts, *layout, ranks);

@@ -10,13 +10,15 @@
 //                equilateral triangle and the square, 0 for flat cells and lines)
 //   field data   marker_names (UTF-8, with a zero byte behind each name, since not every reader knows strings),
 //                marker_kinds (in the order of MarkerKind), constraints (pairs of points)
-//   point data   wall_distance where it is asked for
+//   point data   wall_distance where it is asked for; vertex in parts of a mesh (pvtu_write.cpp)
 // Files of sizes have the point data size and, where it is known, the field data lamina_size_gradation.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -71,18 +73,17 @@ struct VtuCells {
     std::vector<MarkerLine> lines;
 };
 
-/// Numbers at the points, and their name.
-struct PointArray {
-    const char* name;
-    const std::vector<double>& values;
-};
+/// Adds the point data.
+using AddPointData = std::function<void(VtuWriter&)>;
 
-void add_point_data(const PointArray& array, VtuWriter& vtu) {
-    if (array.values.empty()) return;
-    vtu.xml += "      <PointData>\n";
-    vtu.add_array<double>(array.name, array.values.size(), 1,
-                          [&values = array.values](std::size_t i) { return values[i]; });
-    vtu.xml += "      </PointData>\n";
+/// Returns what adds numbers at the points; nothing where there are none.
+AddPointData point_data(const char* name, const std::vector<double>& values) {
+    return [name, &values](VtuWriter& vtu) {
+        if (values.empty()) return;
+        vtu.xml += "      <PointData>\n";
+        vtu.add_array<double>(name, values.size(), 1, [&values](std::size_t i) { return values[i]; });
+        vtu.xml += "      </PointData>\n";
+    };
 }
 
 void add_cell_data(const MeshView& mesh, const VtuCells& cells, VtuWriter& vtu) {
@@ -121,15 +122,15 @@ void add_cells(const VtuCells& cells, VtuWriter& vtu) {
     vtu.xml += "      </Cells>\n";
 }
 
-void write_grid(const MeshView& mesh, const PointArray& array, bool compressed, std::optional<double> size_gradation,
-                std::ostream& out) {
+void write_grid(const MeshView& mesh, const AddPointData& add_point_data, bool compressed,
+                std::optional<double> size_gradation, std::ostream& out) {
     const VtuCells cells(mesh);
     VtuWriter vtu(compressed);
     vtu.xml = vtu_head(compressed);
     add_vtu_field_data(mesh.markers, mesh.constraints, size_gradation, vtu);
     vtu.xml +=
         fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", mesh.points.size(), cells.count());
-    add_point_data(array, vtu);
+    add_point_data(vtu);
     add_cell_data(mesh, cells, vtu);
     add_points(mesh, vtu);
     add_cells(cells, vtu);
@@ -172,14 +173,24 @@ void add_vtu_field_data(std::span<const Marker> markers, std::span<const Segment
 
 void write_vtu(const MeshView& mesh, VtuVariant variant, std::ostream& out) {
     const std::vector<double> distances = variant.wall_distance ? wall_distances(mesh) : std::vector<double>{};
-    write_grid(mesh, {"wall_distance", distances}, variant.compressed, {}, out);
+    write_grid(mesh, point_data("wall_distance", distances), variant.compressed, {}, out);
+}
+
+void write_vtu_part(const MeshView& part, std::span<const VertexId> vertices, std::ostream& out) {
+    const auto add_ids = [&](VtuWriter& vtu) {
+        vtu.xml += "      <PointData GlobalIds=\"vertex\">\n";
+        vtu.add_array<std::int64_t>("vertex", vertices.size(), 1,
+                                    [&](std::size_t i) { return std::int64_t{vertices[i].value}; });
+        vtu.xml += "      </PointData>\n";
+    };
+    write_grid(part, add_ids, false, {}, out);
 }
 
 void write_vtu_sizes(const SizedMesh& sizes, std::ostream& out) {
     Mesh mesh;
     mesh.points = sizes.points;
     mesh.triangles = sizes.triangles;
-    write_grid(mesh, {"size", sizes.sizes}, true, sizes.gradation, out);
+    write_grid(mesh, point_data("size", sizes.sizes), true, sizes.gradation, out);
 }
 
 }  // namespace lamina::io

@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -85,6 +86,27 @@ def compare(programs, ranks, folder):
             left.unlink()
 
 
+def compare_parts(programs, ranks, folder):
+    """The parts of a PVTU file have all cells together, whatever the number of processes."""
+    _, _, arguments = CASES[0]
+    counts = set()
+    for n in ranks:
+        run = programs.run(n, ["mesh", *arguments, "--threads", "1", "--quiet", "-o", "mesh.pvtu", "--report",
+                               "report.json"], folder)
+        programs.expect(run.returncode == 0, f"PVTU, {n} processes: exit code {run.returncode}: {run.stderr}")
+        if run.returncode != 0:
+            continue
+        parts = re.findall(r'Source="([^"]*)"', (folder / "mesh.pvtu").read_text())
+        programs.expect(1 <= len(parts) <= n, f"PVTU, {n} processes: {len(parts)} parts")
+        programs.expect(sorted(os.listdir(folder)) == sorted([*parts, "mesh.pvtu", "report.json"]), "files left")
+        heads = [(folder / part).read_bytes()[:8192].decode("latin-1") for part in parts]
+        counts.add(sum(int(re.search(r'NumberOfCells="(\d+)"', head).group(1)) for head in heads))
+        programs.expect(json.loads((folder / "report.json").read_text())["triangles"] < max(counts), "too few cells")
+        for left in folder.iterdir():
+            left.unlink()
+    programs.expect(len(counts) == 1, f"PVTU: numbers of cells {counts}")
+
+
 def refuse(programs, n, folder):
     for name, code, arguments, said in REFUSALS:
         run = programs.run(n, ["mesh", *arguments], folder)
@@ -107,6 +129,7 @@ def main():
     ranks = [int(n) for n in settings.ranks.split(",")]
     with tempfile.TemporaryDirectory() as scratch:
         compare(programs, ranks, pathlib.Path(scratch))
+        compare_parts(programs, ranks, pathlib.Path(scratch))
         refuse(programs, 2, pathlib.Path(scratch))
     print(f"{len(CASES)} cases on {settings.ranks} processes, {len(REFUSALS) + 1} failures: {programs.errors} errors")
     sys.exit(1 if programs.errors else 0)

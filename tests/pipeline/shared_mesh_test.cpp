@@ -13,6 +13,7 @@
 #include <lamina/stream.hpp>
 
 #include "pipeline/stream_cases.hpp"
+#include "support/pvtu_parts.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/thread_ranks.hpp"
 
@@ -84,6 +85,44 @@ TEST(SharedMesh, IsTheMeshOfOneProcess) {
         expect_same_mesh(folder, c, streamed.front(), 5, ".vtu", false);
         EXPECT_EQ(folder.names(), (std::vector<std::string>{"stream.su2", "stream.vtu"}));
     }
+}
+
+// Which parts there are depends on the ranks; all together are the mesh.
+TEST(SharedMesh, IsWrittenInParts) {
+    for (const StreamCase& c : stream_cases()) {
+        if (c.name != "many pieces" && c.name != "quads" && c.name != "inlet and outlet") continue;
+        SCOPED_TRACE(c.name);
+        const MeshResult whole = generate_mesh(c.inputs, c.options);
+        for (const unsigned n : {1u, 3u}) {
+            SCOPED_TRACE(n);
+            const TemporaryFolder folder;
+            CaseOptions options = c.options;
+            options.threads = 1;
+            const std::string failure = run_ranks(n, [&](Ranks& ranks) {
+                std::optional<std::filesystem::path> beside;
+                if (n > 1) beside = folder / "mesh.pvtu";
+                const SharedMesh shared = share_mesh(c.inputs, options, ranks, beside);
+                write_shared_mesh(*shared.parts, {shared.counts, shared.result.mesh.markers, shared.constraints}, ranks,
+                                  folder / "mesh.pvtu");
+            });
+            EXPECT_EQ(failure, "");
+            const Mesh joined = join_parts(folder, "mesh.pvtu");
+            EXPECT_EQ(joined.points, whole.mesh.points);
+            EXPECT_EQ(mesh_hash(joined), mesh_hash(whole.mesh));
+            EXPECT_LE(folder.names().size(), n + 1);
+        }
+    }
+    const TemporaryFolder folder;
+    CaseOptions options = stream_cases().front().options;
+    options.threads = 1;
+    const std::string failure = run_ranks(2, [&](Ranks& ranks) {
+        const SharedMesh shared = share_mesh({"naca:0012:60"}, options, ranks);
+        if (ranks.rank() == 1) throw IoError("somewhere", "no room");
+        write_shared_mesh(*shared.parts, {shared.counts, shared.result.mesh.markers, shared.constraints}, ranks,
+                          folder / "mesh.pvtu");
+    });
+    EXPECT_NE(failure.find("no room"), std::string::npos) << failure;
+    EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(SharedMesh, IsReplacedByABetterOne) {

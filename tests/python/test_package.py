@@ -23,7 +23,7 @@ def test_options_are_those_of_the_program(program):
     page = subprocess.run([program, "mesh", "--options-as-markdown"], check=True, capture_output=True, text=True).stdout
     of_program = {line.split("`")[1].lstrip("-").split()[0].replace("-", "_") for line in page.splitlines()
                   if line.startswith("| `--")}
-    of_run = {"format", "wall_distance", "wall_data", "report", "html", "stream", "progress", "quiet", "strict"}
+    of_run = {"format", "parts", "wall_distance", "wall_data", "report", "html", "stream", "progress", "quiet", "strict"}
     assert set(_options.option_rows()) == of_program - of_run
 
 

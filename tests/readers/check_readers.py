@@ -143,6 +143,17 @@ def check_vtk(folder, reference):
         difference = abs(theirs - ours)[cells].max()
         expect(difference < 1e-6, f"VTK measures the same quality: they differ by {difference:.1e}")
 
+    reader = vtk.vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(folder / "m.pvtu"))
+    reader.Update()
+    grid = reader.GetOutput()
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    found = [(types == t).sum() for t in (vtk.VTK_TRIANGLE, vtk.VTK_QUAD, vtk.VTK_LINE)]
+    ids = grid.GetPointData().GetGlobalIds()
+    vertices = len(set(vtk_to_numpy(ids))) if ids else 0
+    expect(found == expected and vertices == reference["vertices"], "VTK reads m.pvtu: the parts have all cells", found)
+    expect(all((folder / f"m_{part}.vtu").exists() for part in range(5)), "m.pvtu has 5 parts")
+
     reader = vtk.vtkCGNSReader()
     reader.SetFileName(str(folder / "m3.cgns"))
     reader.UpdateInformation()
@@ -240,6 +251,15 @@ def check_openfoam(folder, reference):
         if "non-orthogonality Max" in line or "aspect ratio" in line or "***" in line or "skewness" in line:
             print("            " + line.strip())
 
+    (case / "system" / "decomposeParDict").write_text(
+        CONTROL.format("decomposeParDict") +
+        'numberOfSubdomains 4; method manual; manualCoeffs { dataFile "cellDecomposition"; }\n')
+    code, said = run("decomposePar", "-force", "-case", case, env=OPENFOAM)
+    sizes = [int(n) for n in re.findall(r"Number of cells = (\d+)", said)]
+    cells = reference["triangles"] + reference["quads"]
+    expect(code == 0 and len(sizes) == 4 and sum(sizes) == cells and max(sizes) - min(sizes) <= 1,
+           f"decomposePar divides the case by cellDecomposition: {sizes}", said)
+
     case = folder / "from_gmsh"
     foam_case(case)
     code, said = run("gmshToFoam", (folder / "extruded.msh").resolve(), "-case", case, env=OPENFOAM)
@@ -261,6 +281,8 @@ def main():
         lamina("mesh", *inputs, *SMALL, "-o", folder / "first.vtu")
         for form, file in FILES.items():
             lamina("convert", folder / "first.vtu", folder / file, "--format", form)
+        lamina("convert", folder / "first.vtu", folder / "m.pvtu", "--parts", "5")
+        lamina("convert", folder / "first.vtu", folder / "case", "--format", "openfoam", "--parts", "4")
         reference = facts(folder / "m.su2")
         print(f"  {reference['vertices']} vertices, {reference['triangles']} triangles, {reference['quads']} quads, "
               f"{edges_of(reference)}")
