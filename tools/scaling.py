@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""How runs on many processes would scale: measures the pieces of a real run and replays them on up to 65,536 ranks.
+"""How runs on many processes would scale: measures what the ranks of real runs do, and replays it on up to 65,536 ranks.
 
-    tools/scaling.py build/release/src/app/lamina examples/thesis/fig24.toml > out/scaling.json
+    tools/scaling.py build/release/src/app/lamina build/release/bench/lamina_measure_ranks > out/scaling.json
 
-The mesh is made once, on one thread. Its file says how many triangles each piece has; the report says how the processor
-time of the process is shared among the stages. The replay deals pieces of the same sizes as ranks ask for them, the
-largest estimates first, and adds what each rank does by itself, what is fetched and reduced, and the output.
-docs/scaling.md states the assumptions and shows the result.
+lamina_measure_ranks makes the same mesh on 1, 2, 4 ... ranks and says how much processor time each rank takes for each
+stage. What does not become less with more ranks is repeated by each; what rank 0 alone does is told apart. A file of the
+same mesh says how many triangles each piece has. The replay deals pieces of the same sizes as ranks ask for them, the
+largest estimates first, and adds the rest. docs/scaling.md states the assumptions and shows the result.
 """
 
 import argparse
@@ -15,7 +15,6 @@ import json
 import math
 import random
 import re
-import resource
 import struct
 import subprocess
 import sys
@@ -40,31 +39,47 @@ def piece_sizes(vtu):
     return sorted(Counter(p for p, r in zip(piece, region) if r == 1).values())
 
 
-def measure(program, case, gradation, threads):
-    """Makes the mesh, and returns what the model needs to know of it."""
+CASE = ["naca:0012", "--preset", "none", "--first-height", "2.5e-5", "--growth", "1.15", "--layers", "30",
+        "--max-ray-angle", "4", "--far-field", "50"]  # that of lamina_measure_ranks
+PIECES = "layer triangulation, refinement and check of pieces"
+AT_END = ("numbering", "check", "assembly")
+
+
+def sizes_of(program, gradation):
+    """Makes the mesh, and returns the sizes of its pieces."""
     with tempfile.TemporaryDirectory(prefix="lamina-scaling-") as folder:
-        mesh, report = Path(folder) / "mesh.vtu", Path(folder) / "report.json"
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run(
-            [program, "mesh", case, "--gradation", str(gradation), "--stream", "--threads", str(threads), "--quiet",
-             "-o", mesh, "--report", report], check=True)  # fmt: skip
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        found = json.loads(report.read_text())
-        sizes = piece_sizes(mesh) if threads == 1 else []
-    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return {"triangles": found["triangles"], "pieces": sizes, "processor_seconds": cpu, "seconds": found["seconds"],
-            "thread_seconds": found["thread_seconds"], "threads": threads}  # fmt: skip
+        mesh = Path(folder) / "mesh.vtu"
+        subprocess.run([program, "mesh", *CASE, "--gradation", str(gradation), "--stream", "--quiet", "-o", mesh],
+                       check=True)  # fmt: skip
+        return piece_sizes(mesh)
 
 
-def calibrate(run):
-    """Returns the processor time of what every rank repeats and of what is divided, per triangle."""
-    seconds = run["seconds"]
-    fixed = seconds["geometry"] + seconds["layers"] + seconds["layer_triangulation"] + seconds["decomposition"]
-    cutting = seconds["sizing"] + seconds["decoupling"]
-    divided = seconds["refinement"] + seconds["check"] + seconds["write"] + seconds["assembly"]
-    scale = run["processor_seconds"] / (fixed + cutting + divided)
-    return {"layer": scale * fixed, "cutting_per_triangle": scale * cutting / run["triangles"],
-            "piece_per_triangle": scale * divided / run["triangles"]}  # fmt: skip
+def stage_seconds(run, names):
+    """Returns the processor time of each rank in these stages."""
+    return [sum(seconds for name, seconds in stages if name in names) for stages in run["stages"]]
+
+
+def summarize(run):
+    """Returns what the busiest rank did in each part of a run, and what rank 0 did alone at the end."""
+    names = {name for stages in run["stages"] for name, _ in stages}
+    before = names - {PIECES, "decoupling", *AT_END}
+    at_end = stage_seconds(run, AT_END)
+    return {"ranks": run["ranks"], "before": max(stage_seconds(run, before)),
+            "decoupling": max(stage_seconds(run, {"decoupling"})), "pieces": max(stage_seconds(run, {PIECES})),
+            "pieces_of_all": sum(stage_seconds(run, {PIECES})), "end_at_rank_0": at_end[0],
+            "end_elsewhere": max(at_end[1:], default=0.0),
+            "bytes_a_piece": run["bytes"] / run["pieces"], "messages": run["messages"]}  # fmt: skip
+
+
+def calibrate(triangles, parts):
+    """Returns the processor time of what every rank repeats, of what is divided, and of rank 0, per triangle."""
+    one, most = parts[0], parts[-1]
+    share = 1 / most["ranks"]
+    repeated = max(0.0, (most["decoupling"] - share * one["decoupling"]) / (1 - share))
+    return {"layer": one["before"], "cutting_repeated": repeated / triangles,
+            "cutting_divided": (one["decoupling"] - repeated) / triangles,
+            "piece_per_triangle": one["pieces_of_all"] / triangles,
+            "end_at_rank_0": most["end_at_rank_0"] / triangles}  # fmt: skip
 
 
 def replay(ranks, triangles, sizes, cost, model):
@@ -79,20 +94,25 @@ def replay(ranks, triangles, sizes, cost, model):
         noise = 1 + abs(chance.gauss(0, model["noise"]))
         work.append((estimate, size * cost["piece_per_triangle"] * noise))
     work.sort(reverse=True)
-    start = cost["layer"] + cost["cutting_per_triangle"] * triangles * (
-        1 - model["shared_cutting"] + model["shared_cutting"] / ranks)  # fmt: skip
+    repeated = cost["cutting_repeated"] * (1 - model["divided_too"])
+    divided = cost["cutting_divided"] + cost["cutting_repeated"] * model["divided_too"]
+    end = cost["end_at_rank_0"] * (1 - model["divided_too"] * (1 - 1 / ranks))
+    if model["search_repeated"] > 0:
+        repeated, divided = repeated + divided, 0.0
+    start = cost["layer"] + triangles * (repeated + divided / ranks)
     if ranks >= count:
-        end = start + model["fetch_seconds"] + max(seconds for _, seconds in work)
+        last = start + model["fetch_seconds"] + max(seconds for _, seconds in work)
     else:
         free = [start] * ranks
         for _, seconds in work:
             heapq.heapreplace(free, free[0] + model["fetch_seconds"] + seconds)
-        end = max(free)
+        last = max(free)
     hops = math.ceil(math.log2(ranks)) if ranks > 1 else 0
-    scan = hops * (model["latency_seconds"] + 16 * count / model["bytes_per_second"]) if ranks > 1 else 0
+    # One scan over the pieces, and what each rank tells all others of its cuts, once for each round of cuts.
+    told = hops * (model["latency_seconds"] * model["rounds"] + 40 * count / model["bytes_per_second"])
     reductions = 4 * hops * model["latency_seconds"]
     output = triangles * model["bytes_per_triangle"] / model["output_bytes_per_second"]
-    return {"seconds": end + scan + reductions + output, "pieces": count, "start": start}
+    return {"seconds": last + triangles * end + told + reductions + output, "pieces": count, "start": start}
 
 
 def tables(sizes, cost, model):
@@ -112,29 +132,33 @@ def tables(sizes, cost, model):
 
 MODEL = {
     "piece_scale": 1.0,  # size of pieces, relative to those of the run
-    "shared_cutting": 0.0,  # share of the decomposition that ranks divide among themselves; else each repeats it
+    "search_repeated": 0.0,  # 1: every rank searches all separators, as before docs/decisions/0051
+    "divided_too": 0.0,  # share of what ranks repeat, and of the end at rank 0, that they would divide as well
     "estimate_error": 0.05,  # of the work of pieces, on either side
     "noise": 0.02,  # of the time of a piece
     "fetch_seconds": 5e-6,  # one atomic fetch from another rank
     "latency_seconds": 5e-6,
+    "rounds": 16,  # of cuts, each with a collective exchange
     "bytes_per_second": 5e9,  # between two ranks
     "bytes_per_triangle": 0.0,  # of output; 0: a sink that counts
     "output_bytes_per_second": 1e10,  # of the file system, shared by all ranks
 }
 VARIANTS = {
-    "every rank repeats the decomposition": {},
-    "ranks divide 99 % of the decomposition": {"shared_cutting": 0.99},
-    "ranks divide all of it": {"shared_cutting": 1.0},
-    "ranks divide all of it, pieces of a quarter": {"shared_cutting": 1.0, "piece_scale": 0.25},
-    "ranks divide all of it, 24 bytes a triangle to disk": {"shared_cutting": 1.0, "bytes_per_triangle": 24.0},
+    "every rank repeats the decomposition, as before": {"search_repeated": 1.0},
+    "ranks divide the search for separators, as now": {},
+    "as now, pieces of a quarter": {"piece_scale": 0.25},
+    "as now, 24 bytes a triangle to disk": {"bytes_per_triangle": 24.0},
+    "ranks divide 90 % of the rest as well": {"divided_too": 0.9},
+    "ranks divide all of it": {"divided_too": 1.0},
 }
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("program")
-    parser.add_argument("case")
-    parser.add_argument("--gradation", type=float, default=0.00597, help="of the run that is measured")
+    parser.add_argument("program", help="lamina")
+    parser.add_argument("measure", help="lamina_measure_ranks")
+    parser.add_argument("--gradation", type=float, default=0.0026, help="of the runs that are measured")
+    parser.add_argument("--ranks", default="1,2,4,8,16,32", help="of the runs that are measured [%(default)s]")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the model")
     arguments = parser.parse_args()
     for text in arguments.set:
@@ -142,19 +166,27 @@ def main():
         if name not in MODEL:
             parser.error(f"no parameter '{name}' (known: {', '.join(MODEL)})")
         MODEL[name] = float(value)
-    run = measure(arguments.program, arguments.case, arguments.gradation, 1)
-    two = measure(arguments.program, arguments.case, arguments.gradation, 2)
-    cost = calibrate(run)
-    predicted = replay(2, run["triangles"], run["pieces"], cost, {**MODEL, "shared_cutting": 1.0})["seconds"]
+    runs = json.loads(subprocess.run([arguments.measure, str(arguments.gradation), *arguments.ranks.split(",")],
+                                     check=True, capture_output=True, text=True).stdout)  # fmt: skip
+    if len({run["hash"] for run in runs}) != 1:
+        sys.exit("the ranks have made different meshes")
+    triangles = runs[0]["triangles"]
+    sizes = sizes_of(arguments.program, arguments.gradation)
+    parts = [summarize(run) for run in runs]
+    cost = calibrate(triangles, parts)
+    one = replay(1, triangles, sizes, cost, MODEL)["seconds"]
+    for part in parts:
+        busiest = part["before"] + part["decoupling"] + part["pieces_of_all"] / part["ranks"] + part["end_at_rank_0"]
+        part["speed_up_by_processor_time"] = (parts[0]["before"] + parts[0]["decoupling"] + parts[0]["pieces_of_all"]
+                                              + parts[0]["end_at_rank_0"]) / busiest  # fmt: skip
+        part["speed_up_of_model"] = one / replay(part["ranks"], triangles, sizes, cost, MODEL)["seconds"]
     result = {
-        "run": {k: run[k] for k in ("triangles", "processor_seconds", "seconds")} | {"pieces": len(run["pieces"])},
-        "two_threads": {"total_seconds": two["seconds"]["total"], "one_thread_seconds": run["seconds"]["total"],
-                        "processor_seconds": two["processor_seconds"],
-                        "predicted_speed_up": run["processor_seconds"] / predicted,
-                        "measured_speed_up": run["seconds"]["total"] / two["seconds"]["total"]},  # fmt: skip
+        "triangles": triangles,
+        "pieces": runs[0]["pieces"],
+        "measured": parts,
         "cost": cost,
         "model": MODEL,
-        "replayed": {name: tables(run["pieces"], cost, {**MODEL, **change}) for name, change in VARIANTS.items()},
+        "replayed": {name: tables(sizes, cost, {**MODEL, **change}) for name, change in VARIANTS.items()},
     }
     json.dump(result, sys.stdout, indent=1)
     print()
