@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "delaunay/triangles.hpp"
@@ -10,18 +11,49 @@ namespace lamina::delaunay {
 
 namespace {
 
-/// Returns the place of each point in the lexicographic order of all.
+struct NumberedPoint {
+    Point at;
+    Index number;
+};
+
+bool is_before(const NumberedPoint& a, const NumberedPoint& b) {
+    return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.y < b.at.y;
+}
+
+/// Makes runs that ascend of those that do already and of those that descend, and returns where they end.
+std::vector<std::size_t> make_runs(std::span<NumberedPoint> points) {
+    std::vector<std::size_t> ends;
+    for (std::size_t begin = 0; begin < points.size(); begin = ends.back()) {
+        std::size_t end = begin + 1;
+        if (end < points.size()) {
+            const bool ascends = is_before(points[begin], points[end]);
+            while (end < points.size() && is_before(points[end - 1], points[end]) == ascends) ++end;
+            if (!ascends) std::reverse(points.begin() + begin, points.begin() + end);
+        }
+        ends.push_back(end);
+    }
+    return ends;
+}
+
+/// Returns the place of each point in the lexicographic order of all. Successive points of a border lie on few straight lines,
+/// so they are long runs, which are merged. Source: D. E. Knuth, The Art of Computer Programming 3 (1998), 5.2.4, natural
+/// merging.
 std::vector<Index> ranks_of(std::span<const Point> points) {
-    struct NumberedPoint {
-        Point at;
-        Index number;
-    };
-    std::vector<NumberedPoint> sorted;
+    std::vector<NumberedPoint> sorted, merged(points.size());
     sorted.reserve(points.size());
     for (const Point p : points) sorted.push_back({p, static_cast<Index>(sorted.size())});
-    std::sort(sorted.begin(), sorted.end(), [](const NumberedPoint& a, const NumberedPoint& b) {
-        return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.y < b.at.y;
-    });
+    for (std::vector<std::size_t> ends = make_runs(sorted); ends.size() > 1;) {
+        std::vector<std::size_t> merged_ends;
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < ends.size(); i += 2) {
+            const std::size_t middle = ends[i], end = i + 1 < ends.size() ? ends[i + 1] : middle;
+            std::merge(sorted.begin() + begin, sorted.begin() + middle, sorted.begin() + middle, sorted.begin() + end,
+                       merged.begin() + begin, is_before);
+            merged_ends.push_back(begin = end);
+        }
+        sorted.swap(merged);
+        ends = std::move(merged_ends);
+    }
     std::vector<Index> ranks(points.size());
     for (Index i = 0; i < sorted.size(); ++i) ranks[sorted[i].number] = i;
     return ranks;
