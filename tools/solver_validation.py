@@ -86,7 +86,7 @@ def run_case(case, iterations):
 
 def order_and_limit(h, f):
     """Returns observed order and extrapolated value of the three finest levels, or None where they do not converge
-    monotonically. Celik and others, J. Fluids Eng. 130, 2008."""
+    monotonically, or by an order below a half, from which nothing can be extrapolated. Celik and others, J. Fluids Eng. 130, 2008."""
     (h1, h2, h3), (f1, f2, f3) = h[-3:], f[-3:]
     if (f1 - f2) * (f2 - f3) <= 0 or abs(f2 - f3) >= abs(f1 - f2):
         return None
@@ -96,7 +96,7 @@ def order_and_limit(h, f):
     for _ in range(200):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if ratio(middle) < wanted else (low, middle)
-    return low, f3 + (f3 - f2) / (fine**low - 1)
+    return (low, f3 + (f3 - f2) / (fine**low - 1)) if low > 0.5 else None
 
 
 def wall_table(case):
@@ -199,8 +199,9 @@ def page(studies, picture, command, version):
              "factor, the drag is theirs).", "", "```", command, "```", "", "## Forces", ""]
     for study in studies:
         lines += table_of(study)
-    lines += ["An order is that of the three finest levels, where they converge monotonically. \"Not steady\": drag or",
-              "lift went on changing by more than 0.05 % within 200 iterations; the means of the last 200 are given.", "",
+    lines += ["An order is that of the three finest levels, where they converge monotonically, by half an order at least.",
+              "\"Not steady\": drag or lift went on changing by more than 0.05 % within 200 iterations; the means of the",
+              "last 200 are given. The CRM-HL is the coarser of two levels.", "",
               "## Walls", "",
               "Pressure and skin friction at the faces of the walls, and the potential flow with the integral boundary",
               "layer that lamina meshes by (`lamina flow`), at the angle that has the same lift. It ends where it finds",
