@@ -75,6 +75,14 @@ inline HeadTail two_product(double a, HeadTail a_halves, double b, HeadTail b_ha
 
 inline HeadTail two_product(double a, double b) { return two_product(a, split(a), b, split(b)); }
 
+/// Returns a number with the sign of a b - c d. Rounding never changes the order of two products, so their round-off
+/// counts only where the rounded ones are equal.
+inline double compare_products(double a, double b, double c, double d) {
+    const double left = a * b, right = c * d;
+    if (left != right) return left - right;
+    return two_product(a, b).tail - two_product(c, d).tail;
+}
+
 /// A sum of doubles that do not overlap, in ascending order of magnitude and without zeros. The last one has the sign
 /// of the sum.
 template <int Capacity>
@@ -102,50 +110,68 @@ inline Expansion<2> expansion(HeadTail a) {
     return result;
 }
 
-/// Returns the sum by FAST-EXPANSION-SUM (section 2.4): both expansions are merged by magnitude and summed in one
-/// sweep. Zeros are left out.
+// The loops over expansions stand outside of the templates, so that they are compiled once and not for each length.
+
+/// Appends x to the n parts of an expansion, unless it is zero.
+inline void push(double x, double* parts, int& n) {
+    if (x != 0) parts[n++] = x;
+}
+
+/// Sets `h` to the sum of the m parts of e and the n parts of f by FAST-EXPANSION-SUM (section 2.4): both are merged
+/// by magnitude and summed in one sweep. Zeros are left out. Returns the number of parts.
+int add_expansions(const double* e, int m, const double* f, int n, double* h) {
+    if (m == 0 || n == 0) {
+        std::copy_n(e, m, h);
+        std::copy_n(f, n, h);
+        return m + n;
+    }
+    int i = 0, j = 0, size = 0;
+    const auto next = [&] {
+        const bool from_e = j == n || (i < m && std::abs(e[i]) < std::abs(f[j]));
+        return from_e ? e[i++] : f[j++];
+    };
+    double q = next();
+    for (int k = 1; k < m + n; ++k) {
+        const HeadTail s = two_sum(q, next());
+        push(s.tail, h, size);
+        q = s.head;
+    }
+    push(q, h, size);
+    return size;
+}
+
+/// Sets `h` to the product of the n parts of e and b by SCALE-EXPANSION (section 2.5). Zeros are left out. Returns the
+/// number of parts.
+int scale_expansion(const double* e, int n, double b, double* h) {
+    if (n == 0 || b == 0) return 0;
+    int size = 0;
+    const HeadTail b_halves = split(b);
+    HeadTail p = two_product(e[0], split(e[0]), b, b_halves);
+    push(p.tail, h, size);
+    double q = p.head;
+    for (int i = 1; i < n; ++i) {
+        p = two_product(e[i], split(e[i]), b, b_halves);
+        const HeadTail low = two_sum(q, p.tail);
+        push(low.tail, h, size);
+        const HeadTail high = fast_two_sum(p.head, low.head);
+        push(high.tail, h, size);
+        q = high.head;
+    }
+    push(q, h, size);
+    return size;
+}
+
 template <int M, int N>
 Expansion<M + N> operator+(const Expansion<M>& e, const Expansion<N>& f) {
     Expansion<M + N> h;
-    if (e.size == 0 || f.size == 0) {
-        h.size = e.size + f.size;
-        std::copy_n(e.part.begin(), e.size, h.part.begin());
-        std::copy_n(f.part.begin(), f.size, h.part.begin());
-        return h;
-    }
-    int i = 0, j = 0;
-    const auto next = [&] {
-        const bool from_e = j == f.size || (i < e.size && std::abs(e.part[i]) < std::abs(f.part[j]));
-        return from_e ? e.part[i++] : f.part[j++];
-    };
-    double q = next();
-    for (int k = 1; k < e.size + f.size; ++k) {
-        const HeadTail s = two_sum(q, next());
-        h.push(s.tail);
-        q = s.head;
-    }
-    h.push(q);
+    h.size = add_expansions(e.part.data(), e.size, f.part.data(), f.size, h.part.data());
     return h;
 }
 
-/// Returns the product by SCALE-EXPANSION (section 2.5). Zeros are left out.
 template <int N>
 Expansion<2 * N> operator*(const Expansion<N>& e, double b) {
     Expansion<2 * N> h;
-    if (e.size == 0 || b == 0) return h;
-    const HeadTail b_halves = split(b);
-    HeadTail p = two_product(e.part[0], split(e.part[0]), b, b_halves);
-    h.push(p.tail);
-    double q = p.head;
-    for (int i = 1; i < e.size; ++i) {
-        p = two_product(e.part[i], split(e.part[i]), b, b_halves);
-        const HeadTail low = two_sum(q, p.tail);
-        h.push(low.tail);
-        const HeadTail high = fast_two_sum(p.head, low.head);
-        h.push(high.tail);
-        q = high.head;
-    }
-    h.push(q);
+    h.size = scale_expansion(e.part.data(), e.size, b, h.part.data());
     return h;
 }
 
@@ -155,18 +181,20 @@ Expansion<N> operator-(Expansion<N> e) {
     return e;
 }
 
+/// Returns the product of e and an expansion of up to N parts, which is halved, so that partial sums stay short.
+template <int M, int N>
+Expansion<2 * M * N> product(const Expansion<M>& e, const double* f, int size) {
+    if constexpr (N == 1) {
+        return e * (size == 0 ? 0.0 : f[0]);
+    } else {
+        const int half = std::min(size / 2, N / 2);
+        return product<M, N / 2>(e, f, half) + product<M, N - N / 2>(e, f + half, size - half);
+    }
+}
+
 template <int M, int N>
 Expansion<2 * M * N> operator*(const Expansion<M>& e, const Expansion<N>& f) {
-    if constexpr (N == 1) {
-        return e * (f.size == 0 ? 0.0 : f.part[0]);
-    } else {  // f is halved, so that partial sums stay short
-        Expansion<N / 2> low;
-        Expansion<N - N / 2> high;
-        const int half = std::min(f.size / 2, N / 2);
-        for (int i = 0; i < half; ++i) low.push(f.part[i]);
-        for (int i = half; i < f.size; ++i) high.push(f.part[i]);
-        return e * low + e * high;
-    }
+    return product<M, N>(e, f.part.data(), f.size);
 }
 
 /// Returns a b - c d, exactly.
@@ -333,6 +361,7 @@ double break_tie(const std::array<Point, 4>& p) {
 
 double orient2d_after_filter(Point pa, Point pb, Point pc) {
     const Difference a = difference(pa, pc), b = difference(pb, pc);
+    if (a.exact() && b.exact()) return compare_products(a.x.head, b.y.head, a.y.head, b.x.head);
     std::array<std::int64_t, 4> integers;
     if (to_integers<4>({a.x, a.y, b.x, b.y}, integers)) {
         const auto [ax, ay, bx, by] = integers;
@@ -340,8 +369,6 @@ double orient2d_after_filter(Point pa, Point pb, Point pc) {
         return left > right ? 1 : left < right ? -1 : 0;
     }
     const Expansion<4> det_of_heads = cross_expansion(a.x.head, b.y.head, a.y.head, b.x.head);
-    if (a.exact() && b.exact()) return det_of_heads.sign();
-
     double det = det_of_heads.estimate();
     const double permanent = std::abs(a.x.head * b.y.head) + std::abs(a.y.head * b.x.head);
     if (std::abs(det) > orient2d_bound_b * permanent) return det;

@@ -133,6 +133,26 @@ Index locate(const Point* points, const Tri* tris, Index start, Point from, Poin
     }
 }
 
+/// Returns the new triangle that the next walk starts at, which is no ghost. From a needle the way would lead through
+/// others, so where there may be needles the largest is taken. Areas of ghosts are NaN.
+Index start_of_next_walk(const Tris& tris, const Cavity& cavity) {
+    if (cavity.is_open_star) {
+        // New ghosts hold the vertex at infinity at 1 or 2.
+        for (std::size_t i = 0;; ++i) {
+            const Tri& t = tris[cavity.triangles[i]];
+            if (t.v[1] != growing_ghost_vertex && t.v[2] != growing_ghost_vertex) return cavity.triangles[i];
+        }
+    }
+    Index largest = no_index;
+    double largest_area2 = -HUGE_VAL;
+    for (std::size_t i = 0; i < cavity.boundary.size(); ++i) {
+        if (!(cavity.boundary[i].area2 > largest_area2)) continue;
+        largest_area2 = cavity.boundary[i].area2;
+        largest = cavity.triangles[i];
+    }
+    return largest;
+}
+
 /// Inserts the vertices from number 4 on.
 void insert_vertices(std::span<const Point> vertices, std::span<const Point> points, const std::vector<Index>& order,
                      Tris& tris) {
@@ -148,11 +168,7 @@ void insert_vertices(std::span<const Point> vertices, std::span<const Point> poi
             if (relative.r[i] == Point{}) fail_duplicate(points, order[tris[start].v[i] - 1], order[vertex - 1]);
         find_cavity<true>(vertices.data(), tris.data(), start, relative, p, cavity);
         fill_cavity(tris, cavity, vertex);
-        // The next walk starts at a new triangle that is no ghost; new ghosts hold the vertex at infinity at 1 or 2.
-        for (std::size_t i = 0;; ++i) {
-            recent = cavity.triangles.data()[i];
-            if (tris[recent].v[1] != growing_ghost_vertex && tris[recent].v[2] != growing_ghost_vertex) break;
-        }
+        recent = start_of_next_walk(tris, cavity);
     }
 }
 
