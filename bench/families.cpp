@@ -1,13 +1,16 @@
 // One table for those who choose a library: families of points and of segments, beside every other program that was
 // there at build time. `./dev bench-picture` draws it.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include <lamina/threads.hpp>
 #include <lamina/triangulation.hpp>
 
 #include "paired.hpp"
@@ -155,6 +158,16 @@ test::ConstrainedCase hub_family(std::size_t n) {
 /// Returns random points with a third of the edges of another triangulation of them.
 test::ConstrainedCase stretched_family(std::size_t n) { return test::stretched_edges_case(n, 3); }
 
+/// Returns the same of half as many points, each of which stands in the list twice.
+test::ConstrainedCase twofold_family(std::size_t n) {
+    test::ConstrainedCase c = test::stretched_edges_case(n / 2, 3);
+    const std::vector<Point> copies = c.points;
+    const std::size_t half = copies.size();
+    c.points.insert(c.points.end(), copies.begin(), copies.end());
+    for (std::size_t i = 0; i < c.segments.size(); i += 2) c.segments[i].b = VertexId{c.segments[i].b.index() + half};
+    return c;
+}
+
 // ---- measurements ----
 
 /// Measures constrained triangulation, or plain triangulation where there are no segments.
@@ -208,6 +221,59 @@ BENCHMARK_CAPTURE(segments_of, hub, hub_family)
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(segments_of, stretched, stretched_family)->Apply(medians_of_five);
+
+// ---- threads ----
+
+/// Returns the processor time of the calling thread.
+double thread_seconds() {
+    timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Measures triangulation on two threads beside one, in turn. Counters: `one_thread_s` and `two_threads_s`, medians of
+/// wall-clock time, and their ratio `speed_up`; `cost`, processor time on two threads over that on one; and
+/// `calling_thread`, the share of the calling thread in it. On a busy machine the last two say what to expect of an
+/// idle one: the speed-up is about 1 / (cost * calling_thread).
+void measure_two_threads(benchmark::State& state, const test::ConstrainedCase& c, const ConstrainedOptions& options) {
+    struct Times {
+        std::vector<double> wall, processor, calling;
+    } one, two;
+    const auto run = [&](unsigned count, Times& times) {
+        with_threads(count, [&] {
+            const auto begin = std::chrono::steady_clock::now();
+            const double calling = thread_seconds();
+            std::size_t made = 0;
+            times.processor.push_back(
+                cpu_seconds([&] { return triangulate(c.points, c.segments, options).triangles.size(); }, made));
+            times.calling.push_back(thread_seconds() - calling);
+            times.wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        });
+    };
+    for (auto _ : state) {
+        run(1, one);
+        run(2, two);
+        state.SetIterationTime(two.wall.back());
+    }
+    state.counters["one_thread_s"] = median(one.wall);
+    state.counters["two_threads_s"] = median(two.wall);
+    state.counters["speed_up"] = median(one.wall) / median(two.wall);
+    state.counters["cost"] = median(two.processor) / median(one.processor);
+    state.counters["calling_thread"] = median(two.calling) / median(two.processor);
+}
+void two_threads(benchmark::State& state, test::ConstrainedCase (*make)(std::size_t)) {
+    measure_two_threads(state, make(static_cast<std::size_t>(state.range(0))), {});
+}
+void two_threads_merging(benchmark::State& state, test::ConstrainedCase (*make)(std::size_t)) {
+    measure_two_threads(state, make(static_cast<std::size_t>(state.range(0))), {.merge_distance = 0.0});
+}
+void million_points(benchmark::internal::Benchmark* b) {
+    b->Arg(1'000'000)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(two_threads, stretched, stretched_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_merging, twofold, twofold_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads, long_lines, long_lines_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads, hub, hub_family)->Apply(million_points);
 
 }  // namespace
 }  // namespace lamina::bench

@@ -1,5 +1,5 @@
-// Half-edges are dealt to ranges of vertices, in blocks of triangles whose places are counted before. So every entry has
-// a place that no thread decides, and the rest of the work stays within a range, which fits in a cache.
+// Half-edges are dealt to ranges of vertices (deal.hpp). The rest of the work stays within a range, which fits in a
+// cache.
 #include <algorithm>
 #include <cassert>
 #include <string>
@@ -11,7 +11,7 @@
 #include "core/arguments.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "core/uninitialized.hpp"
+#include "delaunay/deal.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -25,46 +25,21 @@ constexpr std::size_t max_ranges = 1024;
 
 /// Entries that are sorted by their ranges of vertices.
 template <class Entry>
-struct RangedEntries {
-    core::UninitializedArray<Entry> entries;
-    std::vector<std::size_t> starts;  ///< range r is entries[starts[r]] .. entries[starts[r + 1]]
-    unsigned shift = 0;               ///< vertex v belongs to range v >> shift
-
-    std::size_t ranges() const { return starts.size() - 1; }
-    std::span<const Entry> range(std::size_t r) const {
-        return entries.all().subspan(starts[r], starts[r + 1] - starts[r]);
-    }
+struct RangedEntries : DealtEntries<Entry> {
+    unsigned shift;  ///< vertex v belongs to range v >> shift
 };
 
 /// Returns one entry for each half-edge, sorted by ranges of Entry::vertex; within a range they keep the order of the
 /// half-edges. `entry_of` makes the entry of a triangle's corner.
 template <class Entry, class EntryOf>
 RangedEntries<Entry> deal_to_ranges(std::size_t points, std::size_t triangles, const EntryOf& entry_of) {
-    RangedEntries<Entry> dealt;
-    while ((points >> dealt.shift) >= max_ranges || (std::size_t{1} << dealt.shift) < vertices_per_range) ++dealt.shift;
-    const std::size_t ranges = (points >> dealt.shift) + 1;
-    auto places = core::parallel_blocks(triangles, triangles_per_block, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::size_t> counts(ranges, 0);
-        for (std::size_t t = begin; t < end; ++t)
-            for (unsigned i = 0; i < 3; ++i) ++counts[entry_of(t, i).vertex >> dealt.shift];
-        return counts;
-    });
-    dealt.starts.push_back(0);
-    std::size_t place = 0;
-    for (std::size_t r = 0; r < ranges; ++r) {
-        for (auto& counts : places) place += std::exchange(counts[r], place);
-        dealt.starts.push_back(place);
-    }
-    dealt.entries = core::UninitializedArray<Entry>(place);
-    core::parallel_for(triangles, triangles_per_block, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::size_t>& next_place = places[begin / triangles_per_block];
-        for (std::size_t t = begin; t < end; ++t)
-            for (unsigned i = 0; i < 3; ++i) {
-                const Entry entry = entry_of(t, i);
-                dealt.entries[next_place[entry.vertex >> dealt.shift]++] = entry;
-            }
-    });
-    return dealt;
+    unsigned shift = 0;
+    while ((points >> shift) >= max_ranges || (std::size_t{1} << shift) < vertices_per_range) ++shift;
+    return {deal<Entry>(
+                3 * triangles, (points >> shift) + 1,
+                [&](std::size_t h) { return entry_of(h / 3, static_cast<unsigned>(h % 3)); },
+                [shift](const Entry& e) { return e.vertex >> shift; }),
+            shift};
 }
 
 /// Entries of one range, sorted by their vertices.

@@ -19,6 +19,8 @@ namespace lamina::delaunay {
 
 namespace {
 
+constexpr std::size_t segment_grain = 50'000;
+
 std::vector<Segment> segments_of(const std::vector<SegmentPiece>& pieces) {
     std::vector<Segment> segments;
     segments.reserve(pieces.size());
@@ -36,10 +38,57 @@ struct MergedInput {
     bool stands_for_itself(std::size_t i) const { return stand_in.empty() || stand_in[i] == i; }
 };
 
-/// Returns what became of the triangulation in pieces, for which all points have to stand for themselves.
+/// The points that stand for themselves, one after another, and the segments between them.
+struct DistinctInput {
+    std::vector<Point> points;
+    std::vector<Segment> segments;
+    std::vector<Index> original;  ///< for each point its index in the input, which ascends
+};
+
+DistinctInput distinct_input(const MergedInput& input) {
+    DistinctInput distinct;
+    std::vector<Index> number(input.points.size(), no_index);
+    for (std::size_t i = 0; i < input.points.size(); ++i) {
+        if (!input.stands_for_itself(i)) continue;
+        number[i] = static_cast<Index>(distinct.points.size());
+        distinct.points.push_back(input.points[i]);
+        distinct.original.push_back(static_cast<Index>(i));
+    }
+    distinct.segments.resize(input.segments.size());
+    core::parallel_for(input.segments.size(), segment_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Segment& s = input.segments[i];
+            distinct.segments[i] = {VertexId{number[s.a.index()]}, VertexId{number[s.b.index()]}};
+        }
+    });
+    return distinct;
+}
+
+/// Gives the points of a triangulation their indices in the input, which has `points` of them.
+void restore_indices(const std::vector<Index>& original, std::size_t points, TriangulatedPieces& triangulated) {
+    core::parallel_for(triangulated.tris.size(), segment_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t)
+            for (Index& v : triangulated.tris[t].v)
+                if (v != ghost_vertex) v = original[v];
+    });
+    core::parallel_for(triangulated.pieces.size(), segment_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            Segment& s = triangulated.pieces[i].segment;
+            s = {VertexId{original[s.a.index()]}, VertexId{original[s.b.index()]}};
+        }
+    });
+    std::vector<Index> at_vertex(points, no_index);
+    for (std::size_t v = 0; v < original.size(); ++v) at_vertex[original[v]] = triangulated.at_vertex[v];
+    triangulated.at_vertex = std::move(at_vertex);
+}
+
+/// Returns what became of the triangulation in pieces, of the points that stand for themselves.
 PiecesTrial try_pieces(const MergedInput& input) {
-    if (!input.stand_in.empty()) return {};
-    return triangulate_in_pieces(input.points, input.segments, input.decomposition);
+    if (input.stand_in.empty()) return triangulate_in_pieces(input.points, input.segments, input.decomposition);
+    const DistinctInput distinct = distinct_input(input);
+    PiecesTrial trial = triangulate_in_pieces(distinct.points, distinct.segments, input.decomposition);
+    if (trial.triangulated) restore_indices(distinct.original, input.points.size(), *trial.triangulated);
+    return trial;
 }
 
 /// Counts one piece for the triangulation of all points at once.
@@ -76,21 +125,12 @@ std::optional<TriangulatedPieces> try_planar(const MergedInput& input) {
 /// Returns planarize() of the points that stand for themselves.
 PlanarSegments planarize_merged(const MergedInput& input) {
     if (input.stand_in.empty()) return planarize(input.points, input.segments);
-    std::vector<Point> points;
-    std::vector<std::size_t> original;
-    std::vector<VertexId> number(input.points.size());
-    for (std::size_t i = 0; i < input.points.size(); ++i) {
-        if (!input.stands_for_itself(i)) continue;
-        number[i] = VertexId{points.size()};
-        points.push_back(input.points[i]);
-        original.push_back(i);
-    }
-    std::vector<Segment> segments;
-    for (const Segment& s : input.segments) segments.push_back({number[s.a.index()], number[s.b.index()]});
-    PlanarSegments planar = planarize(points, segments);
+    const DistinctInput distinct = distinct_input(input);
+    PlanarSegments planar = planarize(distinct.points, distinct.segments);
     const auto renumber = [&](VertexId& v) {
         const std::size_t i = v.index();
-        v = VertexId{i < points.size() ? original[i] : input.points.size() + (i - points.size())};
+        const std::size_t count = distinct.points.size();
+        v = VertexId{i < count ? distinct.original[i] : input.points.size() + (i - count)};
     };
     for (SegmentPiece& piece : planar.pieces) {
         renumber(piece.segment.a);
@@ -180,6 +220,22 @@ std::vector<Triangle> selected_triangles(const Tris& tris, const TriangleSelecti
     return triangles;
 }
 
+/// Returns whether all points do.
+bool stand_for_themselves(std::span<const Index> stand_in) {
+    std::size_t i = 0;
+    return std::all_of(stand_in.begin(), stand_in.end(), [&](Index first) { return first == i++; });
+}
+
+/// Returns the segments between the points that stand for their ends.
+std::vector<Segment> between(std::span<const Index> stand_in, std::span<const Segment> segments) {
+    std::vector<Segment> merged(segments.size());
+    core::parallel_for(segments.size(), segment_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            merged[i] = {VertexId{stand_in[segments[i].a.index()]}, VertexId{stand_in[segments[i].b.index()]}};
+    });
+    return merged;
+}
+
 /// Counts the segments that change nothing: those from a point to itself, and those that lie on earlier ones.
 void count_idle_segments(std::span<const Segment> segments, const std::vector<SegmentPiece>& pieces,
                          ConstrainedTriangulation& result) {
@@ -205,19 +261,21 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
     core::require_exact_range(options.holes, "hole");
     ConstrainedTriangulation result;
     std::vector<Segment> merged_segments;
+    std::span<const std::uint32_t> stand_in;
     if (options.merge_distance) {
         result.merged_into = merge_points(points, *options.merge_distance);
         core::require_indices_below(points.size(), segments);
-        for (const Segment& s : segments)
-            merged_segments.push_back(
-                {VertexId{result.merged_into[s.a.index()]}, VertexId{result.merged_into[s.b.index()]}});
-        segments = merged_segments;
+        if (!stand_for_themselves(result.merged_into)) {
+            stand_in = result.merged_into;
+            merged_segments = between(stand_in, segments);
+            segments = merged_segments;
+        }
     }
     if (const auto rule = winding_rule(options.keep)) {
         core::require_indices_below(points.size(), segments);
         check_closed_loops(segments, points.size(), *rule);
     }
-    const MergedInput input{points, segments, result.merged_into, options.decomposition};
+    const MergedInput input{points, segments, stand_in, options.decomposition};
     const TriangulatedPieces triangulated = options.crossings == Crossings::insert
                                                 ? triangulate_crossing(input, result.steiner_points)
                                                 : triangulate_planar(input);

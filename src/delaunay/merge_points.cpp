@@ -1,4 +1,5 @@
-// Equal points are found by sorting, close ones in a grid whose cells are as wide as the distance.
+// Points are sorted by the cells of a grid, on all threads. Equal ones then follow one another. Of those that have
+// others near them the first takes all near it, then the next, one by one.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,44 +15,116 @@
 #include "core/random.hpp"
 #include "core/text.hpp"
 #include "delaunay/arguments.hpp"
+#include "delaunay/deal.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
 
 namespace {
 
-std::vector<Index> merge_equal_points(std::span<const Point> points) {
-    std::vector<Index> order(points.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
-        return points[a] == points[b] ? a < b : lexicographically_less(points[a], points[b]);
-    });
-    std::vector<Index> stand_in(points.size());
-    Index first = no_index;
-    for (const Index i : order) {
-        if (first == no_index || points[first] != points[i]) first = i;
-        stand_in[i] = first;
-    }
-    return stand_in;
-}
-
-struct CellHash {
-    std::size_t operator()(Point cell) const {
-        return core::splitmix64(core::splitmix64(std::bit_cast<std::uint64_t>(cell.x)) ^
-                                std::bit_cast<std::uint64_t>(cell.y));
+/// Mixes the bits of the coordinates. Equal points have equal hashes: adding 0 makes a zero of -0.
+struct PointHash {
+    std::size_t operator()(Point p) const {
+        return core::splitmix64(core::splitmix64(std::bit_cast<std::uint64_t>(p.x + 0.0)) ^
+                                std::bit_cast<std::uint64_t>(p.y + 0.0));
     }
 };
 
+/// Returns the number of ranges, a power of two, that as many points are dealt to.
+std::size_t range_count(std::size_t points) {
+    constexpr std::size_t points_per_range = 1 << 10, max_ranges = 1 << 12;
+    return std::bit_ceil(std::clamp(points / points_per_range, std::size_t{1}, max_ranges));
+}
+
+/// A point in a cell of a grid.
+struct PointInCell {
+    Point cell, at;
+    Index index;
+};
+
+/// Deals points to ranges by the cells of this width, and sorts each range by cells and then by the indices of the
+/// points. With width 0 every point is its own cell.
+DealtEntries<PointInCell> deal_to_cells(std::span<const Point> points, double width) {
+    const auto cell_of = [width](Point p) {
+        return width > 0 ? Point{std::floor(p.x / width), std::floor(p.y / width)} : p;
+    };
+    const std::size_t ranges = range_count(points.size());
+    DealtEntries<PointInCell> dealt = deal<PointInCell>(
+        points.size(), ranges,
+        [&](std::size_t i) {
+            return PointInCell{cell_of(points[i]), points[i], static_cast<Index>(i)};
+        },
+        [&](const PointInCell& p) { return PointHash{}(p.cell) & (ranges - 1); });
+    core::parallel_for(ranges, 1, [&](std::size_t r, std::size_t) {
+        const std::span<PointInCell> range = dealt.range(r);
+        std::sort(range.begin(), range.end(), [](const PointInCell& a, const PointInCell& b) {
+            return a.cell == b.cell ? a.index < b.index : lexicographically_less(a.cell, b.cell);
+        });
+    });
+    return dealt;
+}
+
+std::vector<Index> merge_equal_points(std::span<const Point> points) {
+    const DealtEntries<PointInCell> dealt = deal_to_cells(points, 0);
+    std::vector<Index> stand_in(points.size());
+    core::parallel_for(dealt.ranges(), 1, [&](std::size_t r, std::size_t) {
+        const std::span<const PointInCell> range = dealt.range(r);
+        for (std::size_t i = 0, first = 0; i < range.size(); ++i) {
+            if (range[i].at != range[first].at) first = i;
+            stand_in[range[i].index] = range[first].index;
+        }
+    });
+    return stand_in;
+}
+
+/// Returns for each point whether another one lies at most this far from it. True may stand where none does.
+std::vector<char> have_near_points(std::span<const Point> points, double merge_distance) {
+    // Most points are far from the borders of such cells, so that one cell is looked at, and no cell has many points
+    // that are not near each other.
+    const double width = 4 * merge_distance;
+    const auto cell_of = [&](Point p) { return Point{std::floor(p.x / width), std::floor(p.y / width)}; };
+    const DealtEntries<PointInCell> dealt = deal_to_cells(points, width);
+    const auto near_in_cell = [&](const PointInCell& p, Point cell) {
+        const auto less = [](const PointInCell& a, Point c) { return lexicographically_less(a.cell, c); };
+        const std::span<const PointInCell> range = dealt.range(PointHash{}(cell) & (dealt.ranges() - 1));
+        for (auto at = std::lower_bound(range.begin(), range.end(), cell, less); at != range.end() && at->cell == cell;
+             ++at)
+            if (at->index != p.index && distance(at->at, p.at) <= merge_distance) return true;
+        return false;
+    };
+    // Coordinates of near points differ by this much at most, and so lie in these three columns and rows of cells: the
+    // distances above are rounded, too, and far from the origin a coordinate may have no other one near it.
+    const double reach = merge_distance * (1 + 1e-9);
+    std::vector<char> near(points.size());
+    core::parallel_for(dealt.ranges(), 1, [&](std::size_t r, std::size_t) {
+        for (const PointInCell& p : dealt.range(r)) {
+            const Point low = cell_of(p.at - Point{reach, reach}), high = cell_of(p.at + Point{reach, reach});
+            const Point ends[] = {p.cell, low, high};
+            bool found = false;
+            for (unsigned i = 0; i < 3 && !found; ++i) {
+                if (i > 0 && ends[i].x == p.cell.x) continue;
+                for (unsigned k = 0; k < 3 && !found; ++k)
+                    if (k == 0 || ends[k].y != p.cell.y) found = near_in_cell(p, {ends[i].x, ends[k].y});
+            }
+            near[p.index] = found;
+        }
+    });
+    return near;
+}
+
 std::vector<Index> merge_close_points(std::span<const Point> points, double merge_distance) {
     // Points that stand for themselves are far from each other, so a cell holds few: they form a list for each cell.
-    std::unordered_map<Point, Index, CellHash> first_in_cell;
+    std::unordered_map<Point, Index, PointHash> first_in_cell;
     std::vector<Index> next_in_cell(points.size(), no_index), stand_in(points.size());
     // Beyond 2^53 cells from the origin the cells next to one may be the cell itself, and are, as are its points' own.
     // Adding 0 makes a zero of -0.
     const auto cell_of = [&](Point p) {
         return Point{std::floor(p.x / merge_distance) + 0.0, std::floor(p.y / merge_distance) + 0.0};
     };
+    const std::vector<char> near = have_near_points(points, merge_distance);
     for (Index i = 0; i < points.size(); ++i) {
+        stand_in[i] = i;
+        if (!near[i]) continue;
         const Point cell = cell_of(points[i]);
         Index found = i;
         for (const double dx : {-1.0, 0.0, 1.0})

@@ -58,12 +58,12 @@ ConstrainedCase star_case(std::size_t n) {
 }
 
 /// Returns random points between long lines from one side to the other.
-ConstrainedCase ruled_case(std::size_t n) {
+ConstrainedCase ruled_case(std::size_t n, int lines = 20) {
     ConstrainedCase c{random_points(n, 5), {}};
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < lines; ++i) {
         const std::size_t first = c.points.size();
-        c.points.push_back({-0.1, 0.05 * i + 0.013});
-        c.points.push_back({1.1, 0.05 * i + 0.02});
+        c.points.push_back({-0.1, (i + 0.26) / lines});
+        c.points.push_back({1.1, (i + 0.4) / lines});
         c.segments.push_back({VertexId{first}, VertexId{first + 1}});
     }
     return c;
@@ -83,11 +83,28 @@ ConstrainedCase rings_case() {
     return c;
 }
 
+/// Returns a case with every point twice, and segments between either of the two.
+ConstrainedCase twofold(ConstrainedCase c) {
+    const std::vector<Point> copies = c.points;
+    const std::size_t half = copies.size();
+    c.points.resize(7);
+    c.points.insert(c.points.end(), copies.begin(), copies.end());
+    c.points.insert(c.points.end(), copies.begin() + 7, copies.end());
+    Random random(9);
+    for (Segment& s : c.segments)
+        for (VertexId* v : {&s.a, &s.b}) {
+            // The copy of point i stands at 7 + i; the points from 7 on have moved up.
+            const std::size_t i = v->index(), copy = 7 + i, moved = i < 7 ? i : i + half;
+            *v = VertexId{random.below(2) == 0 ? copy : moved};
+        }
+    return c;
+}
+
 TEST(ConstrainedPieces, MakeTheTriangulationOfTheWhole) {
     for (const std::size_t one_edge_in : {1u, 3u, 30u}) expect_same_as_whole(stretched_edges_case(3000, one_edge_in));
     for (const std::uint64_t seed : {1u, 2u, 3u}) expect_same_as_whole(overlapping_case(seed));
     expect_same_as_whole(star_case(2000));
-    expect_same_as_whole(ruled_case(2000));
+    for (const int lines : {5, 20, 700}) expect_same_as_whole(ruled_case(2000, lines));
     expect_same_as_whole(rings_case());
     for (const unsigned depth : {1u, 2u, 3u, 8u})
         expect_same_as_whole(stretched_edges_case(3000, 4), {}, {.depth = depth, .leaf_vertices = 5});
@@ -137,19 +154,50 @@ TEST(ConstrainedPieces, MakeTheSameOfBadInput) {
     EXPECT_THROW(triangulated(c, {}, {.depth = 100}), OptionError);
 }
 
-TEST(ConstrainedPieces, DoNotDependOnTheNumberOfThreads) {
-    const ConstrainedCase c = stretched_edges_case(60'000, 3);
+TEST(ConstrainedPieces, MakeTheSameOfMergedPoints) {
+    for (const ConstrainedCase& c : {twofold(stretched_edges_case(3000, 3)), twofold(star_case(1000)),
+                                     twofold(ruled_case(1000, 40)), twofold(overlapping_case(4))}) {
+        for (const double distance : {0.0, 1e-9, 0.003}) {
+            // Segments between points that have moved may cross.
+            const ConstrainedOptions options{.crossings = distance > 1e-3 ? Crossings::insert : Crossings::refuse,
+                                             .merge_distance = distance};
+            expect_same_as_whole(c, options);
+            const ConstrainedTriangulation t = triangulated(c, options, in_many_pieces);
+            EXPECT_EQ(t.merged_into, triangulated(c, options, in_one_piece).merged_into);
+            EXPECT_GT(t.decomposition.pieces, 10u);
+        }
+    }
+    ConstrainedOptions options{.keep = KeptRegion::even_odd, .merge_distance = 0.0};
+    expect_same_as_whole(twofold(rings_case()), options);
+    // Nothing is merged.
+    options = {.merge_distance = 1e-9};
+    expect_same_as_whole(stretched_edges_case(2000, 3), options);
+    EXPECT_GT(triangulated(stretched_edges_case(2000, 3), options, in_many_pieces).decomposition.pieces, 10u);
+}
+
+void expect_same_on_any_threads(const ConstrainedCase& c, const ConstrainedOptions& options) {
     ConstrainedTriangulation one;
-    with_threads(1, [&] { one = triangulate(c.points, c.segments); });
-    EXPECT_EQ(one.decomposition.pieces, 16u);
+    with_threads(1, [&] { one = triangulate(c.points, c.segments, options); });
+    EXPECT_GE(one.decomposition.pieces, 16u);
     for (const unsigned threads : {2u, 3u, 8u}) {
         with_threads(threads, [&] {
-            const ConstrainedTriangulation t = triangulate(c.points, c.segments);
+            const ConstrainedTriangulation t = triangulate(c.points, c.segments, options);
             EXPECT_EQ(t.triangles, one.triangles);
             EXPECT_EQ(t.segments, one.segments);
             EXPECT_EQ(t.parents, one.parents);
+            EXPECT_EQ(t.merged_into, one.merged_into);
+            EXPECT_EQ(t.repeated_segments, one.repeated_segments);
         });
     }
+}
+
+TEST(ConstrainedPieces, DoNotDependOnTheNumberOfThreads) {
+    expect_same_on_any_threads(stretched_edges_case(60'000, 3), {});
+    const DecompositionOptions small{.leaf_vertices = 700};
+    expect_same_on_any_threads(star_case(8000), {.decomposition = small});
+    expect_same_on_any_threads(ruled_case(8000, 300), {.decomposition = small});
+    expect_same_on_any_threads(overlapping_case(5), {.decomposition = {{.leaf_vertices = 120}}});
+    expect_same_on_any_threads(twofold(ruled_case(8000, 300)), {.merge_distance = 0.0, .decomposition = small});
 }
 
 }  // namespace

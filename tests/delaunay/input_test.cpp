@@ -1,7 +1,9 @@
 // Input as it comes: points that are equal or close, rings, and errors that name what is wrong.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +37,17 @@ TEST(Input, PointsMergeWithTheFirstNearOneThatStandsForItself) {
             ASSERT_EQ(stand_in[i], expected) << merge_distance;
         }
     }
+}
+
+TEST(Input, ManyEqualPointsMergeWithTheFirst) {
+    Random random(3);
+    std::vector<Point> points(30'000);
+    for (Point& p : points) p = {double(random.below(120)), double(random.below(120))};
+    const std::vector<Index> stand_in = merge_points(points, 0);
+    std::map<std::pair<double, double>, Index> first;
+    for (Index i = 0; i < points.size(); ++i)
+        ASSERT_EQ(stand_in[i], first.try_emplace({points[i].x, points[i].y}, i).first->second);
+    EXPECT_LT(first.size(), points.size() / 2);
 }
 
 TEST(Input, MergesNearPointsFarFromTheOrigin) {
