@@ -3,11 +3,12 @@
 
 usage: amalgamate.py FOLDER
 
-FOLDER/lamina_delaunay.hpp holds the public headers of triangulation and connectivity; FOLDER/lamina_delaunay.cpp holds
-their code, for the calling thread alone. A second pair, lamina_delaunay_queries, adds queries, Voronoi diagrams and
-changing triangulations to the first one. Refinement is left out: it needs size fields. Points are triangulated in one
-piece. The sources are to be compiled with -ffp-contract=off where the compiler would contract (GCC on machines with
-fused multiply-add), and without -ffast-math: the predicates have to be exact.
+FOLDER/lamina_delaunay.hpp holds the public headers of triangulation; FOLDER/lamina_delaunay.cpp holds their code, for
+the calling thread alone. A second pair, lamina_delaunay_queries, adds connectivity, queries and Voronoi diagrams to the
+first one, and a third, lamina_delaunay_dynamic, triangulations that change to both. Refinement is left out: it needs
+size fields. Points are triangulated in one piece. The sources are to be compiled with -ffp-contract=off where the
+compiler would contract (GCC on machines with fused multiply-add), and without -ffast-math: the predicates have to be
+exact.
 """
 
 import pathlib
@@ -22,15 +23,17 @@ SOURCE = REPOSITORY / "src"
 # it. The sources of private headers are found by the names of the headers.
 PAIRS = {
     "lamina_delaunay": (
-        ["triangulation", "delaunay_connectivity", "error", "predicates", "threads"],
-        ["core/error.cpp", "core/parallel_none.cpp", "delaunay/check_triangulation.cpp", "delaunay/connectivity.cpp",
-         "delaunay/constrained.cpp", "delaunay/merge_points.cpp", "delaunay/triangulate_whole.cpp"]),
+        ["triangulation", "error", "predicates", "threads"],
+        ["core/error.cpp", "core/parallel_none.cpp", "delaunay/check_triangulation.cpp", "delaunay/constrained.cpp",
+         "delaunay/merge_points.cpp", "delaunay/triangulate_whole.cpp"]),
     "lamina_delaunay_queries": (
-        ["delaunay_queries", "dynamic_triangulation", "voronoi"],
-        ["delaunay/dynamic/dynamic_triangulation.cpp", "delaunay/dynamic/remove_point.cpp",
-         "delaunay/queries/locate.cpp", "delaunay/queries/make_query_index.cpp",
+        ["delaunay_connectivity", "delaunay_queries", "voronoi"],
+        ["delaunay/connectivity.cpp", "delaunay/queries/locate.cpp", "delaunay/queries/make_query_index.cpp",
          "delaunay/queries/natural_neighbours.cpp", "delaunay/queries/triangulation_index.cpp",
          "delaunay/voronoi.cpp"]),
+    "lamina_delaunay_dynamic": (
+        ["dynamic_triangulation"],
+        ["delaunay/dynamic/dynamic_triangulation.cpp", "delaunay/dynamic/remove_point.cpp"]),
 }
 INCLUDE = re.compile(r'^\s*#include (?:<(?P<public>lamina/[^>]+)>|"(?P<private>[^"]+)"|<(?P<system>[^>]+)>)')
 

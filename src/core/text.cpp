@@ -1,9 +1,5 @@
+// Text is made here and read in text_parsing.cpp, which the amalgamation (tools/amalgamate.py) does without.
 #include "core/text.hpp"
-
-#include <algorithm>
-#include <cmath>
-
-#include <lamina/error.hpp>
 
 namespace lamina::core {
 
@@ -26,46 +22,6 @@ std::string TextPart::text() const {
 std::string joined_text(std::initializer_list<TextPart> parts) {
     std::string text;
     for (const TextPart& part : parts) text += part.text();
-    return text;
-}
-
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    for (std::size_t at = 0; at <= text.size();) {
-        const std::size_t end = std::min(text.find(separator, at), text.size());
-        parts.push_back(text.substr(at, end - at));
-        at = end + 1;
-    }
-    return parts;
-}
-
-void require_text(bool condition, const std::string& text, const std::string& reason) {
-    if (!condition) throw UsageError("'" + text + "': " + reason);
-}
-
-double parse_number(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-        throw UsageError("'" + text + "' is not a number");
-    return value;
-}
-
-std::vector<double> parse_numbers(const std::string& text, char separator) {
-    std::vector<double> numbers;
-    for (const std::string& part : split(text, separator)) {
-        try {
-            numbers.push_back(parse_number(part));
-        } catch (const UsageError& error) {
-            throw UsageError("'" + text + "': " + error.what());
-        }
-    }
-    return numbers;
-}
-
-std::string lower_case(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     return text;
 }
 
