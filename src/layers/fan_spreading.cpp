@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "core/reproducible_math.hpp"
 
 namespace lamina::layers {
 
@@ -131,17 +132,92 @@ void spread(const FanSide& side, double max_ray_angle, std::vector<WallVertex>& 
     }
 }
 
+/// Columns that are narrower than this share of their height, though the fan has given its angle, are widened at the
+/// expense of wider ones, which lose up to the second share of their width.
+constexpr double wanted_share = 1.0 / 25, most_lost = 0.25;
+/// No ray leans by more than this for it, nor so far that it is higher above one of the edges at its origin than above
+/// the other by more than twice this share.
+constexpr double max_lean_deg = 25, max_height_difference = 0.009;
+
+/// Returns the angles by which rays must lean away from a fan, one for each vertex from the fan to the end of its
+/// columns, so that the narrowest columns are as wide as this share of what is wanted: at the expense of those farther
+/// from the fan or, where `both`, of those on both sides alike. Empty if rays would have to lean too far.
+std::vector<double> leans_to(double level, bool both, std::span<const FanColumn> columns,
+                             std::span<const double> max_leans) {
+    const std::size_t n = columns.size();
+    std::vector<double> away(n + 1, 0.0), towards(n + 1, 0.0);
+    const auto lacking = [&](std::size_t k) {
+        const auto& [width, height, share] = columns[k];
+        return std::max(level * wanted_share * height - width, -most_lost * std::abs(width)) / height;
+    };
+    for (std::size_t k = 0; k < n; ++k) away[k + 1] = std::max(0.0, away[k] + lacking(k));
+    for (std::size_t k = n; both && k-- > 0;) towards[k] = std::max(0.0, towards[k + 1] + lacking(k));
+    for (std::size_t k = 0; k <= n; ++k) {
+        if (both) away[k] = 0.5 * (away[k] - towards[k]);
+        if (std::abs(away[k]) > max_leans[k]) return {};
+    }
+    return away;
+}
+
+/// Angles by which rays lean away from a fan, and the level that columns reach by them.
+struct Leans {
+    double level = 0;
+    std::vector<double> angles;
+};
+
+/// Returns the leans with the highest level.
+Leans highest_leans(bool both, std::span<const FanColumn> columns, std::span<const double> max_leans) {
+    Leans best{1, leans_to(1, both, columns, max_leans)};
+    if (!best.angles.empty()) return best;
+    best.level = 0;
+    double high = 1;
+    for (int halving = 0; halving < 20; ++halving) {
+        const double middle = 0.5 * (best.level + high);
+        std::vector<double> angles = leans_to(middle, both, columns, max_leans);
+        if (angles.empty()) {
+            high = middle;
+        } else {
+            best = {middle, std::move(angles)};
+        }
+    }
+    return best;
+}
+
+/// Widens the columns on one side that are too narrow still.
+void widen_narrow(const FanSide& side, std::vector<WallVertex>& vertices) {
+    const std::vector<FanColumn> columns = columns_beside(side);
+    if (std::any_of(columns.begin(), columns.end(), [](const FanColumn& c) { return !(c.height > 0); })) return;
+    std::vector<double> max_leans(columns.size() + 1, 0.0);
+    for (std::size_t k = 1; k < columns.size(); ++k) {
+        const double half = 0.5 * std::abs(side.vertices[side.at(k)].turning);
+        max_leans[k] = std::min(core::radians(max_lean_deg),
+                                core::atan2_reproducible(max_height_difference * core::cos_reproducible(half),
+                                                         core::sin_reproducible(half)));
+    }
+    const Leans both = highest_leans(true, columns, max_leans), away = highest_leans(false, columns, max_leans);
+    const Leans& leans = away.level > both.level ? away : both;
+    for (std::size_t k = 1; k + 1 < leans.angles.size(); ++k)
+        for (double& tilt : vertices[side.at(k)].tilt) tilt += side.ahead ? leans.angles[k] : -leans.angles[k];
+}
+
+/// Calls spread_side() for both sides of each fan, with the vertices as they are before.
+template <class Spread>
+void on_both_sides(std::span<const RayVertex> outline, std::span<const double> heights,
+                   std::vector<WallVertex>& vertices, Spread spread_side) {
+    const std::vector<WallVertex> before = vertices;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        if (before[i].fan)
+            for (const bool ahead : {false, true}) spread_side(FanSide{outline, heights, before, i, ahead});
+}
+
 }  // namespace
 
 void spread_fans(std::span<const RayVertex> outline, std::span<const double> heights, double max_ray_angle,
                  std::vector<WallVertex>& vertices) {
     if (std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; }))
         return;
-    const std::vector<WallVertex> before = vertices;
-    for (std::size_t i = 0; i < outline.size(); ++i)
-        if (before[i].fan)
-            for (const bool ahead : {false, true})
-                spread({outline, heights, before, i, ahead}, max_ray_angle, vertices);
+    on_both_sides(outline, heights, vertices, [&](const FanSide& side) { spread(side, max_ray_angle, vertices); });
+    on_both_sides(outline, heights, vertices, [&](const FanSide& side) { widen_narrow(side, vertices); });
 }
 
 }  // namespace lamina::layers

@@ -88,8 +88,39 @@ TEST(FanSpreading, KeepsOriginsAndTheOrderOfDirections) {
     }
 }
 
-TEST(FanSpreading, MirroredOutlinesHaveMirroredRays) {
-    const Outline outline = finely_divided_section(0.003);
+/// Returns a wedge whose finely divided tail bulges: its walls are concave first, and then convex.
+Outline bulging_tail() {
+    const auto half_thickness = [](double x) {
+        const double u = std::min(1.0, std::abs(x - 0.985) / 0.015);
+        return 0.05 * (1 - x) + 0.003 * (1 - u * u) * (1 - u * u);
+    };
+    Outline upper{{1, 0}};
+    for (double x = 1, step = 1e-4; x - step > 0; step *= x < 0.95 ? 1.1 : 1) {
+        x -= step;
+        upper.push_back({x, half_thickness(x)});
+    }
+    Outline outline = upper;
+    outline.push_back({0, 0});
+    for (std::size_t k = upper.size() - 1; k > 0; --k) outline.push_back({upper[k].x, -upper[k].y});
+    return outline;
+}
+
+TEST(FanSpreading, WidensColumnsThatAFanCannotReach) {
+    const Outline outline = bulging_tail();
+    const std::vector<RayLine> before = spread_rays(outline, false), after = spread_rays(outline, true);
+    EXPECT_LT(shortest_front_edge(before), 5e-5);
+    EXPECT_GT(shortest_front_edge(after), 1e-4) << shortest_front_edge(before);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const RayLine &ray = after[i], &next = after[(i + 1) % after.size()];
+        if (ray.origin == next.origin || ray.origin.x < 0.5) continue;
+        const Point normal = -perpendicular(unit(next.origin - ray.origin));
+        const double lean = core::degrees(core::angle_between(normal, ray.direction));
+        EXPECT_LT(std::abs(lean), 56) << ray.origin.x << " " << ray.origin.y;
+    }
+}
+
+/// Expects a mirrored outline to have mirrored rays.
+void expect_mirrored(const Outline& outline) {
     Outline mirrored;
     for (const Point p : outline) mirrored.insert(mirrored.begin(), {p.x, -p.y});
     const std::vector<RayLine> rays = spread_rays(outline, true);
@@ -101,6 +132,11 @@ TEST(FanSpreading, MirroredOutlinesHaveMirroredRays) {
         EXPECT_NEAR(rays[i].direction.x, others[i].direction.x, 1e-12);
         EXPECT_NEAR(rays[i].direction.y, -others[i].direction.y, 1e-12);
     }
+}
+
+TEST(FanSpreading, MirroredOutlinesHaveMirroredRays) {
+    expect_mirrored(finely_divided_section(0.003));
+    expect_mirrored(bulging_tail());
 }
 
 /// Returns parallel rays so far apart, which close a ring.
