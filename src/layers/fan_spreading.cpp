@@ -33,17 +33,23 @@ constexpr double level_share = 0.9;
 
 /// A column beside a fan.
 struct FanColumn {
+    double edge;    ///< of the wall below
     double width;   ///< at the front, before anything is given to it
     double height;  ///< of the front
     double share;   ///< of what it lacks that this side gives: half of it in the middle between two fans
 };
 
-/// A walk along the outline, from a fan away.
+/// Returns whether a stretch of columns ends at this vertex.
+bool ends_stretch(const WallVertex& vertex) {
+    return vertex.fan || vertex.turning < -core::radians(concave_corner_deg);
+}
+
+/// A walk along the outline, away from a fan or another corner.
 struct FanSide {
     std::span<const RayVertex> outline;
     std::span<const double> heights;       ///< of the front, one per vertex
     std::span<const WallVertex> vertices;  ///< as they are before any fan is spread
-    std::size_t fan;                       ///< index of its vertex
+    std::size_t fan;                       ///< index of the corner's vertex
     bool ahead;                            ///< whether it follows the outline's direction
 
     std::size_t size() const { return outline.size(); }
@@ -52,29 +58,38 @@ struct FanSide {
     /// Returns the number of steps to the next corner; all the way round, it is this one.
     std::size_t steps_to_corner() const {
         for (std::size_t k = 1; k < size(); ++k)
-            if (vertices[at(k)].fan || vertices[at(k)].turning < -core::radians(concave_corner_deg)) return k;
+            if (ends_stretch(vertices[at(k)])) return k;
         return size();
     }
 };
 
-/// Returns the columns up to the middle between the fan and the next corner.
-std::vector<FanColumn> columns_beside(const FanSide& side) {
+/// Returns the columns up to the next corner.
+std::vector<FanColumn> columns_to_corner(const FanSide& side) {
     const std::size_t steps = side.steps_to_corner();
-    double length = 0;
-    for (std::size_t k = 0; k < steps; ++k)
-        length += distance(side.outline[side.at(k)].at, side.outline[side.at(k + 1)].at);
     std::vector<FanColumn> columns;
-    double passed = 0;
+    columns.reserve(steps);
     for (std::size_t k = 0; k < steps; ++k) {
         const std::size_t i = side.at(side.ahead ? k : k + 1), j = side.at(side.ahead ? k + 1 : k);
         const WallVertex &a = side.vertices[i], &b = side.vertices[j];
         const double edge = distance(side.outline[i].at, side.outline[j].at);
-        if (passed >= 0.5 * length) break;
-        passed += edge;
         const double turning = (a.fan ? 0 : 0.5 * a.turning) + (b.fan ? 0 : 0.5 * b.turning) + b.tilt[0] - a.tilt[1];
         const double height = std::max(side.heights[i], side.heights[j]);
-        columns.push_back({edge + height * turning, height, passed > 0.5 * length ? 0.5 : 1.0});
+        columns.push_back({edge, edge + height * turning, height, 1});
     }
+    return columns;
+}
+
+/// Returns the columns up to the middle between the fan and the next corner.
+std::vector<FanColumn> columns_beside(const FanSide& side) {
+    std::vector<FanColumn> columns = columns_to_corner(side);
+    double length = 0, passed = 0;
+    for (const FanColumn& column : columns) length += column.edge;
+    std::size_t k = 0;
+    for (; k < columns.size() && passed < 0.5 * length; ++k) {
+        passed += columns[k].edge;
+        if (passed > 0.5 * length) columns[k].share = 0.5;
+    }
+    columns.resize(k);
     return columns;
 }
 
@@ -139,16 +154,17 @@ constexpr double wanted_share = 1.0 / 25, most_lost = 0.25;
 /// the other by more than twice this share.
 constexpr double max_lean_deg = 25, max_height_difference = 0.009;
 
-/// Returns the angles by which rays must lean away from a fan, one for each vertex from the fan to the end of its
-/// columns, so that the narrowest columns are as wide as this share of what is wanted: at the expense of those farther
-/// from the fan or, where `both`, of those on both sides alike. Empty if rays would have to lean too far.
+/// Returns the angles by which rays must lean away from a corner, one for each vertex from it to the end of the columns,
+/// so that the narrowest columns are as wide as this share of what is wanted: at the expense of those farther
+/// from the corner or, where `both`, of those on both sides alike. Empty if rays would have to lean too far.
 std::vector<double> leans_to(double level, bool both, std::span<const FanColumn> columns,
                              std::span<const double> max_leans) {
     const std::size_t n = columns.size();
     std::vector<double> away(n + 1, 0.0), towards(n + 1, 0.0);
     const auto lacking = [&](std::size_t k) {
-        const auto& [width, height, share] = columns[k];
-        return std::max(level * wanted_share * height - width, -most_lost * std::abs(width)) / height;
+        const FanColumn& column = columns[k];
+        const double wanted = level * wanted_share * column.height;
+        return std::max(wanted - column.width, -most_lost * std::abs(column.width)) / column.height;
     };
     for (std::size_t k = 0; k < n; ++k) away[k + 1] = std::max(0.0, away[k] + lacking(k));
     for (std::size_t k = n; both && k-- > 0;) towards[k] = std::max(0.0, towards[k + 1] + lacking(k));
@@ -159,7 +175,7 @@ std::vector<double> leans_to(double level, bool both, std::span<const FanColumn>
     return away;
 }
 
-/// Angles by which rays lean away from a fan, and the level that columns reach by them.
+/// Angles by which rays lean away from a corner, and the level that columns reach by them.
 struct Leans {
     double level = 0;
     std::vector<double> angles;
@@ -183,10 +199,15 @@ Leans highest_leans(bool both, std::span<const FanColumn> columns, std::span<con
     return best;
 }
 
-/// Widens the columns on one side that are too narrow still.
+/// Widens the columns on one side that are too narrow still, as far as the widest column before the next corner. What
+/// lies beyond is the other corner's.
 void widen_narrow(const FanSide& side, std::vector<WallVertex>& vertices) {
-    const std::vector<FanColumn> columns = columns_beside(side);
+    std::vector<FanColumn> columns = columns_to_corner(side);
     if (std::any_of(columns.begin(), columns.end(), [](const FanColumn& c) { return !(c.height > 0); })) return;
+    const auto widest = std::max_element(columns.begin(), columns.end(), [](const FanColumn& a, const FanColumn& b) {
+        return a.width * b.height < b.width * a.height;
+    });
+    columns.erase(widest, columns.end());
     std::vector<double> max_leans(columns.size() + 1, 0.0);
     for (std::size_t k = 1; k < columns.size(); ++k) {
         const double half = 0.5 * std::abs(side.vertices[side.at(k)].turning);
@@ -200,24 +221,21 @@ void widen_narrow(const FanSide& side, std::vector<WallVertex>& vertices) {
         for (double& tilt : vertices[side.at(k)].tilt) tilt += side.ahead ? leans.angles[k] : -leans.angles[k];
 }
 
-/// Calls spread_side() for both sides of each fan, with the vertices as they are before.
-template <class Spread>
-void on_both_sides(std::span<const RayVertex> outline, std::span<const double> heights,
-                   std::vector<WallVertex>& vertices, Spread spread_side) {
-    const std::vector<WallVertex> before = vertices;
-    for (std::size_t i = 0; i < outline.size(); ++i)
-        if (before[i].fan)
-            for (const bool ahead : {false, true}) spread_side(FanSide{outline, heights, before, i, ahead});
-}
-
 }  // namespace
 
 void spread_fans(std::span<const RayVertex> outline, std::span<const double> heights, double max_ray_angle,
                  std::vector<WallVertex>& vertices) {
     if (std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; }))
         return;
-    on_both_sides(outline, heights, vertices, [&](const FanSide& side) { spread(side, max_ray_angle, vertices); });
-    on_both_sides(outline, heights, vertices, [&](const FanSide& side) { widen_narrow(side, vertices); });
+    std::vector<WallVertex> before = vertices;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        if (before[i].fan)
+            for (const bool ahead : {false, true})
+                spread({outline, heights, before, i, ahead}, max_ray_angle, vertices);
+    before = vertices;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        if (ends_stretch(before[i]))
+            for (const bool ahead : {false, true}) widen_narrow({outline, heights, before, i, ahead}, vertices);
 }
 
 }  // namespace lamina::layers
