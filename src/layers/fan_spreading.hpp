@@ -11,7 +11,8 @@ namespace lamina::layers {
 
 /// Adds to the tilts of the vertices beside fans, and of the fans. At `heights`, one per vertex, columns become as wide
 /// as the rays of the fan are apart, or as even as a bounded tilt can make them. `max_ray_angle` is that between the
-/// rays of a fan, in radians. Outlines with a wake remain as they are.
+/// rays of a fan, in radians. Then rays between corners lean apart where columns are narrow still. Outlines with a wake
+/// remain as they are.
 void spread_fans(std::span<const RayVertex> outline, std::span<const double> heights, double max_ray_angle,
                  std::vector<WallVertex>& vertices);
 
