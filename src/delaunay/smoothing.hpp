@@ -108,7 +108,14 @@ private:
         Index t, n;
         Tri old_t, old_n;
     };
-    /// The facts about one vertex where all vertices move together.
+    /// What a look at all triangles finds of one vertex where all move together. It stands in one place, since it is
+    /// written triangle by triangle.
+    struct Vertex {
+        Point sum{0, 0};      ///< of its neighbours
+        Index triangle = 0;   ///< one of its triangles
+        unsigned degree = 0;  ///< their number
+    };
+    /// What may still happen to a vertex where all move together.
     enum class State : unsigned char {
         fixed,
         moved,
@@ -139,35 +146,82 @@ private:
     /// Moves all free vertices without a look at their triangles, then sends those back that have spoilt one, and moves
     /// these one by one.
     void move_together(unsigned rounds) {
-        find_movers();
         old_points_ = points_;
         old_sizes_ = sizes_;
-        for (unsigned round = 0; round < rounds; ++round) move_to_neighbours();
+        find_movers_and_sums();
+        move_to_means();
+        for (unsigned round = 1; round < rounds; ++round) {
+            core::check_interruption();
+            add_neighbours();
+            move_to_means();
+        }
         forget_sizes_of_moved();
         return_where_worse();
         // Flips may have taken a vertex out of the triangle that is known of it; it stays where it is then.
         for (const Index v : returned_)
-            if (const unsigned corner = corner_of(v); corner < 3) move(triangle_of_[v], corner);
+            if (const unsigned corner = corner_of(v); corner < 3) move(vertices_[v].triangle, corner);
     }
 
-    void find_movers() {
-        triangle_of_.resize(points_.size());
-        degrees_.assign(points_.size(), 0);
+    /// Calls fetch(v) for the vertices of the triangle that a loop will come to so much later. A loop over a
+    /// triangulation that does not fit into the caches near the processor would wait for most first vertices otherwise.
+    template <class Fetch>
+    [[gnu::always_inline]] static void fetch_ahead(const Tri* tris, Index count, Index t, const Fetch& fetch) {
+        constexpr Index ahead = 16;
+        if (t + ahead >= count) return;
+        for (const Index v : tris[t + ahead].v) fetch(v);
+    }
+
+    /// Finds the facts about each vertex, among them the sum of its neighbours. Each of its triangles contributes one.
+    void find_movers_and_sums() {
+        vertices_.assign(points_.size(), {});
         states_.assign(points_.size(), State::moved);
         std::fill(states_.begin(), states_.begin() + first_movable_, State::fixed);
-        Index* const triangle_of = triangle_of_.data();
-        unsigned* const degrees = degrees_.data();
+        Vertex* const vertices = vertices_.data();
+        const Point* const points = points_.data();
         const auto count = static_cast<Index>(tris_.size());
         const Tri* const tris = tris_.data();
         for (Index t = 0; t < count; ++t) {
             const Tri& tri = tris[t];
-            for (const Index v : tri.v) {
-                triangle_of[v] = t;
-                ++degrees[v];
+            fetch_ahead(tris, count, t, [&](Index v) {
+                __builtin_prefetch(vertices + v, 1);
+                __builtin_prefetch(points + v);
+            });
+            for (unsigned i = 0; i < 3; ++i) {
+                Vertex& vertex = vertices[tri.v[i]];
+                vertex.sum = vertex.sum + points[tri.v[next(i)]];
+                vertex.triangle = t;
+                ++vertex.degree;
             }
             if (!has_constrained_edge(tri)) continue;
             for (unsigned e = 0; e < 3; ++e)
                 if (tri.n[e].is_constrained()) states_[tri.v[next(e)]] = states_[tri.v[previous(e)]] = State::fixed;
+        }
+    }
+
+    void add_neighbours() {
+        Vertex* const vertices = vertices_.data();
+        const Point* const points = points_.data();
+        const auto count = static_cast<Index>(tris_.size());
+        const Tri* const tris = tris_.data();
+        for (Index t = 0; t < count; ++t) {
+            fetch_ahead(tris, count, t, [&](Index v) {
+                __builtin_prefetch(vertices + v, 1);
+                __builtin_prefetch(points + v);
+            });
+            for (unsigned i = 0; i < 3; ++i) {
+                Vertex& vertex = vertices[tris[t].v[i]];
+                vertex.sum = vertex.sum + points[tris[t].v[next(i)]];
+            }
+        }
+    }
+
+    /// Moves every free vertex to the mean of its neighbours, and forgets their sum.
+    void move_to_means() {
+        Point* const points = points_.data();
+        for (Index v = first_movable_; v < points_.size(); ++v) {
+            Vertex& vertex = vertices_[v];
+            if (states_[v] == State::moved) points[v] = (1.0 / vertex.degree) * vertex.sum;
+            vertex.sum = {0, 0};
         }
     }
 
@@ -192,7 +246,7 @@ private:
     void update_size(Index v) {
         if (states_[v] != State::moved_with_old_size) return;
         states_[v] = State::moved;
-        sizes_[v] = static_cast<float>(rules_.size_at(points_[v], triangle_of_[v]));
+        sizes_[v] = static_cast<float>(rules_.size_at(points_[v], vertices_[v].triangle));
     }
 
     /// Returns h at a vertex.
@@ -203,20 +257,8 @@ private:
 
     /// Returns the place of a vertex in the triangle that is known of it, or 3.
     unsigned corner_of(Index v) const {
-        const Tri& t = tris_[triangle_of_[v]];
+        const Tri& t = tris_[vertices_[v].triangle];
         return static_cast<unsigned>(std::find(t.v, t.v + 3, v) - t.v);
-    }
-
-    /// Moves every free vertex to the mean of its neighbours. Each of its triangles contributes one of them.
-    void move_to_neighbours() {
-        core::check_interruption();
-        sums_.assign(points_.size(), Point{0, 0});
-        Point* const sums = sums_.data();
-        Point* const points = points_.data();
-        for (const Tri& t : tris_)
-            for (unsigned i = 0; i < 3; ++i) sums[t.v[i]] = sums[t.v[i]] + points[t.v[next(i)]];
-        for (Index v = first_movable_; v < points_.size(); ++v)
-            if (states_[v] == State::moved) points[v] = (1.0 / degrees_[v]) * sums[v];
     }
 
     /// Sends vertices back to where they were until all triangles of moved ones are allowed, Delaunay, and not
@@ -227,12 +269,20 @@ private:
         ill_shaped_.clear();
         const double least_share = std::max(0.0, 1 - rules_.size_error() - max_move * rules_.gradation());
         const auto count = static_cast<Index>(tris_.size());
-        for (Index t = 0; t < count; ++t)
-            if (!is_clearly_good(tris_[t], least_share)) check_moved(t);
+        const Tri* const tris = tris_.data();
+        const Point* const points = points_.data();
+        const float* const sizes = sizes_.data();
+        for (Index t = 0; t < count; ++t) {
+            fetch_ahead(tris, count, t, [&](Index v) {
+                __builtin_prefetch(points + v);
+                __builtin_prefetch(sizes + v);
+            });
+            if (!is_clearly_good(tris[t], least_share)) check_moved(t);
+        }
         std::size_t looked_at = 0;
         while (looked_at < returned_.size()) {  // more may return meanwhile
             const Index v = returned_[looked_at++];
-            find_star(triangle_of_[v], corner_of(v));
+            find_star(vertices_[v].triangle, corner_of(v));
             for (const StarTriangle& s : star_) {
                 check_moved(s.t);
                 if (const Link outer = tris_[s.t].n[s.corner]; !outer.is_constrained()) check_moved(outer.triangle());
@@ -449,10 +499,9 @@ private:
     Index first_movable_;
     Rules rules_;
     // These hold the facts about each vertex, where all move together:
-    std::vector<Index> triangle_of_;  ///< one of its triangles
-    std::vector<unsigned> degrees_;   ///< the number of its triangles
+    std::vector<Vertex> vertices_;
     std::vector<State> states_;
-    std::vector<Point> sums_, old_points_;
+    std::vector<Point> old_points_;
     std::vector<float> old_sizes_;
     std::vector<Index> returned_;    ///< vertices
     std::vector<Index> ill_shaped_;  ///< triangles
