@@ -50,6 +50,10 @@ struct RefineOptions {
     /// How often all vertices move to the means of their neighbours once triangles are made. The vertices of ill-shaped
     /// triangles then move a few times more. 0: none moves.
     unsigned smoothing = 2;
+    /// Whether, after that, vertices near those without six neighbours are merged, split and joined otherwise, where that
+    /// makes triangles more equilateral: the most regular triangles, in some fifty times the time. Lattices are not used
+    /// then. It concerns refinement with frozen borders alone.
+    bool regularize = false;
     /// Whether large, evenly sized parts are filled with patches of an equilateral lattice, so that only the seams
     /// between them are refined. The guarantees are the same, refinement is several times faster, and triangles are
     /// more regular. It changes nothing where it does not pay.

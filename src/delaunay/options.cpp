@@ -24,6 +24,10 @@ OptionTable<RefineOptions> make_refine_table() {
         "how often all vertices of isotropic triangles move to the means of their neighbours; those of ill-shaped "
         "ones then move a few times more; 0: none moves",
         numbers_from_to(0, 100), member_at(&RefineOptions::smoothing));
+    table.flag("regularize",
+               "merge, split and join otherwise the vertices near those without six neighbours, where that makes "
+               "isotropic triangles more regular; takes some fifty times as long as refinement",
+               true, member_at(&RefineOptions::regularize));
     return table.take();
 }
 

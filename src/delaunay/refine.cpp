@@ -112,7 +112,7 @@ LinkedRefinement refine_checked(std::span<const Point> points, std::span<const S
                                 const RefineOptions& options, bool linked) {
     validate(options);
     check_points_and_segments(points, segments);
-    if (options.lattice) {
+    if (options.lattice && !options.regularize) {
         LatticePatches patches = fill_with_lattice(points, segments, size, options, {}, linked);
         const bool fits = !options.stop_at_max_points || patches.points.size() <= options.max_points;
         if (fits && !patches.empty()) return refine_with_lattice(points, segments, size, options, std::move(patches));

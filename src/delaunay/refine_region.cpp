@@ -63,6 +63,7 @@ private:
     /// Returns whether the new point lies in the diametral circle of the edge.
     static bool is_blocked(const CavityEdge& a, const CavityEdge& b) { return a.ax * b.ax + a.ay * b.ay <= 0; }
     static constexpr bool always_counts = false;
+    static constexpr bool may_renumber = true;
     static constexpr bool must_mend(Index) { return true; }
     // Frozen borders are graded, so all edges are about as long as the borders nearby.
     static constexpr bool is_unresolved(Point, Point) { return false; }

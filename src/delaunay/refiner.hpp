@@ -24,6 +24,7 @@
 #include "delaunay/advancing_front.hpp"
 #include "delaunay/angle_queue.hpp"
 #include "delaunay/cavity.hpp"
+#include "delaunay/regularizer.hpp"
 #include "delaunay/smoothing.hpp"
 #include "delaunay/triangle_shape.hpp"
 #include "delaunay/triangles.hpp"
@@ -44,6 +45,7 @@ double unit_scale(double extent);
 ///     double gradation()                      bound of the growth of h per unit of distance
 ///     bool is_blocked(const CavityEdge& a, const CavityEdge& b)
 ///                                             whether a new point may not stand so near to the constrained edge a-b
+///     bool may_renumber                       whether vertices and triangles may get other numbers once all are made
 ///     bool always_counts                      whether triangles beyond the bounds are counted even where no point was
 ///                                             refused
 ///     bool must_mend(Index t)                 whether a triangle that is narrow has to be mended
@@ -77,7 +79,7 @@ protected:
     }
 
     /// Refines until nothing is left to be mended: first large triangles, then narrow ones. Smoothing comes in between,
-    /// since it mends most narrow triangles without new vertices, and at the end.
+    /// since it mends most narrow triangles without new vertices, and at the end. Regularization comes last.
     void run() {
         front_.reset(tris_.size());
         for (Index t = 0; t < tris_.size(); ++t) classify(t);
@@ -87,6 +89,8 @@ protected:
             mend_all_large();
         } while (!is_full() && queue_enclosed());
         mend_narrow();
+        if constexpr (Derived::may_renumber)
+            if (regularizes()) regularize();
     }
 
     TriangleShape shape_of(const Tri& t) const { return delaunay::shape_of(points_, t); }
@@ -259,13 +263,22 @@ private:
         return {{points_, sizes_, tris_, static_cast<Index>(input_count_)}, {*this, may_be_narrow}};
     }
 
+    bool regularizes() const { return Derived::may_renumber && options_.regularize && !stopped_; }
+
+    /// Gives vertices and triangles other numbers, so nothing may be queued any more.
+    void regularize() {
+        Regularizer<SmoothingRules>({points_, sizes_, tris_, static_cast<Index>(input_count_)}, {*this, false},
+                                    input_count_ + options_.max_points)
+            .run();
+    }
+
     /// Smooths, mends the triangles that are narrow nevertheless, and smooths what that has made.
     void mend_narrow() {
         const bool smooths = options_.smoothing > 0, any = !narrow_.empty();
         if (smooths) {
             auto first = smoother(any);
             first.smooth(options_.smoothing);
-            if (any || refused_ > 0 || Derived::always_counts) first.update_sizes();
+            if (any || refused_ > 0 || Derived::always_counts || regularizes()) first.update_sizes();
         }
         if (!any) return;
         if (smooths) {

@@ -57,6 +57,10 @@ class Smoother {
 public:
     /// Triangles of a smaller mean ratio are ill-shaped.
     static constexpr double min_mean_ratio = 0.9;
+    /// Twice the area of an equilateral triangle over the sum of its squared edges. The mean ratio of a triangle is its
+    /// own ratio of this kind, divided by that of the equilateral one.
+    static constexpr double equilateral_ratio = 0.28867513459481287;
+    static constexpr double min_ratio = min_mean_ratio * equilateral_ratio;
 
     Smoother(const SmoothedArrays& arrays, Rules rules)
         : points_(arrays.points),
@@ -123,10 +127,6 @@ private:
         returned,
     };
 
-    /// Twice the area of an equilateral triangle over the sum of its squared edges. The mean ratio of a triangle is its
-    /// own ratio of this kind, divided by that of the equilateral one.
-    static constexpr double equilateral_ratio = 0.28867513459481287;
-    static constexpr double min_ratio = min_mean_ratio * equilateral_ratio;
     static constexpr double clearly_fat_ratio = min_ratio * (1 + 1e-9);  // far beyond rounding
     /// Moves up to this many h change sizes so little that most triangles need not know it.
     static constexpr double max_move = 0.25;

@@ -76,6 +76,7 @@ private:
     double gradation() const;
     bool is_blocked(const CavityEdge& a, const CavityEdge& b) const;
     static constexpr bool always_counts = true;
+    static constexpr bool may_renumber = false;
     bool must_mend(Index t) const;
     void vertex_inserted(Index t, std::size_t old_count);
     void give_up(Index t, Point p);

@@ -7,6 +7,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
 
+#include "core/cell_shape.hpp"
 #include "support/point_sets.hpp"
 #include "support/refinement_checks.hpp"
 #include "support/triangulation_checks.hpp"
@@ -198,6 +199,92 @@ TEST(Refine, SmoothingImprovesTriangles) {
         EXPECT_GT(mean_smallest_angle(border, r), mean);
         worst = smallest_angle_deg(all_points(border, r), r.triangles) - 1;
         mean = mean_smallest_angle(border, r);
+    }
+}
+
+/// Returns the mean over all triangles of their mean ratio.
+double mean_of_mean_ratios(const Border& border, const Refinement& r) {
+    const auto points = all_points(border, r);
+    double sum = 0;
+    for (const Triangle& t : r.triangles)
+        sum +=
+            core::measure_triangle(points[t.v[0].index()], points[t.v[1].index()], points[t.v[2].index()]).mean_ratio;
+    return sum / double(r.triangles.size());
+}
+
+TEST(Refine, RegularizedTrianglesAreTheMostRegular) {
+    // No mesh could have a mean ratio of much more than 1 - gradation^2 / 6 (docs/decisions/0031).
+    struct Case {
+        double gradation, min_size, max_size;
+    };
+    for (const auto& [gradation, min_size, max_size] :
+         {Case{0, 0.02, 0.02}, Case{0.02, 4e-3, 1}, Case{0.05, 2e-3, 1}, Case{0.1, 5e-4, 1}}) {
+        SCOPED_TRACE(gradation);
+        const std::vector<SizeSource> corner{{{0, 0}, {0, 0}, min_size}};
+        const SizeField size(corner, {.gradation = gradation, .max_size = max_size}, {{0, 0}, {1, 1}});
+        const Border border = graded_border({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, size);
+        const RefineOptions smoothed_options{.smoothing = 20, .lattice = false}, options{.regularize = true};
+        const Refinement smoothed = refine(border.points, border.segments, size, smoothed_options);
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, 1.0);
+        EXPECT_EQ(r.stats.refused, 0u);
+        EXPECT_GT(mean_of_mean_ratios(border, r), 0.9955);
+        EXPECT_GT(mean_of_mean_ratios(border, r), mean_of_mean_ratios(border, smoothed));
+        EXPECT_GT(smallest_angle_deg(all_points(border, r), r.triangles), 38);
+        EXPECT_NEAR(mean_edge_over_size(border, r, size), 1, 0.03);
+        EXPECT_LT(1 - share_with_six_neighbours(border, r), 0.7 * (1 - share_with_six_neighbours(border, smoothed)));
+    }
+}
+
+TEST(Refine, RegularizationKeepsEveryPromise) {
+    const SizeField size = graded(4e-3, 0.15, 4);
+    const std::vector<Point> notched{{0, 0}, {2, 0}, {2, 0.05}, {1.2, 0.06}, {1.2, 1}, {1.02, 0.1}, {1, 1}, {0, 1}};
+    Border with_hole = graded_border(notched, size);
+    with_hole.add_loop({{0.3, 0.3}, {0.35, 0.7}, {0.7, 0.75}, {0.6, 0.3}}, 0.02);
+    for (const Border& border : {with_hole, graded_border({{0, 0}, {1, 0}, {0.9, 0.3}}, size)}) {
+        for (const double angle : {0.0, 20.7, 30.0})
+            for (const unsigned smoothing : {0u, 2u}) {
+                SCOPED_TRACE(testing::Message() << angle << " degrees, smoothing " << smoothing);
+                RefineOptions options{.min_angle_deg = angle, .smoothing = smoothing, .lattice = false};
+                const Refinement before = refine(border.points, border.segments, size, options);
+                options.regularize = true;
+                const Refinement r = refine(border.points, border.segments, size, options);
+                expect_promises(border, r, size, options, enclosed_area(border));
+                EXPECT_GT(mean_of_mean_ratios(border, r), mean_of_mean_ratios(border, before));
+                EXPECT_LE(r.stats.below_bound, before.stats.below_bound);
+                EXPECT_EQ(refine(border.points, border.segments, size, options).steiner_points, r.steiner_points);
+            }
+    }
+}
+
+TEST(Refine, RegularizationOfRandomPolygons) {
+    for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        std::vector<Point> corners;
+        const double corner_count = 3 + std::floor(random.real(0, 6));
+        for (double k = 0; k < corner_count; ++k) {
+            const double angle = 2 * M_PI * (k + random.real(0, 0.8)) / corner_count, radius = random.real(0.3, 1);
+            corners.push_back(radius * Point{std::cos(angle), std::sin(angle)});
+        }
+        const SizeField size = graded(random.real(0.005, 0.05), random.real(0, 0.4), 4);
+        const Border border = graded_border(corners, size);
+        if (enclosed_area(border) < 0.05) continue;
+        const RefineOptions options{.min_angle_deg = 25, .regularize = true};
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, enclosed_area(border));
+    }
+}
+
+TEST(Refine, RegularizationKeepsTheLimitOfPoints) {
+    const SizeField size = graded(2e-3, 0.1, 4);
+    const Border border = graded_border({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, size);
+    const std::size_t without = refine(border.points, border.segments, size).steiner_points.size();
+    for (const std::size_t limit : {without / 2, without, without + 1}) {
+        const RefineOptions options{.max_points = limit, .stop_at_max_points = true, .regularize = true};
+        const Refinement r = refine(border.points, border.segments, size, options);
+        expect_promises(border, r, size, options, 1);
+        EXPECT_LE(r.steiner_points.size(), limit);
     }
 }
 
