@@ -17,17 +17,20 @@ double layer_triangles(const Layer& layer) {
     return 2 * static_cast<double>(cells);
 }
 
-RunEstimate estimate_mesh(const Layer& layer, const SizeField& size, const FarField& far_field, const WorkCost& cost) {
+RunEstimate estimate_mesh(const RefineOptions& refine, const Layer& layer, const SizeField& size,
+                          const FarField& far_field, const WorkCost& cost) {
     // Measured: the processor time and the memory that the sizes and the decoupling take for each edge of the border,
-    // and how much more time a triangle of the layer takes than another one.
+    // how much more time a triangle of the layer takes than another one, and how much regularization takes.
     constexpr double seconds_per_border_edge = 100e-6, bytes_per_border_edge = 8e3,
-                     more_seconds_per_layer_triangle = 0.3e-6;
+                     more_seconds_per_layer_triangle = 0.3e-6, seconds_per_regularized_triangle = 12e-6;
     const double in_layer = layer_triangles(layer);
     double border_edges = 0;
     for (const auto& border : layer.borders) border_edges += static_cast<double>(border.size());
+    const double isotropic = estimate_triangles(layer.points, layer.borders, size, far_field);
     RunEstimate estimate =
-        estimate_run(in_layer + estimate_triangles(layer.points, layer.borders, size, far_field), cost, thread_count(),
-                     seconds_per_border_edge * border_edges + more_seconds_per_layer_triangle * in_layer);
+        estimate_run(in_layer + isotropic, cost, thread_count(),
+                     seconds_per_border_edge * border_edges + more_seconds_per_layer_triangle * in_layer +
+                         (refine.regularize ? seconds_per_regularized_triangle * isotropic : 0));
     estimate.memory_bytes += bytes_per_border_edge * border_edges;
     return estimate;
 }
@@ -50,7 +53,7 @@ void require_options_within(const CaseOptions& options, const LayerGrowth& growt
 
 RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
                                    const FarField& far_field, const WorkCost& cost) {
-    const RunEstimate estimate = estimate_mesh(layer, size, far_field, cost);
+    const RunEstimate estimate = estimate_mesh(options.refine, layer, size, far_field, cost);
     if (const double in_layer = layer_triangles(layer); in_layer > 0.5 * estimate.triangles)
         require_within(options.limits, estimate, "layers",
                        fmt::format("the mesh, with {:.2g} triangles in the layer,", in_layer));
