@@ -212,7 +212,9 @@ TEST(NarrowColumns, MayStandBesideRaysWithoutLayers) {
             EXPECT_GE(counts[i], ends[i].layers.least);
             EXPECT_LE(counts[i], ends[i].layers.most);
         }
-        if (apart == 2) EXPECT_EQ(counts, wanted);
+        if (apart == 2) {
+            EXPECT_EQ(counts, wanted);
+        }
     }
 }
 
@@ -227,7 +229,9 @@ TEST(NarrowColumns, ChangeEvenlyWhereTheyMustChange) {
         EXPECT_EQ(counts[i], counts[40 - i]) << "both directions count alike";
         const std::uint32_t before = counts[i - 1];
         EXPECT_LE(std::max(counts[i], before) - std::min(counts[i], before), 1u);
-        if (i >= 3 && i <= 19) EXPECT_LE(counts[i] - counts[i - 3], 1u) << "four changes on nineteen columns";
+        if (i >= 3 && i <= 19) {
+            EXPECT_LE(counts[i] - counts[i - 3], 1u) << "four changes on nineteen columns";
+        }
     }
 }
 
