@@ -57,7 +57,7 @@ def mesh(
     velocity: float | None = None,
     # kinematic viscosity, in squared units of the input per second; > 0
     viscosity: float | None = None,
-    # Mach number of the free stream; > 0
+    # Mach number of the free stream; makes a case of OpenFOAM one of compressible flow; > 0
     mach: float | None = None,
     # height of the first layer above the wall; > 0 [1e-05]
     first_height: float | str | None = None,
@@ -118,6 +118,9 @@ def mesh(
     # how often all vertices of isotropic triangles move to the means of their neighbours; those of ill-shaped
     # ones then move a few times more; 0: none moves; >= 0 and <= 100 [2]
     smoothing: int | None = None,
+    # merge, split and join otherwise the vertices near those without six neighbours, where that makes isotropic
+    # triangles more regular; takes some fifty times as long as refinement
+    regularize: bool | None = None,
     # how borders between pieces are divided [equidistributed]
     separators: Literal["equidistributed", "k-rule"] | None = None,
     # triangles per piece, about; >= 100 and <= 1e+09 [50000]
