@@ -28,9 +28,6 @@ using delaunay::Tri;
 
 namespace {
 
-/// Returns the corner of a triangle at which a vertex stands.
-unsigned corner_of(const Tri& t, Index v) { return t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2; }
-
 /// Returns the link across which a walk leaves a triangle that it came into across `in`.
 Link next_link(Link in, bool vertex_on_left) {
     return Link(in.triangle(), vertex_on_left ? delaunay::next(in.edge()) : delaunay::previous(in.edge()));

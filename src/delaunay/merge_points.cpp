@@ -32,8 +32,8 @@ struct PointHash {
 
 /// Returns the number of ranges, a power of two, that as many points are dealt to.
 std::size_t range_count(std::size_t points) {
-    constexpr std::size_t points_per_range = 1 << 10, max_ranges = 1 << 12;
-    return std::bit_ceil(std::clamp(points / points_per_range, std::size_t{1}, max_ranges));
+    constexpr std::size_t points_per_range = 1 << 10, most_ranges = 1 << 12;
+    return std::bit_ceil(std::clamp(points / points_per_range, std::size_t{1}, most_ranges));
 }
 
 /// A point in a cell of a grid.

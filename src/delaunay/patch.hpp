@@ -55,9 +55,6 @@ bool apply(Patch& patch, const Change& change);
 /// vertex as the edge of the link; nothing if a constrained edge ends at the vertex.
 std::vector<Link> star_of(const Tris& tris, Index t, unsigned corner);
 
-/// Returns the place of a vertex in a triangle, or 3.
-unsigned corner_of(const Tri& t, Index v);
-
 /// Lets patches settle. The same object serves for one patch after another.
 class PatchSettler {
 public:

@@ -66,9 +66,9 @@ void add_splits(const Patch& patch, Index t, unsigned corner, std::vector<Change
 }
 
 bool is_positive(const Patch& patch, Index t) {
-    constexpr double least_share = 1e-9;  // far beyond rounding
+    constexpr double least_positive_share = 1e-9;  // far beyond rounding
     const TriangleShape s = shape_of(patch.points, patch.tris[t]);
-    return s.area2 > least_share * s.squared_sum();
+    return s.area2 > least_positive_share * s.squared_sum();
 }
 
 bool are_positive(const Patch& patch, const std::vector<Link>& star) {
@@ -90,10 +90,10 @@ bool flip(Patch& patch, Index t, unsigned e) {
 /// Returns whether u has a neighbour in common with the vertex of this star, besides c and d.
 bool have_other_common_neighbour(const Patch& patch, const std::vector<Link>& star, Index u, Index c, Index d) {
     for (const Tri& tri : patch.tris) {
-        if (tri.v[0] == no_index || corner_of(tri, u) == 3) continue;
+        if (tri.v[0] == no_index || !has_corner(tri, u)) continue;
         for (const Link l : star) {
             const Index w = patch.tris[l.triangle()].v[next(l.edge())];
-            if (w != u && w != c && w != d && corner_of(tri, w) < 3) return true;
+            if (w != u && w != c && w != d && has_corner(tri, w)) return true;
         }
     }
     return false;
@@ -179,8 +179,6 @@ bool split(Patch& patch, Index t, unsigned corner, unsigned count) {
 }
 
 }  // namespace
-
-unsigned corner_of(const Tri& t, Index v) { return static_cast<unsigned>(std::find(t.v, t.v + 3, v) - t.v); }
 
 std::vector<Link> star_of(const Tris& tris, Index t, unsigned corner) {
     std::vector<Link> star;

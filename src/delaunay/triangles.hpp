@@ -83,6 +83,11 @@ struct Tri {
 };
 static_assert(sizeof(Tri) == 24);
 
+/// Returns whether a vertex is a corner of a triangle.
+inline bool has_corner(const Tri& t, Index v) { return t.v[0] == v || t.v[1] == v || t.v[2] == v; }
+/// Returns which corner of a triangle a vertex is. Precondition: has_corner(t, v).
+inline unsigned corner_of(const Tri& t, Index v) { return t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2; }
+
 using Tris = std::vector<Tri>;
 
 /// Makes an edge of `triangle` and the edge behind `outer` neighbours. The edge becomes constrained if `outer` is.

@@ -21,9 +21,6 @@ inline bool is_beyond(const Point* vertices, const Tri& t, unsigned e, Point p) 
     return core::inline_orient2d(vertices[t.v[next(e)]], vertices[t.v[previous(e)]], p) < 0;
 }
 
-/// Returns which corner of a triangle a vertex is.
-inline unsigned corner_of(const Tri& t, Index v) { return t.v[0] == v ? 0 : t.v[1] == v ? 1 : 2; }
-
 /// Returns a triangle that holds p, or a ghost whose hull edge p lies strictly beyond. A point on an edge or vertex may
 /// be found in any of the triangles there. Precondition: `start` is no ghost, and ghosts close the hull.
 inline Index walk(const Point* vertices, const Tri* tris, Index start, Point p) {

@@ -16,7 +16,6 @@
 #include <cmath>
 
 #include "core/angles.hpp"
-#include "core/reproducible_math.hpp"
 
 namespace lamina::layers {
 
@@ -150,9 +149,8 @@ void spread(const FanSide& side, double max_ray_angle, std::vector<WallVertex>& 
 /// Columns that are narrower than this share of their height, though the fan has given its angle, are widened at the
 /// expense of wider ones, which lose up to the second share of their width.
 constexpr double wanted_share = 1.0 / 25, most_lost = 0.25;
-/// No ray leans by more than this for it, nor so far that it is higher above one of the edges at its origin than above
-/// the other by more than twice this share.
-constexpr double max_lean_deg = 25, max_height_difference = 0.009;
+/// No ray leans by more than this for it, nor by more than max_tilt_between_edges().
+constexpr double max_lean_deg = 25;
 
 /// Returns the angles by which rays must lean away from a corner, one for each vertex from it to the end of the columns,
 /// so that the narrowest columns are as wide as this share of what is wanted: at the expense of those farther
@@ -209,12 +207,8 @@ void widen_narrow(const FanSide& side, std::vector<WallVertex>& vertices) {
     });
     columns.erase(widest, columns.end());
     std::vector<double> max_leans(columns.size() + 1, 0.0);
-    for (std::size_t k = 1; k < columns.size(); ++k) {
-        const double half = 0.5 * std::abs(side.vertices[side.at(k)].turning);
-        max_leans[k] = std::min(core::radians(max_lean_deg),
-                                core::atan2_reproducible(max_height_difference * core::cos_reproducible(half),
-                                                         core::sin_reproducible(half)));
-    }
+    for (std::size_t k = 1; k < columns.size(); ++k)
+        max_leans[k] = std::min(core::radians(max_lean_deg), max_tilt_between_edges(side.vertices[side.at(k)].turning));
     const Leans both = highest_leans(true, columns, max_leans), away = highest_leans(false, columns, max_leans);
     const Leans& leans = away.level > both.level ? away : both;
     for (std::size_t k = 1; k + 1 < leans.angles.size(); ++k)

@@ -27,9 +27,6 @@ constexpr double max_thickness_share = 0.05;
 constexpr double max_tilt_deg = 45;
 /// Largest angle between a tilted ray and the normals of the edges at its origin, in degrees.
 constexpr double max_angle_from_normal_deg = 65;
-/// A tilted ray is higher above one of the edges at its origin than above the other. Where the wall is smooth, both
-/// heights stay within this share of their mean.
-constexpr double max_height_difference = 0.009;
 /// Vertices that turn by more than this are corners. They are few, and the rays beside them need their rays to tilt.
 constexpr double max_smooth_turning_deg = 6;
 
@@ -57,15 +54,11 @@ struct TiltableRay {
     double to_normals;  ///< angle from the ray, not tilted, to the normals of the edges on both sides, in radians
 };
 
-/// Returns the largest tilt of the one ray of a vertex. A ray that is tilted by t where the wall turns by 2 b is
-/// cos(t + b) / (cos t cos b) = 1 - tan t tan b times the mean of both heights above one edge, 1 + tan t tan b times
-/// above the other.
+/// Returns the largest tilt of the one ray of a vertex.
 double max_tilt_of_bisector(const WallVertex& vertex) {
     const double b = 0.5 * std::abs(vertex.turning);
     double tilt = std::min(core::radians(max_tilt_deg), core::radians(max_angle_from_normal_deg) - b);
-    if (2 * b <= core::radians(max_smooth_turning_deg))
-        tilt = std::min(tilt, core::atan2_reproducible(max_height_difference * core::cos_reproducible(b),
-                                                       core::sin_reproducible(b)));
+    if (2 * b <= core::radians(max_smooth_turning_deg)) tilt = std::min(tilt, max_tilt_between_edges(vertex.turning));
     return std::max(tilt, 0.0);
 }
 
@@ -126,6 +119,14 @@ void tilt(std::span<const TiltableRay> rays) {
 }
 
 }  // namespace
+
+// A ray that is tilted by t where the wall turns by 2 b is cos(t + b) / (cos t cos b) = 1 - tan t tan b times the mean of
+// both heights above one edge, 1 + tan t tan b times above the other.
+double max_tilt_between_edges(double turning) {
+    constexpr double max_height_difference = 0.009;
+    const double b = 0.5 * std::abs(turning);
+    return core::atan2_reproducible(max_height_difference * core::cos_reproducible(b), core::sin_reproducible(b));
+}
 
 void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
     constexpr int rounds = 3;  // the tilts of one decide the distances of the next

@@ -20,6 +20,10 @@ struct WallVertex {
     double tilt[2]{};     ///< angles by which the first and the last ray are tilted, in radians, counter-clockwise
 };
 
+/// Returns the largest tilt of the one ray of a vertex, in radians, at which it is higher above one of the edges at its
+/// origin than above the other by no more than twice 0.009 of their mean. `turning` is that of the vertex, in radians.
+double max_tilt_between_edges(double turning);
+
 /// Sets the tilts of the vertices. Convex and gently turning walls get none.
 void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices);
 
