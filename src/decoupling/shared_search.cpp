@@ -31,8 +31,8 @@ void pack_end(LoopVertex end, Packer& packer) {
 }
 
 LoopVertex unpack_end(Unpacker& unpacker) {
-    const std::size_t loop = unpacker.get_short();
-    return {loop, unpacker.get_short()};
+    const auto loop = static_cast<std::size_t>(unpacker.get_short());
+    return {loop, static_cast<std::size_t>(unpacker.get_short())};
 }
 
 void pack_result(const SearchResult& result, Packer& packer) {
