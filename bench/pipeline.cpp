@@ -7,26 +7,14 @@
 #include <lamina/pipeline.hpp>
 
 #include "paired.hpp"
+#include "thesis_case.hpp"
 
 namespace lamina::bench {
 namespace {
 
-/// Returns the options of the case of the thesis (Figs. 24 to 28).
-CaseOptions naca0012_options(double gradation) {
-    CaseOptions options;
-    options.layer.first_height = 2.5e-5;
-    options.layer.growth = 1.15;
-    options.layer.layers = 30;
-    options.layer.max_ray_angle_deg = 4;
-    options.far_field.size = 50;
-    options.sizing.gradation = gradation;
-    options.threads = 1;
-    return options;
-}
-
 /// Measures the whole run with a gradation of 0.1. Argument: number of threads.
 void naca0012(benchmark::State& state) {
-    CaseOptions options = naca0012_options(0.1);
+    CaseOptions options = thesis_case(0.1);
     options.threads = static_cast<unsigned>(state.range(0));
     std::size_t triangles = 0;
     for (auto _ : state) triangles = generate_mesh({"naca:0012"}, options).mesh.triangles.size();
@@ -70,7 +58,7 @@ Work triangle_outside_the_layer(const CaseOptions& options) {
 /// Measures the whole run of lamina, layer and check included, on one thread, against Triangle, which meshes the region
 /// outside the layer alone. Argument: gradation in units of 1e-5.
 void whole_run(benchmark::State& state) {
-    const CaseOptions options = naca0012_options(1e-5 * static_cast<double>(state.range(0)));
+    const CaseOptions options = thesis_case(1e-5 * static_cast<double>(state.range(0)));
     std::vector<Reference> references;
 #ifdef LAMINA_BENCH_TRIANGLE
     references.push_back({"triangle", triangle_outside_the_layer(options)});

@@ -17,6 +17,7 @@
 #include <lamina/shared_mesh.hpp>
 
 #include "support/thread_ranks.hpp"
+#include "thesis_case.hpp"
 
 namespace lamina::bench {
 namespace {
@@ -49,19 +50,6 @@ private:
     std::vector<std::pair<std::string, double>> times_;
     double since_ = 0;
 };
-
-/// Returns the options of the case of the thesis (Figs. 24 to 28).
-CaseOptions options_of(double gradation) {
-    CaseOptions options;
-    options.layer.first_height = 2.5e-5;
-    options.layer.growth = 1.15;
-    options.layer.layers = 30;
-    options.layer.max_ray_angle_deg = 4;
-    options.far_field.size = 50;
-    options.sizing.gradation = gradation;
-    options.threads = 1;
-    return options;
-}
 
 /// Makes the mesh on so many ranks, and returns what they did.
 std::string measured(unsigned n, const CaseOptions& options) {
@@ -105,7 +93,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: lamina_measure_ranks GRADATION RANKS...\n");
         return 2;
     }
-    const lamina::CaseOptions options = lamina::bench::options_of(std::strtod(argv[1], nullptr));
+    const lamina::CaseOptions options = lamina::bench::thesis_case(std::strtod(argv[1], nullptr));
     std::vector<std::string> runs;
     lamina::bench::measured(1, options);  // the first run asks the system for its memory
     for (int i = 2; i < argc; ++i)

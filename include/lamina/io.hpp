@@ -93,6 +93,9 @@ LAMINA_EXPORT void write_shared_mesh(const MeshParts& parts, const MeshFrame& fr
 /// Throws UsageError for formats that open_mesh_sink() refuses, without opening anything.
 LAMINA_EXPORT void require_streamable(const std::filesystem::path& file, const WriteOptions& options = {});
 
+/// Returns whether WriteOptions::parts counts for this file.
+LAMINA_EXPORT bool takes_parts(const std::filesystem::path& file, const WriteOptions& options = {});
+
 /// Throws UsageError for formats that write_shared_mesh() refuses, without opening anything.
 LAMINA_EXPORT void require_shareable(const std::filesystem::path& file, const WriteOptions& options = {});
 

@@ -24,9 +24,10 @@ struct SharedMesh {
 };
 
 /// Collective: reads the inputs and runs all stages on them, as generate_mesh() does, and makes the same mesh. All
-/// processes compute the border of the layer, and cut the outer region together. Each then takes pieces, the largest first, refines and
-/// checks them on its threads, and keeps them: in memory, or on the disk of the file `beside`. Throws what generate_mesh()
-/// throws, perhaps on one process alone, which must then call Ranks::fail(); RankFailure where another process has failed.
+/// processes compute the border of the layer, and cut the outer region together. Each then takes pieces, the largest
+/// first, refines and checks them on its threads, and keeps them: in memory, or on the disk of the file `beside`. Throws
+/// what generate_mesh() throws, perhaps on one process alone, which must then call Ranks::fail(); RankFailure where
+/// another process has failed.
 /// Precondition: inputs and options are the same everywhere.
 LAMINA_EXPORT SharedMesh share_mesh(const std::vector<std::string>& inputs, const CaseOptions& options, Ranks& ranks,
                                     const std::optional<std::filesystem::path>& beside = {},

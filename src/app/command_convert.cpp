@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ void convert(const ConvertArguments& arguments) {
     require_format(arguments.from, arguments.from_format, "--input-format");
     require_format(arguments.to, arguments.options.format, "--format");
     check_writable(arguments.to, arguments.options);
+    require_parts_taken(std::span(&arguments.to, 1), arguments.options);
     std::vector<RunFile> outputs;
     for (const std::filesystem::path& file : output_files(arguments.to, arguments.options))
         outputs.push_back({file, "OUT"});

@@ -102,6 +102,7 @@ std::vector<RunFile> files_written(const MeshCase& mesh_case, const MeshDestinat
 
 void require_outputs(const MeshCase& mesh_case, const MeshDestination& destination) {
     destination.require_writable();
+    require_parts_taken(mesh_case.outputs, write_options(mesh_case));
     for (const auto& [name, option] : files_beside_mesh)
         if (!(mesh_case.*name).empty()) check_folder_writable(mesh_case.*name);
     require_distinct(files_of_case(mesh_case), files_written(mesh_case, destination));

@@ -91,6 +91,12 @@ void require_format(const std::string& file, const std::string& format, const st
         throw UsageError(fmt::format("'-' has no extension that tells the format: give {} NAME", option));
 }
 
+void require_parts_taken(std::span<const std::string> files, const WriteOptions& options) {
+    const auto takes = [&](const std::string& file) { return takes_parts(file, options); };
+    if (options.parts > 1 && std::none_of(files.begin(), files.end(), takes))
+        throw UsageError("option --parts: only PVTU files and OpenFOAM's folders have parts");
+}
+
 std::vector<RunFile> files_of_mesh(const std::string& mesh, const std::string& format) {
     std::vector<RunFile> files{{mesh, "MESH"}};
     const std::string known = format.empty() && is_folder(mesh) ? "openfoam" : format;  // no other format is a folder

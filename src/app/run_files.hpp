@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include <lamina/io.hpp>
+
 #include "app/case.hpp"
 
 namespace lamina::app {
@@ -27,6 +29,9 @@ void require_distinct(std::span<const RunFile> inputs, std::span<const RunFile> 
 
 /// Throws UsageError where the file is standard input or output and no format is given; `option` would give it.
 void require_format(const std::string& file, const std::string& format, const std::string& option);
+
+/// Throws UsageError where parts are asked for that none of these mesh files has.
+void require_parts_taken(std::span<const std::string> files, const WriteOptions& options);
 
 /// Returns the files of a mesh that is read: those that its format consists of. The format is the one of this name or, if
 /// that is empty, the one that the name of the mesh tells.

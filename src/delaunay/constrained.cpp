@@ -220,7 +220,7 @@ std::vector<Triangle> selected_triangles(const Tris& tris, const TriangleSelecti
     return triangles;
 }
 
-/// Returns whether all points do.
+/// Returns whether every point stands for itself.
 bool stand_for_themselves(std::span<const Index> stand_in) {
     std::size_t i = 0;
     return std::all_of(stand_in.begin(), stand_in.end(), [&](Index first) { return first == i++; });

@@ -42,17 +42,19 @@ struct PointInCell {
     Index index;
 };
 
+/// Returns the cell of a grid of this width that a point lies in. With width 0 every point is its own cell.
+Point cell_containing(Point p, double width) {
+    return width > 0 ? Point{std::floor(p.x / width), std::floor(p.y / width)} : p;
+}
+
 /// Deals points to ranges by the cells of this width, and sorts each range by cells and then by the indices of the
-/// points. With width 0 every point is its own cell.
+/// points.
 DealtEntries<PointInCell> deal_to_cells(std::span<const Point> points, double width) {
-    const auto cell_of = [width](Point p) {
-        return width > 0 ? Point{std::floor(p.x / width), std::floor(p.y / width)} : p;
-    };
     const std::size_t ranges = range_count(points.size());
     DealtEntries<PointInCell> dealt = deal<PointInCell>(
         points.size(), ranges,
         [&](std::size_t i) {
-            return PointInCell{cell_of(points[i]), points[i], static_cast<Index>(i)};
+            return PointInCell{cell_containing(points[i], width), points[i], static_cast<Index>(i)};
         },
         [&](const PointInCell& p) { return PointHash{}(p.cell) & (ranges - 1); });
     core::parallel_for(ranges, 1, [&](std::size_t r, std::size_t) {
@@ -82,7 +84,6 @@ std::vector<char> have_near_points(std::span<const Point> points, double merge_d
     // Most points are far from the borders of such cells, so that one cell is looked at, and no cell has many points
     // that are not near each other.
     const double width = 4 * merge_distance;
-    const auto cell_of = [&](Point p) { return Point{std::floor(p.x / width), std::floor(p.y / width)}; };
     const DealtEntries<PointInCell> dealt = deal_to_cells(points, width);
     const auto near_in_cell = [&](const PointInCell& p, Point cell) {
         const auto less = [](const PointInCell& a, Point c) { return lexicographically_less(a.cell, c); };
@@ -98,7 +99,8 @@ std::vector<char> have_near_points(std::span<const Point> points, double merge_d
     std::vector<char> near(points.size());
     core::parallel_for(dealt.ranges(), 1, [&](std::size_t r, std::size_t) {
         for (const PointInCell& p : dealt.range(r)) {
-            const Point low = cell_of(p.at - Point{reach, reach}), high = cell_of(p.at + Point{reach, reach});
+            const Point low = cell_containing(p.at - Point{reach, reach}, width),
+                        high = cell_containing(p.at + Point{reach, reach}, width);
             const Point ends[] = {p.cell, low, high};
             bool found = false;
             for (unsigned i = 0; i < 3 && !found; ++i) {
@@ -117,15 +119,11 @@ std::vector<Index> merge_close_points(std::span<const Point> points, double merg
     std::unordered_map<Point, Index, PointHash> first_in_cell;
     std::vector<Index> next_in_cell(points.size(), no_index), stand_in(points.size());
     // Beyond 2^53 cells from the origin the cells next to one may be the cell itself, and are, as are its points' own.
-    // Adding 0 makes a zero of -0.
-    const auto cell_of = [&](Point p) {
-        return Point{std::floor(p.x / merge_distance) + 0.0, std::floor(p.y / merge_distance) + 0.0};
-    };
     const std::vector<char> near = have_near_points(points, merge_distance);
     for (Index i = 0; i < points.size(); ++i) {
         stand_in[i] = i;
         if (!near[i]) continue;
-        const Point cell = cell_of(points[i]);
+        const Point cell = cell_containing(points[i], merge_distance);
         Index found = i;
         for (const double dx : {-1.0, 0.0, 1.0})
             for (const double dy : {-1.0, 0.0, 1.0}) {

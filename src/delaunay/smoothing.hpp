@@ -112,14 +112,14 @@ private:
         Index t, n;
         Tri old_t, old_n;
     };
-    /// What a look at all triangles finds of one vertex where all move together. It stands in one place, since it is
-    /// written triangle by triangle.
+    /// A vertex, as one pass over all triangles finds it where all vertices move together. Its facts stand side by side,
+    /// since each triangle writes all of them.
     struct Vertex {
         Point sum{0, 0};      ///< of its neighbours
         Index triangle = 0;   ///< one of its triangles
         unsigned degree = 0;  ///< their number
     };
-    /// What may still happen to a vertex where all move together.
+    /// A vertex is in one of these states where all move together.
     enum class State : unsigned char {
         fixed,
         moved,

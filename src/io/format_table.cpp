@@ -162,7 +162,8 @@ std::vector<FormatRow> vtu_rows() {
                     .description = "VTK unstructured grid in parts (--parts), each a VTU file",
                     .write = write_pvtu_parts,
                     .files = pvtu_targets,
-                    .write_shared = write_shared_pvtu});
+                    .write_shared = write_shared_pvtu,
+                    .takes_parts = true});
     return rows;
 }
 
@@ -174,7 +175,8 @@ FormatRow openfoam_row() {
             .files = openfoam_targets,
             .check = check_openfoam_writable,
             .read = read_openfoam,
-            .recognizes = holds_openfoam_mesh};
+            .recognizes = holds_openfoam_mesh,
+            .takes_parts = true};
 }
 
 std::vector<FormatRow> ugrid_rows() {

@@ -50,8 +50,9 @@ struct FormatRow {
     std::unique_ptr<MeshLayout> (*layout)(const std::filesystem::path&) = nullptr;
     /// Collective: writes what each process holds. Null: as `layout` says.
     void (*write_shared)(const MeshParts&, const MeshFrame&, Ranks&, const std::filesystem::path&) = nullptr;
-    bool quads = true;        ///< whether the format holds quadrilaterals, too
-    bool one_stream = false;  ///< whether standard input and standard output can carry it
+    bool takes_parts = false;  ///< whether WriteOptions::parts counts
+    bool quads = true;         ///< whether the format holds quadrilaterals, too
+    bool one_stream = false;   ///< whether standard input and standard output can carry it
 };
 
 /// Returns the formats of this build. --format, the help text, the guide's table and the choice by extension follow it.

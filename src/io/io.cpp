@@ -52,6 +52,10 @@ std::vector<fs::path> output_files(const fs::path& file, const WriteOptions& opt
     return find_format(file, options.format).files(file, options);
 }
 
+bool takes_parts(const fs::path& file, const WriteOptions& options) {
+    return find_format(file, options.format).takes_parts;
+}
+
 std::string format_name(const fs::path& file, const WriteOptions& options) {
     try {
         return find_format(file, options.format).name;

@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <lamina/partition.hpp>
 
 #include "core/atomic_file.hpp"
+#include "core/markup.hpp"
 #include "io/formats.hpp"
 #include "io/pvtu.hpp"
 #include "mesh/adjacency.hpp"
@@ -88,20 +88,6 @@ private:
     }
 };
 
-std::string xml_text(std::string_view text) {
-    std::string xml;
-    for (const char c : text)
-        if (c == '&')
-            xml += "&amp;";
-        else if (c == '<')
-            xml += "&lt;";
-        else if (c == '"')
-            xml += "&quot;";
-        else
-            xml += c;
-    return xml;
-}
-
 }  // namespace
 
 fs::path part_file(const fs::path& file, std::size_t part) {
@@ -131,7 +117,8 @@ std::string list_of_parts(const MeshView& arrays, const fs::path& file, std::siz
         "      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
         "    </PPoints>\n";
     for (std::size_t part = 0; part < parts; ++part)
-        text += fmt::format("    <Piece Source=\"{}\"/>\n", xml_text(part_file(file, part).filename().string()));
+        text += fmt::format("    <Piece Source=\"{}\"/>\n",
+                            core::escaped_markup(part_file(file, part).filename().string()));
     return text + "  </PUnstructuredGrid>\n</VTKFile>\n";
 }
 

@@ -10,33 +10,13 @@
 
 #include <lamina/files.hpp>
 
+#include "core/markup.hpp"
 #include "page/packed_mesh.hpp"
 #include "page/parts.hpp"
 
 namespace lamina::page {
 
 namespace {
-
-/// Returns the text as it stands between tags.
-std::string escaped_html(std::string_view text) {
-    std::string escaped;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                escaped += "&amp;";
-                break;
-            case '<':
-                escaped += "&lt;";
-                break;
-            case '>':
-                escaped += "&gt;";
-                break;
-            default:
-                escaped += c;
-        }
-    }
-    return escaped;
-}
 
 /// Returns JSON that no browser takes for the end of the element that it stands in.
 std::string escaped_json(std::string_view json) {
@@ -87,7 +67,7 @@ std::string mesh_page(const Mesh& mesh, const PageText& text) {
     using namespace lamina::page;
     std::string script;
     for (const std::string_view module : modules) script += module;
-    return filled(html, {{"@title@", escaped_html(text.title)},
+    return filled(html, {{"@title@", core::escaped_markup(text.title)},
                          {"@style@", style},
                          {"@facts@", escaped_json(text.facts)},
                          {"@mesh@", base64(pack_mesh(mesh))},

@@ -132,5 +132,20 @@ TEST(Formats, HelpAndReferenceListThemAll) {
     }
 }
 
+TEST(Parts, AreRefusedWhereNoFileHasAny) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> mesh{"mesh", "naca:0012", "--no-layers", "--far-field",
+                                        "3",    "--quiet",   "--parts",     "2"};
+    auto with_outputs = [&](std::vector<std::string> words, const std::vector<std::string>& outputs) {
+        for (const std::string& output : outputs) words.insert(words.end(), {"-o", output});
+        return words;
+    };
+    expect_refused(folder, with_outputs(mesh, {"m.su2"}), test::usage, "--parts");
+    EXPECT_EQ(run_lamina(folder, with_outputs(mesh, {"m.su2", "m.pvtu"})).exit_code, 0) << "the first stays whole";
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"m.pvtu", "m.su2", "m_0.vtu", "m_1.vtu"}));
+    expect_refused(folder, {"convert", "m.su2", "n.vtu", "--parts", "2"}, test::usage, "--parts");
+    EXPECT_EQ(run_lamina(folder, {"convert", "m.su2", "n.pvtu", "--parts", "2"}).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace lamina

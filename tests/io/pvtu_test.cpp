@@ -16,9 +16,14 @@
 namespace lamina::test {
 namespace {
 
+/// Returns meshes with and without quadrilaterals, in and out of order.
+std::vector<Mesh> meshes_to_divide() {
+    return {annulus(), annulus({.around = 60, .rings = 12, .quads_in_layer = true}),
+            shuffled(annulus({.around = 40, .rings = 9}), 3), box_with_hole()};
+}
+
 TEST(Pvtu, ListNamesTheParts) {
-    for (const Mesh& mesh : {annulus(), annulus({.around = 60, .rings = 12, .quads_in_layer = true}),
-                             shuffled(annulus({.around = 40, .rings = 9}), 3), box_with_hole()})
+    for (const Mesh& mesh : meshes_to_divide())
         for (const std::size_t parts : {1u, 2u, 5u}) {
             SCOPED_TRACE(parts);
             const TemporaryFolder folder;
@@ -34,8 +39,7 @@ TEST(Pvtu, ListNamesTheParts) {
 }
 
 TEST(Pvtu, PartsMakeTheMeshAgain) {
-    for (const Mesh& mesh : {annulus(), annulus({.around = 60, .rings = 12, .quads_in_layer = true}),
-                             shuffled(annulus({.around = 40, .rings = 9}), 3), box_with_hole()})
+    for (const Mesh& mesh : meshes_to_divide())
         for (const std::size_t parts : {1u, 3u, 8u}) {
             SCOPED_TRACE(parts);
             const TemporaryFolder folder;
