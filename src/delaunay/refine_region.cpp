@@ -65,6 +65,8 @@ private:
     static constexpr bool always_counts = false;
     static constexpr bool may_renumber = true;
     static constexpr bool must_mend(Index) { return true; }
+    // Sizes are graded, so a cavity has few triangles.
+    static constexpr bool is_in_sight(Index, Point) { return true; }
     // Frozen borders are graded, so all edges are about as long as the borders nearby.
     static constexpr bool is_unresolved(Point, Point) { return false; }
     static void vertex_inserted(Index, std::size_t) {}

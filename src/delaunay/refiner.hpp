@@ -49,6 +49,7 @@ double unit_scale(double extent);
 ///     bool always_counts                      whether triangles beyond the bounds are counted even where no point was
 ///                                             refused
 ///     bool must_mend(Index t)                 whether a triangle that is narrow has to be mended
+///     bool is_in_sight(Index t, Point p)      false if a border is known to lie between t and p, which would block p
 ///     bool is_unresolved(Point a, Point b)    whether coordinates do not resolve vertices at the distance of these
 ///     void vertex_inserted(Index t, std::size_t old_count)
 ///                                             is called after a new vertex was inserted into the cavity round t
@@ -177,6 +178,18 @@ protected:
     /// Returns whether p lies strictly on the inner side of an edge of the cavity's boundary.
     bool is_inside(const CavityEdge& a, const CavityEdge& b, Point p) const {
         return !(a.area2 <= side_error * (a.aa + b.aa) && core::inline_orient2d(points_[a.a], points_[b.a], p) <= 0);
+    }
+
+    /// Returns whether p lies in the circle of t.
+    bool in_circle(const Tri& t, const RelativeTriangle& relative, Point p) const {
+        double det = 0, sum = 0;
+        for (unsigned i = 0; i < 3; ++i) {
+            det += relative.rr[i] * relative.area2[i];
+            sum += relative.rr[i];
+        }
+        // The circumcentre of a triangle that is flat but for rounding may be infinitely far away.
+        return det > incircle_error * (sum * sum) ||
+               (sum < HUGE_VAL && in_circle_after_filter<false>(points_.data(), t, p));
     }
 
     /// Returns whether the refinement stopped because it may make no more Steiner points.
@@ -404,15 +417,15 @@ private:
         const Index t = entry.triangle;
         if (!is_on_front(t)) return;
         const FrontPoint p = front_point(t);
-        if (is_near_other_front(t, p) || !insert(t, p.at)) front_.met.push(entry);
+        if (is_near_other_front(t, p) || !insert_in_sight(t, p.at)) front_.met.push(entry);
     }
 
     /// Places the circumcentre of a large triangle where fronts meet or, if that is blocked, a point over the base. If
     /// that is blocked, too, the triangle counts as done.
     void mend_large(Index t) {
         const Point centre = on_bisector(tris_[t], front_.base(t), HUGE_VAL);
-        if (insert(t, centre)) return;
-        if (const Point p = front_point(t).at; p != centre && insert(t, p)) return;
+        if (insert_in_sight(t, centre)) return;
+        if (const Point p = front_point(t).at; p != centre && insert_in_sight(t, p)) return;
         front_.set_done(t);
         queue_front(t);
         derived().give_up(t, centre);
@@ -447,10 +460,13 @@ private:
     /// from the border the guarantee for frozen borders rests (docs/decisions/0003).
     void insert_near(Index t, unsigned e, double height) {
         const Point p = on_bisector(tris_[t], e, height);
-        if (insert(t, p)) return;
+        if (insert_in_sight(t, p)) return;
         const Point centre = on_bisector(tris_[t], e, HUGE_VAL);
-        if (centre == p || !insert(t, centre)) derived().give_up(t, centre);
+        if (centre == p || !insert_in_sight(t, centre)) derived().give_up(t, centre);
     }
+
+    /// As insert(), for a p that may lie far behind a border.
+    bool insert_in_sight(Index t, Point p) { return derived().is_in_sight(t, p) && insert(t, p); }
 
     /// Inserts p, which lies in the circle of triangle t but for rounding. Returns false, and changes nothing, if the
     /// border blocks p.
@@ -474,18 +490,6 @@ private:
         derived().vertex_inserted(t, old_count);
         queue_fan(vertex);
         return true;
-    }
-
-    /// Returns whether p lies in the circle of t.
-    bool in_circle(const Tri& t, const RelativeTriangle& relative, Point p) const {
-        double det = 0, sum = 0;
-        for (unsigned i = 0; i < 3; ++i) {
-            det += relative.rr[i] * relative.area2[i];
-            sum += relative.rr[i];
-        }
-        // The circumcentre of a triangle that is flat but for rounding may be infinitely far away.
-        return det > incircle_error * (sum * sum) ||
-               (sum < HUGE_VAL && in_circle_after_filter<false>(points_.data(), t, p));
     }
 
     /// Notes whether a new triangle on the edge a-b of the cavity's boundary is large, and which edge is its base, with

@@ -193,39 +193,66 @@ Index SplittingRefiner::inside_triangle(std::size_t i) const {
     return no_index;
 }
 
+/// Returns the first constrained edge on the straight way from the middle x of triangle t to p, with the triangle that
+/// the way comes from; nothing if there is none.
+///
+///             w             p lies beyond edges a-w and w-b of the triangle that the way enters through a-b. It goes on
+///           .' '.           on the right of w if w lies on the left of x -> p. Where rounding puts x outside t, the walk
+///     x - - - - - - -> p    may choose wrong, but each edge that it crosses still separates it from p.
+///       .'       '.
+///      b --------- a        Source: as in walk.hpp
+std::optional<SplittingRefiner::QueuedEdge> SplittingRefiner::first_on_way(Index t, Point p) const {
+    const auto vertex = [&](unsigned i) { return points_[tris_[t].v[i]]; };
+    const auto is_beyond = [&](unsigned e) {
+        const double side = core::inline_orient2d(vertex(next(e)), vertex(previous(e)), p);
+        return side < 0 || (side == 0 && tris_[t].n[e].is_constrained());
+    };
+    const Point x = (1.0 / 3) * (vertex(0) + vertex(1) + vertex(2));
+    unsigned entry = 0;
+    while (entry < 2 && is_beyond(entry)) ++entry;
+    // Rounding may put a vertex that splits an edge off it, so that the walk runs in circles.
+    for (std::size_t steps = 0; steps < tris_.size(); ++steps) {
+        unsigned e = next(entry);
+        const bool is_beyond_next = is_beyond(e), is_beyond_previous = is_beyond(previous(entry));
+        if (!is_beyond_next && !is_beyond_previous) return {};
+        if (!is_beyond_next || (is_beyond_previous && !(core::inline_orient2d(x, p, vertex(entry)) > 0)))
+            e = previous(entry);
+        const Link across = tris_[t].n[e];
+        if (across.is_constrained()) return QueuedEdge{t, tris_[t].v[next(e)], tris_[t].v[previous(e)]};
+        t = across.triangle();
+        entry = across.edge();
+    }
+    return {};
+}
+
+/// Returns whether no constrained edge is known to lie between triangle t and p, which would block p. In a thin strip
+/// between two lines, this looks at few triangles where the cavity of p has them all.
+bool SplittingRefiner::is_in_sight(Index t, Point p) const {
+    return !(squared_length(p) < HUGE_VAL) || !first_on_way(t, p);
+}
+
 /// Returns the edges of lines that keep p from mending triangle t: the first one on the straight way from t to p or, if
-/// there is none, those that p encroaches upon. `frozen` becomes true where one of them is frozen. Precondition: the
-/// cavity is that of p.
-std::vector<SplittingRefiner::QueuedEdge> SplittingRefiner::find_blocking(Index t, Point p, bool& frozen) const {
-    const Tri& tri = tris_[t];
-    const Point inside = (1.0 / 3) * (points_[tri.v[0]] + points_[tri.v[1]] + points_[tri.v[2]]);
-    std::vector<QueuedEdge> encroached, first;
-    double min_share = HUGE_VAL;
-    for (std::size_t i = 0; i < cavity_.boundary.size(); ++i) {
-        const CavityEdge& a = cavity_.boundary[i];
-        const CavityEdge& b = cavity_.boundary[i + 1];
-        if (!a.outer.is_constrained()) continue;
-        const Point pa = points_[a.a], pb = points_[b.a];
-        if (!is_inside(a, b, p)) {
-            const double p_side = cross(pb - pa, p - pa), inside_side = cross(pb - pa, inside - pa);
-            const double a_side = cross(p - inside, pa - inside), b_side = cross(p - inside, pb - inside);
-            if ((a_side > 0) == (b_side > 0) || !(inside_side > p_side)) continue;
-            if (const double share = inside_side / (inside_side - p_side); share < min_share) {
-                min_share = share;
-                first.assign(1, {inside_triangle(i), a.a, b.a});
-            }
-        } else if (is_blocked(a, b)) {
-            encroached.push_back({inside_triangle(i), a.a, b.a});
+/// there is none, those that p encroaches upon, the longest first. `frozen` becomes true where one of them is frozen.
+std::vector<SplittingRefiner::QueuedEdge> SplittingRefiner::find_blocking(Index t, Point p, bool& frozen) {
+    std::vector<QueuedEdge> blocking;
+    if (const auto first = first_on_way(t, p)) {
+        blocking.push_back(*first);
+    } else {
+        find_cavity<false>(points_.data(), tris_.data(), t, relative_to(points_.data(), tris_[t], p), p, cavity_);
+        for (std::size_t i = 0; i < cavity_.boundary.size(); ++i) {
+            const CavityEdge& a = cavity_.boundary[i];
+            const CavityEdge& b = cavity_.boundary[i + 1];
+            if (a.outer.is_constrained() && is_inside(a, b, p) && is_blocked(a, b))
+                blocking.push_back({inside_triangle(i), a.a, b.a});
         }
     }
-    std::vector<QueuedEdge>& blocking = first.empty() ? encroached : first;
     const std::size_t all = blocking.size();
     std::erase_if(blocking, [&](const QueuedEdge& edge) { return is_frozen(edge.a, edge.b); });
     frozen = blocking.size() < all;
     std::stable_sort(blocking.begin(), blocking.end(), [&](const QueuedEdge& l, const QueuedEdge& r) {
         return distance(points_[l.a], points_[l.b]) > distance(points_[r.a], points_[r.b]);
     });
-    return std::move(blocking);
+    return blocking;
 }
 
 /// Returns the last point on the way from a point of the extent to p that is not far outside the extent.
@@ -242,8 +269,6 @@ void SplittingRefiner::give_up(Index t, Point p) {
         ++refused_;
         return;
     }
-    const RelativeTriangle relative = relative_to(points_.data(), tris_[t], p);
-    find_cavity<false>(points_.data(), tris_.data(), t, relative, p, cavity_);
     bool frozen = false, any = false;
     for (const QueuedEdge& edge : find_blocking(t, p, frozen)) {
         if (edge.t == no_index) continue;
@@ -279,9 +304,12 @@ bool SplittingRefiner::split(Index t, unsigned e) {
     if (is_too_short(points_[a], points_[b])) return false;
     const Point p = division_point(t, a, b);
     if (p == points_[a] || p == points_[b]) return false;
+    // Rounding may put p so far behind a border that the circle of a thin triangle before it does not hold p.
+    const RelativeTriangle relative = relative_to(points_.data(), tris_[t], p);
+    if (!in_circle(tris_[t], relative, p)) return false;
     const Link across = tris_[t].n[e];
     if (!across.is_border()) release_edge(tris_, t, e);
-    find_cavity<false>(points_.data(), tris_.data(), t, relative_to(points_.data(), tris_[t], p), p, cavity_);
+    find_cavity<false>(points_.data(), tris_.data(), t, relative, p, cavity_);
     if (!cavity_admits_split(p, a, b, across.is_border())) {
         if (!across.is_border()) constrain_edge(tris_, t, e);
         return false;

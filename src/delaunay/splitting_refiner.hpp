@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -78,6 +79,7 @@ private:
     static constexpr bool always_counts = true;
     static constexpr bool may_renumber = false;
     bool must_mend(Index t) const;
+    bool is_in_sight(Index t, Point p) const;
     void vertex_inserted(Index t, std::size_t old_count);
     void give_up(Index t, Point p);
     bool split_next();
@@ -90,7 +92,8 @@ private:
     Point division_point(Index t, Index a, Index b) const;
     double share_at_split(Index t, unsigned e) const;
     void queue_edges(Index t);
-    std::vector<QueuedEdge> find_blocking(Index t, Point p, bool& frozen) const;
+    std::optional<QueuedEdge> first_on_way(Index t, Point p) const;
+    std::vector<QueuedEdge> find_blocking(Index t, Point p, bool& frozen);
     Index inside_triangle(std::size_t i) const;
     Point clip(Point inside, Point p) const;
     bool is_too_short(Point a, Point b) const;

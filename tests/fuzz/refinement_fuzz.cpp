@@ -12,6 +12,7 @@ void lamina::fuzz::fuzz(std::span<const std::uint8_t> input) {
     options.refine.max_points = 20'000;
     options.refine.lattice = numbers.below(2) == 0;
     options.split_segments = numbers.below(4) != 0;
+    if (!options.split_segments) options.refine.regularize = numbers.below(2) == 0;
     const SizeField size(numbers.real(0.1, 30));
     const Graph graph = read_graph(numbers, 24);
     try {
