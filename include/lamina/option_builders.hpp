@@ -27,7 +27,7 @@ using Choices = std::vector<std::pair<std::string, Choice>>;
 LAMINA_EXPORT double as_number(const OptionValue& value, const std::string& option);
 /// Returns a length: a number counts chords, and a word is read by parse_length().
 LAMINA_EXPORT Length as_length(const OptionValue& value, const std::string& option);
-/// Returns the value as a whole number.
+/// Returns the value as a whole number. A real number without a fraction is one: 2e9.
 LAMINA_EXPORT std::int64_t as_count(const OptionValue& value, const std::string& option);
 /// Returns the value as true or false.
 LAMINA_EXPORT bool as_flag(const OptionValue& value, const std::string& option);

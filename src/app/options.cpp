@@ -111,6 +111,12 @@ Number parse(const std::string& text, const std::string& origin, const char* typ
     return value;
 }
 
+/// Reads a whole number, which may have an exponent: 2e9.
+OptionValue parse_count(const std::string& text, const std::string& origin) {
+    if (text.find_first_of("eE") != std::string::npos) return parse<double>(text, origin, "whole number");
+    return parse<std::int64_t>(text, origin, "whole number");
+}
+
 /// Returns the default of an option as a person reads it; empty for flags and options without a default.
 std::string default_text(const Option<MeshCase>& option) {
     const std::optional<OptionValue> value = option.get(MeshCase{});
@@ -168,7 +174,7 @@ OptionValue value_of_text(OptionKind kind, const std::vector<std::string>& texts
     if (kind == OptionKind::number) return parse_real(text, origin);
     if (kind == OptionKind::flag) return text == "true";
     if (kind == OptionKind::count || (kind == OptionKind::count_or_auto && text != auto_word))
-        return parse<std::int64_t>(text, origin, "whole number");
+        return parse_count(text, origin);
     return text;
 }
 

@@ -1,6 +1,7 @@
 #include <lamina/option.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include <lamina/option_builders.hpp>
 #include <lamina/suggestion.hpp>
@@ -78,6 +79,11 @@ OptionValue option_value(Length length) {
 
 std::int64_t as_count(const OptionValue& value, const std::string& option) {
     if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
+    // 2e9 is a real number to TOML and Python. Above this, doubles leave whole numbers out.
+    constexpr double greatest = 0x1p53;
+    if (const auto* real = std::get_if<double>(&value);
+        real && std::abs(*real) <= greatest && std::trunc(*real) == *real)
+        return static_cast<std::int64_t>(*real);
     throw OptionError(option, "must be a whole number");
 }
 

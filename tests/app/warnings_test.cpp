@@ -122,6 +122,8 @@ TEST(LimitsOfTheProgram, RunsBeyondThemAreRefusedBeforeTheWork) {
     expect_refused_at_once(folder, {"delaunay", "strip.poly", "--min-angle", "20.7", "--max-memory", "18G"},
                            "--min-angle: 20.7, with segments so close together, asks for");
     expect_refused_at_once(folder, {"mesh", "naca:0012", "--max-triangles", "20000", "-o", "m.su2"}, "--max-triangles");
+    expect_refused_at_once(folder, {"mesh", "naca:0012", "--max-triangles", "2e4", "-o", "m.su2"},
+                           "20000 triangles are allowed");
 }
 
 }  // namespace
