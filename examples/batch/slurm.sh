@@ -9,6 +9,5 @@
 #SBATCH --cpus-per-task=8
 #SBATCH --time=00:30:00
 set -eu
-mkdir -p out
 lamina batch "$1"/*.dat -o 'out/{name}_{reynolds}.su2' --sweep reynolds=1e5,1e6,1e7 \
     --jobs "${SLURM_CPUS_PER_TASK:-0}" --shard "${SLURM_ARRAY_TASK_ID:-1}/${SLURM_ARRAY_TASK_COUNT:-1}" --quiet

@@ -1,10 +1,8 @@
 # Meshes of many sections at several Reynolds numbers; a section that cannot be meshed does not stop the others.
 import csv
-import pathlib
 
 import lamina
 
-pathlib.Path("out").mkdir(exist_ok=True)
 sections = {f"naca{digits}": f"naca:{digits}" for digits in ("0012", "2412", "4415", "23012")}
 sections["fish"] = [[0.0, 0.0], [1.0, 0.1], [1.0, 0.0], [0.0, 0.1]]  # crosses itself
 

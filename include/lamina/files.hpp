@@ -35,6 +35,9 @@ LAMINA_EXPORT void write_file(const std::filesystem::path& file, const std::stri
 /// folder or of a read-only file, which renaming would replace.
 LAMINA_EXPORT void check_folder_writable(const std::filesystem::path& file);
 
+/// Creates the folders above this file that do not exist. Throws IoError.
+LAMINA_EXPORT void create_folders_above(const std::filesystem::path& file);
+
 /// Removes what this process leaves behind if it is ended while it writes these files or folders: temporary files. An
 /// old folder that was to be replaced gets its name back. Returns whether there was anything to remove. Never throws.
 LAMINA_EXPORT bool remove_temporaries(std::span<const std::filesystem::path> targets) noexcept;

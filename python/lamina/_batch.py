@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from . import _lamina
@@ -26,7 +27,7 @@ class BatchResult:
     name: str  #: of the input
     options: dict[str, Any]  #: the values of the sweep
     mesh: Mesh | None  #: with its warnings
-    error: Exception | None  #: a lamina.Error, or a MemoryError
+    error: Exception | None  #: a lamina.Error, a MemoryError, or an OSError where a folder cannot be created
     seconds: float  #: wall-clock time
     path: str | None = field(default=None)  #: the file that was written
 
@@ -90,8 +91,9 @@ def _run(job: _Job, options: dict[str, Any], left: threading.Event) -> BatchResu
     try:
         mesh = make_mesh(job.sections, None, {"threads": 1, **options, **job.swept}, job.name, stop)
         if job.path is not None:
+            Path(job.path).parent.mkdir(parents=True, exist_ok=True)
             mesh.write(job.path)
-    except (Error, MemoryError) as error:
+    except (Error, MemoryError, OSError) as error:
         return BatchResult(job.name, job.swept, None, error, time.perf_counter() - start)
     return BatchResult(job.name, job.swept, mesh, None, time.perf_counter() - start, job.path)
 
@@ -106,6 +108,7 @@ def batch(inputs: Mapping[str, Sections] | Iterable[Sections], *, jobs: int | No
     jobs: number of meshes at a time; one per core unless given. Each is made on one thread, unless `threads` is given.
     sweep: values of options to combine: {"reynolds": [1e5, 1e6], "alpha": [0, 4]} makes four meshes for each input.
     write: path of the mesh files, with {name} and the options of the sweep in braces: "out/{name}_{reynolds:g}.su2".
+    Folders that are missing are created.
     options: those of `lamina.mesh()`.
 
     An input that cannot be meshed yields a result with `error`, and the others go on. Wrong options raise at once. No

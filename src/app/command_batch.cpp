@@ -134,9 +134,9 @@ std::vector<BatchJob> jobs_of(const GivenOptions& options, const std::string& in
     return jobs;
 }
 
-/// Returns the files of all jobs. Throws where a file would be written twice or replace an input, and where one
-/// certainly cannot be written. Files are compared by their names: links are not followed.
-std::vector<RunFile> require_files(const std::vector<BatchJob>& jobs) {
+/// Returns the files of all jobs. Throws where a file would be written twice or replace an input. Files are compared by
+/// their names: links are not followed.
+std::vector<RunFile> require_different_files(const std::vector<BatchJob>& jobs) {
     const auto plain = [](const std::filesystem::path& path) {
         return std::filesystem::absolute(path).lexically_normal();
     };
@@ -158,11 +158,19 @@ std::vector<RunFile> require_files(const std::vector<BatchJob>& jobs) {
                                 file.role, file.path.string()));
             files.push_back(file);
         }
-        destination.require_writable();
+    }
+    return files;
+}
+
+/// Creates the folders of files that do not exist, such as one for each input. Throws where a file certainly cannot be
+/// written.
+void prepare_folders(const std::vector<BatchJob>& jobs, const std::vector<RunFile>& files) {
+    for (const RunFile& file : files) create_folders_above(file.path);
+    for (const BatchJob& job : jobs) {
+        destination_of_outputs(job.mesh_case).require_writable();
         for (const auto& [file, option] : files_beside_mesh)
             if (!(job.mesh_case.*file).empty()) check_folder_writable(job.mesh_case.*file);
     }
-    return files;
 }
 
 /// Returns the stem of the names of journal and table: beside the outputs, unless it is given.
@@ -187,7 +195,7 @@ void batch(const GivenOptions& options, const BatchArguments& arguments) {
             for (BatchJob& job : jobs_of(options, input, sweeps)) all.push_back(std::move(job));
     }
     if (all.empty()) throw UsageError("no INPUT: give airfoil files, naca:DIGITS or case files");
-    std::vector<RunFile> files = require_files(all);
+    std::vector<RunFile> files = require_different_files(all);
     if (first_output.empty()) first_output = all.front().mesh_case.outputs.front();
 
     std::vector<BatchJob> jobs;
@@ -202,6 +210,7 @@ void batch(const GivenOptions& options, const BatchArguments& arguments) {
     settings.strict = common.strict;
     files.push_back({settings.journal, "option --summary"});
     files.push_back({settings.table, "option --summary"});
+    prepare_folders(jobs, files);
     const SignalGuard guard(files);
     const BatchOutcome outcome = run_batch(jobs, settings);
     if (!common.quiet)

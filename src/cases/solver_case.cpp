@@ -123,12 +123,6 @@ std::vector<fs::path> missing_folders(const fs::path& file) {
     return missing;
 }
 
-void create_folders_above(const fs::path& file) {
-    std::error_code failed;
-    fs::create_directories(file.parent_path(), failed);
-    if (failed) throw IoError(file.parent_path().string(), "cannot be created: " + failed.message());
-}
-
 void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
     const fs::path path = folder / file.name;
     create_folders_above(path);

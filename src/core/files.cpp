@@ -75,6 +75,13 @@ void check_folder_writable(const fs::path& file) {
     if (fs::exists(file, ignored)) require_access(file, W_OK);
 }
 
+void create_folders_above(const fs::path& file) {
+    if (file.parent_path().empty()) return;
+    std::error_code failed;
+    fs::create_directories(file.parent_path(), failed);
+    if (failed) throw IoError(file.parent_path().string(), "cannot be created: " + failed.message());
+}
+
 std::string read_file(const fs::path& file, std::size_t max_bytes) {
     if (is_standard_stream(file)) return read_standard_input(max_bytes);
     std::error_code ignored;

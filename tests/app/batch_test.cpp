@@ -48,7 +48,6 @@ std::vector<std::string> table_without_times(const TemporaryFolder& folder, cons
 
 TEST(Batch, MeshesForOpenFoamHaveQuadsUnlessToldOtherwise) {
     const TemporaryFolder folder;
-    fs::create_directories(folder / "out/naca_0012");
     const std::vector<std::string> arguments{"naca:0012", "--format", "openfoam", "-o", "out/{name}", "--summary", "s"};
     EXPECT_EQ(run_batch(folder, arguments).exit_code, 0);
     EXPECT_GT(journal(folder, "s.jsonl")["naca_0012"]["quadrilaterals"], 0);
@@ -58,6 +57,18 @@ TEST(Batch, MeshesForOpenFoamHaveQuadsUnlessToldOtherwise) {
     const Json record = Json::parse(lines_of(folder.read("s.jsonl")).back());
     EXPECT_EQ(record["quadrilaterals"], 0);
     EXPECT_EQ(record["warnings"].at(0).at("code"), "unsuited_to_solver");
+}
+
+TEST(Batch, MissingFoldersAreCreatedUnlessTheCallIsWrong) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"batch", "naca:0012", "naca:0015", "-o", "new/m.su2"}, usage, "would be written twice");
+    EXPECT_FALSE(fs::exists(folder / "new"));
+    EXPECT_EQ(run_batch(folder, {"naca:0012", "naca:0015", "-o", "new/{name}/m.su2", "--report", "r/{name}.json",
+                                 "--summary", "s/all.csv"})
+                  .exit_code,
+              0);
+    for (const char* file : {"new/naca_0012/m.su2", "new/naca_0015/m.su2", "r/naca_0015.json", "s/all.csv"})
+        EXPECT_TRUE(fs::exists(folder / file)) << file;
 }
 
 TEST(Batch, OneBadFileDoesNotStopTheRest) {
@@ -160,7 +171,8 @@ TEST(Batch, WrongCallsAreRefusedBeforeTheWork) {
     expect_refused(folder, {"batch", "naca:0012", "-o", "m.su2", "--sweep", "growth"}, usage, "OPTION=VALUE");
     for (const char* shard : {"0/4", "5/4", "1", "1/", "a/b", "1/4x"})
         expect_refused(folder, {"batch", "naca:0012", "-o", "m.su2", "--shard", shard}, usage, "--shard");
-    expect_refused(folder, {"batch", "naca:0012", "-o", "no/folder/{name}.su2"}, io_failed, "no/folder");
+    folder.write("file", "");
+    expect_refused(folder, {"batch", "naca:0012", "-o", "file/{name}.su2"}, io_failed, "file");
 }
 
 }  // namespace

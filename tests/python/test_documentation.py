@@ -35,7 +35,6 @@ def names_of_readers():
 def test_blocks_run(page, repository, tmp_path, monkeypatch):
     for name, original in FILES.items():
         shutil.copy(repository / "examples/geometry" / original, tmp_path / name)
-    (tmp_path / "out").mkdir()
     if importlib.util.find_spec("pyvista") is None:  # 100 MB of packages
         monkeypatch.setattr(lamina.Mesh, "to_pyvista", lamina.Mesh.to_meshio)
     monkeypatch.chdir(tmp_path)
