@@ -1,5 +1,5 @@
-// evaluate() and push() both walk down the binary tree of source groups, and evaluate() looks at the nearest groups
-// first.
+// Single sources are compared with several cells or points at once, without branches. Walks down the binary tree of
+// source groups serve the groups of several.
 #include "sizing/lower_envelope.hpp"
 
 #include <algorithm>
@@ -12,83 +12,204 @@ namespace lamina::sizing {
 
 namespace {
 
-double distance(const Box& a, const Box& b) {
-    const double x = std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, 0.0});
-    const double y = std::max({a.lower.y - b.upper.y, b.lower.y - a.upper.y, 0.0});
-    return std::sqrt(x * x + y * y);
+/// The lower and the higher one of two numbers. Unlike std::min() and std::max() they take numbers by value, and
+/// compilers apply them to several pairs at once.
+double low(double a, double b) { return a < b ? a : b; }
+double high(double a, double b) { return a > b ? a : b; }
+
+/// Returns the squared distances of points from a shape without its radius.
+template <std::size_t N>
+std::array<double, N> squared_distances(const SourceShape& shape, const std::array<double, N>& x,
+                                        const std::array<double, N>& y) {
+    std::array<double, N> squared;
+    if (shape.shape == SizeSource::Shape::box) {
+        for (std::size_t k = 0; k < N; ++k) squared[k] = shape.squared_distance_to({x[k], y[k]});
+        return squared;
+    }
+    const Point a = shape.a, along = shape.along;
+    const double inverse = shape.inverse_squared_length;
+    for (std::size_t k = 0; k < N; ++k) {
+        const double ax = x[k] - a.x, ay = y[k] - a.y;
+        const double t = low(high((ax * along.x + ay * along.y) * inverse, 0.0), 1.0);
+        const double dx = ax - t * along.x, dy = ay - t * along.y;
+        squared[k] = dx * dx + dy * dy;
+    }
+    return squared;
+}
+
+/// Returns the distances of a box from quadrants.
+Quadrants::Numbers distances(const Box& box, const Quadrants& quadrants) {
+    Quadrants::Numbers apart;
+    for (std::size_t q = 0; q < Quadrants::count; ++q) {
+        const double x = high(high(box.lower.x - quadrants.upper_x[q], quadrants.lower_x[q] - box.upper.x), 0.0);
+        const double y = high(high(box.lower.y - quadrants.upper_y[q], quadrants.lower_y[q] - box.upper.y), 0.0);
+        apart[q] = std::sqrt(x * x + y * y);
+    }
+    return apart;
+}
+
+/// Returns the quadrants where the values do not exceed the bound, as bits.
+std::uint32_t quadrants_below(const Quadrants& quadrants, const Quadrants::Numbers& values) {
+    std::uint32_t bits = 0;
+    for (std::size_t q = 0; q < Quadrants::count; ++q)
+        bits |= static_cast<std::uint32_t>(values[q] <= quadrants.max_value[q]) << q;
+    return bits;
+}
+
+/// Lowers the bounds to those of a candidate with these distances and lowest values, where it is one.
+void lower_bounds(const Quadrants& quadrants, const Quadrants::Numbers& apart, const Quadrants::Numbers& values,
+                  Quadrants::Numbers& nearest, Quadrants::Numbers& lowest) {
+    for (std::size_t q = 0; q < Quadrants::count; ++q) {
+        const double counted = values[q] <= quadrants.max_value[q] ? apart[q] : HUGE_VAL;
+        nearest[q] = low(nearest[q], counted);
+        lowest[q] = low(lowest[q], values[q]);
+    }
 }
 
 }  // namespace
 
-double LowerEnvelope::evaluate(Point p, const Candidates& candidates, double bound) {
-    double best = std::min(bound, max_size_);
-    for (std::size_t i = candidates.begin; i < candidates.end; ++i) {
-        std::uint32_t index = stack_[i];
-        for (;;) {
-            const SourceGroup& group = groups_[index];
-            // Only sources nearer than this can lower the best value so far.
-            const double reach = std::max((best - group.min_size) * inverse_gradation_, 0.0);
-            if (group.is_single()) {
-                const SourceShape& shape = shapes_[group.shape];
-                const double squared = shape.squared_distance_to(p), limit = reach + shape.radius;
-                if (squared < limit * limit)
-                    best =
-                        std::min(best, group.min_size + gradation_ * std::max(std::sqrt(squared) - shape.radius, 0.0));
-            } else if (core::squared_distance(group.box, p) < reach * reach) {
-                std::uint32_t near = index + 1, far = group.right;
-                if (core::squared_distance(groups_[far].box, p) < core::squared_distance(groups_[near].box, p))
-                    std::swap(near, far);
-                pending_.push_back(far);
-                index = near;
-                continue;
-            }
-            if (pending_.empty()) break;
-            index = pending_.back();
-            pending_.pop_back();
-        }
-    }
-    return best;
+Candidates LowerEnvelope::push_copy(const std::vector<std::uint32_t>& candidates) {
+    stack_ = candidates;
+    const auto groups = std::partition_point(stack_.begin(), stack_.end(),
+                                             [&](std::uint32_t index) { return groups_[index].is_single(); });
+    return {0, static_cast<std::size_t>(groups - stack_.begin()), stack_.size(), 0};
 }
 
-Candidates LowerEnvelope::push(const Box& cell, double side, double max_value, const Candidates& parent) {
+/// Finds the quadrants that a single source is a candidate of.
+void LowerEnvelope::find_source(std::uint32_t index, const Quadrants& quadrants, QuadrantBounds& bounds) {
     constexpr double sqrt_half = 0.70710678118654752;
-    const double radius = sqrt_half * side;
-    Candidates result{stack_.size(), 0, HUGE_VAL};
-    double lowest = HUGE_VAL, covering = HUGE_VAL;
-    for (std::size_t i = parent.begin; i < parent.end; ++i) {
-        std::uint32_t index = stack_[i];
-        for (;;) {
-            const SourceGroup& group = groups_[index];
-            double apart = distance(group.box, cell);
-            double min_value = group.min_size + gradation_ * apart;
-            if (group.is_single() && min_value <= max_value) {
-                apart = std::max(apart, shapes_[group.shape].distance_to(cell.center()) - radius);
-                min_value = group.min_size + gradation_ * apart;
-            }
-            if (min_value <= max_value && !group.is_single() && group.extent() > 0.5 * side) {
+    const SourceGroup& source = groups_[index];
+    const SourceShape& shape = shapes_[source.shape];
+    const double shape_radius = shape.radius, cell_radius = sqrt_half * quadrants.side;
+    const double size = source.min_size, gradation = gradation_;
+    Quadrants::Numbers x, y, apart, values;
+    for (std::size_t q = 0; q < Quadrants::count; ++q) {
+        x[q] = 0.5 * (quadrants.lower_x[q] + quadrants.upper_x[q]);
+        y[q] = 0.5 * (quadrants.lower_y[q] + quadrants.upper_y[q]);
+    }
+    const Quadrants::Numbers from_box = distances(source.box, quadrants), squared = squared_distances(shape, x, y);
+    for (std::size_t q = 0; q < Quadrants::count; ++q) {
+        apart[q] = high(from_box[q], high(std::sqrt(squared[q]) - shape_radius, 0.0) - cell_radius);
+        values[q] = size + gradation * apart[q];
+    }
+    const std::uint32_t below = quadrants_below(quadrants, values);
+    if (below == 0) return;
+    lower_bounds(quadrants, apart, values, bounds.nearest, bounds.lowest);
+    sources_found_.push_back({index, below});
+    if (!shape.has_inside()) return;
+    for (std::size_t q = 0; q < Quadrants::count; ++q)
+        if ((below >> q & 1) != 0 && apart[q] <= 0 && size < bounds.covering[q] && shape.covers(quadrants.box(q)))
+            bounds.covering[q] = size;
+}
+
+/// Finds the quadrants that a group, or the groups and sources below it, are candidates of.
+void LowerEnvelope::find_in_group(std::uint32_t index, const Quadrants& quadrants, QuadrantBounds& bounds) {
+    const double gradation = gradation_;
+    for (;;) {
+        const SourceGroup& group = groups_[index];
+        const Quadrants::Numbers apart = distances(group.box, quadrants);
+        Quadrants::Numbers values;
+        for (std::size_t q = 0; q < Quadrants::count; ++q) values[q] = group.min_size + gradation * apart[q];
+        const std::uint32_t below = quadrants_below(quadrants, values);
+        if (below != 0) {
+            if (group.is_single()) {
+                find_source(index, quadrants, bounds);
+            } else if (group.extent() > 0.5 * quadrants.side) {
                 pending_.push_back(group.right);
                 ++index;
                 continue;
+            } else {
+                lower_bounds(quadrants, apart, values, bounds.nearest, bounds.lowest);
+                for (std::size_t q = 0; q < Quadrants::count; ++q)
+                    if ((below >> q & 1) != 0 && values[q] < bounds.lowest_of_groups[q]) {
+                        bounds.lowest_of_groups[q] = values[q];
+                        bounds.lowest_group[q] = groups_found_.size();
+                    }
+                groups_found_.push_back({index, below});
             }
-            if (min_value <= max_value) {
-                if (group.is_single() && apart <= 0 && group.min_size < covering && shapes_[group.shape].covers(cell))
-                    covering = group.min_size;
-                stack_.push_back(index);
-                result.nearest = std::min(result.nearest, apart);
-                if (min_value < lowest) {
-                    // evaluate() looks at this group first and then skips most others.
-                    lowest = min_value;
-                    std::swap(stack_[result.begin], stack_.back());
-                }
-            }
-            if (pending_.empty()) break;
-            index = pending_.back();
-            pending_.pop_back();
         }
+        if (pending_.empty()) return;
+        index = pending_.back();
+        pending_.pop_back();
     }
-    result.end = stack_.size();
-    result.constant = covering <= lowest;
+}
+
+std::array<Candidates, Quadrants::count> LowerEnvelope::push(const Quadrants& quadrants, const Candidates& parent) {
+    QuadrantBounds bounds;
+    for (auto* numbers : {&bounds.nearest, &bounds.lowest, &bounds.covering, &bounds.lowest_of_groups})
+        numbers->fill(HUGE_VAL);
+    bounds.lowest_group.fill(0);
+    sources_found_.clear();
+    groups_found_.clear();
+    for (std::size_t i = parent.begin; i < parent.groups; ++i) find_source(stack_[i], quadrants, bounds);
+    for (std::size_t i = parent.groups; i < parent.end; ++i) find_in_group(stack_[i], quadrants, bounds);
+
+    std::array<Candidates, Quadrants::count> result;
+    std::size_t end = stack_.size();
+    stack_.resize(end + Quadrants::count * (sources_found_.size() + groups_found_.size()));
+    const auto keep = [&](Found found, std::size_t q) {
+        stack_[end] = found.group;  // the next one takes its place where it is no candidate
+        end += found.quadrants >> q & 1;
+    };
+    for (std::size_t q = 0; q < Quadrants::count; ++q) {
+        const std::size_t begin = end;
+        for (const Found found : sources_found_) keep(found, q);
+        const std::size_t groups = end;
+        std::size_t lowest = end;
+        for (std::size_t k = 0; k < groups_found_.size(); ++k) {
+            if (k == bounds.lowest_group[q]) lowest = end;
+            keep(groups_found_[k], q);
+        }
+        // evaluate() looks at this group first and then skips most others.
+        if (end > groups) std::swap(stack_[groups], stack_[lowest]);
+        result[q] = {begin, groups, end, bounds.nearest[q], bounds.covering[q] <= bounds.lowest[q]};
+    }
+    stack_.resize(end);
     return result;
 }
+
+/// Returns the lower one of `best` and the values of a group's sources at a point. Looks at the nearest groups first.
+double LowerEnvelope::evaluate_group(std::uint32_t index, Point p, double best) {
+    const auto measure = [&](std::uint32_t group) {
+        return DistantGroup{group, core::squared_distance(groups_[group].box, p)};
+    };
+    DistantGroup at = measure(index);
+    for (;;) {
+        const SourceGroup& group = groups_[at.index];
+        // Only sources nearer than this can lower the best value so far.
+        const double reach = high((best - group.min_size) * inverse_gradation_, 0.0);
+        if (at.squared < reach * reach) {
+            if (!group.is_single()) {
+                DistantGroup near = measure(at.index + 1), far = measure(group.right);
+                if (far.squared < near.squared) std::swap(near, far);
+                pending_at_point_.push_back(far);
+                at = near;
+                continue;
+            }
+            best = low(best, group.min_size + gradation_ * shapes_[group.shape].distance_to(p));
+        }
+        if (pending_at_point_.empty()) return best;
+        at = pending_at_point_.back();
+        pending_at_point_.pop_back();
+    }
+}
+
+template <std::size_t N>
+void LowerEnvelope::evaluate(const Candidates& candidates, CellPoints<N>& points) {
+    for (std::size_t i = candidates.begin; i < candidates.groups; ++i) {
+        const SourceGroup& source = groups_[stack_[i]];
+        const SourceShape& shape = shapes_[source.shape];
+        const double radius = shape.radius, size = source.min_size, gradation = gradation_;
+        const std::array<double, N> squared = squared_distances(shape, points.x, points.y);
+        for (std::size_t k = 0; k < N; ++k)
+            points.h[k] = low(points.h[k], size + gradation * high(std::sqrt(squared[k]) - radius, 0.0));
+    }
+    for (std::size_t i = candidates.groups; i < candidates.end; ++i)
+        for (std::size_t k = 0; k < N; ++k)
+            points.h[k] = evaluate_group(stack_[i], {points.x[k], points.y[k]}, points.h[k]);
+}
+
+template void LowerEnvelope::evaluate(const Candidates& candidates, CellPoints<4>& points);
+template void LowerEnvelope::evaluate(const Candidates& candidates, CellPoints<6>& points);
 
 }  // namespace lamina::sizing

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,13 +15,32 @@
 
 namespace lamina::sizing {
 
-/// The groups of sources that may decide the field somewhere in a cell.
+/// The sources and groups of sources that may decide the field somewhere in a cell.
 struct Candidates {
-    std::size_t begin, end;  ///< a range of the stack of LowerEnvelope
-    double nearest;          ///< a lower bound of the distance of the groups from the cell
-    bool constant = false;   ///< one of the sources covers the cell, and none has a lower value anywhere in it
+    std::size_t begin, groups, end;  ///< two ranges of the stack of LowerEnvelope: single sources, groups of several
+    double nearest;                  ///< a lower bound of the distance of the candidates from the cell
+    bool constant = false;           ///< one of the sources covers the cell, and none has a lower value anywhere in it
 
     bool empty() const { return begin == end; }
+    bool is_one_source() const { return groups == begin + 1 && end == groups; }
+};
+
+/// The four quadrants of a cell, side by side: compilers work on several at once.
+struct Quadrants {
+    static constexpr std::size_t count = 4;
+    using Numbers = std::array<double, count>;
+
+    Numbers lower_x, lower_y, upper_x, upper_y;
+    Numbers max_value;  ///< upper bounds of the field
+    double side;
+
+    Box box(std::size_t q) const { return {{lower_x[q], lower_y[q]}, {upper_x[q], upper_y[q]}}; }
+};
+
+/// Points of a cell, side by side, with upper bounds of the field there.
+template <std::size_t N>
+struct CellPoints {
+    std::array<double, N> x, y, h;
 };
 
 /// Evaluates min(max_size, min over sources (size + gradation x distance)). The evaluation is fast because groups of
@@ -38,38 +59,62 @@ public:
 
     /// Clears the stack and puts the group of all sources there.
     Candidates push_all() {
-        stack_.clear();
-        if (!groups_.empty()) stack_.push_back(0);
-        return {0, stack_.size(), 0};
+        std::vector<std::uint32_t> all;
+        if (!groups_.empty()) all.push_back(0);
+        return push_copy(all);
     }
-    /// Clears the stack and puts groups there that copy() returned.
-    Candidates push_copy(const std::vector<std::uint32_t>& groups) {
-        stack_ = groups;
-        return {0, stack_.size(), 0};
-    }
-    /// Pushes the candidates of a cell: those of its parent without the groups that another source undercuts all over
-    /// the cell. `side` is the cell's side, `max_value` an upper bound of the field in the cell.
-    Candidates push(const Box& cell, double side, double max_value, const Candidates& parent);
-    /// Removes the topmost candidates.
-    void pop(const Candidates& top) { stack_.resize(top.begin); }
+    /// Clears the stack and puts candidates there that copy() returned.
+    Candidates push_copy(const std::vector<std::uint32_t>& candidates);
+    /// Pushes the candidates of the four quadrants of a cell: those of the cell without the ones that another source
+    /// undercuts all over the quadrant.
+    std::array<Candidates, Quadrants::count> push(const Quadrants& quadrants, const Candidates& parent);
+    /// Removes all candidates from the first ones of a cell on.
+    void pop(const Candidates& first) { stack_.resize(first.begin); }
     /// Returns the candidates as numbers of their groups.
     std::vector<std::uint32_t> copy(const Candidates& candidates) const {
         return {stack_.begin() + static_cast<std::ptrdiff_t>(candidates.begin),
                 stack_.begin() + static_cast<std::ptrdiff_t>(candidates.end)};
     }
-    bool is_one_source(const Candidates& candidates) const {
-        return candidates.end - candidates.begin == 1 && groups_[stack_[candidates.begin]].is_single();
-    }
 
-    /// Returns the exact field at a point of the candidates' cell. `bound` is an upper bound of it.
-    double evaluate(Point p, const Candidates& candidates, double bound);
+    /// Lowers h at points of the candidates' cell, where it is an upper bound of the field, to the exact field.
+    /// Instantiated for 4 and 6 points.
+    template <std::size_t N>
+    void evaluate(const Candidates& candidates, CellPoints<N>& points);
 
 private:
+    /// A group, and the squared distance of its box from a point.
+    struct DistantGroup {
+        std::uint32_t index;
+        double squared;
+    };
+
+    /// A candidate, and the quadrants that it is one of, as bits.
+    struct Found {
+        std::uint32_t group, quadrants;
+    };
+
+    /// What push() learns about the quadrants.
+    struct QuadrantBounds {
+        Quadrants::Numbers nearest;                              ///< distance of the nearest candidate
+        Quadrants::Numbers lowest;                               ///< lowest value of a candidate
+        Quadrants::Numbers covering;                             ///< smallest size of a source that covers the quadrant
+        Quadrants::Numbers lowest_of_groups;                     ///< lowest value of a candidate of several sources
+        std::array<std::size_t, Quadrants::count> lowest_group;  ///< its place in groups_found_
+    };
+
+    void find_source(std::uint32_t index, const Quadrants& quadrants, QuadrantBounds& bounds);
+    void find_in_group(std::uint32_t index, const Quadrants& quadrants, QuadrantBounds& bounds);
+    double evaluate_group(std::uint32_t index, Point p, double best);
+
     double gradation_, inverse_gradation_, max_size_;
     const std::vector<SourceGroup>& groups_;
     const std::vector<SourceShape>& shapes_;
     std::vector<std::uint32_t> stack_;
-    std::vector<std::uint32_t> pending_;  ///< groups still to be visited in a walk down the tree of groups
+    // Scratch space, kept so that it is allocated once: the groups still to be visited in a walk down the tree of
+    // groups, and what push() has found so far.
+    std::vector<std::uint32_t> pending_;
+    std::vector<DistantGroup> pending_at_point_;
+    std::vector<Found> sources_found_, groups_found_;
 };
 
 }  // namespace lamina::sizing

@@ -72,9 +72,12 @@ public:
     Task root(Point lower, double side) {
         const Candidates all = envelope_.push_all();
         TreeCell root{lower, side, 0, {}};
-        for (int i = 0; i < 4; ++i)
-            root.h[i] =
-                envelope_.evaluate({lower.x + (i & 1) * side, lower.y + (i >> 1) * side}, all, envelope_.max_size());
+        root.h.fill(envelope_.max_size());
+        CellPoints<4> corners{{lower.x, lower.x + side, lower.x, lower.x + side},
+                              {lower.y, lower.y, lower.y + side, lower.y + side},
+                              root.h};
+        envelope_.evaluate(all, corners);
+        root.h = corners.h;
         const CellSamples samples = sample(root, all);
         return {root, envelope_.copy(all), samples, 0, 0};
     }
@@ -94,27 +97,51 @@ public:
     SizeTree part;  ///< the nodes and leaves made so far
 
 private:
-    /// Samples a cell, but for the edges whose middles a neighbour has sampled.
-    CellSamples sample(const TreeCell& c, const Candidates& candidates, const KnownSamples& known = {}) {
-        const double x0 = c.lower.x, x1 = x0 + 0.5 * c.side, x2 = x0 + c.side;
-        const double y0 = c.lower.y, y1 = y0 + 0.5 * c.side, y2 = y0 + c.side;
-        // Over half a side the field grows by no more than this.
-        const auto bound = [&](double a, double b) {
-            return (std::min(a, b) + 0.5 * gradation_ * c.side) * (1 + rounding);
-        };
-        CellSamples s;
-        s.south = known.south ? *known.south : envelope_.evaluate({x1, y0}, candidates, bound(c.h[0], c.h[1]));
-        s.west = known.west ? *known.west : envelope_.evaluate({x0, y1}, candidates, bound(c.h[0], c.h[2]));
-        s.center = envelope_.evaluate({x1, y1}, candidates, bound(s.south, s.west));
-        s.east = envelope_.evaluate({x2, y1}, candidates, bound(c.h[1], c.h[3]));
-        s.north = envelope_.evaluate({x1, y2}, candidates, bound(c.h[2], c.h[3]));
-        return s;
+    /// Returns an upper bound of the field in a cell.
+    double upper_bound(const TreeCell& c) const {
+        const double radius = sqrt_half * c.side;
+        return std::min(c.max_h() + gradation_ * radius, c.min_h() + 2 * gradation_ * radius);
     }
 
-    Candidates push_candidates(const TreeCell& c, const Candidates& parent) {
-        const double radius = sqrt_half * c.side;
-        const double max_in_cell = std::min(c.max_h() + gradation_ * radius, c.min_h() + 2 * gradation_ * radius);
-        return envelope_.push(c.box(), c.side, max_in_cell, parent);
+    /// Returns an upper bound of the field at a distance from where it has been evaluated.
+    double bound_beside(double h, double apart) const {
+        return std::min((h + gradation_ * apart) * (1 + rounding), envelope_.max_size());
+    }
+
+    /// Samples a cell, but for the edges whose middles a neighbour has sampled.
+    CellSamples sample(const TreeCell& c, const Candidates& candidates, const KnownSamples& known = {}) {
+        const double half = 0.5 * c.side;
+        const double x0 = c.lower.x, x1 = x0 + half, x2 = x0 + c.side;
+        const double y0 = c.lower.y, y1 = y0 + half, y2 = y0 + c.side;
+        const auto between = [&](double a, double b) { return bound_beside(std::min(a, b), half); };
+        const double south = between(c.h[0], c.h[1]), west = between(c.h[0], c.h[2]), east = between(c.h[1], c.h[3]),
+                     north = between(c.h[2], c.h[3]), center = bound_beside(c.min_h(), sqrt_half * c.side);
+        if (!known.south && !known.west) {
+            CellPoints<6> points{
+                {x1, x2, x1, x1, x0, x0}, {y1, y1, y2, y0, y1, y1}, {center, east, north, south, west, west}};
+            envelope_.evaluate(candidates, points);
+            return {points.h[3], points.h[4], points.h[0], points.h[1], points.h[2]};
+        }
+        const Point fourth = known.south ? Point{x0, y1} : Point{x1, y0};
+        CellPoints<4> points{
+            {x1, x2, x1, fourth.x}, {y1, y1, y2, fourth.y}, {center, east, north, known.south ? west : south}};
+        envelope_.evaluate(candidates, points);
+        return {known.south.value_or(points.h[3]), known.west.value_or(points.h[3]), points.h[0], points.h[1],
+                points.h[2]};
+    }
+
+    std::array<Candidates, 4> push_candidates(const std::array<TreeCell, 4>& cells, const Candidates& parent) {
+        Quadrants quadrants;
+        quadrants.side = cells[0].side;
+        for (std::size_t q = 0; q < 4; ++q) {
+            const Box box = cells[q].box();
+            quadrants.lower_x[q] = box.lower.x;
+            quadrants.lower_y[q] = box.lower.y;
+            quadrants.upper_x[q] = box.upper.x;
+            quadrants.upper_y[q] = box.upper.y;
+            quadrants.max_value[q] = upper_bound(cells[q]);
+        }
+        return envelope_.push(quadrants, parent);
     }
 
     bool needs_no_samples(const TreeCell& c, const Candidates& candidates) const {
@@ -134,13 +161,17 @@ private:
               close(east, s.east) && close(mean(c.h[2], c.h[3]), s.north) && close(mean(west, east), s.center)))
             return false;
         const double bend = gradation_ * c.side * c.side / (8 * candidates.nearest);
-        if (envelope_.is_one_source(candidates) || bend <= sample_tolerance * c.min_h()) return true;
+        if (candidates.is_one_source() || bend <= sample_tolerance * c.min_h()) return true;
+        constexpr double near = 0.25, far = 0.75;
+        const double x0 = c.lower.x + near * c.side, x1 = c.lower.x + far * c.side;
+        const double y0 = c.lower.y + near * c.side, y1 = c.lower.y + far * c.side;
+        CellPoints<4> points{{x0, x1, x0, x1}, {y0, y0, y1, y1}, {}};
+        for (int q = 0; q < 4; ++q) points.h[q] = bound_beside(c.h[q], 0.5 * sqrt_half * c.side);
+        envelope_.evaluate(candidates, points);
         for (int q = 0; q < 4; ++q) {
-            const double u = (q & 1) != 0 ? 0.75 : 0.25, v = (q >> 1) != 0 ? 0.75 : 0.25;
+            const double u = (q & 1) != 0 ? far : near, v = (q >> 1) != 0 ? far : near;
             const double low = c.h[0] + u * (c.h[1] - c.h[0]), high = c.h[2] + u * (c.h[3] - c.h[2]);
-            const Point p{c.lower.x + u * c.side, c.lower.y + v * c.side};
-            const double bound = (c.h[q] + 0.5 * sqrt_half * gradation_ * c.side) * (1 + rounding);
-            if (!close(low + v * (high - low), envelope_.evaluate(p, candidates, bound))) return false;
+            if (!close(low + v * (high - low), points.h[q])) return false;
         }
         return true;
     }
@@ -167,10 +198,13 @@ private:
     template <class OnLeaf, class OnInner>
     void split(const TreeCell& parent, const Candidates& parent_candidates, const CellSamples& samples, OnLeaf on_leaf,
                OnInner on_inner) {
+        const std::array<TreeCell, 4> quadrants{quadrant(parent, samples, 0), quadrant(parent, samples, 1),
+                                                quadrant(parent, samples, 2), quadrant(parent, samples, 3)};
+        const std::array<Candidates, 4> all_candidates = push_candidates(quadrants, parent_candidates);
         std::array<KnownSamples, 4> known;
         for (int q = 0; q < 4; ++q) {
-            const TreeCell c = quadrant(parent, samples, q);
-            const Candidates candidates = push_candidates(c, parent_candidates);
+            const TreeCell& c = quadrants[q];
+            const Candidates& candidates = all_candidates[q];
             if (needs_no_samples(c, candidates)) {
                 on_leaf(q, c);
             } else {
@@ -182,8 +216,8 @@ private:
                 else
                     on_inner(q, c, candidates, s);
             }
-            envelope_.pop(candidates);
         }
+        envelope_.pop(all_candidates[0]);
     }
 
     /// Makes the wide node of a cell that needs one and returns its index. Calls on_inner(node, slot, quarter,

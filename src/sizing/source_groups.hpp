@@ -32,9 +32,9 @@ struct SourceShape {
     double distance_to(Point p) const { return std::max(std::sqrt(squared_distance_to(p)) - radius, 0.0); }
     /// Returns whether the box lies inside the shape.
     bool covers(const Box& box) const { return has_inside() && covers_corners(box); }
+    bool has_inside() const { return radius > 0 || shape == SizeSource::Shape::box; }
 
 private:
-    bool has_inside() const { return radius > 0 || shape == SizeSource::Shape::box; }
     bool covers_corners(const Box& box) const;
 };
 SourceShape prepare_shape(const SizeSource& source);
