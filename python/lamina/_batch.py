@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from . import _lamina
 from ._errors import Error, UsageError
 from ._mesh import Mesh
@@ -98,6 +100,13 @@ def _run(job: _Job, options: dict[str, Any], left: threading.Event) -> BatchResu
     return BatchResult(job.name, job.swept, mesh, None, time.perf_counter() - start, job.path)
 
 
+def _keep_freed_memory() -> None:
+    """Makes glibc keep the memory that a mesh frees for the next one: once a program has freed a block, it keeps up to
+    twice the size of that block. Else it gives most of a mesh back to the system, which clears each page anew: 6 % of
+    the time of small meshes. No page of this block is ever used."""
+    np.empty(1 << 24, np.uint8)
+
+
 def batch(inputs: Mapping[str, Sections] | Iterable[Sections], *, jobs: int | None = None,
           sweep: Mapping[str, Sequence[Any]] | None = None, write: str | None = None,
           **options: Any) -> Iterator[BatchResult]:
@@ -120,6 +129,7 @@ def batch(inputs: Mapping[str, Sections] | Iterable[Sections], *, jobs: int | No
         given = {**options, **dict(zip(swept, values))}
         _lamina.check_options(option_values({k: v for k, v in given.items() if k != "background"}))
     todo = _jobs(inputs, swept, write)
+    _keep_freed_memory()
     return _results(todo, options, jobs or os.cpu_count() or 1)
 
 
