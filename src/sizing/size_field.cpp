@@ -49,11 +49,26 @@ struct SizeField::Tree {
         std::uint64_t x, y;
     };
 
+    /// A node or leaf, by its entry, and the slot of side 2^shift that leads to it.
+    struct Place {
+        std::uint32_t entry;
+        int shift;
+    };
+    static constexpr Place root{0, key_bits};
+
+    /// The places of all cells of one size round the sources, where most points lie: walks down the tree begin there.
+    struct Window {
+        int shift = key_bits;                               ///< a cell has the side 2^shift
+        std::uint64_t x = 0, y = 0, width = 0, height = 0;  ///< in cells
+        std::vector<Place> places;                          ///< row by row
+    };
+
     Box domain;
     double side = 0;             ///< of the root's square, whose lower left corner is that of the domain
     double keys_per_length = 0;  ///< number of keys per unit of length
     std::vector<Slots> nodes;
     std::vector<Leaf> leaves;
+    Window window;
 
     /// Returns the key of a point, moved to the nearest point of the domain.
     Key key(Point p) const {
@@ -80,6 +95,42 @@ struct SizeField::Tree {
 
     /// Returns the slot that holds a point, in a node whose slots have the side 2^shift.
     static std::size_t slot(Key k, int shift) { return ((k.y >> shift) & 3) * 4 + ((k.x >> shift) & 3); }
+
+    /// Returns where the walk to a point begins; null outside of the window.
+    const Place* find_in_window(Key k) const {
+        const std::uint64_t x = (k.x >> window.shift) - window.x, y = (k.y >> window.shift) - window.y;
+        return x < window.width && y < window.height ? &window.places[y * window.width + x] : nullptr;
+    }
+
+    static bool is_leaf(Place place) { return (place.entry & leaf_bit) != 0; }
+    /// Returns the place of a point in the node at a place.
+    Place below(Place place, Key k) const {
+        const int shift = place.shift - 2;
+        return {nodes[place.entry][slot(k, shift)], shift};
+    }
+
+    /// Makes the window round a box.
+    void open_window(const Box& box) {
+        constexpr std::uint64_t most_places = 4096;
+        const Key lower = key(box.lower), upper = key(box.upper);
+        const auto cells = [](std::uint64_t from, std::uint64_t to, int shift) {
+            return (to >> shift) - (from >> shift) + 1;
+        };
+        int shift = root_shift;
+        while (shift >= 2 && cells(lower.x, upper.x, shift - 2) * cells(lower.y, upper.y, shift - 2) <= most_places)
+            shift -= 2;
+        window = {
+            shift, lower.x >> shift, lower.y >> shift, cells(lower.x, upper.x, shift), cells(lower.y, upper.y, shift),
+            {}};
+        window.places.reserve(window.width * window.height);
+        for (std::uint64_t y = 0; y < window.height; ++y)
+            for (std::uint64_t x = 0; x < window.width; ++x) {
+                const Key corner{(window.x + x) << shift, (window.y + y) << shift};
+                Place place = root;
+                while (!is_leaf(place) && place.shift > shift) place = below(place, corner);
+                window.places.push_back(place);
+            }
+    }
 };
 
 SizeField::SizeField(double uniform_size) : uniform_(uniform_size) {
@@ -95,6 +146,13 @@ SizeField::SizeField(std::span<const SizeSource> sources, const SizeFieldOptions
     SizeTree part = build_size_tree(sources, options, domain.lower, tree->side);
     tree->nodes = std::move(part.nodes);
     tree->leaves = std::move(part.leaves);
+    Box box;
+    for (const SizeSource& source : sources) {
+        const Box round = bounding_box(source);
+        box.include(round.lower);
+        box.include(round.upper);
+    }
+    tree->open_window(sources.empty() ? domain : box);
     tree_ = std::move(tree);
     start_.shift = root_shift;
     gradation_ = options.gradation;
@@ -104,19 +162,16 @@ double SizeField::operator()(Point p) const {
     if (!tree_) return uniform_;
     const Tree& tree = *tree_;
     const Tree::Key key = tree.key(p);
-    std::uint32_t node = start_.node;
-    int shift = start_.shift;
-    const bool outside_start = ((key.x ^ start_.x) | (key.y ^ start_.y)) >> (shift + 2) != 0;
-    if (outside_start) {
-        node = 0;
-        shift = root_shift;
+    Tree::Place place{start_.node, start_.shift + 2};
+    const bool outside_start = ((key.x ^ start_.x) | (key.y ^ start_.y)) >> place.shift != 0;
+    if (outside_start || place.shift > tree.window.shift) {
+        if (const Tree::Place* known = tree.find_in_window(key))
+            place = *known;
+        else if (outside_start)
+            place = Tree::root;
     }
-    std::uint32_t entry = tree.nodes[node][Tree::slot(key, shift)];
-    while ((entry & leaf_bit) == 0) {
-        shift -= 2;
-        entry = tree.nodes[entry][Tree::slot(key, shift)];
-    }
-    return tree.value(entry, shift, key);
+    while (!Tree::is_leaf(place)) place = tree.below(place, key);
+    return tree.value(place.entry, place.shift, key);
 }
 
 SizeField SizeField::restricted_to(const Box& box) const {

@@ -144,9 +144,9 @@ private:
         return envelope_.push(quadrants, parent);
     }
 
-    bool needs_no_samples(const TreeCell& c, const Candidates& candidates) const {
-        return candidates.empty() || candidates.constant || c.level == max_level ||
-               sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.min_h();
+    /// Returns whether a cell is so small that no source can make it a bad leaf.
+    bool is_small(const TreeCell& c) const {
+        return c.level == max_level || sqrt_half * gradation_ * c.side <= lipschitz_tolerance * c.min_h();
     }
 
     /// Returns whether the samples show that bilinear interpolation is close enough. Samples count only away from the
@@ -200,22 +200,26 @@ private:
                OnInner on_inner) {
         const std::array<TreeCell, 4> quadrants{quadrant(parent, samples, 0), quadrant(parent, samples, 1),
                                                 quadrant(parent, samples, 2), quadrant(parent, samples, 3)};
+        if (std::all_of(quadrants.begin(), quadrants.end(), [&](const TreeCell& c) { return is_small(c); })) {
+            for (int q = 0; q < 4; ++q) on_leaf(q, quadrants[q]);
+            return;
+        }
         const std::array<Candidates, 4> all_candidates = push_candidates(quadrants, parent_candidates);
         std::array<KnownSamples, 4> known;
         for (int q = 0; q < 4; ++q) {
             const TreeCell& c = quadrants[q];
             const Candidates& candidates = all_candidates[q];
-            if (needs_no_samples(c, candidates)) {
+            if (is_small(c) || candidates.empty() || candidates.constant) {
                 on_leaf(q, c);
-            } else {
-                const CellSamples s = sample(c, candidates, known[q]);
-                if ((q & 1) == 0) known[q + 1].west = s.east;
-                if (q < 2) known[q + 2].south = s.north;
-                if (is_smooth(c, candidates, s))
-                    on_leaf(q, c);
-                else
-                    on_inner(q, c, candidates, s);
+                continue;
             }
+            const CellSamples s = sample(c, candidates, known[q]);
+            if ((q & 1) == 0) known[q + 1].west = s.east;
+            if (q < 2) known[q + 2].south = s.north;
+            if (is_smooth(c, candidates, s))
+                on_leaf(q, c);
+            else
+                on_inner(q, c, candidates, s);
         }
         envelope_.pop(all_candidates[0]);
     }
