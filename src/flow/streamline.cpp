@@ -44,14 +44,20 @@ private:
     core::BoxTree tree_;
 };
 
+/// A point with the velocity there.
+struct FlowingPoint {
+    Point at, velocity;
+};
+
 /// One step of the pair: the point of order 5, and its distance from that of order 4.
 struct Step {
-    Point to;
+    FlowingPoint to;
     double error;
 };
 
-/// Returns the step of this length, or nothing where the fluid is at rest on the way.
-std::optional<Step> try_step(const Flow& flow, Point from, double h) {
+/// Returns the step of this length, or nothing where the fluid is at rest on the way. The last velocity of a step is the
+/// first one of the next.
+std::optional<Step> try_step(const Flow& flow, const FlowingPoint& from, double h) {
     constexpr double nearly_at_rest = 1e-3;
     constexpr double a[6][6] = {{1.0 / 5},
                                 {3.0 / 40, 9.0 / 40},
@@ -62,15 +68,15 @@ std::optional<Step> try_step(const Flow& flow, Point from, double h) {
     constexpr double difference[7] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
                                       -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
     std::array<Point, 7> direction;
-    Point p = from;
+    FlowingPoint p = from;
     for (std::size_t stage = 0;; ++stage) {
-        const Point velocity = flow_velocity(flow, p);
-        if (!(length(velocity) > nearly_at_rest)) return std::nullopt;
-        direction[stage] = unit(velocity);
+        if (!(length(p.velocity) > nearly_at_rest)) return std::nullopt;
+        direction[stage] = unit(p.velocity);
         if (stage == 6) break;
         Point slope;
         for (std::size_t k = 0; k <= stage; ++k) slope = slope + a[stage][k] * direction[k];
-        p = from + h * slope;
+        p.at = from.at + h * slope;
+        p.velocity = flow_velocity(flow, p.at);
     }
     Point error;
     for (std::size_t k = 0; k < 7; ++k) error = error + difference[k] * direction[k];
@@ -104,15 +110,18 @@ std::vector<Point> streamline(const Flow& flow, Point from, double length, const
         done = distance(from, *behind);
         points.push_back(*behind);
     }
+    if (!(done < length)) return points;
+    FlowingPoint last{points.back(), flow_velocity(flow, points.back())};
     const double longest = options.max_step * flow.chord, shortest = 1e-6 * longest;
     double h = 0.1 * longest;
     while (done < length) {
         h = std::min(h, length - done);
-        const std::optional<Step> step = try_step(flow, points.back(), h);
+        const std::optional<Step> step = try_step(flow, last, h);
         const bool is_shortest = h <= shortest;
         if (step && (is_shortest || step->error <= options.tolerance * flow.chord) &&
-            !walls.meet(points.back(), step->to)) {
-            points.push_back(step->to);
+            !walls.meet(last.at, step->to.at)) {
+            last = step->to;
+            points.push_back(last.at);
             done += h;
             // The error grows with the fifth power of the step. Two square roots come close enough to the fifth root.
             const double room = options.tolerance * flow.chord / std::max(step->error, 1e-300);
