@@ -24,6 +24,13 @@ inline double squared_distance(const Box& box, Point p) {
     return dx * dx + dy * dy;
 }
 
+/// Returns the squared distance between two boxes, 0 where they overlap.
+inline double squared_distance(const Box& a, const Box& b) {
+    const double dx = std::max({a.lower.x - b.upper.x, 0.0, b.lower.x - a.upper.x});
+    const double dy = std::max({a.lower.y - b.upper.y, 0.0, b.lower.y - a.upper.y});
+    return dx * dx + dy * dy;
+}
+
 /// The tree over the boxes of items, which are numbered by their places in the sequence.
 class BoxTree {
 public:
@@ -70,6 +77,19 @@ public:
             minima.push_back(std::move(above));
         }
         return minima;
+    }
+
+    /// Calls visit(item), in ascending order, for each item whose value + slope x distance of its box from the query is
+    /// below a limit.
+    template <class Visit>
+    void below(const Box& query, double slope, double limit, const std::vector<std::vector<double>>& values,
+               Visit&& visit) const {
+        walk(
+            [&](const Box& box, std::size_t level, std::size_t i) {
+                const double room = limit - values[level][i];
+                return room > 0 && slope * slope * squared_distance(box, query) < room * room;
+            },
+            visit);
     }
 
     /// Returns min(start, minimum over the items of value + slope x distance to p). distance(item) returns the distance

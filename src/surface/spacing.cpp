@@ -81,18 +81,42 @@ void limit_near_walls(CurveSamples& samples, const SpacingRule& rule) {
     }
     const core::BoxTree tree(std::move(boxes));
     const auto values = tree.group_minima(std::move(spacings));
-    // The search ends early because the limit at the last sample bounds that at the next one, but for rounding.
+    const auto apart = [&](std::size_t wall, Point p) {
+        return core::distance_to_segment(p, rule.walls[wall].a, rule.walls[wall].b);
+    };
+    // The limit at one sample bounds that at others, but for rounding. So few stretches matter to neighbouring samples,
+    // and one search finds them.
+    constexpr std::size_t samples_at_once = 16;
     constexpr double rounding = 1e-9;
+    std::vector<std::size_t> near;
     double last_limit = HUGE_VAL;
     Point last = samples.front().at;
-    for (CurveSample& sample : samples) {
-        const double bound = (last_limit + rule.gradation * distance(last, sample.at)) * (1 + rounding);
-        const double limit = tree.minimum(
-            sample.at, rule.gradation, std::min(sample.spacing, bound), values,
-            [&](std::size_t i) { return core::distance_to_segment(sample.at, rule.walls[i].a, rule.walls[i].b); });
-        last_limit = limit < sample.spacing ? limit : HUGE_VAL;
-        last = sample.at;
-        sample.spacing = std::min(sample.spacing, std::max(limit, rule.min_spacing));
+    const auto bound_at = [&](const CurveSample& sample) {
+        return std::min(sample.spacing, (last_limit + rule.gradation * distance(last, sample.at)) * (1 + rounding));
+    };
+    for (std::size_t first = 0; first < samples.size(); first += samples_at_once) {
+        const auto some = std::span(samples).subspan(first, std::min(samples_at_once, samples.size() - first));
+        const Point p = some[0].at;
+        const double limit = tree.minimum(p, rule.gradation, bound_at(some[0]), values,
+                                          [&](std::size_t wall) { return apart(wall, p); });
+        last_limit = limit < some[0].spacing ? limit : HUGE_VAL;
+        last = p;
+        Box box;
+        double highest = 0;
+        for (const CurveSample& sample : some) {
+            box.include(sample.at);
+            highest = std::max(highest, bound_at(sample));
+        }
+        near.clear();
+        tree.below(box, rule.gradation, highest, values, [&](std::size_t wall) { near.push_back(wall); });
+        for (CurveSample& sample : some) {
+            double lowest = sample.spacing;
+            for (const std::size_t wall : near)
+                lowest = std::min(lowest, values[0][wall] + rule.gradation * apart(wall, sample.at));
+            last_limit = lowest < sample.spacing ? lowest : HUGE_VAL;
+            last = sample.at;
+            sample.spacing = std::min(sample.spacing, std::max(lowest, rule.min_spacing));
+        }
     }
 }
 

@@ -48,6 +48,31 @@ TEST(BoxTree, VisitsOverlappingItemsInAscendingOrder) {
     }
 }
 
+TEST(BoxTree, VisitsItemsWithValuesBelowALimitInAscendingOrder) {
+    core::Random random(6);
+    for (const std::size_t n : sizes()) {
+        const std::vector<Box> boxes = walk_boxes(n, random);
+        const core::BoxTree tree(boxes);
+        std::vector<double> values(n);
+        for (double& value : values) value = random.real();
+        const auto minima = tree.group_minima(values);
+        for (int k = 0; k < 50; ++k) {
+            Box query;
+            query.include({random.real(), random.real()});
+            query.include({random.real(), random.real()});
+            const double slope = k % 5 == 0 ? 0 : random.real(0, 3), limit = random.real(-0.1, 1.5);
+            std::vector<std::size_t> expected, visited;
+            for (std::size_t i = 0; i < n; ++i) {
+                const double x = std::max({boxes[i].lower.x - query.upper.x, query.lower.x - boxes[i].upper.x, 0.0});
+                const double y = std::max({boxes[i].lower.y - query.upper.y, query.lower.y - boxes[i].upper.y, 0.0});
+                if (values[i] + slope * std::hypot(x, y) < limit) expected.push_back(i);
+            }
+            tree.below(query, slope, limit, minima, [&](std::size_t i) { visited.push_back(i); });
+            EXPECT_EQ(visited, expected) << n;
+        }
+    }
+}
+
 TEST(BoxTree, VisitsOverlappingPairsOnce) {
     core::Random random(2);
     for (const std::size_t n : sizes()) {
