@@ -73,7 +73,7 @@ double max_factor_below(double height, std::span<const double> heights, std::uin
     const double near = factor_near(height, heights, n, high);
     for (int halving = 0; halving < 48; ++halving) {
         const double middle = 0.5 * (low + high);
-        const bool is_clear = std::abs(middle - near) > 1e-10;
+        const bool is_clear = std::abs(middle - near) > 1e-13;  // a hundred times what rounding does to either
         const bool fits = is_clear ? middle < near : stretched_height(heights, n, middle) <= height;
         (fits ? low : high) = middle;
     }
