@@ -52,13 +52,14 @@ std::optional<Defect> find_wild_speed(std::span<const PanelSheet> sheets) {
 /// for the flow. Beside sharp corners, where the velocity is infinite, no panel is.
 std::optional<Defect> find_leak(std::span<const PanelSheet> sheets, double alpha_deg) {
     constexpr std::size_t max_samples = 40;
+    const SheetVelocity velocity(sheets, alpha_deg);
     for (std::size_t e = 0; e < sheets.size(); ++e) {
         const PanelSheet& sheet = sheets[e];
         const std::size_t panels = sheet.nodes.size() - 1, stride = 1 + panels / max_samples;
         std::vector<double> leaks;
         for (std::size_t i = stride / 2; i < panels; i += stride) {
             const Point a = sheet.nodes[i], b = sheet.nodes[i + 1];
-            leaks.push_back(std::abs(cross(unit(b - a), sheet_velocity(sheets, alpha_deg, midpoint(a, b)))));
+            leaks.push_back(std::abs(cross(unit(b - a), velocity(midpoint(a, b)))));
         }
         const auto median = leaks.begin() + static_cast<std::ptrdiff_t>(leaks.size() / 2);
         std::nth_element(leaks.begin(), median, leaks.end());
@@ -169,6 +170,6 @@ double largest_on_walls(const ElementFlow& element, double FlowPoint::*number) {
     return largest;
 }
 
-Point flow_velocity(const Flow& flow, Point p) { return sheet_velocity(flow.sheets, flow.alpha_deg, p); }
+Point flow_velocity(const Flow& flow, Point p) { return SheetVelocity(flow.sheets, flow.alpha_deg)(p); }
 
 }  // namespace lamina

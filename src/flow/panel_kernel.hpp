@@ -75,10 +75,11 @@ inline double log_of_ratio(const SeenNode& b, const SeenNode& a) {
     return 0.5 * core::log_reproducible(b.squared_distance / a.squared_distance);
 }
 
-/// Returns the velocity that a sheet of vortices induces, whose strength is linear from `first` to `last`.
-inline Point vortex_velocity(const SeenPanel& panel, const SeenNode& a, const SeenNode& b, double first, double last) {
+/// Returns the velocity that a sheet of vortices induces, whose strength is `first` at its first node and grows by
+/// `slope` per unit of length.
+inline Point vortex_velocity(const SeenPanel& panel, const SeenNode& a, const SeenNode& b, double first, double slope) {
     const double log_ratio = log_of_ratio(b, a), angle = panel.signed_angle();
-    const double slope = (last - first) / panel.length, here = first + slope * panel.xi;
+    const double here = first + slope * panel.xi;
     const double along = -(here * angle + slope * panel.eta * log_ratio);
     const double across = -(here * log_ratio + slope * (panel.length - panel.eta * angle));
     return (1 / (2 * core::pi)) * (along * panel.along + across * perpendicular(panel.along));

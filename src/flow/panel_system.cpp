@@ -195,24 +195,34 @@ std::vector<PanelSheet> solve_panels(std::span<const Contour> contours, double a
     return sheets;
 }
 
-Point sheet_velocity(std::span<const PanelSheet> sheets, double alpha_deg, Point p) {
-    Point velocity = free_stream(alpha_deg);
+SheetVelocity::SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg) : stream_(free_stream(alpha_deg)) {
     for (const PanelSheet& sheet : sheets) {
-        SeenNode a = see(sheet.nodes.front(), p);
+        starts_.push_back(sheet.nodes.front());
+        std::vector<Panel>& panels = sheets_.emplace_back();
+        panels.reserve(sheet.nodes.size());
         for (std::size_t j = 1; j < sheet.nodes.size(); ++j) {
-            const SeenNode b = see(sheet.nodes[j], p);
             const Point edge = sheet.nodes[j] - sheet.nodes[j - 1];
             const double panel_length = length(edge);
-            const SeenPanel panel = see_panel(a, b, panel_length, (1 / panel_length) * edge);
-            velocity = velocity + vortex_velocity(panel, a, b, sheet.strengths[j - 1], sheet.strengths[j]);
-            a = b;
+            panels.push_back({sheet.nodes[j], (1 / panel_length) * edge, panel_length, sheet.strengths[j - 1],
+                              (sheet.strengths[j] - sheet.strengths[j - 1]) / panel_length, 0});
         }
         if (!has_base(sheet)) continue;
-        const SeenNode b = see(sheet.nodes.front(), p);
         const Point base = sheet.nodes.front() - sheet.nodes.back();
-        const SeenPanel panel = see_panel(a, b, length(base), unit(base));
-        velocity = velocity + vortex_velocity(panel, a, b, sheet.base_strength, sheet.base_strength) +
-                   source_velocity(panel, a, b, sheet.base_source);
+        panels.push_back({sheet.nodes.front(), unit(base), length(base), sheet.base_strength, 0, sheet.base_source});
+    }
+}
+
+Point SheetVelocity::operator()(Point p) const {
+    Point velocity = stream_;
+    for (std::size_t e = 0; e < sheets_.size(); ++e) {
+        SeenNode a = see(starts_[e], p);
+        for (const Panel& panel : sheets_[e]) {
+            const SeenNode b = see(panel.end, p);
+            const SeenPanel seen = see_panel(a, b, panel.length, panel.along);
+            velocity = velocity + vortex_velocity(seen, a, b, panel.strength, panel.slope);
+            if (panel.source != 0) velocity = velocity + source_velocity(seen, a, b, panel.source);
+            a = b;
+        }
     }
     return velocity;
 }

@@ -23,7 +23,26 @@ Point leaving_direction(std::span<const Point> nodes);
 /// Returns whether a base joins the last node to the first one.
 inline bool has_base(const PanelSheet& sheet) { return !(sheet.nodes.front() == sheet.nodes.back()); }
 
-/// Returns the velocity at a point. On a panel, where the velocity along it jumps, that of either side may be returned.
-Point sheet_velocity(std::span<const PanelSheet> sheets, double alpha_deg, Point p);
+/// The velocity that sheets add to the free stream. Lengths and directions of panels are worked out once, for many points.
+class SheetVelocity {
+public:
+    SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg);
+
+    /// Returns the velocity at a point. On a panel, where the velocity along it jumps, that of either side may be
+    /// returned.
+    Point operator()(Point p) const;
+
+private:
+    /// A panel, or the base of a body.
+    struct Panel {
+        Point end;  ///< its second node
+        Point along;
+        double length, strength, slope, source;
+    };
+
+    Point stream_;
+    std::vector<Point> starts_;  ///< of the sheets
+    std::vector<std::vector<Panel>> sheets_;
+};
 
 }  // namespace lamina::flow

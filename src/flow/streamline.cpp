@@ -57,7 +57,7 @@ struct Step {
 
 /// Returns the step of this length, or nothing where the fluid is at rest on the way. The last velocity of a step is the
 /// first one of the next.
-std::optional<Step> try_step(const Flow& flow, const FlowingPoint& from, double h) {
+std::optional<Step> try_step(const SheetVelocity& velocity, const FlowingPoint& from, double h) {
     constexpr double nearly_at_rest = 1e-3;
     constexpr double a[6][6] = {{1.0 / 5},
                                 {3.0 / 40, 9.0 / 40},
@@ -76,7 +76,7 @@ std::optional<Step> try_step(const Flow& flow, const FlowingPoint& from, double 
         Point slope;
         for (std::size_t k = 0; k <= stage; ++k) slope = slope + a[stage][k] * direction[k];
         p.at = from.at + h * slope;
-        p.velocity = flow_velocity(flow, p.at);
+        p.velocity = velocity(p.at);
     }
     Point error;
     for (std::size_t k = 0; k < 7; ++k) error = error + difference[k] * direction[k];
@@ -111,12 +111,13 @@ std::vector<Point> streamline(const Flow& flow, Point from, double length, const
         points.push_back(*behind);
     }
     if (!(done < length)) return points;
-    FlowingPoint last{points.back(), flow_velocity(flow, points.back())};
+    const SheetVelocity velocity(flow.sheets, flow.alpha_deg);
+    FlowingPoint last{points.back(), velocity(points.back())};
     const double longest = options.max_step * flow.chord, shortest = 1e-6 * longest;
     double h = 0.1 * longest;
     while (done < length) {
         h = std::min(h, length - done);
-        const std::optional<Step> step = try_step(flow, last, h);
+        const std::optional<Step> step = try_step(velocity, last, h);
         const bool is_shortest = h <= shortest;
         if (step && (is_shortest || step->error <= options.tolerance * flow.chord) &&
             !walls.meet(last.at, step->to.at)) {
