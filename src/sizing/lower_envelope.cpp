@@ -12,10 +12,10 @@ namespace lamina::sizing {
 
 namespace {
 
-/// The lower and the higher one of two numbers. Unlike std::min() and std::max() they take numbers by value, and
+/// The smaller and the larger one of two numbers. Unlike std::min() and std::max() they take numbers by value, and
 /// compilers apply them to several pairs at once.
-double low(double a, double b) { return a < b ? a : b; }
-double high(double a, double b) { return a > b ? a : b; }
+double smaller(double a, double b) { return a < b ? a : b; }
+double larger(double a, double b) { return a > b ? a : b; }
 
 /// Returns the squared distances of points from a shape without its radius.
 template <std::size_t N>
@@ -30,7 +30,7 @@ std::array<double, N> squared_distances(const SourceShape& shape, const std::arr
     const double inverse = shape.inverse_squared_length;
     for (std::size_t k = 0; k < N; ++k) {
         const double ax = x[k] - a.x, ay = y[k] - a.y;
-        const double t = low(high((ax * along.x + ay * along.y) * inverse, 0.0), 1.0);
+        const double t = smaller(larger((ax * along.x + ay * along.y) * inverse, 0.0), 1.0);
         const double dx = ax - t * along.x, dy = ay - t * along.y;
         squared[k] = dx * dx + dy * dy;
     }
@@ -41,8 +41,8 @@ std::array<double, N> squared_distances(const SourceShape& shape, const std::arr
 Quadrants::Numbers distances(const Box& box, const Quadrants& quadrants) {
     Quadrants::Numbers apart;
     for (std::size_t q = 0; q < Quadrants::count; ++q) {
-        const double x = high(high(box.lower.x - quadrants.upper_x[q], quadrants.lower_x[q] - box.upper.x), 0.0);
-        const double y = high(high(box.lower.y - quadrants.upper_y[q], quadrants.lower_y[q] - box.upper.y), 0.0);
+        const double x = larger(larger(box.lower.x - quadrants.upper_x[q], quadrants.lower_x[q] - box.upper.x), 0.0);
+        const double y = larger(larger(box.lower.y - quadrants.upper_y[q], quadrants.lower_y[q] - box.upper.y), 0.0);
         apart[q] = std::sqrt(x * x + y * y);
     }
     return apart;
@@ -61,8 +61,8 @@ void lower_bounds(const Quadrants& quadrants, const Quadrants::Numbers& apart, c
                   Quadrants::Numbers& nearest, Quadrants::Numbers& lowest) {
     for (std::size_t q = 0; q < Quadrants::count; ++q) {
         const double counted = values[q] <= quadrants.max_value[q] ? apart[q] : HUGE_VAL;
-        nearest[q] = low(nearest[q], counted);
-        lowest[q] = low(lowest[q], values[q]);
+        nearest[q] = smaller(nearest[q], counted);
+        lowest[q] = smaller(lowest[q], values[q]);
     }
 }
 
@@ -77,7 +77,6 @@ Candidates LowerEnvelope::push_copy(const std::vector<std::uint32_t>& candidates
 
 /// Finds the quadrants that a single source is a candidate of.
 void LowerEnvelope::find_source(std::uint32_t index, const Quadrants& quadrants, QuadrantBounds& bounds) {
-    constexpr double sqrt_half = 0.70710678118654752;
     const SourceGroup& source = groups_[index];
     const SourceShape& shape = shapes_[source.shape];
     const double shape_radius = shape.radius, cell_radius = sqrt_half * quadrants.side;
@@ -89,7 +88,7 @@ void LowerEnvelope::find_source(std::uint32_t index, const Quadrants& quadrants,
     }
     const Quadrants::Numbers from_box = distances(source.box, quadrants), squared = squared_distances(shape, x, y);
     for (std::size_t q = 0; q < Quadrants::count; ++q) {
-        apart[q] = high(from_box[q], high(std::sqrt(squared[q]) - shape_radius, 0.0) - cell_radius);
+        apart[q] = larger(from_box[q], larger(std::sqrt(squared[q]) - shape_radius, 0.0) - cell_radius);
         values[q] = size + gradation * apart[q];
     }
     const std::uint32_t below = quadrants_below(quadrants, values);
@@ -177,7 +176,7 @@ double LowerEnvelope::evaluate_group(std::uint32_t index, Point p, double best) 
     for (;;) {
         const SourceGroup& group = groups_[at.index];
         // Only sources nearer than this can lower the best value so far.
-        const double reach = high((best - group.min_size) * inverse_gradation_, 0.0);
+        const double reach = larger((best - group.min_size) * inverse_gradation_, 0.0);
         if (at.squared < reach * reach) {
             if (!group.is_single()) {
                 DistantGroup near = measure(at.index + 1), far = measure(group.right);
@@ -186,7 +185,7 @@ double LowerEnvelope::evaluate_group(std::uint32_t index, Point p, double best) 
                 at = near;
                 continue;
             }
-            best = low(best, group.min_size + gradation_ * shapes_[group.shape].distance_to(p));
+            best = smaller(best, group.min_size + gradation_ * shapes_[group.shape].distance_to(p));
         }
         if (pending_at_point_.empty()) return best;
         at = pending_at_point_.back();
@@ -202,7 +201,7 @@ void LowerEnvelope::evaluate(const Candidates& candidates, CellPoints<N>& points
         const double radius = shape.radius, size = source.min_size, gradation = gradation_;
         const std::array<double, N> squared = squared_distances(shape, points.x, points.y);
         for (std::size_t k = 0; k < N; ++k)
-            points.h[k] = low(points.h[k], size + gradation * high(std::sqrt(squared[k]) - radius, 0.0));
+            points.h[k] = smaller(points.h[k], size + gradation * larger(std::sqrt(squared[k]) - radius, 0.0));
     }
     for (std::size_t i = candidates.groups; i < candidates.end; ++i)
         for (std::size_t k = 0; k < N; ++k)

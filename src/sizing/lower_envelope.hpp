@@ -15,6 +15,8 @@
 
 namespace lamina::sizing {
 
+inline constexpr double sqrt_half = 0.70710678118654752;
+
 /// The sources and groups of sources that may decide the field somewhere in a cell.
 struct Candidates {
     std::size_t begin, groups, end;  ///< two ranges of the stack of LowerEnvelope: single sources, groups of several

@@ -22,7 +22,6 @@ namespace lamina::sizing {
 
 namespace {
 
-constexpr double sqrt_half = 0.70710678118654752;
 /// The share of h that the Lipschitz bound of the error may take.
 constexpr double lipschitz_tolerance = 0.047;
 /// The largest relative error at the sample points of smooth cells.
