@@ -28,8 +28,11 @@ constexpr double transition_aspect = 1;
 constexpr double max_spread = 2;
 /// Where columns go on beyond isotropy, cells are at most this many times as high as wide, unless the column is so
 /// narrow that it would get many more layers than the second number.
-constexpr double max_tallness = 2;
+constexpr double max_tallness = 1.5;
 constexpr double max_layers_beyond_isotropy = 20;
+/// Widths of a column, in heights of its last layer. Up to the first, numbers of layers do not change across the column:
+/// its last cell would be sheared by 45 degrees and more. From the second on they change by one.
+constexpr double no_change = 1, full_change = 1.5;
 /// Largest rise of the front per unit of distance along it.
 constexpr double max_front_slope = 0.25;
 /// Slope with which the front falls from a fan on both sides.
@@ -206,12 +209,19 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
         if (!rays.inside_fan(i))
             spacings[i] = max_tallness * std::min(rays.to_neighbours(i, 0), rays.to_neighbours(i, front[i]));
     fill_fans(set, spacings);
+    const auto bound_layers = [&] {
+        for (std::size_t i = 0; i < spacings.size(); ++i)
+            spacings[i] = std::max(spacings[i], front[i] / (fineness * max_layers_beyond_isotropy));
+    };
+    // Without this bound one very narrow column would ask for low cells on hundreds of columns beside it.
+    bound_layers();
     // A column has at most front / spacing layers, so that one in (1 + spacing / front) of them is one layer.
     lower_to_neighbours(set, spacings, [&](std::size_t from, std::size_t to) {
-        return spacings[from] * (1 + spacings[from] / std::max(front[from], front[to]));
+        const double width = rays.between(from, to, std::min(front[from], front[to]));
+        const double layers = std::clamp((width / spacings[from] - no_change) / (full_change - no_change), 0.0, 1.0);
+        return spacings[from] * (1 + layers * spacings[from] / std::max(front[from], front[to]));
     });
-    for (std::size_t i = 0; i < spacings.size(); ++i)
-        spacings[i] = std::max(spacings[i], front[i] / (fineness * max_layers_beyond_isotropy));
+    bound_layers();
     return spacings;
 }
 

@@ -96,6 +96,26 @@ TEST(Transition, SectionsOfTheirFormulaHaveEvenWallsAndSmoothBorders) {
     }
 }
 
+/// Walls are divided finely at the corners of a base, where columns go far beyond isotropy. Cells on the rest of the
+/// section once were a quarter as high as wide for it.
+TEST(Transition, NarrowColumnsAtABaseLeaveTheOthersIsotropic) {
+    for (const char* name : {"naca:0012:blunt", "naca:4412:blunt", "naca:0006:blunt"}) {
+        SCOPED_TRACE(name);
+        CaseOptions options = automatic(1.2);
+        options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
+        options.layer.first_height = YPlus{1};
+        options.use_flow = true;
+        const MeshResult result = generate_mesh({name}, options);
+        expect_sound(result, options);
+        const TransitionSummary& transition = result.check.transition;
+        EXPECT_GT(transition.p01_area_ratio, 0.5);
+        EXPECT_GT(transition.median_area_ratio, 0.8);
+        EXPECT_LT(transition.median_area_ratio, 1.25);
+        EXPECT_LT(transition.p99_area_ratio, 2);
+        EXPECT_LT(result.check.layer.max_angle_deg, 150);
+    }
+}
+
 TEST(Transition, TwoElements) {
     const shapes::Outline flap = shapes::moved(naca("2412", 120), -0.5, 0.3, {1.005, -0.03});
     expect_good_transition({naca("4412", 160), flap}, automatic(1.2));
