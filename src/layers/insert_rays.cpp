@@ -15,6 +15,10 @@ struct RayEnd {
     std::uint32_t layers;  ///< number of layers that fit below the limit
 };
 
+/// Rays are inserted where they will stand apart by at least this many heights of the last layer there. Numbers that
+/// change on narrower columns shear their last cells more than the wall gains.
+constexpr double least_width = 2;
+
 /// Returns where between two rays, of which the second has several layers more, a ray for each layer between should
 /// start, as shares of the way from the first. Each share is the mean of an even division and of the place where a
 /// straight line between the ends passes the layer.
@@ -59,16 +63,23 @@ RaySet insert_rays_where_counts_change(const RaySet& set, const LayerHeights& he
         const auto first_above = std::upper_bound(column.begin(), column.end(), limits[i]);
         return RayEnd{std::min(limits[i], column.back()), static_cast<std::uint32_t>(first_above - column.begin()) - 1};
     };
+    const auto would_be_narrow = [&](std::size_t i, const RayEnd& low, const RayEnd& high,
+                                     std::span<const double> column) {
+        const double last_spacing = column[high.layers] - column[high.layers - 1];
+        const double width = distance(set.lines[i].origin, set.lines[next[i]].origin) / (high.layers - low.layers);
+        return width < least_width * last_spacing;
+    };
     std::vector<std::vector<double>> shares(set.lines.size());
     for (std::size_t i = 0; i < set.lines.size(); ++i) {
         const RayEnd end = end_of(i), next_end = end_of(next[i]);
-        if (end.layers < next_end.layers) {
-            shares[i] = shares_between(end, next_end, heights.of(next[i]));
-        } else {
-            shares[i] = shares_between(next_end, end, heights.of(i));
-            std::reverse(shares[i].begin(), shares[i].end());
-            for (double& share : shares[i]) share = 1 - share;
-        }
+        const bool rises = end.layers < next_end.layers;
+        const RayEnd &low = rises ? end : next_end, &high = rises ? next_end : end;
+        const std::span<const double> column = heights.of(rises ? next[i] : i);
+        if (low.layers == high.layers || would_be_narrow(i, low, high, column)) continue;
+        shares[i] = shares_between(low, high, column);
+        if (rises) continue;
+        std::reverse(shares[i].begin(), shares[i].end());
+        for (double& share : shares[i]) share = 1 - share;
     }
     return insert_rays(set, shares);
 }

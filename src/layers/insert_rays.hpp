@@ -10,7 +10,8 @@ namespace lamina::layers {
 
 /// Inserts rays between neighbours whose limits allow numbers of layers that differ by more than one, one ray for each
 /// layer between. As the numbers of neighbours differ by at most one, coarse walls would without these rays have few
-/// layers far from where something is in the way.
+/// layers far from where something is in the way. None is inserted where the rays would stand apart by less than two
+/// heights of the last layer.
 RaySet insert_rays_where_counts_change(const RaySet& set, const LayerHeights& heights, std::span<const double> limits);
 
 }  // namespace lamina::layers
