@@ -14,7 +14,7 @@
 namespace lamina::delaunay {
 
 /// Triangulated patches strictly inside a region. Round each patch stands a collar, one row of loose lattice points.
-/// The seam is what lies between the patches and the border of the region; the collar is in it.
+/// The seam is what lies between the patches and the border of the region; the collar is in it. Smoothing may move it.
 struct LatticePatches {
     std::vector<Point> points;
     std::vector<Triangle> triangles;   ///< equilateral up to rounding, counter-clockwise; they index points

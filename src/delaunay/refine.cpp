@@ -22,12 +22,14 @@ struct Seam {
     std::vector<Point> points;
     std::vector<Segment> segments;
     std::vector<VertexId> shared;  ///< indices into LatticePatches::points
+    std::size_t fixed_points;      ///< all but the collars
 };
 
 Seam make_seam(std::span<const Point> points, std::span<const Segment> segments, const LatticePatches& patches) {
-    Seam seam{{points.begin(), points.end()}, {segments.begin(), segments.end()}, {}};
+    Seam seam{{points.begin(), points.end()}, {segments.begin(), segments.end()}, {}, points.size()};
     SharedPatchPoints shared = append_shared_points(patches, seam.points);
     seam.segments.insert(seam.segments.end(), shared.boundary.begin(), shared.boundary.end());
+    seam.fixed_points += shared.boundary_points;
     seam.shared = std::move(shared.patch_points);
     return seam;
 }
@@ -76,10 +78,13 @@ LinkedRefinement join(std::size_t border_count, LatticePatches patches, const Se
     LinkedRefinement linked{{}, std::move(patches.links)};
     Refinement& result = linked.refinement;
     result.stats = refined_seam.stats;
-    const std::size_t patch_count = patches.points.size();
+    const std::size_t patch_count = patches.points.size(), collar_count = seam.points.size() - seam.fixed_points;
+    const auto first_new = refined_seam.steiner_points.begin() + static_cast<std::ptrdiff_t>(collar_count);
     result.steiner_points = std::move(patches.points);
-    result.steiner_points.insert(result.steiner_points.end(), refined_seam.steiner_points.begin(),
-                                 refined_seam.steiner_points.end());
+    const std::size_t first_of_collar = seam.fixed_points - border_count;
+    for (std::size_t i = 0; i < collar_count; ++i)  // smoothing has moved them
+        result.steiner_points[seam.shared[first_of_collar + i].index()] = refined_seam.steiner_points[i];
+    result.steiner_points.insert(result.steiner_points.end(), first_new, refined_seam.steiner_points.end());
     result.triangles = std::move(patches.triangles);
     for (Triangle& t : result.triangles)
         for (VertexId& v : t.v) v = VertexId{border_count + v.index()};
@@ -103,8 +108,8 @@ LinkedRefinement refine_with_lattice(std::span<const Point> points, std::span<co
     RefineOptions seam_options = options;
     seam_options.expected_triangles = 3 * seam.points.size();
     LinkedRefinement refined_seam;
-    refined_seam.refinement =
-        refine_region(seam.points, seam.segments, size, seam_options, patches.linked ? &refined_seam.links : nullptr);
+    refined_seam.refinement = refine_region(seam.points, seam.fixed_points, seam.segments, size, seam_options,
+                                            patches.linked ? &refined_seam.links : nullptr);
     return join(points.size(), std::move(patches), seam, refined_seam);
 }
 
@@ -118,7 +123,7 @@ LinkedRefinement refine_checked(std::span<const Point> points, std::span<const S
         if (fits && !patches.empty()) return refine_with_lattice(points, segments, size, options, std::move(patches));
     }
     LinkedRefinement result;
-    result.refinement = refine_region(points, segments, size, options, linked ? &result.links : nullptr);
+    result.refinement = refine_region(points, points.size(), segments, size, options, linked ? &result.links : nullptr);
     return result;
 }
 

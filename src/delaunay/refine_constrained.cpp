@@ -239,11 +239,11 @@ ConstrainedRefinement join(std::size_t user_points, const ConstrainedTriangulati
     ConstrainedRefinement r;
     r.on_segments = lines.splits();
     r.steiner_points.resize(vertices.size() - user_points + patches.points.size() - seam.shared.size());
-    for (std::size_t v = user_points; v < vertices.size(); ++v)
-        r.steiner_points[ids[v].index() - user_points] = vertices[v];
-    core::check_interruption();
     for (std::size_t i = 0; i < patches.points.size(); ++i)
         r.steiner_points[first_of_patch + i - user_points] = patches.points[i];
+    core::check_interruption();
+    for (std::size_t v = user_points; v < vertices.size(); ++v)  // the refiner has moved collars
+        r.steiner_points[ids[v].index() - user_points] = vertices[v];
     for (std::size_t t = 0; t < patches.triangles.size(); ++t) {
         look_now_and_then(t);
         Triangle& triangle = r.triangles.emplace_back(patches.triangles[t]);

@@ -35,9 +35,11 @@ Tris triangulate_region(std::span<const Point> border, std::span<const Segment> 
 /// Refines one region.
 class FrozenRefiner : public Refiner<FrozenRefiner> {
 public:
-    FrozenRefiner(std::span<const Point> border, std::span<const Segment> segments, const SizeField& size,
-                  const RefineOptions& options)
-        : Refiner(options, {border.begin(), border.end()}, triangulate_region(border, segments)), size_(size) {
+    FrozenRefiner(std::span<const Point> border, std::size_t fixed_points, std::span<const Segment> segments,
+                  const SizeField& size, const RefineOptions& options)
+        : Refiner(options, {border.begin(), border.end()}, triangulate_region(border, segments)),
+          size_(size),
+          fixed_points_(fixed_points) {
         // n vertices have at most 2 n triangles.
         const double max_triangles = 2 * (static_cast<double>(border.size()) + static_cast<double>(options.max_points));
         const double expected = options.expected_triangles > 0 ? static_cast<double>(options.expected_triangles)
@@ -63,6 +65,7 @@ private:
     /// Returns whether the new point lies in the diametral circle of the edge.
     static bool is_blocked(const CavityEdge& a, const CavityEdge& b) { return a.ax * b.ax + a.ay * b.ay <= 0; }
     static constexpr bool always_counts = false;
+    Index first_movable() const { return static_cast<Index>(fixed_points_); }
     static constexpr bool may_renumber = true;
     static constexpr bool must_mend(Index) { return true; }
     // Sizes are graded, so a cavity has few triangles.
@@ -77,8 +80,9 @@ private:
     std::vector<char> find_sharp_corners() const;
 
     const SizeField& size_;
-    double scale_ = 1;    ///< the coordinates of the refiner over those of the input
-    double unscale_ = 1;  ///< its inverse, exactly
+    std::size_t fixed_points_;  ///< number of points that stay where they are
+    double scale_ = 1;          ///< the coordinates of the refiner over those of the input
+    double unscale_ = 1;        ///< its inverse, exactly
 };
 
 /// Returns the link in the numbering of EdgeLink: edge e of a Tri, opposite its vertex e, begins at the next vertex.
@@ -91,7 +95,7 @@ Refinement FrozenRefiner::refine(core::EdgeLinks* links) {
     Refinement r;
     r.stats = count_leftovers();
     sizes_ = {};
-    points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(input_count_));
+    points_.erase(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(fixed_points_));
     if (scale_ != 1)
         for (Point& p : points_) p = unscale_ * p;
     r.steiner_points = std::move(points_);
@@ -140,7 +144,7 @@ RefineStats FrozenRefiner::count_leftovers() const {
     if (refused_ == 0 && !stopped()) return {};
     const std::vector<char> sharp = find_sharp_corners();
     RefineStats stats;
-    for (const Tri& t : tris_) {
+    const auto count = [&](const Tri& t) {
         const TriangleShape s = shape_of(t);
         const double shortest = s.squared[s.shortest()];
         // The allowance for rounding makes this count the triangles that check_mesh() counts.
@@ -149,7 +153,11 @@ RefineStats FrozenRefiner::count_leftovers() const {
             stats.exempt += std::any_of(t.v, t.v + 3, [&](Index v) { return v < input_count_ && sharp[v]; });
         }
         stats.oversized += is_oversized(t, s);
-    }
+    };
+    if (suspects_)
+        for (const Index t : *suspects_) count(tris_[t]);
+    else
+        std::for_each(tris_.begin(), tris_.end(), count);
     count_refused(stats);
     stats.stopped = stopped();
     return stats;
@@ -157,9 +165,9 @@ RefineStats FrozenRefiner::count_leftovers() const {
 
 }  // namespace
 
-Refinement refine_region(std::span<const Point> points, std::span<const Segment> segments, const SizeField& size,
-                         const RefineOptions& options, core::EdgeLinks* links) {
-    return FrozenRefiner(points, segments, size, options).refine(links);
+Refinement refine_region(std::span<const Point> points, std::size_t fixed_points, std::span<const Segment> segments,
+                         const SizeField& size, const RefineOptions& options, core::EdgeLinks* links) {
+    return FrozenRefiner(points, fixed_points, segments, size, options).refine(links);
 }
 
 double unit_scale(double extent) {

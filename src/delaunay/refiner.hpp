@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,7 @@ double unit_scale(double extent);
 ///     double gradation()                      bound of the growth of h per unit of distance
 ///     bool is_blocked(const CavityEdge& a, const CavityEdge& b)
 ///                                             whether a new point may not stand so near to the constrained edge a-b
+///     Index first_movable()                   the first vertex that smoothing may move, unless it is on a border
 ///     bool may_renumber                       whether vertices and triangles may get other numbers once all are made
 ///     bool always_counts                      whether triangles beyond the bounds are counted even where no point was
 ///                                             refused
@@ -235,6 +237,7 @@ protected:
     Cavity cavity_;
     AdvancingFront front_;
     std::size_t refused_ = 0;
+    std::optional<std::vector<Index>> suspects_;  ///< if known, all others are known to be within the bounds
     bool stopped_ = false;
 
 private:
@@ -273,31 +276,35 @@ private:
     };
 
     Smoother<SmoothingRules> smoother(bool may_be_narrow) {
-        return {{points_, sizes_, tris_, static_cast<Index>(input_count_)}, {*this, may_be_narrow}};
+        return {{points_, sizes_, tris_, derived().first_movable()}, {*this, may_be_narrow}};
     }
 
     bool regularizes() const { return Derived::may_renumber && options_.regularize && !stopped_; }
 
     /// Gives vertices and triangles other numbers, so nothing may be queued any more.
     void regularize() {
-        Regularizer<SmoothingRules>({points_, sizes_, tris_, static_cast<Index>(input_count_)}, {*this, false},
+        Regularizer<SmoothingRules>({points_, sizes_, tris_, derived().first_movable()}, {*this, false},
                                     input_count_ + options_.max_points)
             .run();
     }
 
     /// Smooths, mends the triangles that are narrow nevertheless, and smooths what that has made.
     void mend_narrow() {
-        const bool smooths = options_.smoothing > 0, any = !narrow_.empty();
+        const bool smooths = options_.smoothing > 0;
         if (smooths) {
-            auto first = smoother(any);
+            auto first = smoother(!narrow_.empty());
             first.smooth(options_.smoothing);
-            if (any || refused_ > 0 || Derived::always_counts || regularizes()) first.update_sizes();
+            if (!narrow_.empty() || refused_ > 0) suspects_ = first.suspects();
+            if (!narrow_.empty()) {
+                narrow_.clear();  // flips have changed triangles
+                for (const Index t : *suspects_) queue_if_narrow(t, shape_of(tris_[t]));
+            }
+            if (!narrow_.empty() || Derived::always_counts || stopped_ || regularizes()) {
+                first.update_sizes();
+                suspects_.reset();
+            }
         }
-        if (!any) return;
-        if (smooths) {
-            narrow_.clear();  // flips have changed triangles
-            for (Index t = 0; t < tris_.size(); ++t) queue_if_narrow(t, shape_of(tris_[t]));
-        }
+        if (narrow_.empty()) return;
         const std::size_t before = points_.size();
         do {
             mend_all_large();

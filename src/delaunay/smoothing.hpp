@@ -18,6 +18,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include <lamina/point.hpp>
@@ -80,6 +82,17 @@ public:
         mend_ill_shaped();
     }
 
+    /// Returns, in ascending order, all triangles that may be ill-shaped or beyond the bounds now that smooth() has
+    /// returned. Their vertices get the sizes at their places.
+    std::vector<Index> suspects() {
+        std::sort(suspects_.begin(), suspects_.end());
+        suspects_.erase(std::unique(suspects_.begin(), suspects_.end()), suspects_.end());
+        if (!states_.empty())
+            for (const Index t : suspects_)
+                for (const Index v : tris_[t].v) update_size(v);
+        return std::move(suspects_);
+    }
+
     /// Gives all vertices the sizes at their places.
     void update_sizes() {
         for (Index v = 0; v < states_.size(); ++v) update_size(v);
@@ -100,8 +113,7 @@ private:
         Index t;
         unsigned corner;  ///< the place of v in t
         Index a_vertex;
-        Point a;        ///< relative to v
-        double a_size;  ///< h at a
+        Point a;  ///< relative to v
     };
     struct QueuedEdge {
         Index t;
@@ -137,8 +149,15 @@ private:
     /// So often vertices move together before the connectivity is looked at.
     static constexpr unsigned rounds_at_once = 5;
     static constexpr unsigned mending_rounds = 3;
+    /// Vertices of triangles worse than a mean ratio of 0.86, which leaves no angle below 36.3 degrees, also move away
+    /// from the means of their neighbours. Doing so for more triangles makes neighbours' areas differ more.
+    static constexpr double lifted_ratio = 0.86 * equilateral_ratio;
 
     static double ratio_of(const TriangleShape& s) { return s.area2 / s.squared_sum(); }
+    /// Returns the ratio of the triangle between its vertex and these two, relative to it.
+    static double ratio_of_corner(Point a, Point b) {
+        return cross(a, b) / (squared_length(a) + squared_length(b) + squared_length(b - a));
+    }
     bool is_ill_shaped(Index t) const { return !(ratio_of(shape_of(points_, tris_[t])) >= min_ratio); }
 
     // ---- all vertices together ----------------------------------------------------------------------------------
@@ -159,15 +178,22 @@ private:
         return_where_worse();
         // Flips may have taken a vertex out of the triangle that is known of it; it stays where it is then.
         for (const Index v : returned_)
-            if (const unsigned corner = corner_of(v); corner < 3) move(vertices_[v].triangle, corner);
+            if (const unsigned corner = corner_of(v); corner < 3 && move(vertices_[v].triangle, corner))
+                append_moved(suspects_);
+    }
+
+    /// Returns how many of so many triangles fetch_ahead() is of use for: all or, if the caches hold them anyway, none.
+    static Index fetched_ahead(Index count) {
+        constexpr Index cached = Index{1} << 16;
+        return count > cached ? count : 0;
     }
 
     /// Calls fetch(v) for the vertices of the triangle that a loop will come to so much later. A loop over a
     /// triangulation that does not fit into the caches near the processor would wait for most first vertices otherwise.
     template <class Fetch>
-    [[gnu::always_inline]] static void fetch_ahead(const Tri* tris, Index count, Index t, const Fetch& fetch) {
+    [[gnu::always_inline]] static void fetch_ahead(const Tri* tris, Index fetched, Index t, const Fetch& fetch) {
         constexpr Index ahead = 16;
-        if (t + ahead >= count) return;
+        if (t + ahead >= fetched) return;
         for (const Index v : tris[t + ahead].v) fetch(v);
     }
 
@@ -179,10 +205,11 @@ private:
         Vertex* const vertices = vertices_.data();
         const Point* const points = points_.data();
         const auto count = static_cast<Index>(tris_.size());
+        const Index fetched = fetched_ahead(count);
         const Tri* const tris = tris_.data();
         for (Index t = 0; t < count; ++t) {
             const Tri& tri = tris[t];
-            fetch_ahead(tris, count, t, [&](Index v) {
+            fetch_ahead(tris, fetched, t, [&](Index v) {
                 __builtin_prefetch(vertices + v, 1);
                 __builtin_prefetch(points + v);
             });
@@ -202,9 +229,10 @@ private:
         Vertex* const vertices = vertices_.data();
         const Point* const points = points_.data();
         const auto count = static_cast<Index>(tris_.size());
+        const Index fetched = fetched_ahead(count);
         const Tri* const tris = tris_.data();
         for (Index t = 0; t < count; ++t) {
-            fetch_ahead(tris, count, t, [&](Index v) {
+            fetch_ahead(tris, fetched, t, [&](Index v) {
                 __builtin_prefetch(vertices + v, 1);
                 __builtin_prefetch(points + v);
             });
@@ -267,24 +295,27 @@ private:
         core::check_interruption();
         returned_.clear();
         ill_shaped_.clear();
-        const double least_share = std::max(0.0, 1 - rules_.size_error() - max_move * rules_.gradation());
+        suspects_.clear();
+        least_share_ = std::max(0.0, 1 - rules_.size_error() - max_move * rules_.gradation());
+        const double least_share = least_share_;
         const auto count = static_cast<Index>(tris_.size());
+        const Index fetched = fetched_ahead(count);
         const Tri* const tris = tris_.data();
         const Point* const points = points_.data();
         const float* const sizes = sizes_.data();
         for (Index t = 0; t < count; ++t) {
-            fetch_ahead(tris, count, t, [&](Index v) {
+            fetch_ahead(tris, fetched, t, [&](Index v) {
                 __builtin_prefetch(points + v);
                 __builtin_prefetch(sizes + v);
             });
-            if (!is_clearly_good(tris[t], least_share)) check_moved(t);
+            if (!is_clearly_good(tris[t], least_share)) check_suspect(t);
         }
         std::size_t looked_at = 0;
         while (looked_at < returned_.size()) {  // more may return meanwhile
             const Index v = returned_[looked_at++];
             find_star(vertices_[v].triangle, corner_of(v));
             for (const StarTriangle& s : star_) {
-                check_moved(s.t);
+                check_suspect(s.t);
                 if (const Link outer = tris_[s.t].n[s.corner]; !outer.is_constrained()) check_moved(outer.triangle());
             }
         }
@@ -300,6 +331,11 @@ private:
         const float size_sum = sizes[tri.v[0]] + sizes[tri.v[1]] + sizes[tri.v[2]];
         return area2 >= clearly_fat_ratio * sum && !has_constrained_edge(tri) &&
                rules_.is_surely_allowed(sum, area2, least_share * static_cast<double>(size_sum));
+    }
+
+    void check_suspect(Index t) {
+        suspects_.push_back(t);
+        check_moved(t);
     }
 
     /// Sends the vertices of a triangle back if it is not as it should be. An edge between two acute angles is
@@ -343,30 +379,42 @@ private:
             for (const Index t : ill_shaped_) {
                 if (++seen % triangles_between_looks == 0) core::check_interruption();
                 for (unsigned corner = 0; corner < 3 && is_ill_shaped(t); ++corner) {
-                    if (!move(t, corner)) continue;
-                    for (const StarTriangle& s : star_) touched.push_back(s.t);
-                    for (const Flip& flip : flips_) touched.insert(touched.end(), {flip.t, flip.n});
+                    if (move(t, corner)) append_moved(touched);
                 }
             }
             std::swap(ill_shaped_, touched);
+            suspects_.insert(suspects_.end(), ill_shaped_.begin(), ill_shaped_.end());
         }
     }
 
-    /// Moves one vertex of a triangle to the mean of its neighbours or half the way, if that makes the worst triangle
-    /// round it better. Returns whether the vertex moved.
+    /// Appends the triangles that the last move of one vertex has changed.
+    void append_moved(std::vector<Index>& triangles) const {
+        for (const StarTriangle& s : star_) triangles.push_back(s.t);
+        for (const Flip& flip : flips_) triangles.insert(triangles.end(), {flip.t, flip.n});
+    }
+
+    /// Moves one vertex of a triangle, if that makes the worst triangle round it better: to the mean of its neighbours or
+    /// half the way, else a part of the way to where the worst triangles would have it. Returns whether the vertex
+    /// moved.
     bool move(Index t, unsigned corner) {
         if (!find_star(t, corner)) return false;
-        const Index v = tris_[t].v[corner];
-        const Point old_place = points_[v];
-        const float old_size = size_of(v);
         const double worst = worst_ratio_of_star();
-        Point to_mean{0, 0};
-        for (const StarTriangle& s : star_) to_mean = to_mean + s.a;
-        to_mean = (1.0 / static_cast<double>(star_.size())) * to_mean;
-        for (const double share : {1.0, 0.5}) {
-            const Point place = old_place + share * to_mean;
+        if (move_towards(mean_of_star(), {1.0, 0.5}, worst)) return true;
+        return worst < lifted_ratio && move_towards(mean_apex_of_star(), {0.5, 0.2, 0.08}, worst);
+    }
+
+    /// Moves the vertex of the star by the first of these shares of the way to a place, relative to it, that makes the
+    /// worst triangle better. Returns whether there is one.
+    bool move_towards(Point to, std::initializer_list<double> shares, double worst) {
+        const Index t = star_[0].t, v = tris_[t].v[star_[0].corner];
+        const Point old_place = points_[v];
+        for (const double share : shares) {
+            const Point place = old_place + share * to;
+            // Sizes come last, since they take the longest and most places fail before.
+            if (!is_improved_by(place - old_place, std::max(min_gain * worst, least_ratio))) continue;
+            const float old_size = size_of(v);
             const double size = rules_.size_at(place, t);
-            if (!is_improved_by(place - old_place, size, std::max(min_gain * worst, least_ratio))) continue;
+            if (!is_allowed_at(place - old_place, size)) continue;
             points_[v] = place;
             sizes_[v] = static_cast<float>(size);
             if (restore_delaunay(worst)) return true;
@@ -384,7 +432,7 @@ private:
         do {
             const Tri& tri = tris_[t];
             const Index a = tri.v[next(corner)];
-            star_.push_back({t, corner, a, points_[a] - points_[v], size_of(a)});
+            star_.push_back({t, corner, a, points_[a] - points_[v]});
             const Link across = tri.n[next(corner)];
             if (across.is_constrained()) return false;
             t = across.triangle();
@@ -397,21 +445,59 @@ private:
         double worst = 1;
         for (std::size_t i = 0; i < star_.size(); ++i) {
             const Point a = star_[i].a, b = star_[i + 1 < star_.size() ? i + 1 : 0].a;
-            worst = std::min(worst, cross(a, b) / (squared_length(a) + squared_length(b) + squared_length(b - a)));
+            worst = std::min(worst, ratio_of_corner(a, b));
         }
         return worst;
     }
 
-    /// Returns whether all triangles of the star are allowed after a move of its vertex, and better than this ratio.
-    bool is_improved_by(Point move, double size, double ratio_bound) const {
+    /// Returns the mean of the neighbours of the star's vertex, relative to it.
+    Point mean_of_star() const {
+        Point sum{0, 0};
+        for (const StarTriangle& s : star_) sum = sum + s.a;
+        return (1.0 / static_cast<double>(star_.size())) * sum;
+    }
+
+    /// Returns the mean of the places, relative to the star's vertex, at which it would make its triangles equilateral.
+    /// The worst triangles weigh so much that the others hardly count, but two of them that are alike count alike.
+    /// Precondition: one of the triangles is ill-shaped.
+    Point mean_apex_of_star() const {
+        constexpr double height = 2 * equilateral_area;  // of an equilateral triangle with edges of 1
+        Point sum{0, 0};
+        double weights = 0;
+        for (std::size_t i = 0; i < star_.size(); ++i) {
+            const Point a = star_[i].a, b = star_[i + 1 < star_.size() ? i + 1 : 0].a;
+            const double deficit = equilateral_ratio / std::max(ratio_of_corner(a, b), least_ratio) - 1;
+            const double squared = deficit * deficit, weight = squared * squared * squared;
+            sum = sum + weight * (midpoint(a, b) + height * perpendicular(b - a));
+            weights += weight;
+        }
+        return (1 / weights) * sum;
+    }
+
+    /// Returns whether all triangles of the star are better than this ratio after a move of its vertex.
+    bool is_improved_by(Point move, double ratio_bound) const {
+        for (std::size_t i = 0; i < star_.size(); ++i) {
+            const Point a = star_[i].a - move, b = star_[i + 1 < star_.size() ? i + 1 : 0].a - move;
+            const double sum = squared_length(a) + squared_length(b) + squared_length(b - a);
+            if (!(cross(a, b) > ratio_bound * sum)) return false;
+        }
+        return true;
+    }
+
+    /// Returns whether all triangles of the star are allowed after a move of its vertex to a place of this size.
+    bool is_allowed_at(Point move, double size) {
         for (std::size_t i = 0; i < star_.size(); ++i) {
             const StarTriangle& from = star_[i];
             const StarTriangle& to = star_[i + 1 < star_.size() ? i + 1 : 0];
             const Point a = from.a - move, b = to.a - move;
             const double aa = squared_length(a), bb = squared_length(b), cc = squared_length(b - a),
                          area2 = cross(a, b);
-            if (!(area2 > ratio_bound * (aa + bb + cc))) return false;
-            if (!rules_.is_allowed(aa, bb, cc, area2, size + from.a_size + to.a_size)) return false;
+            const auto is_within = [&](double at_a, double at_b) {
+                return rules_.is_allowed(aa, bb, cc, area2, size + at_a + at_b);
+            };
+            if (!is_within(least_share_ * sizes_[from.a_vertex], least_share_ * sizes_[to.a_vertex]) &&
+                !is_within(size_of(from.a_vertex), size_of(to.a_vertex)))
+                return false;
             const Link outer = tris_[from.t].n[from.corner];
             if (outer.is_constrained() && rules_.is_blocked({from.a_vertex, outer, a.x, a.y, aa, area2},
                                                             {to.a_vertex, outer, b.x, b.y, bb, area2}))
@@ -476,8 +562,12 @@ private:
 
     /// Returns whether a triangle keeps its bounds, and none of its vertices is too near to a constrained edge.
     bool is_allowed(const Tri& t, const TriangleShape& shape) {
-        return rules_.is_allowed(shape.squared[0], shape.squared[1], shape.squared[2], shape.area2, size_sum(t)) &&
-               !is_blocked(t);
+        const double at_least = least_share_ * (static_cast<double>(sizes_[t.v[0]]) + sizes_[t.v[1]] + sizes_[t.v[2]]);
+        const auto is_within = [&](double sum) {
+            return rules_.is_allowed(shape.squared[0], shape.squared[1], shape.squared[2], shape.area2, sum);
+        };
+        // What is allowed for the least sizes that vertices may have is allowed for theirs.
+        return (is_within(at_least) || is_within(size_sum(t))) && !is_blocked(t);
     }
 
     /// Returns whether a vertex of the triangle stands too near to a constrained edge of it.
@@ -503,8 +593,10 @@ private:
     std::vector<State> states_;
     std::vector<Point> old_points_;
     std::vector<float> old_sizes_;
+    double least_share_ = 1;         ///< sizes at the places of vertices are at least this share of those held
     std::vector<Index> returned_;    ///< vertices
     std::vector<Index> ill_shaped_;  ///< triangles
+    std::vector<Index> suspects_;    ///< triangles that were not clearly good, or have changed later
     std::vector<StarTriangle> star_;
     std::vector<QueuedEdge> pending_;
     std::vector<Flip> flips_;  ///< since the last vertex moved

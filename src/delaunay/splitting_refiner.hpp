@@ -77,6 +77,7 @@ private:
     double gradation() const;
     bool is_blocked(const CavityEdge& a, const CavityEdge& b) const;
     static constexpr bool always_counts = true;
+    Index first_movable() const { return static_cast<Index>(frozen_end_); }
     static constexpr bool may_renumber = false;
     bool must_mend(Index t) const;
     bool is_in_sight(Index t, Point p) const;

@@ -1,6 +1,7 @@
 // Refinement of regions with frozen borders, with lattice patches and without.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -316,6 +317,35 @@ TEST(Refine, LatticePatchesKeepEveryPromise) {
         expect_promises(border, pure, size, without_lattice, 1.0);
         EXPECT_LT(double(r.triangles.size()), double(pure.triangles.size()));
         EXPECT_GT(mean_smallest_angle(border, pure), 56);
+    }
+}
+
+TEST(Refine, SeamsOfLatticePatchesAreSmoothed) {
+    // The rows of patches are horizontal, so how patches and border meet depends on how the square is turned.
+    struct Aim {
+        double turn, smallest_angle;
+    };
+    for (const auto& [turn, smallest_angle] :
+         {Aim{0, 35}, Aim{0.1, 35}, Aim{0.3, 32}, Aim{M_PI / 6, 35}, Aim{0.7, 35}}) {
+        for (const double h : {0.0071, 0.0093, 0.0119, 0.015, 0.019}) {
+            SCOPED_TRACE("turned by " + std::to_string(turn) + ", h = " + std::to_string(h));
+            std::vector<Point> corners;
+            for (int i = 0; i < 4; ++i) {
+                const double angle = turn + i * M_PI / 2;
+                corners.push_back({std::sqrt(0.5) * std::cos(angle), std::sqrt(0.5) * std::sin(angle)});
+            }
+            const SizeField size(h);
+            const Border border = graded_border(corners, size);
+            const RefineOptions options;
+            const Refinement r = refine(border.points, border.segments, size, options);
+            expect_promises(border, r, size, options, 1);
+            EXPECT_EQ(r.stats.refused, 0u);
+            EXPECT_GT(smallest_angle_deg(all_points(border, r), r.triangles), smallest_angle);
+            EXPECT_LT(share_below(border, r, 40), 0.008);
+            EXPECT_GT(mean_smallest_angle(border, r), 58);
+            EXPECT_LT(r.triangles.size(),
+                      refine(border.points, border.segments, size, {.lattice = false}).triangles.size());
+        }
     }
 }
 
