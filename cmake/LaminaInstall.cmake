@@ -41,6 +41,8 @@ function(lamina_pkg_config name description)
 endfunction()
 if(LAMINA_THREADS STREQUAL "tbb")
   set(thread_library -ltbb)
+elseif(LAMINA_THREADS STREQUAL "std")
+  set(thread_library -pthread)
 endif()
 if(delaunay IN_LIST LAMINA_COMPONENTS)
   lamina_pkg_config(lamina-delaunay "Exact, parallel Delaunay triangulation and refinement in two dimensions"

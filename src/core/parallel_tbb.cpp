@@ -9,7 +9,6 @@
 #include <cassert>
 #include <exception>
 #include <latch>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -20,58 +19,31 @@
 
 #include <lamina/threads.hpp>
 
+#include "core/block_loop.hpp"
 #include "core/interruption_point.hpp"
 
 namespace lamina::core {
 
 void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f) {
     assert(grain > 0);
-    const std::size_t blocks = (n + grain - 1) / grain;
-    const std::size_t workers = std::min<std::size_t>(blocks, thread_count());
-    const auto run_block = [&](std::size_t b) { f(b * grain, std::min(n, (b + 1) * grain)); };
+    BlockLoop loop(n, grain, f);
+    const std::size_t workers = std::min<std::size_t>(loop.blocks(), thread_count());
     if (workers <= 1) {
-        for (std::size_t b = 0; b < blocks; ++b) {
-            check_interruption();
-            run_block(b);
-        }
-        return;
+        loop.work();
+    } else {
+        std::atomic<std::size_t> finished;  // for the thread sanitizer
+        finished.store(0, std::memory_order_release);
+        const Interruption* const interruption = current_interruption;
+        const auto run_worker = [&](std::size_t) {
+            const InterruptionScope scope(interruption);
+            if (finished.load(std::memory_order_acquire) < workers) loop.work();
+            finished.fetch_add(1, std::memory_order_release);
+        };
+        tbb::parallel_for(std::size_t{0}, workers, run_worker, tbb::simple_partitioner{});
+        [[maybe_unused]] const std::size_t all = finished.load(std::memory_order_acquire);
+        assert(all == workers);
     }
-
-    // Blocks start in ascending order, so all blocks before a failing one have started, and which block fails first in
-    // order does not depend on timing.
-    std::atomic<std::size_t> next, finished;
-    finished.store(0, std::memory_order_relaxed);
-    std::mutex failure_mutex;
-    std::size_t failed_block = blocks;
-    std::exception_ptr failure;
-    const Interruption* const interruption = current_interruption;
-    const auto run_worker = [&](std::size_t) {
-        const InterruptionScope scope(interruption);
-        std::size_t b = 0;
-        try {
-            for (;;) {
-                // No block is taken that does not run: others may wait for it.
-                check_interruption();
-                b = next.fetch_add(1);
-                if (b >= blocks) break;
-                run_block(b);
-            }
-        } catch (...) {
-            next = blocks;
-            const std::lock_guard lock(failure_mutex);
-            if (b < failed_block) {
-                failed_block = b;
-                failure = std::current_exception();
-            }
-        }
-        finished.fetch_add(1, std::memory_order_release);
-    };
-    // Stands behind all that the workers use; for the thread sanitizer, as all orders here.
-    next.store(0, std::memory_order_release);
-    tbb::parallel_for(std::size_t{0}, workers, run_worker, tbb::simple_partitioner{});
-    [[maybe_unused]] const std::size_t all = finished.load(std::memory_order_acquire);
-    assert(all == workers);
-    if (failure) std::rethrow_exception(failure);
+    loop.rethrow_failure();
 }
 
 void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g) {
