@@ -6,7 +6,7 @@ const leafSize = 512;
 // Returns
 //   corners   per triangle: its vertices, and bits of its edges that are no edges of cells
 //   cell      per triangle: the cell
-//   leaves    ranges of triangles (first, count) with the box round them (x0, y0, x1, y1)
+//   leaves    ranges of triangles (first, count) with the box round them (x0, y0, x1, y1) and their area
 export function orderTriangles(mesh) {
   const triangles = mesh.triangles.length / 3, quads = mesh.quads.length / 4, count = triangles + 2 * quads;
   const vertex = new Uint32Array(3 * count);
@@ -26,7 +26,10 @@ export function orderTriangles(mesh) {
     // Bit k hides the edge that lies opposite corner k: the diagonal.
     corners[4 * i + 3] = half < 0 ? 0 : half === 0 ? 2 : 4;
   }
-  for (const leaf of order.leaves) leaf.box = boxOf(mesh.points, corners, leaf.first, leaf.count);
+  for (const leaf of order.leaves) {
+    leaf.box = boxOf(mesh.points, corners, leaf.first, leaf.count);
+    leaf.area = areaOf(mesh.points, corners, leaf.first, leaf.count);
+  }
   return {count, corners, cell, leaves: order.leaves};
 }
 
@@ -41,6 +44,16 @@ function boxOf(points, corners, first, count) {
       if (y > box[3]) box[3] = y;
     }
   return box;
+}
+
+function areaOf(points, corners, first, count) {
+  let area = 0;
+  for (let i = first; i < first + count; ++i) {
+    const [a, b, c] = [2 * corners[4 * i], 2 * corners[4 * i + 1], 2 * corners[4 * i + 2]];
+    area += 0.5 * Math.abs((points[b] - points[a]) * (points[c + 1] - points[a + 1]) -
+                           (points[b + 1] - points[a + 1]) * (points[c] - points[a]));
+  }
+  return area;
 }
 
 // Halves the triangles at the median of their centres, across the longer side of the box round these, until few are

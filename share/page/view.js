@@ -1,137 +1,8 @@
 // A view of a mesh in a canvas: WebGL 2 draws the cells, and a second canvas over it walls and what is selected.
-//
-// Single precision would let the picture jitter from some 1e-5 of the coordinates on. So a coordinate is kept as two
-// floats whose sum has 48 bits, and so is the middle of the view; the shader subtracts high from high and low from low
-// parts, which is exact where the view is small.
 import {orderTriangles} from "./order.js";
+import {createPainter} from "./painter.js";
 
-const textureWidth = 2048, textureShift = 11;
-const smallestLeaf = 1.5;   // CSS pixels; what is smaller is drawn as one point
-const slowFrame = 30;       // milliseconds; where frames take longer, the last picture moves while the mouse does
-const nearWall = 10;        // CSS pixels from a wall vertex that count as a hit
-
-const cellShader = `#version 300 es
-precision highp float;
-precision highp int;
-precision highp usampler2D;
-precision highp sampler2D;
-uniform usampler2D corners;
-uniform sampler2D points;
-uniform sampler2D fills;
-uniform vec4 middle;   // of the view: high parts, low parts
-uniform vec2 scale;    // to the view's coordinates from -1 to 1
-uniform float pixels;  // per unit of length
-flat out vec3 fill;
-flat out float height;  // the smallest of the triangle, in pixels
-flat out vec3 edges[3]; // (n, c): a pixel at p from the middle is at |n.p + c| from an edge
-ivec2 texel(int i) { return ivec2(i & ${textureWidth - 1}, i >> ${textureShift}); }
-vec2 between(vec4 a, vec4 b) { return (b.xy - a.xy) + (b.zw - a.zw); }
-void main() {
-  int triangle = gl_VertexID / 3, corner = gl_VertexID - 3 * triangle;
-  uvec4 c = texelFetch(corners, texel(triangle), 0);
-  vec4 p[3];
-  vec2 at[3];
-  for (int k = 0; k < 3; ++k) {
-    p[k] = texelFetch(points, texel(int(c[k])), 0);
-    at[k] = between(middle, p[k]) * pixels;
-  }
-  float longest = 1e-20;
-  vec2 along[3];
-  for (int k = 0; k < 3; ++k) {
-    int from = (k + 1) % 3, to = (k + 2) % 3;
-    along[k] = between(p[from], p[to]) * pixels;
-    float size = length(along[k]);
-    longest = max(longest, size);
-    edges[k] = vec3(0.0, 0.0, 1e6);
-    if (size == 0.0 || (c.w >> k & 1u) == 1u) continue;
-    vec2 normal = vec2(-along[k].y, along[k].x) / size;
-    vec2 near = dot(at[from], at[from]) < dot(at[to], at[to]) ? at[from] : at[to];
-    edges[k] = vec3(normal, -dot(normal, near));
-  }
-  height = abs(along[0].x * along[1].y - along[0].y * along[1].x) / longest;
-  fill = texelFetch(fills, texel(triangle), 0).rgb;
-  gl_Position = vec4(between(middle, p[corner]) * scale, 0.0, 1.0);
-}`;
-
-const cellPainter = `#version 300 es
-precision highp float;
-flat in vec3 fill;
-flat in float height;
-flat in vec3 edges[3];
-uniform vec4 edge;    // colour and strength of edges
-uniform vec2 extent;  // of the picture, in pixels
-uniform float width;  // of edges, in pixels
-uniform float tone;   // how much of the edges' colour small triangles get
-out vec4 color;
-void main() {
-  vec3 here = vec3(gl_FragCoord.xy - 0.5 * extent, 1.0);
-  float nearest = min(abs(dot(edges[0], here)), min(abs(dot(edges[1], here)), abs(dot(edges[2], here))));
-  float line = 1.0 - smoothstep(0.5 * width - 0.5, 0.5 * width + 0.5, nearest);
-  float shown = smoothstep(1.5 * width, 7.0 * width, height);
-  color = vec4(mix(fill, edge.rgb, edge.a * max(line * shown, tone * (1.0 - shown))), 1.0);
-}`;
-
-const pointShader = `#version 300 es
-precision highp float;
-in vec2 place;
-in vec3 paint;
-uniform float size;
-out vec3 fill;
-void main() {
-  fill = paint;
-  gl_PointSize = size;
-  gl_Position = vec4(place, 0.0, 1.0);
-}`;
-
-const pointPainter = `#version 300 es
-precision highp float;
-in vec3 fill;
-out vec4 color;
-void main() { color = vec4(fill, 1.0); }`;
-
-function makeProgram(gl, vertexSource, fragmentSource) {
-  const program = gl.createProgram();
-  for (const [kind, source] of [[gl.VERTEX_SHADER, vertexSource], [gl.FRAGMENT_SHADER, fragmentSource]]) {
-    const shader = gl.createShader(kind);
-    gl.shaderSource(shader, source);
-    gl.compileShader(shader);
-    gl.attachShader(program, shader);
-  }
-  gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
-    throw new Error(gl.getProgramInfoLog(program) || "a shader does not compile");
-  const uniforms = {};
-  for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); ++i) {
-    const {name} = gl.getActiveUniform(program, i);
-    uniforms[name] = gl.getUniformLocation(program, name);
-  }
-  return {program, uniforms};
-}
-
-// Makes a texture of one texel per entry, and binds it to a unit; `values` has four numbers per entry.
-function makeTexture(gl, unit, internalFormat, format, type, values) {
-  const rows = Math.max(1, Math.ceil(values.length / 4 / textureWidth));
-  const texels = new values.constructor(4 * textureWidth * rows);
-  texels.set(values);
-  gl.activeTexture(gl.TEXTURE0 + unit);
-  gl.deleteTexture(gl.getParameter(gl.TEXTURE_BINDING_2D));
-  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-  gl.texImage2D(gl.TEXTURE_2D, 0, internalFormat, textureWidth, rows, 0, format, type, texels);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-}
-
-// Returns the high and low parts of both coordinates of all points: four floats per point.
-function splitPoints(points) {
-  const parts = new Float32Array(2 * points.length);
-  for (let i = 0; i < points.length; i += 2) {
-    parts[2 * i] = points[i];
-    parts[2 * i + 1] = points[i + 1];
-    parts[2 * i + 2] = points[i] - parts[2 * i];
-    parts[2 * i + 3] = points[i + 1] - parts[2 * i + 1];
-  }
-  return parts;
-}
+const nearWall = 10;  // CSS pixels from a wall vertex that count as a hit
 
 // Returns the way from one view to another as a function of the share of the way, from 0 to 1, and its length. Views
 // are {x, y, width}. Source: J. van Wijk, W. Nuij, Smooth and efficient zooming and panning (2003).
@@ -199,45 +70,16 @@ export function createView(canvas, mesh, options = {}) {
   overlay.setAttribute("aria-hidden", "true");
   overlay.style.cssText = "position:absolute;inset:0;width:100%;height:100%;pointer-events:none";
   canvas.after(overlay);
-  const paper = overlay.getContext("2d");
+  // The processor draws a few lines in some milliseconds; what stands in for a graphics card took 0.2 s.
+  const paper = overlay.getContext("2d", {willReadFrequently: true});
   const still = matchMedia("(prefers-reduced-motion: reduce)");
 
   let theme = {background: "#fff", edge: "#222", wall: "#b01e28", farField: "#222", selection: "#e8590c", strength: 0.6,
                tone: 0.5};
-  let fills = new Uint8Array(3 * (mesh.triangles.length / 3 + mesh.quads.length / 4)).fill(255);
-  let leafFills = new Float32Array(3 * parts.leaves.length);
   let x = 0, y = 0, scale = 1, width = 1, height = 1, ratio = 1;
   let selected = {cell: -1, vertex: -1};
-  let frameTime = 0, moving = 0, settling = 0, drawn = null, animation = 0, requested = 0;
-  let cells, spots, spotBuffer;
-
-  const setUp = () => {
-    cells = makeProgram(gl, cellShader, cellPainter);
-    spots = makeProgram(gl, pointShader, pointPainter);
-    spotBuffer = gl.createBuffer();
-    makeTexture(gl, 0, gl.RGBA32UI, gl.RGBA_INTEGER, gl.UNSIGNED_INT, parts.corners);
-    makeTexture(gl, 1, gl.RGBA32F, gl.RGBA, gl.FLOAT, splitPoints(points));
-    gl.useProgram(cells.program);
-    gl.uniform1i(cells.uniforms.corners, 0);
-    gl.uniform1i(cells.uniforms.points, 1);
-    gl.uniform1i(cells.uniforms.fills, 2);
-    putColors();
-  };
-
-  const putColors = () => {
-    const texels = new Uint8Array(4 * parts.count);
-    for (let i = 0; i < parts.count; ++i)
-      for (let k = 0; k < 3; ++k) texels[4 * i + k] = fills[3 * parts.cell[i] + k];
-    makeTexture(gl, 2, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, texels);
-    parts.leaves.forEach(({first, count}, leaf) => {
-      const samples = Math.min(16, count);
-      for (let k = 0; k < 3; ++k) {
-        let sum = 0;
-        for (let i = 0; i < samples; ++i) sum += fills[3 * parts.cell[first + Math.floor(i * count / samples)] + k];
-        leafFills[3 * leaf + k] = sum / samples / 255;
-      }
-    });
-  };
+  let moving = 0, settling = 0, animation = 0, requested = 0, stale = true;
+  const painter = createPainter(gl, points, parts);
 
   // --- Drawing
 
@@ -247,55 +89,8 @@ export function createView(canvas, mesh, options = {}) {
     return [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
   };
 
-  const visibleParts = () => {
-    const halfWidth = 0.5 * width / scale, halfHeight = 0.5 * height / scale;
-    const ranges = [], places = [], edge = colorParts(theme.edge), tone = theme.strength * theme.tone;
-    parts.leaves.forEach(({first, count, box}, leaf) => {
-      if (box[0] > x + halfWidth || box[2] < x - halfWidth || box[1] > y + halfHeight || box[3] < y - halfHeight)
-        return;
-      if ((box[2] - box[0]) * scale < smallestLeaf && (box[3] - box[1]) * scale < smallestLeaf) {
-        places.push((0.5 * (box[0] + box[2]) - x) / halfWidth, (0.5 * (box[1] + box[3]) - y) / halfHeight);
-        for (let k = 0; k < 3; ++k) places.push((1 - tone) * leafFills[3 * leaf + k] + tone * edge[k]);
-        return;
-      }
-      const last = ranges[ranges.length - 1];
-      if (last && last[1] === first) last[1] += count;
-      else ranges.push([first, first + count]);
-    });
-    return {ranges, places: new Float32Array(places)};
-  };
-
-  const drawSpots = (places) => {
-    gl.useProgram(spots.program);
-    gl.uniform1f(spots.uniforms.size, Math.ceil(smallestLeaf * ratio));
-    gl.bindBuffer(gl.ARRAY_BUFFER, spotBuffer);
-    gl.bufferData(gl.ARRAY_BUFFER, places, gl.DYNAMIC_DRAW);
-    [["place", 2, 0], ["paint", 3, 8]].forEach(([name, size, offset]) => {
-      const at = gl.getAttribLocation(spots.program, name);
-      gl.enableVertexAttribArray(at);
-      gl.vertexAttribPointer(at, size, gl.FLOAT, false, 20, offset);
-    });
-    gl.drawArrays(gl.POINTS, 0, places.length / 5);
-    for (const name of ["place", "paint"]) gl.disableVertexAttribArray(gl.getAttribLocation(spots.program, name));
-  };
-
-  const drawCells = () => {
-    gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clearColor(...colorParts(theme.background), 1);
-    gl.clear(gl.COLOR_BUFFER_BIT);
-    const {ranges, places} = visibleParts();
-    if (places.length > 0) drawSpots(places);
-    const {uniforms} = cells, highX = Math.fround(x), highY = Math.fround(y);
-    gl.useProgram(cells.program);
-    gl.uniform4f(uniforms.middle, highX, highY, x - highX, y - highY);
-    gl.uniform2f(uniforms.scale, 2 * scale / width, 2 * scale / height);
-    gl.uniform1f(uniforms.pixels, scale * ratio);
-    gl.uniform2f(uniforms.extent, canvas.width, canvas.height);
-    gl.uniform4f(uniforms.edge, ...colorParts(theme.edge), theme.strength);
-    gl.uniform1f(uniforms.width, ratio);
-    gl.uniform1f(uniforms.tone, theme.tone);
-    for (const [first, end] of ranges) gl.drawArrays(gl.TRIANGLES, 3 * first, 3 * (end - first));
-  };
+  const putTheme = () => painter.setTheme({...theme, background: colorParts(theme.background),
+                                           edge: colorParts(theme.edge)});
 
   const toPixelX = (px) => (px - x) * scale + 0.5 * width;
   const toPixelY = (py) => 0.5 * height - (py - y) * scale;
@@ -309,7 +104,11 @@ export function createView(canvas, mesh, options = {}) {
       paper.strokeStyle = wall ? theme.wall : theme.farField;
       paper.lineWidth = wall ? 2 : 1;
       paper.beginPath();
-      let lastX = NaN, lastY = NaN;
+      let lastX = NaN, lastY = NaN, penX = NaN, penY = NaN;
+      const drawTo = (px, py) => {
+        paper.lineTo(toPixelX(px), toPixelY(py));
+        [penX, penY] = [px, py];
+      };
       for (let i = 0; i < marker.edges.length; i += 2) {
         const a = 2 * marker.edges[i], b = 2 * marker.edges[i + 1];
         const ax = points[a], ay = points[a + 1], bx = points[b], by = points[b + 1];
@@ -318,10 +117,16 @@ export function createView(canvas, mesh, options = {}) {
           continue;
         const kept = clippedSegment(ax, ay, bx, by, box);
         if (!kept) continue;
-        if (kept[0] !== lastX || kept[1] !== lastY) paper.moveTo(toPixelX(kept[0]), toPixelY(kept[1]));
-        paper.lineTo(toPixelX(kept[2]), toPixelY(kept[3]));
+        if (kept[0] !== lastX || kept[1] !== lastY) {
+          if (!Number.isNaN(lastX) && (penX !== lastX || penY !== lastY)) drawTo(lastX, lastY);
+          paper.moveTo(toPixelX(kept[0]), toPixelY(kept[1]));
+          [penX, penY] = kept;
+        }
         [lastX, lastY] = [kept[2], kept[3]];
+        // While the view moves, steps of less than a pixel are joined.
+        if (!moving || Math.max(Math.abs(lastX - penX), Math.abs(lastY - penY)) * scale > 1) drawTo(lastX, lastY);
       }
+      if (!Number.isNaN(lastX) && (penX !== lastX || penY !== lastY)) drawTo(lastX, lastY);
       paper.stroke();
     }
   };
@@ -367,54 +172,45 @@ export function createView(canvas, mesh, options = {}) {
     }
   };
 
-  const draw = () => {
-    const begin = performance.now();
-    drawCells();
-    // Reading a pixel waits until the picture is there; while the view moves nothing should wait.
-    if (!moving) {
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-      frameTime = performance.now() - begin;
-    }
+  const drawOverlay = () => {
     paper.setTransform(ratio, 0, 0, ratio, 0, 0);
     paper.clearRect(0, 0, width, height);
     paper.lineCap = paper.lineJoin = "round";
     drawMarkers();
     drawSelection();
-    canvas.style.transform = overlay.style.transform = "";
-    drawn = {x, y, scale};
-  };
-
-  // Returns whether the last picture is too coarse or too small for the view of now.
-  const outgrown = () => {
-    const factor = scale / drawn.scale, far = Math.max(Math.abs(drawn.x - x) / width, Math.abs(drawn.y - y) / height);
-    return factor > 3 || factor < 0.4 || far * scale > 0.5;
-  };
-
-  // Moves the last picture to where it belongs in the view of now.
-  const moveDrawn = () => {
-    const factor = scale / drawn.scale;
-    const transform = `translate(${(drawn.x - x) * scale}px, ${(y - drawn.y) * scale}px) scale(${factor})`;
-    canvas.style.transform = overlay.style.transform = transform;
   };
 
   const update = () => {
     requested = 0;
     if (gl.isContextLost()) return;
-    if (moving && frameTime > slowFrame && drawn && !outgrown()) moveDrawn();
-    else draw();
+    if (moving) {
+      painter.drawMoving(view());
+      if (settling) settle();
+    } else if (!painter.drawRest(view())) {
+      requested = requestAnimationFrame(update);
+    }
+    if (!stale) return;
+    stale = false;
+    drawOverlay();
     if (options.onMove) options.onMove(view());
   };
   const request = () => {
+    stale = true;
     if (!requested) requested = requestAnimationFrame(update);
   };
   const endOfMove = () => {
-    moving = 0;
+    moving = settling = 0;
     request();
+  };
+  // The view rests once nothing has moved it for a while, and for longer than frames take: a whole picture would hold
+  // up the next one.
+  const settle = () => {
+    clearTimeout(settling);
+    settling = setTimeout(endOfMove, Math.max(140, 2 * painter.pace()));
   };
   const moved = () => {
     moving = 1;
-    clearTimeout(settling);
-    settling = setTimeout(endOfMove, 140);
+    settle();
     request();
   };
 
@@ -449,7 +245,7 @@ export function createView(canvas, mesh, options = {}) {
       setScale(wanted);
       endOfMove();
     };
-    if (!animate || still.matches || frameTime > slowFrame) return arrive();
+    if (!animate || still.matches) return arrive();
     const way = smoothWay({x, y, width: width / scale}, target), begin = performance.now();
     const duration = Math.min(1600, Math.max(250, 160 * way.length));
     const step = (now) => {
@@ -568,7 +364,7 @@ export function createView(canvas, mesh, options = {}) {
       event.preventDefault();
     },
     webglcontextrestored() {
-      setUp();
+      painter.setUp();
       request();
     },
   };
@@ -581,33 +377,36 @@ export function createView(canvas, mesh, options = {}) {
     ratio = Math.min(2, window.devicePixelRatio || 1);
     for (const surface of [canvas, overlay])
       [surface.width, surface.height] = [Math.round(width * ratio), Math.round(height * ratio)];
-    drawn = null;
+    painter.resize(ratio);
     request();
   };
   const observer = new ResizeObserver(resize);
   observer.observe(canvas.parentElement || canvas);
   resize();
-  setUp();
+  painter.setUp();
+  putTheme();
+  painter.setColors(new Uint8Array(3 * (mesh.triangles.length / 3 + mesh.quads.length / 4)).fill(255));
 
   return {
-    setColors(newFills) {
-      fills = newFills;
-      putColors();
+    setColors(fills) {
+      painter.setColors(fills);
       request();
     },
     setTheme(newTheme) {
       theme = {...theme, ...newTheme};
+      putTheme();
       request();
     },
     show, view, select, cellAt, cellsInView,
     snapshot() {
-      draw();
+      while (!painter.drawRest(view()));
+      drawOverlay();
       const picture = document.createElement("canvas");
       [picture.width, picture.height] = [canvas.width, canvas.height];
       for (const layer of [canvas, overlay]) picture.getContext("2d").drawImage(layer, 0, 0);
       return picture;
     },
-    frameTime: () => frameTime,
+    frameTime: painter.time,
     destroy() {
       observer.disconnect();
       cancelAnimationFrame(animation);
