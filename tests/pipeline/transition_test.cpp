@@ -116,6 +116,19 @@ TEST(Transition, NarrowColumnsAtABaseLeaveTheOthersIsotropic) {
     }
 }
 
+/// Cells of a fan are as wide as its rays are apart, at any height. With a growth of 1.2 they would be 1.9 times as high.
+TEST(Transition, FansEndInLowCells) {
+    CaseOptions options = automatic(1.2);
+    options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
+    options.layer.first_height = YPlus{1};
+    options.use_flow = true;
+    const shapes::Outline diamond = shapes::polygon({{1, 0}, {0.5, 0.05}, {0, 0}, {0.5, -0.05}});
+    const MeshResult result = mesh_of({diamond}, options);
+    expect_sound(result, options);
+    EXPECT_GT(result.check.transition.p01_area_ratio, 0.5);
+    EXPECT_LT(result.check.transition.p99_area_ratio, 1.8);
+}
+
 TEST(Transition, TwoElements) {
     const shapes::Outline flap = shapes::moved(naca("2412", 120), -0.5, 0.3, {1.005, -0.03});
     expect_good_transition({naca("4412", 160), flap}, automatic(1.2));
