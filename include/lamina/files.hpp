@@ -35,6 +35,9 @@ LAMINA_EXPORT void write_file(const std::filesystem::path& file, const std::stri
 /// folder or of a read-only file, which renaming would replace.
 LAMINA_EXPORT void check_folder_writable(const std::filesystem::path& file);
 
+/// Returns the folders above this file that do not exist, the outermost one first.
+LAMINA_EXPORT std::vector<std::filesystem::path> missing_folders(const std::filesystem::path& file);
+
 /// Creates the folders above this file that do not exist. Throws IoError.
 LAMINA_EXPORT void create_folders_above(const std::filesystem::path& file);
 

@@ -14,6 +14,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <lamina/files.hpp>
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/warning.hpp>
@@ -214,6 +215,7 @@ void add_meshes(nb::module_& module) {
     module.def("generate", &generate, nb::arg("sections"), nb::arg("values"), nb::arg("sizes").none(),
                nb::arg("progress").none(), nb::arg("stop") = nb::none());
     module.def("read", &read);
+    module.def("create_folders_above", [](const std::string& file) { create_folders_above(file); });
     module.def("mesh_of_arrays", &mesh_of_arrays);
     module.def("format_names", [] {
         std::vector<std::string> names;

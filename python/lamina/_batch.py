@@ -9,7 +9,6 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,7 +28,7 @@ class BatchResult:
     name: str  #: of the input
     options: dict[str, Any]  #: the values of the sweep
     mesh: Mesh | None  #: with its warnings
-    error: Exception | None  #: a lamina.Error, a MemoryError, or an OSError where a folder cannot be created
+    error: Exception | None  #: a lamina.Error, or a MemoryError
     seconds: float  #: wall-clock time
     path: str | None = field(default=None)  #: the file that was written
 
@@ -93,9 +92,9 @@ def _run(job: _Job, options: dict[str, Any], left: threading.Event) -> BatchResu
     try:
         mesh = make_mesh(job.sections, None, {"threads": 1, **options, **job.swept}, job.name, stop)
         if job.path is not None:
-            Path(job.path).parent.mkdir(parents=True, exist_ok=True)
+            _lamina.create_folders_above(job.path)
             mesh.write(job.path)
-    except (Error, MemoryError, OSError) as error:
+    except (Error, MemoryError) as error:
         return BatchResult(job.name, job.swept, None, error, time.perf_counter() - start)
     return BatchResult(job.name, job.swept, mesh, None, time.perf_counter() - start, job.path)
 

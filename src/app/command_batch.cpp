@@ -210,8 +210,8 @@ void batch(const GivenOptions& options, const BatchArguments& arguments) {
     settings.strict = common.strict;
     files.push_back({settings.journal, "option --summary"});
     files.push_back({settings.table, "option --summary"});
-    prepare_folders(jobs, files);
     const SignalGuard guard(files);
+    prepare_folders(jobs, files);
     const BatchOutcome outcome = run_batch(jobs, settings);
     if (!common.quiet)
         print_result(fmt::format("{} meshes made, {} kept from before, {} failed: {}\n", outcome.done, outcome.kept,

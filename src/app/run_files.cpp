@@ -127,10 +127,8 @@ std::vector<RunFile> files_of_case(const MeshCase& mesh_case) {
 SignalGuard::SignalGuard(std::span<const RunFile> outputs) {
     for (const RunFile& output : outputs) {
         outputs_.push_back(output.path);
-        std::error_code ignored;
-        for (fs::path above = output.path.parent_path(); !above.empty() && !fs::exists(above, ignored);
-             above = above.parent_path())
-            missing_folders_.push_back(above);
+        const std::vector<fs::path> missing = missing_folders(output.path);
+        missing_folders_.insert(missing_folders_.end(), missing.rbegin(), missing.rend());
     }
     sigemptyset(&signals_);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {

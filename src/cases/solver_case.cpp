@@ -113,16 +113,6 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     return flow;
 }
 
-/// Returns the folders above a file that do not exist, the outermost one first.
-std::vector<fs::path> missing_folders(const fs::path& file) {
-    std::vector<fs::path> missing;
-    std::error_code ignored;
-    for (fs::path above = file.parent_path(); !above.empty() && !fs::exists(above, ignored);
-         above = above.parent_path())
-        missing.insert(missing.begin(), above);
-    return missing;
-}
-
 void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
     const fs::path path = folder / file.name;
     create_folders_above(path);

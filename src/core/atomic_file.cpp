@@ -107,8 +107,7 @@ void write_folder_atomically(const fs::path& target, const std::function<void(co
     const fs::path temporary = temporary_beside(target), replaced = temporary_beside(target, replaced_purpose);
     std::vector<fs::path> created;  // missing folders above the target, the outermost one first
     const auto work = [&] {
-        for (fs::path above = folder_of(target); !fs::exists(above); above = folder_of(above))
-            created.insert(created.begin(), above);
+        created = missing_folders(target);
         for (const fs::path& folder : created) fs::create_directory(folder);
         fs::create_directory(temporary);
         write(temporary);

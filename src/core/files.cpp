@@ -75,6 +75,15 @@ void check_folder_writable(const fs::path& file) {
     if (fs::exists(file, ignored)) require_access(file, W_OK);
 }
 
+std::vector<fs::path> missing_folders(const fs::path& file) {
+    std::vector<fs::path> missing;
+    std::error_code ignored;
+    for (fs::path above = file.parent_path(); !above.empty() && !fs::exists(above, ignored);
+         above = above.parent_path())
+        missing.insert(missing.begin(), above);
+    return missing;
+}
+
 void create_folders_above(const fs::path& file) {
     if (file.parent_path().empty()) return;
     std::error_code failed;

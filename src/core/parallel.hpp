@@ -1,6 +1,7 @@
-// Parallel loops and tasks. parallel_tbb.cpp implements them on a thread library, which no other code knows;
-// parallel_std.cpp on the standard library alone, and parallel_none.cpp without threads. Callers divide work into blocks and combine the results in the order
-// of the blocks, so that no result depends on the number of threads or on their timing.
+// Parallel loops and tasks. parallel_tbb.cpp implements them on a thread library, which no other code knows,
+// parallel_std.cpp on the standard library alone, and parallel_none.cpp without threads. Callers divide work into
+// blocks and combine the results in the order of the blocks, so that no result depends on the number of threads or on
+// their timing.
 #pragma once
 
 #include <algorithm>

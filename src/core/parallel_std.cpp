@@ -1,15 +1,14 @@
-// Parallel loops and tasks on the threads of the standard library alone (LAMINA_THREADS=std): for WebAssembly, where
-// pages that are isolated have threads, and for machines without oneTBB.
+// Parallel loops and tasks on the threads of the standard library alone (LAMINA_THREADS=std), for machines without
+// oneTBB.
 //
 // with_threads() starts the threads of a crew, which take jobs from a list until it ends. The thread that posts a job
-// works at it, too; then it withdraws what nobody has taken, and waits for those who work at it still. While it waits it
-// takes jobs that were posted within its own job, and no others: those may need what it has begun and cannot go on with.
+// works at it, too; then it withdraws what nobody has taken, and waits for those who work at it still. While it waits
+// it takes jobs that were posted within its own job, and no others: those may need what it has begun and cannot go on
+// with.
 #include "core/parallel.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <condition_variable>
-#include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -17,8 +16,8 @@
 
 #include <lamina/threads.hpp>
 
-#include "core/block_loop.hpp"
 #include "core/interruption_point.hpp"
+#include "core/parallel_work.hpp"
 
 namespace lamina::core {
 namespace {
@@ -160,10 +159,8 @@ private:
 }  // namespace
 
 void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f) {
-    assert(grain > 0);
     BlockLoop loop(n, grain, f);
-    const std::size_t workers = std::min<std::size_t>(loop.blocks(), thread_count());
-    if (workers <= 1) {
+    if (const std::size_t workers = loop.workers(); workers <= 1) {
         loop.work();
     } else if (seat.crew == nullptr) {
         with_threads(0, [&] { parallel_for(n, grain, f); });
@@ -183,30 +180,23 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
 
 void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g) {
     if (seat.crew == nullptr && thread_count() > 1) return with_threads(0, [&] { parallel_invoke(f, g); });
-    std::exception_ptr f_failure, g_failure;
-    const auto guarded = [](const std::function<void()>& task, std::exception_ptr& failure) {
-        try {
-            task();
-        } catch (...) {
-            failure = std::current_exception();
-        }
-    };
-    const std::function<void()> work = [&] { guarded(g, g_failure); };
+    GuardedTask first(f), second(g);
+    const std::function<void()> work = [&] { second.run(); };
     if (thread_count() == 1) {
-        guarded(f, f_failure);
+        first.run();
         work();
     } else {
         Job job{.work = work, .within = seat.job, .interruption = current_interruption, .wanted = 1};
         seat.crew->post(job);
-        guarded(f, f_failure);
+        first.run();
         if (seat.crew->withdraw(job) > 0) {
             work();
         } else {
             seat.crew->wait_for(job);
         }
     }
-    if (f_failure) std::rethrow_exception(f_failure);
-    if (g_failure) std::rethrow_exception(g_failure);
+    first.rethrow_failure();
+    second.rethrow_failure();
 }
 
 unsigned thread_index() { return seat.index; }

@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <cassert>
-#include <exception>
 #include <latch>
 #include <thread>
 #include <vector>
@@ -19,16 +18,14 @@
 
 #include <lamina/threads.hpp>
 
-#include "core/block_loop.hpp"
 #include "core/interruption_point.hpp"
+#include "core/parallel_work.hpp"
 
 namespace lamina::core {
 
 void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f) {
-    assert(grain > 0);
     BlockLoop loop(n, grain, f);
-    const std::size_t workers = std::min<std::size_t>(loop.blocks(), thread_count());
-    if (workers <= 1) {
+    if (const std::size_t workers = loop.workers(); workers <= 1) {
         loop.work();
     } else {
         std::atomic<std::size_t> finished;  // for the thread sanitizer
@@ -47,32 +44,25 @@ void parallel_for(std::size_t n, std::size_t grain, const std::function<void(std
 }
 
 void parallel_invoke(const std::function<void()>& f, const std::function<void()>& g) {
-    std::exception_ptr f_failure, g_failure;
-    const auto guarded = [](const std::function<void()>& task, std::exception_ptr& failure) {
-        try {
-            task();
-        } catch (...) {
-            failure = std::current_exception();
-        }
-    };
+    GuardedTask first(f), second(g);
     if (thread_count() == 1) {
-        guarded(f, f_failure);
-        guarded(g, g_failure);
+        first.run();
+        second.run();
     } else {
         std::atomic<int> finished;  // for the thread sanitizer
         finished.store(0, std::memory_order_release);
         const Interruption* const interruption = current_interruption;
-        const auto run = [&](const std::function<void()>& task, std::exception_ptr& failure) {
+        const auto run = [&](GuardedTask& task) {
             const InterruptionScope scope(interruption);
-            if (finished.load(std::memory_order_acquire) <= 1) guarded(task, failure);
+            if (finished.load(std::memory_order_acquire) <= 1) task.run();
             finished.fetch_add(1, std::memory_order_release);
         };
-        tbb::parallel_invoke([&] { run(f, f_failure); }, [&] { run(g, g_failure); });
+        tbb::parallel_invoke([&] { run(first); }, [&] { run(second); });
         [[maybe_unused]] const int both = finished.load(std::memory_order_acquire);
         assert(both == 2);
     }
-    if (f_failure) std::rethrow_exception(f_failure);
-    if (g_failure) std::rethrow_exception(g_failure);
+    first.rethrow_failure();
+    second.rethrow_failure();
 }
 
 unsigned thread_index() {

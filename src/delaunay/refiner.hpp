@@ -472,7 +472,7 @@ private:
         if (centre == p || !insert_in_sight(t, centre)) derived().give_up(t, centre);
     }
 
-    /// As insert(), for a p that may lie far behind a border.
+    /// Inserts p as insert() does, but looks first whether a border is known to hide it from t.
     bool insert_in_sight(Index t, Point p) { return derived().is_in_sight(t, p) && insert(t, p); }
 
     /// Inserts p, which lies in the circle of triangle t but for rounding. Returns false, and changes nothing, if the

@@ -566,7 +566,7 @@ private:
         const auto is_within = [&](double sum) {
             return rules_.is_allowed(shape.squared[0], shape.squared[1], shape.squared[2], shape.area2, sum);
         };
-        // What is allowed for the least sizes that vertices may have is allowed for theirs.
+        // A triangle that is allowed for the least sizes that its vertices may have is allowed for their sizes, too.
         return (is_within(at_least) || is_within(size_sum(t))) && !is_blocked(t);
     }
 

@@ -95,7 +95,7 @@ private:
         std::uint32_t group, quadrants;
     };
 
-    /// What push() learns about the quadrants.
+    /// The bounds of the candidates of each quadrant, as far as push() has found them.
     struct QuadrantBounds {
         Quadrants::Numbers nearest;                              ///< distance of the nearest candidate
         Quadrants::Numbers lowest;                               ///< lowest value of a candidate

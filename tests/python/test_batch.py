@@ -30,7 +30,7 @@ def test_results_equal_single_meshes(tmp_path):
 
 def test_sweep_and_files(tmp_path):
     sweep = {"reynolds": [1e6, 3e6], "alpha": [0, 4]}
-    template = str(tmp_path / "{name}_{reynolds:g}_{alpha}.su2")
+    template = str(tmp_path / "new" / "{name}" / "{reynolds:g}_{alpha}.su2")
     results = list(lamina.batch({"wing": "naca:0012"}, sweep=sweep, write=template))
     assert len(results) == 4 == len({tuple(r.options.values()) for r in results})
     for r in results:
@@ -38,6 +38,12 @@ def test_sweep_and_files(tmp_path):
         assert lamina.read(r.path) == r.mesh
         assert r.mesh.facts["reynolds"] == r.options["reynolds"] and r.mesh.facts["alpha"] == r.options["alpha"]
         assert r.mesh == lamina.mesh("naca:0012", **r.options)
+
+
+def test_folders_that_cannot_be_created_are_errors_of_lamina(tmp_path):
+    (tmp_path / "file").touch()
+    result, = lamina.batch(["naca:0012"], write=str(tmp_path / "file" / "{name}.su2"), **OPTIONS)
+    assert isinstance(result.error, lamina.IoError) and result.mesh is None
 
 
 def test_wrong_calls_raise_at_once(tmp_path):

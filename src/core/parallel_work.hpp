@@ -1,27 +1,32 @@
-// The blocks of a parallel loop, taken by several threads.
+// What loops and tasks are to the threads that run them, whatever starts the threads.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
 
+#include <lamina/threads.hpp>
+
 #include "core/interruption_point.hpp"
 
 namespace lamina::core {
 
-/// What the threads of one parallel_for() share. Each of them calls work(), which returns once no block is left to
-/// start; rethrow_failure() is called when all of them have returned.
+/// A parallel_for() whose blocks several threads take. Each of them calls work(), which returns once no block is left
+/// to start; rethrow_failure() is called when all of them have returned.
 class BlockLoop {
 public:
     BlockLoop(std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& f)
         : n_(n), grain_(grain), blocks_((n + grain - 1) / grain), f_(f), failed_block_(blocks_) {
+        assert(grain > 0);
         next_.store(0, std::memory_order_relaxed);
     }
 
-    std::size_t blocks() const { return blocks_; }
+    /// Returns how many threads should call work().
+    std::size_t workers() const { return std::min<std::size_t>(blocks_, thread_count()); }
 
     /// Takes blocks in ascending order and calls f for them. Blocks before a failing one have hence started, and which
     /// block fails first in order does not depend on timing. Never throws.
@@ -56,6 +61,30 @@ private:
     std::atomic<std::size_t> next_;
     std::mutex failure_mutex_;
     std::size_t failed_block_;
+    std::exception_ptr failure_;
+};
+
+/// A task whose exception waits until the others have ended.
+class GuardedTask {
+public:
+    explicit GuardedTask(const std::function<void()>& task) : task_(task) {}
+
+    /// Calls the task. Never throws.
+    void run() {
+        try {
+            task_();
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+    }
+
+    /// Rethrows what the task has thrown, if anything.
+    void rethrow_failure() const {
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+private:
+    const std::function<void()>& task_;
     std::exception_ptr failure_;
 };
 
