@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -162,15 +163,23 @@ std::vector<RunFile> require_different_files(const std::vector<BatchJob>& jobs) 
     return files;
 }
 
-/// Creates the folders of files that do not exist, such as one for each input. Throws where a file certainly cannot be
-/// written.
-void prepare_folders(const std::vector<BatchJob>& jobs, const std::vector<RunFile>& files) {
-    for (const RunFile& file : files) create_folders_above(file.path);
+/// Creates the folders of files that do not exist, such as one for each input, and returns them, inner ones before outer
+/// ones. Throws where a file certainly cannot be written.
+std::vector<std::filesystem::path> prepare_folders(const std::vector<BatchJob>& jobs,
+                                                   const std::vector<RunFile>& files) {
+    std::vector<std::filesystem::path> created;
+    for (const RunFile& file : files) {
+        const std::vector<std::filesystem::path> missing = missing_folders(file.path);
+        created.insert(created.end(), missing.begin(), missing.end());
+        create_folders_above(file.path);
+    }
+    std::reverse(created.begin(), created.end());
     for (const BatchJob& job : jobs) {
         destination_of_outputs(job.mesh_case).require_writable();
         for (const auto& [file, option] : files_beside_mesh)
             if (!(job.mesh_case.*file).empty()) check_folder_writable(job.mesh_case.*file);
     }
+    return created;
 }
 
 /// Returns the stem of the names of journal and table: beside the outputs, unless it is given.
@@ -211,8 +220,10 @@ void batch(const GivenOptions& options, const BatchArguments& arguments) {
     files.push_back({settings.journal, "option --summary"});
     files.push_back({settings.table, "option --summary"});
     const SignalGuard guard(files);
-    prepare_folders(jobs, files);
+    const std::vector<std::filesystem::path> created = prepare_folders(jobs, files);
     const BatchOutcome outcome = run_batch(jobs, settings);
+    std::error_code not_empty;
+    for (const std::filesystem::path& folder : created) std::filesystem::remove(folder, not_empty);
     if (!common.quiet)
         print_result(fmt::format("{} meshes made, {} kept from before, {} failed: {}\n", outcome.done, outcome.kept,
                                  outcome.failed, settings.table.string()));

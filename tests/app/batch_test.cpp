@@ -69,6 +69,10 @@ TEST(Batch, MissingFoldersAreCreatedUnlessTheCallIsWrong) {
               0);
     for (const char* file : {"new/naca_0012/m.su2", "new/naca_0015/m.su2", "r/naca_0015.json", "s/all.csv"})
         EXPECT_TRUE(fs::exists(folder / file)) << file;
+    folder.write("fish.dat", "fish\n0 0\n1 0.1\n1 0\n0 0.1\n");
+    EXPECT_EQ(run_batch(folder, {"naca:0012", "fish.dat", "-o", "some/{name}/m.su2", "--summary", "s"}).exit_code, 4);
+    EXPECT_TRUE(fs::exists(folder / "some/naca_0012/m.su2"));
+    EXPECT_FALSE(fs::exists(folder / "some/fish")) << "nothing is in it";
 }
 
 TEST(Batch, OneBadFileDoesNotStopTheRest) {
