@@ -2,15 +2,31 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
+#include <lamina/io.hpp>
 
 #include "app/case_file.hpp"
 #include "app/option_hint.hpp"
 #include "app/presets.hpp"
 
 namespace lamina::app {
+
+namespace {
+
+/// Returns whether a file is a mesh, by its name.
+bool is_named_as_mesh(const std::string& input) {
+    const std::filesystem::path path(input);
+    const std::vector<MeshFormat> formats = mesh_formats();
+    return std::any_of(formats.begin(), formats.end(), [&](const MeshFormat& format) {
+        return std::count(format.extensions.begin(), format.extensions.end(), path.extension().string()) > 0;
+    });
+}
+
+}  // namespace
 
 MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optional<std::string>& preset,
                         bool has_reynolds) {
@@ -24,6 +40,12 @@ MeshCase case_of_inputs(const std::vector<std::string>& inputs, const std::optio
     if (inputs.size() == 1 && is_case_file(inputs.front())) return read_case_file(inputs.front(), preset, has_reynolds);
     const auto case_file = std::find_if(inputs.begin(), inputs.end(), is_case_file);
     if (case_file != inputs.end()) throw UsageError("case file " + *case_file + " must be the only INPUT");
+
+    for (const std::string& input : inputs)
+        if (is_named_as_mesh(input))
+            throw UsageError(input +
+                             " is a mesh by its name, where an airfoil is wanted (lamina check describes meshes, " +
+                             "and lamina view shows them)");
 
     MeshCase mesh_case = case_of_preset(preset.value_or(automatic_preset), has_reynolds);
     mesh_case.inputs = inputs;

@@ -54,6 +54,13 @@ TEST(Hints, OptionsOfMeshUnderOtherNames) {
     expect_refused(folder, {"mesh", "naca:0012", "--zzzzz"}, usage, "unknown option --zzzzz (see");
 }
 
+TEST(Hints, MeshesInPlaceOfAirfoils) {
+    const TemporaryFolder folder;
+    for (const char* command : {"info", "mesh", "flow"})
+        for (const char* mesh : {"a.su2", "a.cgns", "folder.one/a.vtu"})
+            expect_refused(folder, {command, mesh}, usage, "lamina check describes meshes");
+}
+
 TEST(Hints, OptionsOfOtherCommands) {
     const TemporaryFolder folder;
     const std::string triangle = "q is --min-angle DEG, a is --max-area A";
