@@ -1,5 +1,5 @@
-// Bundles the page into build/browser/site and the npm package into build/browser/package. The module of Emscripten
-// must be in build/browser/module.
+// Bundles the page into build/browser/site and the npm package into build/browser/package. The modules of
+// Emscripten must be in build/browser/module and build/browser/module-threads.
 import {build} from "esbuild";
 import {cp, mkdir, readFile, rm, writeFile} from "node:fs/promises";
 import {execFileSync} from "node:child_process";
@@ -7,6 +7,7 @@ import {fileURLToPath} from "node:url";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 const module = `${root}build/browser/module`,
+  threads = `${root}build/browser/module-threads`,
   site = `${root}build/browser/site`,
   made = `${root}build/browser/package`;
 const alias = {"lamina-module": `${module}/lamina.mjs`, "report-page": `${root}share/page`};
@@ -31,9 +32,11 @@ await cp("src/index.html", `${site}/index.html`);
 const styles = await Promise.all([`${root}share/page/page.css`, "src/page.css"].map((file) => readFile(file, "utf8")));
 await writeFile(`${site}/page.css`, styles.join("\n"));
 await cp(`${module}/lamina.wasm`, `${site}/lamina.wasm`);
+await cp(threads, `${site}/threads`, {recursive: true});
 
 await build({...shared, entryPoints: ["src/lamina.ts"], outdir: `${made}/dist`});
 await cp(`${module}/lamina.wasm`, `${made}/dist/lamina.wasm`);
+await cp(threads, `${made}/dist/threads`, {recursive: true});
 execFileSync("node_modules/.bin/tsc", ["-p", "tsconfig.types.json", "--outDir", `${made}/dist`], {stdio: "inherit"});
 const {scripts, devDependencies, prettier, ...published} = JSON.parse(await readFile("package.json", "utf8"));
 await writeFile(`${made}/package.json`, `${JSON.stringify(published, null, 2)}\n`);

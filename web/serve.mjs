@@ -7,12 +7,16 @@ import {fileURLToPath} from "node:url";
 const types = {
   ".html": "text/html; charset=utf-8",
   ".js": "text/javascript",
+  ".mjs": "text/javascript",
   ".css": "text/css",
   ".wasm": "application/wasm",
 };
 
+/** What a page has to be served with to be isolated from others, so that browsers let it have threads. */
+export const isolation = {"cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp"};
+
 /** Starts a server; the promise is that of its address. */
-export function serve(folder, port = 0) {
+export function serve(folder, port = 0, isolated = true) {
   const root = resolve(folder);
   const server = createServer(async (request, response) => {
     const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
@@ -23,6 +27,7 @@ export function serve(folder, port = 0) {
       response.writeHead(200, {
         "content-type": types[extname(file)] ?? "application/octet-stream",
         "cache-control": "no-cache",
+        ...(isolated ? isolation : {}),
       });
       response.end(bytes);
     } catch {

@@ -12,6 +12,7 @@
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
 #include <lamina/places.hpp>
+#include <lamina/threads.hpp>
 #include <lamina/warning.hpp>
 
 #include "request.hpp"
@@ -167,7 +168,9 @@ val delaunay(const val& points) {
     if (numbers.size() % 2 != 0) throw UsageError("points must be an even number of coordinates: x, y, x, y, ...");
     std::vector<Point> given(numbers.size() / 2);
     for (std::size_t i = 0; i < given.size(); ++i) given[i] = {numbers[2 * i], numbers[2 * i + 1]};
-    return flat<std::uint32_t>(triangulate(given).triangles);
+    Triangulation made;
+    with_threads(0, [&] { made = triangulate(given); });
+    return flat<std::uint32_t>(made.triangles);
 }
 
 }  // namespace lamina::web

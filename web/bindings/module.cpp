@@ -10,6 +10,7 @@
 
 #include <lamina/error.hpp>
 #include <lamina/io.hpp>
+#include <lamina/threads.hpp>
 #include <lamina/version.hpp>
 
 #include "meshes.hpp"
@@ -99,6 +100,7 @@ EMSCRIPTEN_BINDINGS(lamina) {
                 });
             });
     emscripten::function("formats", &formats);
+    emscripten::function("threadCount", &thread_count);
     emscripten::function("optionRows", &option_rows);
     emscripten::function(
         "generate", +[](val inputs, val options, val progress) {

@@ -26,8 +26,8 @@ const mainChoices = [
   {key: "layer_topology", label: "Cells of the layer"},
   {key: "preset", label: "Preset"},
 ];
-/** Options that mean nothing here: there is one thread, and no file beside those dropped. */
-const leftOut = new Set(["threads", "background"]);
+/** Options that mean nothing here: there is no file beside those dropped. */
+const leftOut = new Set(["background"]);
 const sliderSteps = 1000;
 
 function numberText(value: number): string {

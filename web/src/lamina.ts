@@ -154,13 +154,8 @@ declare const process: unknown;
 
 let loading: Promise<Module> | undefined;
 
-/**
- * Loads the WebAssembly module, once. The other functions call it by themselves; call it first to begin early, or to
- * say where lamina.wasm is (beside this file by default).
- */
-export function load(wasm?: URL | string | ArrayBuffer | Uint8Array): Promise<Module> {
-  loading ??= wasmBytes(wasm)
-    .then((wasmBinary) => (makeModule as MakeModule)({wasmBinary}))
+function keep(made: Promise<Module>): Promise<Module> {
+  loading = made
     .then((module) => {
       for (const folder of [inputFolder, outputFolder]) module.FS.mkdir(folder);
       return module;
@@ -170,6 +165,38 @@ export function load(wasm?: URL | string | ArrayBuffer | Uint8Array): Promise<Mo
       throw error;
     });
   return loading;
+}
+
+/**
+ * Loads the WebAssembly module, once. The other functions call it by themselves; call it first to begin early, or to
+ * say where lamina.wasm is (beside this file by default).
+ */
+export function load(wasm?: URL | string | ArrayBuffer | Uint8Array): Promise<Module> {
+  return loading ?? keep(wasmBytes(wasm).then((wasmBinary) => (makeModule as MakeModule)({wasmBinary})));
+}
+
+/**
+ * Loads the module with threads in place of that of load(), before any other function is called. Its three files are in
+ * `folder` ("threads", beside this file, by default). Browsers have threads where the page is isolated from others
+ * (crossOriginIsolated) and, but for short work, in workers alone; Node.js is not supported. Meshes are the same.
+ */
+export function loadThreads(folder: URL | string = new URL("threads/", import.meta.url)): Promise<Module> {
+  if (loading) return loading;
+  const script = new URL("lamina.mjs", folder).href;
+  const make = async (): Promise<Module> => {
+    if (!globalThis.crossOriginIsolated) throw new Error("threads need a page that is isolated from others");
+    const [{default: makeThreads}, wasmBinary] = await Promise.all([
+      import(/* @vite-ignore */ script) as Promise<{default: MakeModule}>,
+      wasmBytes(new URL("lamina.wasm", folder)),
+    ]);
+    return makeThreads({wasmBinary, mainScriptUrlOrBlob: script});
+  };
+  return keep(make());
+}
+
+/** Returns the number of threads that mesh() and delaunay() work on. */
+export async function threadCount(): Promise<number> {
+  return (await load()).threadCount();
 }
 
 const inputFolder = "/input",

@@ -10,6 +10,8 @@ export type Request =
 /** What the library offers. */
 export interface Offer {
   version: string;
+  /** How many a mesh is made on. */
+  threads: number;
   rows: OptionRow[];
   formats: Format[];
 }

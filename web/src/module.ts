@@ -34,6 +34,7 @@ export interface Generated {
 export interface Module {
   version: string;
   formats(): import("./lamina.ts").Format[];
+  threadCount(): number;
   optionRows(): import("./lamina.ts").OptionRow[];
   generate(inputs: string[], options: object, progress: ((stage: string) => void) | null): Reply<Generated>;
   outlines(inputs: string[]): Reply<import("./lamina.ts").Outline[]>;
@@ -51,4 +52,8 @@ export interface Module {
   };
 }
 
-export type MakeModule = (settings: {wasmBinary: ArrayBuffer | Uint8Array}) => Promise<Module>;
+export type MakeModule = (settings: {
+  wasmBinary: ArrayBuffer | Uint8Array;
+  /** Where the module comes from, for its threads. */
+  mainScriptUrlOrBlob?: string;
+}) => Promise<Module>;

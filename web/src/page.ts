@@ -239,7 +239,9 @@ function takeInput(): void {
 async function begin(): Promise<void> {
   try {
     const offer = await mesher.begin();
-    form = new OptionForm(offer.rows, byId("main-options"), byId("all-options"), changed);
+    document.body.dataset.threads = String(offer.threads);
+    const rows = offer.rows.filter(({key}) => key !== "threads" || offer.threads > 1);
+    form = new OptionForm(rows, byId("main-options"), byId("all-options"), changed);
     offerDownloads(offer);
     takeInput();
     document.querySelector(".heading p")!.textContent += ` Version ${offer.version}.`;

@@ -1,5 +1,6 @@
 // Makes meshes beside the page, so that the page answers while it does. It keeps the last mesh, which it can write.
-import {formats, LaminaError, load, mesh, optionRows, version, zip, type Mesh} from "./lamina.ts";
+import {formats, LaminaError, load, loadThreads, mesh, optionRows, threadCount, version, zip} from "./lamina.ts";
+import type {Mesh} from "./lamina.ts";
 import type {Download, MadeMesh, Offer, ReplyMessage, Request} from "./messages.ts";
 
 let last: Mesh | undefined;
@@ -9,8 +10,9 @@ function send(message: ReplyMessage, transfer: Transferable[] = []): void {
 }
 
 async function begin(): Promise<Offer> {
-  await load();
-  return {version: await version(), rows: await optionRows(), formats: await formats()};
+  // Threads are a matter of speed: where they fail, for want of memory they share, one will do.
+  await (self.crossOriginIsolated ? loadThreads().catch(() => load()) : load());
+  return {threads: await threadCount(), version: await version(), rows: await optionRows(), formats: await formats()};
 }
 
 async function make(request: Request & {kind: "mesh"}, number: number): Promise<MadeMesh> {

@@ -12,6 +12,8 @@
 #include <memory>
 #include <type_traits>
 
+#include "landing_pad.hpp"
+
 namespace std {
 
 #if !__has_builtin(__builtin_bit_cast) || __cpp_lib_bit_cast
@@ -23,25 +25,22 @@ constexpr To bit_cast(const From& from) noexcept {
     return __builtin_bit_cast(To, from);
 }
 
-/// For the one thread that there is.
+/// On the operations of Clang, which need no lock for numbers of 1, 2, 4 and 8 bytes. The order is always the strictest.
 template <class T>
 class atomic_ref {
 public:
     explicit atomic_ref(T& value) : value_(value) {}
-    T load(memory_order = memory_order_seq_cst) const { return value_; }
-    void store(T value, memory_order = memory_order_seq_cst) const { value_ = value; }
+    T load(memory_order = memory_order_seq_cst) const { return __atomic_load_n(&value_, __ATOMIC_SEQ_CST); }
+    void store(T value, memory_order = memory_order_seq_cst) const {
+        __atomic_store_n(&value_, value, __ATOMIC_SEQ_CST);
+    }
     T fetch_or(T bits, memory_order = memory_order_seq_cst) const {
-        const T before = value_;
-        value_ |= bits;
-        return before;
+        return __atomic_fetch_or(&value_, bits, __ATOMIC_SEQ_CST);
     }
     bool compare_exchange_strong(T& expected, T desired, memory_order = memory_order_seq_cst) const {
-        if (value_ != expected) {
-            expected = value_;
-            return false;
-        }
-        value_ = desired;
-        return true;
+        constexpr bool may_fail_for_nothing = false;
+        return __atomic_compare_exchange_n(&value_, &expected, desired, may_fail_for_nothing, __ATOMIC_SEQ_CST,
+                                           __ATOMIC_SEQ_CST);
     }
 
 private:

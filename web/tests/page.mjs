@@ -17,10 +17,15 @@ const measured = {};
 // --- What has to be loaded
 
 const site = `${root}build/browser/site`;
-measured.compressedBytes = readdirSync(site)
-  .filter((name) => statSync(`${site}/${name}`).isFile())
-  .reduce((sum, name) => sum + gzipSync(readFileSync(`${site}/${name}`), {level: 9}).length, 0);
-assert(measured.compressedBytes <= 2e6, `the page has ${measured.compressedBytes} bytes`);
+const compressed = (folder, without = "") =>
+  readdirSync(folder)
+    .filter((name) => name !== without && statSync(`${folder}/${name}`).isFile())
+    .reduce((sum, name) => sum + gzipSync(readFileSync(`${folder}/${name}`), {level: 9}).length, 0);
+measured.compressedBytes = {
+  oneThread: compressed(site),
+  threads: compressed(site, "lamina.wasm") + compressed(`${site}/threads`),
+};
+for (const bytes of Object.values(measured.compressedBytes)) assert(bytes <= 2e6, `the page has ${bytes} bytes`);
 
 // --- The page
 
@@ -74,6 +79,8 @@ try {
   await page.waitForFunction(() => document.body.dataset.state === "done", null, {timeout: 60_000});
   await settle();
   assert.match(await headline(), /cells in/);
+  measured.threads = Number(await page.evaluate(() => document.body.dataset.threads));
+  assert.equal(measured.threads, await page.evaluate(() => Math.min(navigator.hardwareConcurrency, 16)));
   await picture("page");
 
   // The first mesh includes what compiling costs; the second is what a person feels.
@@ -227,10 +234,27 @@ try {
   await picture("million");
   measured.frameMilliseconds = (await page.evaluate(() => lamina.picture.state())).frameTime;
 
+  for (const threads of [1, 2]) {
+    await after(async () => {
+      const field = page.locator("#all-options [data-key=threads] .text");
+      await field.fill(String(threads));
+      await field.dispatchEvent("change");
+    });
+    measured[`largeOn${threads}`] = await headline();
+  }
+
   await page.emulateMedia({colorScheme: "dark"});
   await settle();
   await picture("dark");
   assert.deepEqual(problems, []);
+
+  // Servers of static files need not isolate the page: it then makes do with one thread.
+  const plain = await serve(site, 0, false),
+    other = await browser.newPage();
+  await other.goto(plain.address);
+  await other.waitForFunction(() => document.body.dataset.state === "done", null, {timeout: 60_000});
+  assert.equal(await other.evaluate(() => document.body.dataset.threads), "1");
+  plain.close();
 } catch (error) {
   await picture("failed");
   console.error(problems.join("\n"));

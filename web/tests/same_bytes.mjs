@@ -1,12 +1,15 @@
-// Meshes the cases of cases.json with the native program and with the npm package, and compares the SHA-256 of every
-// file: node same_bytes.mjs PROGRAM. The exit status is 1 where one differs.
+// Meshes the cases of cases.json with the native program and with the npm package, in Node.js and on several threads in
+// Debian's Chromium, and compares the SHA-256 of every file: node same_bytes.mjs PROGRAM. What is refused must be refused
+// in the same words on threads. The exit status is 1 where one differs.
 import {execFileSync} from "node:child_process";
 import {createHash} from "node:crypto";
 import {mkdtempSync, readdirSync, readFileSync, rmSync, statSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {basename, join, resolve} from "node:path";
 import {fileURLToPath} from "node:url";
+import {chromium} from "playwright-core";
 import {mesh} from "../../build/browser/package/dist/lamina.js";
+import {isolation, serve} from "../serve.mjs";
 
 const root = fileURLToPath(new URL("../..", import.meta.url));
 const program = resolve(process.argv[2] ?? `${root}build/release/src/app/lamina`);
@@ -15,6 +18,15 @@ const cases = JSON.parse(readFileSync(new URL("cases.json", import.meta.url)));
 const runs = [
   {names: ["mesh.su2", "mesh.msh", "mesh.vtu", "polyMesh"], format: ""},
   {names: ["packed.vtu"], format: "vtu-zlib"},
+];
+
+/** What the library refuses: by an option, by a file, and by where bodies lie. */
+const refusedCases = [
+  {inputs: ["naca:0012"], options: {growth: 0.5}},
+  {inputs: ["naca:0012"], options: {groth: 1.2}},
+  {inputs: [{name: "bad.dat", text: "bad\n1 0\n0.5 nonsense\n"}], options: {}},
+  {inputs: ["naca:0012", "naca:2412"], options: {}},
+  {inputs: ["naca:0012"], options: {y_plus: 1}},
 ];
 
 const hash = (bytes) => createHash("sha256").update(bytes).digest("hex");
@@ -77,11 +89,16 @@ function nativeHashes(meshCase) {
   }
 }
 
-async function webHashes({inputs, options}) {
-  const files = inputs.map((input) =>
-    input.startsWith("naca:") ? input : {name: basename(input), text: readFileSync(join(root, input))},
+function filesOf({inputs}) {
+  return inputs.map((input) =>
+    typeof input !== "string" || input.startsWith("naca:")
+      ? input
+      : {name: basename(input), text: readFileSync(join(root, input), "utf8")},
   );
-  const made = await mesh(files, options);
+}
+
+async function nodeHashes(meshCase) {
+  const made = await mesh(filesOf(meshCase), meshCase.options);
   const hashes = {};
   for (const {names, format} of runs)
     for (const name of names) for (const file of made.write(name, {format})) hashes[file.name] = hash(file.bytes);
@@ -89,19 +106,65 @@ async function webHashes({inputs, options}) {
   return {hashes, cells: made.cellCount, seconds: made.facts.seconds};
 }
 
+/** Starts a browser; returns a function like nodeHashes(), and one that ends it. */
+async function startBrowser() {
+  const {address, close} = await serve(root);
+  const browser = await chromium.launch({executablePath: "/usr/bin/chromium", args: ["--no-sandbox"]});
+  const page = await browser.newPage();
+  await page.route(`${address}empty`, (route) =>
+    route.fulfill({contentType: "text/html", headers: isolation, body: "<!doctype html>"}),
+  );
+  await page.goto(`${address}empty`);
+  await page.evaluate(() => {
+    window.meshes = new Worker("/web/tests/mesh_on_threads.mjs", {type: "module"});
+  });
+  const threadHashes = async (meshCase) => {
+    const made = await page.evaluate(
+      (request) =>
+        new Promise((resolve) => {
+          window.meshes.onmessage = ({data}) => resolve(data);
+          window.meshes.onerror = ({message}) => resolve({failure: message});
+          window.meshes.postMessage(request);
+        }),
+      {inputs: filesOf(meshCase), options: {threads: 3, ...meshCase.options}, runs},
+    );
+    if (made.failure) throw new Error(made.failure);
+    return made;
+  };
+  const end = async () => {
+    await browser.close();
+    close();
+  };
+  return {threadHashes, end};
+}
+
+const {threadHashes, end} = await startBrowser();
 let different = 0,
   files = 0;
 for (const meshCase of cases) {
-  const native = nativeHashes(meshCase),
-    web = await webHashes(meshCase);
-  const names = [...new Set([...Object.keys(native.hashes), ...Object.keys(web.hashes)])];
-  const wrong = names.filter((name) => native.hashes[name] !== web.hashes[name]);
-  files += names.length;
-  different += wrong.length;
-  console.log(
-    `${wrong.length ? `DIFFERENT (${wrong.join(", ")})` : "same"}  ${argumentsOf(meshCase).join(" ")}: ` +
-      `${web.cells} cells, ${web.seconds.toFixed(2)} s, native ${native.seconds.toFixed(2)} s`,
-  );
+  const native = nativeHashes(meshCase);
+  for (const [where, hashesOf] of [
+    ["Node.js", nodeHashes],
+    ["threads", threadHashes],
+  ]) {
+    const web = await hashesOf(meshCase);
+    const names = [...new Set([...Object.keys(native.hashes), ...Object.keys(web.hashes)])];
+    const wrong = names.filter((name) => native.hashes[name] !== web.hashes[name]);
+    files += names.length;
+    different += wrong.length;
+    console.log(
+      `${wrong.length ? `DIFFERENT (${wrong.join(", ")})` : "same"}  ${where}  ${argumentsOf(meshCase).join(" ")}: ` +
+        `${web.cells} cells, ${web.seconds.toFixed(2)} s, native ${native.seconds.toFixed(2)} s`,
+    );
+  }
 }
-console.log(`${cases.length} cases, ${files} files, ${different} differ`);
-process.exitCode = different > 0 || files !== 9 * cases.length ? 1 : 0;
+for (const refusedCase of refusedCases) {
+  const {kind, message} = await mesh(filesOf(refusedCase), refusedCase.options).catch((error) => error);
+  const {refused} = await threadHashes(refusedCase);
+  const same = refused?.kind === kind && refused?.message === message;
+  if (!same) ++different;
+  console.log(`${same ? "same" : `DIFFERENT (${refused?.message})`}  threads  refused: ${message}`);
+}
+await end();
+console.log(`${cases.length} cases, ${files} files, ${refusedCases.length} refusals, ${different} differ`);
+process.exitCode = different > 0 || files !== 2 * 9 * cases.length ? 1 : 0;
