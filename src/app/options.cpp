@@ -101,13 +101,18 @@ OptionTable<MeshCase> make_table() {
     return table;
 }
 
+/// What is said of a number with a comma: people write 0,5 for a half, and 1e5,1e6 for two runs.
+constexpr const char* comma_hint = " (numbers have a decimal point; lamina batch --sweep OPTION=A,B takes several)";
+
 /// Reads a number of this type that fills the whole text; `type_name` names the type in errors.
 template <class Number>
 Number parse(const std::string& text, const std::string& origin, const char* type_name) {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size())
-        throw UsageError(fmt::format("{}: '{}' is not a {}", origin, text, type_name));
+    if (error != std::errc{} || end != text.data() + text.size()) {
+        const bool has_comma = text.find(',') != std::string::npos;
+        throw UsageError(fmt::format("{}: '{}' is not a {}{}", origin, text, type_name, has_comma ? comma_hint : ""));
+    }
     return value;
 }
 

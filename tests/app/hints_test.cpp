@@ -54,6 +54,12 @@ TEST(Hints, OptionsOfMeshUnderOtherNames) {
     expect_refused(folder, {"mesh", "naca:0012", "--zzzzz"}, usage, "unknown option --zzzzz (see");
 }
 
+TEST(Hints, NumbersWithCommas) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"mesh", "naca:0012", "--alpha", "2,5", "-o", "a.su2"}, usage, "have a decimal point");
+    expect_refused(folder, {"batch", "naca:0012", "--layers", "10,20", "-o", "a.su2"}, usage, "--sweep OPTION=A,B");
+}
+
 TEST(Hints, MeshesInPlaceOfAirfoils) {
     const TemporaryFolder folder;
     for (const char* command : {"info", "mesh", "flow"})
