@@ -235,7 +235,12 @@ double thread_seconds() {
 /// wall-clock time, and their ratio `speed_up`; `cost`, processor time on two threads over that on one; and
 /// `calling_thread`, the share of the calling thread in it. On a busy machine the last two say what to expect of an
 /// idle one: the speed-up is about 1 / (cost * calling_thread).
+/// Without segments it is plain triangulation.
 void measure_two_threads(benchmark::State& state, const test::ConstrainedCase& c, const ConstrainedOptions& options) {
+    const auto triangles = [&] {
+        return c.segments.empty() ? triangulate(c.points).triangles.size()
+                                  : triangulate(c.points, c.segments, options).triangles.size();
+    };
     struct Times {
         std::vector<double> wall, processor, calling;
     } one, two;
@@ -244,8 +249,7 @@ void measure_two_threads(benchmark::State& state, const test::ConstrainedCase& c
             const auto begin = std::chrono::steady_clock::now();
             const double calling = thread_seconds();
             std::size_t made = 0;
-            times.processor.push_back(
-                cpu_seconds([&] { return triangulate(c.points, c.segments, options).triangles.size(); }, made));
+            times.processor.push_back(cpu_seconds(triangles, made));
             times.calling.push_back(thread_seconds() - calling);
             times.wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
         });
@@ -264,16 +268,31 @@ void measure_two_threads(benchmark::State& state, const test::ConstrainedCase& c
 void two_threads(benchmark::State& state, test::ConstrainedCase (*make)(std::size_t)) {
     measure_two_threads(state, make(static_cast<std::size_t>(state.range(0))), {});
 }
+void two_threads_points(benchmark::State& state, std::vector<Point> (*make)(std::size_t)) {
+    measure_two_threads(state, {make(static_cast<std::size_t>(state.range(0))), {}}, {});
+}
 void two_threads_merging(benchmark::State& state, test::ConstrainedCase (*make)(std::size_t)) {
     measure_two_threads(state, make(static_cast<std::size_t>(state.range(0))), {.merge_distance = 0.0});
 }
 void million_points(benchmark::internal::Benchmark* b) {
     b->Arg(1'000'000)->Iterations(5)->UseManualTime()->Unit(benchmark::kMillisecond);
 }
-BENCHMARK_CAPTURE(two_threads, stretched, stretched_family)->Apply(million_points);
-BENCHMARK_CAPTURE(two_threads_merging, twofold, twofold_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, uniform, uniform_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, Gaussian, gaussian_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, circles, circles_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, rings, rings_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, two_lines, two_lines_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, slanted_lines, slanted_lines_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, cross, test::points_on_a_cross)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, fan, fan_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_points, layer, test::naca_layer_points)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads, roads, roads_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads, streets, streets_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads, contours, contours_family)->Apply(million_points);
 BENCHMARK_CAPTURE(two_threads, long_lines, long_lines_family)->Apply(million_points);
 BENCHMARK_CAPTURE(two_threads, hub, hub_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads, stretched, stretched_family)->Apply(million_points);
+BENCHMARK_CAPTURE(two_threads_merging, twofold, twofold_family)->Apply(million_points);
 
 }  // namespace
 }  // namespace lamina::bench

@@ -119,7 +119,7 @@ Link CrossedPolygons::fill_ranges() {
         for (unsigned i = 0; i < 3; ++i) {
             tris_[t].v[i] = v[i];
             tris_[t].n[i] = Link::border();
-            at_vertex_[v[i]] = t;
+            set_triangle_at(v[i], t);
         }
         if (r.base.is_border())
             at_base = Link(t, 2);
@@ -223,7 +223,7 @@ std::vector<Index> CrossedPolygons::replace_crossed(const Tris& inside, std::spa
             const Index v = global[inside[i].v[e]];
             tris_[places[i]].v[e] = v;
             tris_[places[i]].n[e] = n.is_constrained() ? Link::border() : Link(places[n.triangle()], n.edge());
-            at_vertex_[v] = places[i];
+            set_triangle_at(v, places[i]);
         }
     return places;
 }

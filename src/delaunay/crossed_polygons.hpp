@@ -15,6 +15,7 @@
 
 #include <lamina/point.hpp>
 
+#include "delaunay/reach.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -22,9 +23,10 @@ namespace lamina::delaunay {
 /// Collects the crossed triangles and the chains of one segment after another, and fills their polygons.
 class CrossedPolygons {
 public:
-    /// Keeps references to its arguments. `at_vertex` holds a triangle at each vertex and is kept up to date.
-    CrossedPolygons(std::span<const Point> points, Tris& tris, std::vector<Index>& at_vertex)
-        : points_(points), tris_(tris), at_vertex_(at_vertex) {}
+    /// Keeps references to its arguments. `at_vertex` holds a triangle at each vertex and is kept up to date for those
+    /// within reach. Precondition: crossed triangles are within reach.
+    CrossedPolygons(std::span<const Point> points, const Reach& reach, Tris& tris, std::vector<Index>& at_vertex)
+        : points_(points), reach_(reach), tris_(tris), at_vertex_(at_vertex) {}
 
     /// Forgets the last segment.
     void clear();
@@ -61,8 +63,12 @@ private:
     std::vector<Index> replace_crossed(const Tris& inside, std::span<const Index> global);
     std::size_t opposite_vertex(std::size_t low, std::size_t high) const;
     void attach(Index chain_edge, Index triangle, unsigned edge);
+    void set_triangle_at(Index vertex, Index triangle) {
+        if (reach_.has_vertex_of_triangle(vertex)) at_vertex_[vertex] = triangle;
+    }
 
     std::span<const Point> points_;
+    const Reach& reach_;
     Tris& tris_;
     std::vector<Index>& at_vertex_;
 

@@ -15,6 +15,7 @@
 #include "core/predicates.hpp"
 #include "core/text.hpp"
 #include "delaunay/crossed_polygons.hpp"
+#include "delaunay/crossing_point.hpp"
 
 namespace lamina::delaunay {
 
@@ -99,33 +100,52 @@ private:
     Index t_;  ///< the triangle to look at
 };
 
-/// Inserts one segment after another into a triangulation.
+/// What became of a segment.
+enum class Insertion {
+    complete,
+    crossed,  ///< it crosses a constrained edge
+    beyond    ///< it leaves the reach
+};
+
+/// Inserts one segment after another into the part of a triangulation that is within reach.
 class SegmentInserter {
 public:
-    SegmentInserter(const SegmentInput& input, Tris& tris, std::vector<Index>& at_vertex)
-        : input_(input), tris_(tris), at_vertex_(at_vertex), polygons_(input.points, tris, at_vertex) {}
+    SegmentInserter(const SegmentInput& input, Tris& tris, std::vector<Index>& at_vertex, const Reach& reach = {})
+        : input_(input),
+          reach_(reach),
+          tris_(tris),
+          at_vertex_(at_vertex),
+          polygons_(input.points, reach_, tris, at_vertex) {}
 
-    /// Inserts a segment, and appends its pieces. Returns false where it crosses a constrained edge, which crossed()
-    /// then gives; the pieces before and behind it have been inserted.
-    bool insert(std::size_t segment, std::vector<SegmentPiece>& pieces) {
+    /// Inserts a segment, and appends its pieces. Where it crosses a constrained edge, crossed() gives this edge. Where
+    /// it is not completed, the pieces before and behind have been inserted.
+    Insertion insert(std::size_t segment, std::vector<SegmentPiece>& pieces) {
         const auto parent = static_cast<Index>(segment);
         Index from = input_.segments[segment].a.value, to = input_.segments[segment].b.value;
+        if (crosses_last_way_out(from, to)) return Insertion::beyond;
+        Insertion outcome = Insertion::complete;
         at_far_end_.clear();
         while (from != to) {
+            if (!reach_.has_vertex(from) && !reach_.has_vertex(to)) {
+                outcome = Insertion::beyond;
+                break;
+            }
             const Departure departure = depart(from, to);
             const bool forward = departure.at == from;
             bool repeats = false;
             Index end = departure.along;
             if (end != no_index) {
                 const Link edge = departure.exit;
-                repeats = tris_[edge.triangle()].n[edge.edge()].is_constrained();
+                const Link across = tris_[edge.triangle()].n[edge.edge()];
+                if (!reach_.has_triangle(edge.triangle()) || !reach_.has_triangle(across.triangle())) {
+                    outcome = Insertion::beyond;
+                    break;
+                }
+                repeats = across.is_constrained();
                 constrain_edge(tris_, edge.triangle(), edge.edge());
             } else {
-                end = collect_crossed(departure.exit, departure.at, forward ? to : from);
-                if (end == no_index) {
-                    pieces.insert(pieces.end(), at_far_end_.rbegin(), at_far_end_.rend());
-                    return false;
-                }
+                outcome = collect_crossed(departure.exit, departure.at, forward ? to : from, end);
+                if (outcome != Insertion::complete) break;
                 polygons_.fill();
             }
             if (forward)
@@ -135,15 +155,27 @@ public:
             (forward ? from : to) = end;
         }
         pieces.insert(pieces.end(), at_far_end_.rbegin(), at_far_end_.rend());
-        return true;
+        return outcome;
     }
 
     CrossedEdge crossed() const { return crossed_; }
 
 private:
+    /// Returns whether a-b crosses the edge where the last segment left the reach, which nothing removes. Neighbours of
+    /// such a segment are often as long, and need not be followed to the same edge.
+    bool crosses_last_way_out(Index a, Index b) const {
+        const auto [c, d] = last_way_out_;
+        if (c == no_index) return false;
+        const std::span<const Point> points = input_.points;
+        return cross_properly(points[a], points[b], points[c], points[d]);
+    }
+
     /// Returns how the segment a-b leaves a or, where many edges meet at a, one of its ends. So hubs of n segments do
     /// not take O(n^2): in a planar graph the smaller degrees of the ends of its n edges add up to O(n).
+    /// Precondition: an end is within reach.
     Departure depart(Index a, Index b) const {
+        if (!reach_.has_vertex(a)) return depart_from(b, a);
+        if (!reach_.has_vertex(b)) return depart_from(a, b);
         // Most segments are edges already, and no arithmetic is needed to see that.
         if (const Link edge = find_edge(tris_, at_vertex_, a, b); !edge.is_border()) return {a, b, edge};
         constexpr unsigned many_edges = 64;
@@ -153,14 +185,22 @@ private:
             if (from_a.step(departure) || (steps >= many_edges && from_b.step(departure))) return departure;
     }
 
+    Departure depart_from(Index at, Index target) const {
+        Departure departure{};
+        DepartureSearch search(input_, tris_, at_vertex_[at], at, target);
+        while (!search.step(departure)) continue;
+        return departure;
+    }
+
     /// Walks along a -> b and collects the crossed triangles and the chains on both sides. Stops at the first vertex on
-    /// the segment, at the latest b, and returns it; or at a constrained edge, and returns no_index. Does not change
-    /// the triangulation.
-    Index collect_crossed(Link exit, Index a, Index b) {
+    /// the segment, at the latest b, which becomes the `end`; or before that, at a constrained edge or a triangle beyond
+    /// the reach. Does not change the triangulation.
+    Insertion collect_crossed(Link exit, Index a, Index b, Index& end) {
         const std::span<const Point> points = input_.points;
         polygons_.clear();
         Index t = exit.triangle();
         unsigned e = exit.edge();
+        if (!reach_.has_triangle(t)) return Insertion::beyond;
         polygons_.add_crossed(t);
         polygons_.add_left(t, next(e));
         polygons_.add_right(t, previous(e));
@@ -168,7 +208,11 @@ private:
             const Link across = tris_[t].n[e];
             if (across.is_constrained()) {
                 crossed_ = {tris_[t].v[next(e)], tris_[t].v[previous(e)]};
-                return no_index;
+                return Insertion::crossed;
+            }
+            if (!reach_.has_triangle(across.triangle())) {
+                last_way_out_ = {tris_[t].v[next(e)], tris_[t].v[previous(e)]};
+                return Insertion::beyond;
             }
             t = across.triangle();
             const unsigned k = across.edge();
@@ -178,7 +222,8 @@ private:
             if (side == 0) {
                 polygons_.add_left(t, previous(k));
                 polygons_.add_right(t, next(k));
-                return x;
+                end = x;
+                return Insertion::complete;
             }
             if (side > 0) {
                 polygons_.add_left(t, previous(k));
@@ -191,10 +236,12 @@ private:
     }
 
     const SegmentInput& input_;
+    const Reach reach_;
     Tris& tris_;
     std::vector<Index>& at_vertex_;
     CrossedPolygons polygons_;
     CrossedEdge crossed_{};
+    CrossedEdge last_way_out_{no_index, no_index};
     std::vector<SegmentPiece> at_far_end_;  ///< pieces of the present segment, from its end on
 };
 
@@ -223,7 +270,8 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
     pieces.reserve(segments.size());
     SegmentInserter inserter(input, tris, at_vertex);
     for (std::size_t i = 0; i < segments.size(); ++i)
-        if (!inserter.insert(i, pieces)) fail_crossing(input, i, inserter.crossed().c, inserter.crossed().d);
+        if (inserter.insert(i, pieces) == Insertion::crossed)
+            fail_crossing(input, i, inserter.crossed().c, inserter.crossed().d);
     return pieces;
 }
 
@@ -236,9 +284,28 @@ UncrossedSegments insert_uncrossed_segments(std::span<const Point> points, std::
     SegmentInserter inserter(input, tris, at_vertex);
     for (std::size_t i = 0; i < segments.size(); ++i) {
         const std::size_t first = result.pieces.size();
-        if (inserter.insert(i, result.pieces)) continue;
+        if (inserter.insert(i, result.pieces) == Insertion::complete) continue;
         result.pieces.resize(first);
         result.crossing.push_back(static_cast<Index>(i));
+    }
+    return result;
+}
+
+ReachedSegments insert_segments_within(std::span<const Point> points, std::span<const Segment> segments,
+                                       std::span<const Index> which, const Reach& reach, Tris& tris,
+                                       std::vector<Index>& at_vertex) {
+    const SegmentInput input{points, segments};
+    ReachedSegments result;
+    result.pieces.reserve(which.size());
+    SegmentInserter inserter(input, tris, at_vertex, reach);
+    for (const Index i : which) {
+        const std::size_t first = result.pieces.size();
+        const Insertion outcome = inserter.insert(i, result.pieces);
+        if (outcome == Insertion::complete) continue;
+        result.pieces.resize(first);
+        result.crossed = outcome == Insertion::crossed;
+        if (result.crossed) break;
+        result.beyond.push_back(i);
     }
     return result;
 }
@@ -248,7 +315,7 @@ std::optional<CrossedEdge> insert_segment(std::span<const Point> points, Segment
                                           std::vector<SegmentPiece>& pieces) {
     const SegmentInput input{points, {&segment, 1}, ghost};
     SegmentInserter inserter(input, tris, at_vertex);
-    if (inserter.insert(0, pieces)) return std::nullopt;
+    if (inserter.insert(0, pieces) == Insertion::complete) return std::nullopt;
     return inserter.crossed();
 }
 

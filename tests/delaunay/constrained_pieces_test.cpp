@@ -10,6 +10,8 @@
 #include <lamina/error.hpp>
 #include <lamina/threads.hpp>
 
+#include "delaunay/pieces/line_partition.hpp"
+#include "delaunay/triangulate_points.hpp"
 #include "support/constrained_cases.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulation_checks.hpp"
@@ -114,6 +116,103 @@ TEST(ConstrainedPieces, MakeTheTriangulationOfTheWhole) {
     expect_valid(c.points, t.triangles, t.segments);
 }
 
+/// Returns a hub with segments to all others, where a third of the points have the distance of the one before.
+ConstrainedCase hub_case(std::size_t n, Point hub) {
+    ConstrainedCase c;
+    Random random(5);
+    c.points.push_back(hub);
+    double radius = 1;
+    for (std::size_t i = 1; i < n; ++i) {
+        if (i % 3 != 0) radius = random.real(0.1, 1);
+        const double angle = 6.28 * static_cast<double>(i) / static_cast<double>(n);
+        c.points.push_back(hub + radius * Point{std::cos(angle), std::sin(angle)});
+        c.segments.push_back({VertexId{0u}, VertexId{i}});
+    }
+    return c;
+}
+
+/// Returns a lattice turned by a small angle (exactly), with segments along its rows and parts of them, so that the
+/// lines of a partition run through many points.
+ConstrainedCase slanted_rows_case(int side) {
+    ConstrainedCase c{square_lattice(side, side), {}};
+    for (Point& p : c.points) p = {8 * p.x - p.y, p.x + 8 * p.y};
+    const auto n = static_cast<std::size_t>(side);
+    for (std::size_t row = 0; row < n; ++row) {
+        c.segments.push_back({VertexId{row * n}, VertexId{row * n + n - 1}});
+        if (row % 3 == 0) c.segments.push_back({VertexId{row * n + n - 2}, VertexId{row * n + 2}});
+    }
+    return c;
+}
+
+/// Returns the lines of ruled_case(), cut in three, and joined to the next ones at their ends.
+ConstrainedCase zigzag_case(std::size_t n, int lines) {
+    const ConstrainedCase ruled = ruled_case(n, lines);
+    ConstrainedCase c{ruled.points, {}};
+    for (std::size_t i = 0; i < ruled.segments.size(); ++i) {
+        const Segment s = ruled.segments[i];
+        VertexId from = s.a;
+        for (const double t : {0.31, 0.77}) {
+            const Point p = ruled.points[s.a.index()], q = ruled.points[s.b.index()];
+            c.points.push_back(p + t * (q - p));
+            const VertexId to{c.points.size() - 1};
+            c.segments.push_back({from, to});
+            from = to;
+        }
+        c.segments.push_back({from, s.b});
+        if (i + 1 < ruled.segments.size())
+            c.segments.push_back(i % 2 == 0 ? Segment{s.b, ruled.segments[i + 1].b}
+                                            : Segment{s.a, ruled.segments[i + 1].a});
+    }
+    return c;
+}
+
+/// Returns the partition that lines through the segments make of the plane.
+delaunay::pieces::LinePartition partition_of(const ConstrainedCase& c) {
+    return delaunay::pieces::LinePartition(c.points, c.segments);
+}
+
+TEST(LinePartition, KeepsPartsApart) {
+    for (const ConstrainedCase& c : {hub_case(1000, {0.3, -0.7}), slanted_rows_case(40), zigzag_case(1000, 60),
+                                     ruled_case(1000, 60), star_case(500)}) {
+        const delaunay::pieces::LinePartition partition = partition_of(c);
+        EXPECT_GE(partition.size(), 7u);
+        const delaunay::Tris tris = delaunay::triangulate_points(c.points);
+        const auto part_of = [&](std::size_t t) {
+            delaunay::pieces::Part parts[3] = {0, 0, 0};
+            for (int i = 0; i < 3; ++i)
+                if (tris[t].v[i] != delaunay::ghost_vertex) parts[i] = partition.of_point(c.points[tris[t].v[i]]);
+            return partition.of_triangle(parts[0], parts[1], parts[2]);
+        };
+        std::size_t apart = 0;
+        for (std::size_t t = 0; t < tris.size(); ++t)
+            for (const delaunay::Link n : tris[t].n) {
+                const auto p = part_of(t), q = part_of(n.triangle());
+                apart += !partition.is_within(p, q) && !partition.is_within(q, p);
+            }
+        EXPECT_EQ(apart, 0u);
+    }
+    // Segments that all lines cross leave one part.
+    ConstrainedCase crossing{random_points(200, 3), {}};
+    for (std::size_t i = 0; i < 100; ++i) crossing.segments.push_back({VertexId{i}, VertexId{i + 100}});
+    EXPECT_LT(partition_of(crossing).size(), 4u);
+}
+
+TEST(ConstrainedPieces, InsertLongSegmentsInParts) {
+    for (const ConstrainedCase& c : {hub_case(3000, {0.3, -0.7}), hub_case(2000, {0, 0}), slanted_rows_case(50),
+                                     zigzag_case(3000, 90), ruled_case(3000, 200)}) {
+        expect_same_as_whole(c);
+        const ConstrainedTriangulation t = triangulated(c, {}, in_many_pieces);
+        expect_valid(c.points, t.triangles, t.segments);
+    }
+    // One segment across all others; the error is that of the insertion one by one.
+    ConstrainedCase c = ruled_case(3000, 200);
+    c.points.push_back({0.513, -0.5});
+    c.points.push_back({0.511, 1.5});
+    c.segments.push_back({VertexId{c.points.size() - 2}, VertexId{c.points.size() - 1}});
+    expect_same_as_whole(c, {.crossings = Crossings::insert});
+    EXPECT_THROW(triangulated(c, {}, in_many_pieces), InputError);
+}
+
 TEST(ConstrainedPieces, KeepTheSameRegions) {
     const ConstrainedCase rings = rings_case();
     for (const KeptRegion keep :
@@ -196,6 +295,9 @@ TEST(ConstrainedPieces, DoNotDependOnTheNumberOfThreads) {
     const DecompositionOptions small{.leaf_vertices = 700};
     expect_same_on_any_threads(star_case(8000), {.decomposition = small});
     expect_same_on_any_threads(ruled_case(8000, 300), {.decomposition = small});
+    expect_same_on_any_threads(hub_case(8000, {0.3, -0.7}), {.decomposition = small});
+    expect_same_on_any_threads(slanted_rows_case(90), {.decomposition = small});
+    expect_same_on_any_threads(zigzag_case(8000, 200), {.decomposition = small});
     expect_same_on_any_threads(overlapping_case(5), {.decomposition = {{.leaf_vertices = 120}}});
     expect_same_on_any_threads(twofold(ruled_case(8000, 300)), {.merge_distance = 0.0, .decomposition = small});
 }

@@ -14,6 +14,7 @@
 #include "core/parallel.hpp"
 #include "delaunay/pieces/convex_hull.hpp"
 #include "delaunay/pieces/cut_piece.hpp"
+#include "delaunay/pieces/insert_in_parts.hpp"
 #include "delaunay/pieces/leaf_brio.hpp"
 #include "delaunay/pieces/vertex_index_map.hpp"
 #include "delaunay/pieces/whole_piece.hpp"
@@ -335,13 +336,10 @@ bool insert_deferred(std::span<const Point> points, std::span<const Segment> seg
     for (const ConstrainedLeaf& leaf : leaves)
         deferred.insert(deferred.end(), leaf.deferred.begin(), leaf.deferred.end());
     std::sort(deferred.begin(), deferred.end());
-    std::vector<Segment> others;
-    others.reserve(deferred.size());
-    for (const Index i : deferred) others.push_back(segments[i]);
-    auto [pieces, crossing] = insert_uncrossed_segments(points, others, result.tris, result.at_vertex);
-    if (!crossing.empty()) return false;
-    for (SegmentPiece& piece : pieces) piece.parent = deferred[piece.parent];
-    std::vector<const std::vector<SegmentPiece>*> lists{&pieces};
+    const InsertedInParts inserted = insert_in_parts(points, segments, deferred, result.tris, result.at_vertex);
+    if (inserted.crossed) return false;
+    std::vector<const std::vector<SegmentPiece>*> lists;
+    for (const std::vector<SegmentPiece>& pieces : inserted.pieces) lists.push_back(&pieces);
     for (const ConstrainedLeaf& leaf : leaves) lists.push_back(&leaf.pieces);
     result.pieces = in_order_of_segments(lists, segments.size());
     find_repeats(result.pieces);
