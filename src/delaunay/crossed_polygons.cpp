@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstdint>
 #include <utility>
 
 #include <lamina/ids.hpp>
@@ -192,16 +193,17 @@ Link CrossedPolygons::fill_long_range(std::size_t low, std::size_t high) {
     const Tris inside = triangulate_polygon(points, border);
     assert(inside.size() + 1 == high - low);
 
-    std::vector<std::pair<Segment, Index>> border_index;
+    std::vector<std::pair<std::uint64_t, Index>> border_index;
     border_index.reserve(border.size());
-    for (std::size_t i = 0; i < border.size(); ++i) border_index.push_back({border[i], static_cast<Index>(i)});
+    for (std::size_t i = 0; i < border.size(); ++i)
+        border_index.push_back({directed_key(border[i].a.value, border[i].b.value), static_cast<Index>(i)});
     std::sort(border_index.begin(), border_index.end());
     const std::vector<Index> places = replace_crossed(inside, global);
     Link at_base = Link::border();
     for (std::size_t i = 0; i < inside.size(); ++i)
         for (unsigned e = 0; e < 3; ++e) {
             if (!inside[i].n[e].is_constrained()) continue;
-            const Segment edge{VertexId{inside[i].v[next(e)]}, VertexId{inside[i].v[previous(e)]}};
+            const std::uint64_t edge = directed_key(inside[i].v[next(e)], inside[i].v[previous(e)]);
             const Index index =
                 std::lower_bound(border_index.begin(), border_index.end(), std::pair{edge, Index{0}})->second;
             if (index + 1 == border.size())

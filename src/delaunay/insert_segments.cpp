@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 #include <string>
 
 #include <lamina/error.hpp>
@@ -276,26 +277,10 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
 }
 
 UncrossedSegments insert_uncrossed_segments(std::span<const Point> points, std::span<const Segment> segments,
-                                            Tris& tris, std::vector<Index>& at_vertex) {
+                                            std::span<const Index> which, const Reach& reach, Tris& tris,
+                                            std::vector<Index>& at_vertex) {
     const SegmentInput input{points, segments};
-    check_segments(points, segments, tris);
     UncrossedSegments result;
-    result.pieces.reserve(segments.size());
-    SegmentInserter inserter(input, tris, at_vertex);
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        const std::size_t first = result.pieces.size();
-        if (inserter.insert(i, result.pieces) == Insertion::complete) continue;
-        result.pieces.resize(first);
-        result.crossing.push_back(static_cast<Index>(i));
-    }
-    return result;
-}
-
-ReachedSegments insert_segments_within(std::span<const Point> points, std::span<const Segment> segments,
-                                       std::span<const Index> which, const Reach& reach, Tris& tris,
-                                       std::vector<Index>& at_vertex) {
-    const SegmentInput input{points, segments};
-    ReachedSegments result;
     result.pieces.reserve(which.size());
     SegmentInserter inserter(input, tris, at_vertex, reach);
     for (const Index i : which) {
@@ -303,11 +288,17 @@ ReachedSegments insert_segments_within(std::span<const Point> points, std::span<
         const Insertion outcome = inserter.insert(i, result.pieces);
         if (outcome == Insertion::complete) continue;
         result.pieces.resize(first);
-        result.crossed = outcome == Insertion::crossed;
-        if (result.crossed) break;
-        result.beyond.push_back(i);
+        (outcome == Insertion::crossed ? result.crossing : result.beyond).push_back(i);
     }
     return result;
+}
+
+UncrossedSegments insert_uncrossed_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                            Tris& tris, std::vector<Index>& at_vertex) {
+    check_segments(points, segments, tris);
+    std::vector<Index> all(segments.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    return insert_uncrossed_segments(points, segments, all, Reach(), tris, at_vertex);
 }
 
 std::optional<CrossedEdge> insert_segment(std::span<const Point> points, Segment segment, Tris& tris,

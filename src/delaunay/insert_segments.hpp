@@ -41,9 +41,17 @@ std::vector<SegmentPiece> insert_and_split_segments(std::span<const Point> point
 struct UncrossedSegments {
     std::vector<SegmentPiece> pieces;  ///< of those that cross no constrained edge
     std::vector<Index> crossing;       ///< the indices of the others, whose pieces before and behind have been inserted
+    std::vector<Index> beyond;         ///< the same of those that leave the reach
 };
 
-/// Does the same, but goes on with the next segment where one crosses a constrained edge.
+/// Does the same, but goes on with the next segment where one crosses a constrained edge. Inserts the segments with the
+/// indices in `which`, and stays within reach: several calls may change parts of one triangulation at the same time
+/// (reach.hpp). Precondition: segments are as check_segments() wants them.
+UncrossedSegments insert_uncrossed_segments(std::span<const Point> points, std::span<const Segment> segments,
+                                            std::span<const Index> which, const Reach& reach, Tris& tris,
+                                            std::vector<Index>& at_vertex);
+
+/// Does the same with all segments, anywhere, and checks them before.
 UncrossedSegments insert_uncrossed_segments(std::span<const Point> points, std::span<const Segment> segments,
                                             Tris& tris, std::vector<Index>& at_vertex);
 

@@ -1,6 +1,7 @@
 #include "delaunay/piece_edges.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -38,13 +39,17 @@ std::size_t PieceEdges::find(const PieceEdge& edge) const {
 }
 
 PieceEdges edges_of(std::span<const Point> points, std::span<const SegmentPiece> pieces) {
-    std::vector<std::pair<PieceEdge, Index>> uses;
+    std::vector<std::pair<std::uint64_t, Index>> uses;
     uses.reserve(pieces.size());
-    for (const SegmentPiece& piece : pieces) uses.push_back({edge_of(points, piece.segment), piece.parent});
+    for (const SegmentPiece& piece : pieces) {
+        const PieceEdge edge = edge_of(points, piece.segment);
+        uses.push_back({directed_key(edge.a, edge.b), piece.parent});
+    }
     std::sort(uses.begin(), uses.end());
     uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
     PieceEdges result;
-    for (const auto& [edge, parent] : uses) {
+    for (const auto& [key, parent] : uses) {
+        const PieceEdge edge{static_cast<Index>(key >> 32), static_cast<Index>(key)};
         if (result.edges.empty() || !(result.edges.back() == edge)) {
             result.edges.push_back(edge);
             result.first_parent.push_back(result.parents.size());

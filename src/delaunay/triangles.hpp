@@ -37,10 +37,11 @@ inline constexpr Index max_triangles = 1u << 29;
 constexpr unsigned next(unsigned e) { return 0b00'10'01u >> 2 * e & 3u; }
 constexpr unsigned previous(unsigned e) { return 0b01'00'10u >> 2 * e & 3u; }
 
+/// Returns a number that orders pairs of indices by a, then by b.
+constexpr std::uint64_t directed_key(Index a, Index b) { return std::uint64_t{a} << 32 | b; }
+
 /// Returns a number that tells pairs of indices apart, whatever their order.
-constexpr std::uint64_t undirected_key(Index a, Index b) {
-    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
-}
+constexpr std::uint64_t undirected_key(Index a, Index b) { return a < b ? directed_key(a, b) : directed_key(b, a); }
 
 /// A neighbour across an edge, or one edge of a triangle.
 class Link {

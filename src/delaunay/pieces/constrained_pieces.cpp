@@ -179,7 +179,7 @@ private:
             here.push_back({VertexId{a}, VertexId{b}});
             parents.push_back(i);
         }
-        auto [pieces, crossing] =
+        const auto [pieces, crossing, beyond] =
             insert_uncrossed_segments(triangulation_.vertices, here, triangulation_.tris, triangulation_.at_vertex);
         for (const Index i : crossing) leaf.deferred.push_back(parents[i]);
         for (std::size_t i = 0; i < pieces.size();) {

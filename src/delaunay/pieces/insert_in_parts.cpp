@@ -139,10 +139,10 @@ private:
         const Reach reach = part == 0 ? Reach()
                                       : Reach(of_triangle_.data(), of_vertex_.data(), shared_, part,
                                               static_cast<Part>(partition_.end(part) - part));
-        ReachedSegments reached = insert_segments_within(points_, segments_, mine, reach, tris_, at_vertex_);
-        pieces[part] = std::move(reached.pieces);
-        crossed[part] = reached.crossed;
-        return std::move(reached.beyond);
+        UncrossedSegments inserted = insert_uncrossed_segments(points_, segments_, mine, reach, tris_, at_vertex_);
+        pieces[part] = std::move(inserted.pieces);
+        crossed[part] = !inserted.crossing.empty();
+        return std::move(inserted.beyond);
     }
 
     std::span<const Point> points_;
@@ -167,9 +167,9 @@ InsertedInParts insert_in_parts(std::span<const Point> points, std::span<const S
         if (partition.size() > 1) return PartwiseInserter(points, segments, partition, tris, at_vertex).run(which);
     }
     InsertedInParts result;
-    ReachedSegments all = insert_segments_within(points, segments, which, Reach(), tris, at_vertex);
+    UncrossedSegments all = insert_uncrossed_segments(points, segments, which, Reach(), tris, at_vertex);
     result.pieces.push_back(std::move(all.pieces));
-    result.crossed = all.crossed;
+    result.crossed = !all.crossing.empty();
     return result;
 }
 
