@@ -64,11 +64,19 @@ struct Flow {
     double lift = 0;                    ///< lift coefficient of all elements by their circulation
     std::vector<ElementFlow> elements;  ///< in the order of the geometry
     std::vector<PanelSheet> sheets;     ///< in the same order; empty where the flow is an estimate
+    /// The sheets in a flow along the same walls that has no circulation round any element, and so turns round trailing
+    /// edges. See with_share_of_lift().
+    std::vector<PanelSheet> sheets_without_lift;
     /// Whether the panel method failed. Then the speed is that of the free stream everywhere, which makes the boundary
     /// layers those of flat plates; sides begin where the outline is farthest from its trailing edge.
     bool estimated = false;
     std::vector<Warning> warnings;  ///< why flow is an estimate: WarningCode::flow_estimated
 };
+
+/// Returns the flow along the same walls in which all elements have this share of their lift, as viscous flow has less
+/// than potential flow. Only the sheets differ: the mean of those with and without lift, weighted by the share, since
+/// potential flows may be added. With another share than 1 the flow turns round trailing edges.
+LAMINA_EXPORT Flow with_share_of_lift(Flow flow, double share);
 
 /// Returns the potential flow round all elements and, where a Reynolds number is given, the boundary layers along their
 /// sides. Takes geometry as read or as prepared; the panels choose their own points on smooth curves through the given

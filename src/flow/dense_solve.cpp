@@ -12,15 +12,20 @@
 
 namespace lamina::flow {
 
-std::vector<double> solve_dense(std::vector<double> matrix, std::span<const double> right_side) {
+std::vector<std::vector<double>> solve_dense(std::vector<double> matrix,
+                                             std::span<const std::vector<double>> right_sides) {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const auto n = static_cast<Eigen::Index>(right_side.size());
+    const auto n = static_cast<Eigen::Index>(right_sides.front().size());
     const Eigen::MatrixXd by_columns = Eigen::Map<const RowMajor>(matrix.data(), n, n);
     matrix = {};
-    std::vector<double> solution(right_side.size());
-    Eigen::Map<Eigen::VectorXd>(solution.data(), n) =
-        by_columns.partialPivLu().solve(Eigen::Map<const Eigen::VectorXd>(right_side.data(), n));
-    return solution;
+    const auto factors = by_columns.partialPivLu();
+    std::vector<std::vector<double>> solutions;
+    for (const std::vector<double>& right_side : right_sides) {  // one at a time: Eigen adds blocks of them otherwise
+        std::vector<double>& solution = solutions.emplace_back(right_side.size());
+        Eigen::Map<Eigen::VectorXd>(solution.data(), n) =
+            factors.solve(Eigen::Map<const Eigen::VectorXd>(right_side.data(), n));
+    }
+    return solutions;
 }
 
 }  // namespace lamina::flow

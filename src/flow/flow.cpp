@@ -83,6 +83,7 @@ std::optional<Defect> add_elements(Flow& flow) {
 void fall_back(Flow& flow, std::span<const Contour> contours, const Geometry& geometry, const Defect& defect) {
     flow.estimated = true;
     flow.sheets.clear();
+    flow.sheets_without_lift.clear();
     flow.elements.clear();
     for (const Contour& contour : contours) flow.elements.push_back(make_flat_plates(contour.nodes));
     const std::string& name = geometry.elements[defect.element].name;
@@ -139,7 +140,9 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
     flow.alpha_deg = reference.alpha_deg;
     flow.chord = reference.chord;
     const std::vector<Contour> contours = make_contours(geometry);
-    flow.sheets = solve_panels(contours, flow.alpha_deg);
+    PanelSolution solution = solve_panels(contours, flow.alpha_deg);
+    flow.sheets = std::move(solution.sheets);
+    flow.sheets_without_lift = std::move(solution.without_lift);
     std::optional<Defect> defect = find_wild_speed(flow.sheets);
     if (!defect) defect = find_leak(flow.sheets, flow.alpha_deg);
     if (!defect) defect = add_elements(flow);
@@ -153,6 +156,18 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
         if (!reference.reynolds) continue;
         add_boundary_layer(element.upper, flow.chord / *reference.reynolds);
         add_boundary_layer(element.lower, flow.chord / *reference.reynolds);
+    }
+    return flow;
+}
+
+Flow with_share_of_lift(Flow flow, double share) {
+    const auto blend = [&](double& with, double without) { with = without + share * (with - without); };
+    for (std::size_t e = 0; e < flow.sheets.size(); ++e) {
+        PanelSheet& sheet = flow.sheets[e];
+        const PanelSheet& without = flow.sheets_without_lift[e];
+        for (std::size_t i = 0; i < sheet.strengths.size(); ++i) blend(sheet.strengths[i], without.strengths[i]);
+        blend(sheet.base_strength, without.base_strength);
+        blend(sheet.base_source, without.base_source);
     }
     return flow;
 }

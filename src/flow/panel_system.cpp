@@ -13,6 +13,7 @@
 #include "core/parallel.hpp"
 #include "flow/dense_solve.hpp"
 #include "flow/panel_kernel.hpp"
+#include "flow/sides.hpp"
 
 namespace lamina::flow {
 
@@ -141,9 +142,12 @@ std::vector<Body> make_bodies(std::span<const Contour> contours) {
     return bodies;
 }
 
-std::vector<double> solve_strengths(std::span<const Body> bodies, Point stream) {
+/// Returns the strengths in the free stream, and those that each body in turn adds whose trailing edge has a unit of
+/// circulating flow round it, contrary to its Kutta condition.
+std::vector<std::vector<double>> solve_strengths(std::span<const Body> bodies, Point stream) {
     const std::size_t size = bodies.back().column + bodies.back().nodes.size() + 1;
     std::vector<double> matrix(size * size), right_side(size);
+    std::vector<std::vector<double>> right_sides(1);
     for (const Body& at : bodies) {
         constexpr std::size_t grain = 16;
         core::parallel_for(at.nodes.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -162,8 +166,31 @@ std::vector<double> solve_strengths(std::span<const Body> bodies, Point stream) 
         }
         add_kutta_conditions(matrix, size, at);
         if (!at.blunt) right_side[constant - 1] = 0;
+        std::vector<double>& turning = right_sides.emplace_back(size);
+        turning[constant] = 1;
+        if (at.rounded) turning[constant - 1] = 1;
     }
-    return solve_dense(std::move(matrix), right_side);
+    right_sides.front() = std::move(right_side);
+    return solve_dense(std::move(matrix), right_sides);
+}
+
+std::vector<PanelSheet> make_sheets(std::span<const Contour> contours, std::span<const Body> bodies,
+                                    std::span<const double> strengths) {
+    std::vector<PanelSheet> sheets;
+    for (std::size_t e = 0; e < bodies.size(); ++e) {
+        const auto first = strengths.begin() + static_cast<std::ptrdiff_t>(bodies[e].column);
+        PanelSheet& sheet = sheets.emplace_back();
+        sheet.nodes = contours[e].nodes;
+        sheet.strengths.assign(first, first + static_cast<std::ptrdiff_t>(sheet.nodes.size()));
+        const double speed = 0.5 * (sheet.strengths.back() - sheet.strengths.front());
+        sheet.base_strength = speed * bodies[e].base_strength;
+        sheet.base_source = speed * bodies[e].base_source;
+    }
+    return sheets;
+}
+
+void add_multiple(double factor, std::span<const double> of, std::vector<double>& to) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];
 }
 
 }  // namespace
@@ -178,21 +205,26 @@ Point leaving_direction(std::span<const Point> nodes) {
     return unit(unit(nodes[0] - nodes[1]) + unit(nodes[last] - nodes[last - 1]));
 }
 
-std::vector<PanelSheet> solve_panels(std::span<const Contour> contours, double alpha_deg) {
+PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg) {
     if (contours.empty()) return {};
     const std::vector<Body> bodies = make_bodies(contours);
-    const std::vector<double> strengths = solve_strengths(bodies, free_stream(alpha_deg));
-    std::vector<PanelSheet> sheets;
-    for (std::size_t e = 0; e < bodies.size(); ++e) {
-        const auto first = strengths.begin() + static_cast<std::ptrdiff_t>(bodies[e].column);
-        PanelSheet& sheet = sheets.emplace_back();
-        sheet.nodes = contours[e].nodes;
-        sheet.strengths.assign(first, first + static_cast<std::ptrdiff_t>(sheet.nodes.size()));
-        const double speed = 0.5 * (sheet.strengths.back() - sheet.strengths.front());
-        sheet.base_strength = speed * bodies[e].base_strength;
-        sheet.base_source = speed * bodies[e].base_source;
+    std::vector<std::vector<double>> strengths = solve_strengths(bodies, free_stream(alpha_deg));
+    PanelSolution solution{make_sheets(contours, bodies, strengths.front()), {}};
+
+    // As much flow round each trailing edge as takes all circulation away.
+    const std::size_t n = bodies.size();
+    std::vector<double> matrix(n * n);
+    std::vector<std::vector<double>> circulations{std::vector<double>(n)};
+    for (std::size_t e = 0; e < n; ++e) circulations[0][e] = -circulation(solution.sheets[e]);
+    for (std::size_t turned = 0; turned < n; ++turned) {
+        const std::vector<PanelSheet> sheets = make_sheets(contours, bodies, strengths[1 + turned]);
+        for (std::size_t e = 0; e < n; ++e) matrix[e * n + turned] = circulation(sheets[e]);
     }
-    return sheets;
+    const std::vector<double> turning = solve_dense(std::move(matrix), circulations).front();
+    for (std::size_t turned = 0; turned < n; ++turned)
+        add_multiple(turning[turned], strengths[1 + turned], strengths.front());
+    solution.without_lift = make_sheets(contours, bodies, strengths.front());
+    return solution;
 }
 
 SheetVelocity::SheetVelocity(std::span<const PanelSheet> sheets, double alpha_deg) : stream_(free_stream(alpha_deg)) {

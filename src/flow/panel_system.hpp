@@ -14,8 +14,14 @@ namespace lamina::flow {
 /// Returns the unit vector in a direction given in degrees.
 Point free_stream(double alpha_deg);
 
+/// The sheets of all contours in the free stream: with flow that leaves each trailing edge smoothly, and with flow that
+/// has no circulation round any of them.
+struct PanelSolution {
+    std::vector<PanelSheet> sheets, without_lift;
+};
+
 /// Returns the sheets of all contours. Their strengths are not finite where the system is singular.
-std::vector<PanelSheet> solve_panels(std::span<const Contour> contours, double alpha_deg);
+PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg);
 
 /// Returns the direction in which the flow leaves the trailing edge: between the two sides.
 Point leaving_direction(std::span<const Point> nodes);

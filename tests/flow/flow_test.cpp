@@ -14,6 +14,7 @@
 #include "flow/contour.hpp"
 #include "flow/mapped_section.hpp"
 #include "flow/sample_configurations.hpp"
+#include "flow/sides.hpp"
 #include "support/shapes.hpp"
 
 namespace lamina::test {
@@ -245,6 +246,44 @@ TEST(Flow, SidesCarryTheirBoundaryLayers) {
     for (std::size_t i = 0; i < flow.elements[1].upper.size(); ++i) {
         EXPECT_EQ(scaled.elements[1].upper[i].thickness, 0.25 * flow.elements[1].upper[i].thickness);
         EXPECT_EQ(scaled.elements[1].upper[i].skin_friction, flow.elements[1].upper[i].skin_friction);
+    }
+}
+
+/// A flow with less lift keeps to the same walls.
+TEST(Flow, AShareOfTheLiftIsAsGoodAFlow) {
+    for (const Geometry& given : {geometry({naca_airfoil("4412", 100).points}),
+                                  geometry({naca_airfoil("2412", 100, TrailingEdge::blunt).points,
+                                            shapes::moved(naca_airfoil("0012", 80).points, -0.4, 0.3, {0.98, -0.03})}),
+                                  geometry({shapes::circle(0.5, 200)})}) {
+        const Flow flow = solve_flow(given, {.alpha_deg = 7});
+        ASSERT_FALSE(flow.estimated);
+        ASSERT_EQ(flow.sheets_without_lift.size(), flow.sheets.size());
+        for (std::size_t e = 0; e < flow.sheets.size(); ++e)
+            EXPECT_NEAR(flow::circulation(flow.sheets_without_lift[e]), 0, 1e-9);
+        const Flow weaker = with_share_of_lift(flow, 0.6), same = with_share_of_lift(flow, 1);
+        for (std::size_t e = 0; e < flow.sheets.size(); ++e) {
+            const double with = flow::circulation(flow.sheets[e]);
+            EXPECT_NEAR(flow::circulation(weaker.sheets[e]), 0.6 * with, 1e-9);
+            std::size_t leaks = 0;
+            const std::vector<Point>& nodes = weaker.sheets[e].nodes;
+            for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+                EXPECT_NEAR(same.sheets[e].strengths[i], flow.sheets[e].strengths[i], 1e-9);
+                const Point along = unit(nodes[i + 1] - nodes[i]);
+                leaks += std::abs(cross(along, flow_velocity(weaker, midpoint(nodes[i], nodes[i + 1])))) > 0.01;
+            }
+            EXPECT_LT(leaks, nodes.size() / 10);
+        }
+    }
+}
+
+/// The exact flow round a circle without circulation is twice as fast at its sides as the free stream.
+TEST(Flow, ACircleWithoutLiftHasItsExactSpeeds) {
+    const Flow flow = solve_flow(geometry({shapes::circle(1, 300)}), {.alpha_deg = 20});
+    const PanelSheet& sheet = flow.sheets_without_lift.front();
+    const double alpha = 20 * M_PI / 180;
+    for (std::size_t i = 0; i < sheet.nodes.size(); ++i) {
+        const Point p = sheet.nodes[i];
+        EXPECT_NEAR(sheet.strengths[i], -2 * std::sin(std::atan2(p.y, p.x) - alpha), 0.01) << p.x << ' ' << p.y;
     }
 }
 
