@@ -26,7 +26,7 @@ struct FlowFact {
 
 /// Statements about the wakes and spacings of the flow: where they come from.
 constexpr const char* wake_source =
-    "streamline of the panel method, with 0.8 of its lift behind all bodies; as wide as the boundary layers, Head, "
+    "streamline of the panel method, with 0.8 of its lift; as wide as the boundary layers, Head, "
     "spreading like a plane wake, Schlichting";
 constexpr const char* spacing_source =
     "change of the pressure coefficient of the panel method, or first height at the corners of a base";

@@ -107,10 +107,6 @@ double laminar_thickness(double lambda) {
     return 7.39 + x * (3.0 + 65.0 * x);
 }
 
-/// Where the turbulent layer separates. H rises so fast there that any value from 1.8 to 2.4 gives nearly the same
-/// place (Cebeci, Bradshaw). The last one lets layers live on that recover.
-constexpr double separation_shape = 2.4;
-
 /// Returns base^exponent. It is exact to about |exponent log(base)| units in the last place, and fast.
 double power(double base, double exponent) { return core::exp_reproducible(exponent * core::log_reproducible(base)); }
 

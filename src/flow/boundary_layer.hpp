@@ -28,6 +28,10 @@ struct LayerPoint {
     BoundaryLayerState state = BoundaryLayerState::laminar;  ///< as it is at the point
 };
 
+/// The shape factor at which the turbulent layer separates. It rises so fast there that any value from 1.8 to 2.4 gives
+/// nearly the same place (Cebeci, Bradshaw). The last one lets layers live on that recover.
+inline constexpr double separation_shape = 2.4;
+
 struct BoundaryLayerOptions {
     /// Kinematic viscosity over the speed of the free stream, a length in the unit of EdgePoint::s: the inverse of the
     /// Reynolds number of one unit. It is > 0.

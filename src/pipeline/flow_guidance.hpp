@@ -41,11 +41,13 @@ struct ElementWake {
     std::vector<Point> line;        ///< the streamline, from the trailing edge or the middle of its base on
     std::vector<WakeSource> outer;  ///< over the whole wake
     std::vector<WakeSource> inner;  ///< over the thinner wake within it, next to the trailing edge
+    /// Over the mixing layers from both corners of a wide base, up to where they meet. The inner wake begins there.
+    std::vector<WakeSource> mixing;
 };
 
 /// Returns the wakes of all elements: along the streamline behind each trailing edge, as fine as the wake is wide there
-/// divided by a number of triangles. Behind all bodies the streamline is that of a flow with less lift than potential
-/// flow has. A wake ends where it would enter another body. Sizes are divided by CaseOptions::fineness.
+/// divided by a number of triangles. The streamline is that of a flow with less lift than potential flow has. A wake
+/// ends where it would enter another body. Sizes are divided by CaseOptions::fineness.
 std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness = 1);
 
 /// Returns the lines for layers that go on along these wakes, with heights that hold half of the wake and the boundary

@@ -27,14 +27,18 @@ constexpr double smallest_size = 5e-5;
 /// segment, in sizes.
 constexpr double size_ratio = 1.1, max_segment = 20;
 /// The inner wake, where the fluid from next to the wall gains speed, has this width at the trailing edge, in momentum
-/// thicknesses of both sides. The growth per length is about half that of a mixing layer beside fluid at rest, 0.11
-/// (S. B. Pope, Turbulent Flows (2000), section 5.4.2), since the fluid is not at rest for long.
-constexpr double inner_start = 4, inner_growth = 0.06;
+/// thicknesses of both sides. The growth per length is that of a mixing layer beside fluid at rest, 0.11 (S. B. Pope,
+/// Turbulent Flows (2000), section 5.4.2), where much of the fluid is at rest. Where it is not at rest for long, behind
+/// attached layers, it is about half of that.
+constexpr double inner_start = 4, inner_growth_attached = 0.06, inner_growth_at_rest = 0.11;
+/// Behind a base that is wider than the inner wake there are two mixing layers, from its corners, with fluid at rest
+/// between them. They meet after this many widths of the base: where both together are as wide as it.
+constexpr double mixing_length = 0.5 / inner_growth_at_rest;
 /// Lift of viscous over that of potential flow, and how far it may be from this. It is 0.86 to 0.9 where the flow is
 /// attached and 0.8 where it separates on a flap, but wakes of little lift hardly bend.
 constexpr double lift_share = 0.8, lift_share_range = 0.05;
-/// Behind the bodies the lift falls to that in so many steps, over this length in chords: a flow with less lift turns
-/// round the trailing edge.
+/// Behind its trailing edge a wake is that of a flow whose lift falls to that share in so many steps, over this length
+/// in chords: a flow with less lift turns round the trailing edge.
 constexpr int lift_steps = 6;
 constexpr double lift_fall_length = 0.15;
 /// A spline through the points of a streamline is taken for straight between this many points of each piece.
@@ -59,23 +63,6 @@ struct MeasuredLine {
     }
 };
 
-/// Returns the flow with weaker vortices and sources.
-Flow weakened(Flow flow, double factor) {
-    for (PanelSheet& sheet : flow.sheets) {
-        for (double& strength : sheet.strengths) strength *= factor;
-        sheet.base_strength *= factor;
-        sheet.base_source *= factor;
-    }
-    return flow;
-}
-
-/// Returns how far the rearmost trailing edge lies along the free stream.
-double rear_along(const Flow& flow, Point stream) {
-    double rear = -HUGE_VAL;
-    for (const ElementFlow& element : flow.elements) rear = std::max(rear, dot(element.upper.back().at, stream));
-    return rear;
-}
-
 /// Streamlines need be no more exact than sizes are, and those that only tell widths have longer steps.
 constexpr StreamlineOptions rough{.tolerance = 1e-5}, rougher{.tolerance = 1e-4, .max_step = 0.25};
 
@@ -84,32 +71,22 @@ void append_streamline(const Flow& flow, double length, const StreamlineOptions&
     for (std::size_t i = 1; i < more.size(); ++i) line.add(more[i]);
 }
 
-/// Follows potential flow from a trailing edge past all bodies, since it keeps to their walls. The first step leaves the
-/// trailing edge.
-MeasuredLine line_past_bodies(const Flow& flow, Point from) {
-    constexpr double shortest = 1e-3;  // in chords
-    const Point stream = flow::free_stream(flow.alpha_deg);
-    const double rear = rear_along(flow, stream);
-    MeasuredLine line;
-    line.add(from);
-    do {
-        const std::size_t points = line.points.size();
-        const double left = std::max(rear - dot(line.points.back(), stream), shortest * flow.chord);
-        append_streamline(flow, std::min(left, wake_length * flow.chord - line.s.back()), rough, line);
-        if (line.points.size() == points) break;  // the line ends at a body
-    } while (dot(line.points.back(), stream) <= rear && line.s.back() < wake_length * flow.chord);
-    return line;
+/// The flows whose lift falls from that of potential flow to a share of it.
+std::vector<Flow> falling_lift(const Flow& flow, double share) {
+    std::vector<Flow> flows{flow};
+    for (int k = 1; k <= lift_steps; ++k) flows.push_back(with_share_of_lift(flow, 1 - (1 - share) * k / lift_steps));
+    return flows;
 }
 
-/// Continues a line that has passed all bodies, up to the length of the wakes. The lift falls to this share.
-MeasuredLine continued(MeasuredLine line, const Flow& flow, double share, const StreamlineOptions& options) {
-    const Point stream = flow::free_stream(flow.alpha_deg);
-    const double all = wake_length * flow.chord, step = lift_fall_length / lift_steps * flow.chord;
-    if (dot(line.points.back(), stream) <= rear_along(flow, stream)) return line;
-    for (int k = 1; k <= lift_steps; ++k) {
-        const Flow weaker = weakened(flow, 1 - (1 - share) * k / lift_steps);
+/// Follows flows of less and less lift from a trailing edge, up to the length of the wakes or to a body.
+MeasuredLine wake_line(std::span<const Flow> flows, Point from, const StreamlineOptions& options) {
+    const double chord = flows.front().chord, all = wake_length * chord;
+    MeasuredLine line;
+    line.add(from);
+    for (std::size_t k = 0; k < flows.size(); ++k) {
         const double left = all - line.s.back();
-        append_streamline(weaker, k < lift_steps ? std::min(step, left) : left, options, line);
+        const double step = lift_fall_length / lift_steps * chord;
+        append_streamline(flows[k], k + 1 < flows.size() ? std::min(step, left) : left, options, line);
     }
     return line;
 }
@@ -132,35 +109,112 @@ std::vector<WakeSource> make_chain(const MeasuredLine& line, const std::function
     return chain;
 }
 
+double base_width(const ElementFlow& element) { return distance(element.upper.back().at, element.lower.back().at); }
+
+/// Returns the width of the fluid at rest in a layer that has separated. Such a layer keeps its momentum thickness, so it
+/// is what the displacement exceeds that at separation by.
+double at_rest_behind(const FlowPoint& end) {
+    if (end.state != BoundaryLayerState::separated) return 0;
+    return std::max(end.displacement - flow::separation_shape * end.momentum, 0.0);
+}
+
+/// Returns the width of the wake: that of a plane wake that begins as wide as the base and both layers. Besides, separated
+/// layers go on to spread by the fluid at rest below them.
 double wake_width(const ElementFlow& element, double behind) {
     const FlowPoint &above = element.upper.back(), &below = element.lower.back();
-    return flow::wake_thickness(above.thickness, below.thickness, above.momentum + below.momentum, behind);
+    return flow::wake_thickness(above.thickness + base_width(element), below.thickness, above.momentum + below.momentum,
+                                behind) +
+           std::min(inner_growth_at_rest * behind, at_rest_behind(above) + at_rest_behind(below));
+}
+
+/// The wake within the wake, next to the trailing edge.
+struct InnerWake {
+    double start, growth;  ///< its width at the trailing edge, and the growth of its width per length
+    double base;           ///< width of the base
+    bool is_split;         ///< whether there are two mixing layers at first
+    double split_length;   ///< they meet here
+
+    double width(double s) const { return start + growth * s; }
+};
+
+InnerWake inner_wake(const ElementFlow& element) {
+    const FlowPoint &above = element.upper.back(), &below = element.lower.back();
+    InnerWake inner{};
+    inner.start = inner_start * (above.momentum + below.momentum);
+    inner.base = base_width(element);
+    inner.is_split = inner.base > inner.start;
+    inner.split_length = inner.is_split ? mixing_length * inner.base : 0;
+    // Where fluid at rest makes half of the displacement, or a base is as wide as the inner wake, the growth is that
+    // beside fluid at rest. Bases of half of that width have no effect.
+    double at_rest = 2 * inner.base / inner.start - 1;
+    for (const FlowPoint* side : {&above, &below})
+        at_rest = std::max(at_rest, at_rest_behind(*side) / (flow::separation_shape * side->momentum));
+    const double share = std::clamp(at_rest, 0.0, 1.0);
+    inner.growth = inner_growth_attached + share * (inner_growth_at_rest - inner_growth_attached);
+    return inner;
+}
+
+/// Returns the part of a line from an arc length on, or its last point.
+MeasuredLine part_from(const MeasuredLine& line, double begin) {
+    MeasuredLine part;
+    part.add(line.at(begin));
+    for (std::size_t i = 0; i < line.points.size(); ++i)
+        if (line.s[i] > begin) part.add(line.points[i]);
+    return part;
+}
+
+/// Returns the line of the mixing layer from a corner of a base, which comes to the middle of the wake after a length.
+MeasuredLine line_from_corner(const MeasuredLine& wake, Point corner, double length) {
+    constexpr int parts = 8;
+    const Point to_corner = corner - wake.points.front();
+    MeasuredLine line;
+    for (int k = 0; k <= parts; ++k) {
+        const double share = static_cast<double>(k) / parts;
+        line.add(wake.at(share * length) + (1 - share) * to_corner);
+    }
+    return line;
 }
 
 }  // namespace
 
 std::vector<ElementWake> wakes_of_flow(const Flow& flow, double fineness) {
     const double across = fineness * triangles_across, radius_over_size = across * (0.5 - outer_share);
+    const std::vector<Flow> flows = falling_lift(flow, lift_share),
+                            weaker = falling_lift(flow, lift_share - lift_share_range);
     std::vector<ElementWake> wakes;
     for (const ElementFlow& element : flow.elements) {
         const FlowPoint &above = element.upper.back(), &below = element.lower.back();
-        const double momentum = above.momentum + below.momentum;
         const Point from = midpoint(above.at, below.at);
-        const MeasuredLine begun = line_past_bodies(flow, from), line = continued(begun, flow, lift_share, rough),
-                           other = continued(begun, flow, lift_share - lift_share_range, rougher);
+        const MeasuredLine line = wake_line(flows, from, rough), other = wake_line(weaker, from, rougher);
+        const InnerWake inner = inner_wake(element);
         const auto width = [&](double s) { return wake_width(element, s); };
         const auto bounded = [&](double size) { return std::max(size, smallest_size / fineness * flow.chord); };
         const auto size = [&](double s) { return bounded(width(s) / across); };
-        const auto inner_size = [&](double s) { return bounded((inner_start * momentum + inner_growth * s) / across); };
+        const auto radius_of = [&](const auto& size_at) {
+            return [&, size_at](double s) { return radius_over_size * size_at(s); };
+        };
+        const auto is_finer = [&](const auto& size_at) {
+            return [&, size_at](double s) { return size_ratio * size_at(s) < size(s); };
+        };
         ElementWake& wake = wakes.emplace_back();
         wake.wake = {element.name, line.s.back(), width(0), width(line.s.back())};
         wake.line = line.points;
         wake.outer = make_chain(
             line, size, [&](double s) { return radius_over_size * size(s) + distance(line.at(s), other.at(s)); },
             [](double) { return true; });
-        wake.inner = make_chain(
-            line, inner_size, [&](double s) { return radius_over_size * inner_size(s); },
-            [&](double s) { return size_ratio * inner_size(s) < size(s); });
+        const double split = std::min(inner.split_length, line.s.back());
+        const auto inner_size = [&](double s) { return bounded(inner.width(split + s) / across); };
+        wake.inner = make_chain(part_from(line, split), inner_size, radius_of(inner_size), is_finer(inner_size));
+        for (WakeSource& source : wake.inner) source.begins += split;
+        if (!inner.is_split) continue;
+        for (const FlowPoint* corner : {&above, &below}) {
+            const auto mixing_size = [&](double s) {
+                return bounded((inner_start * corner->momentum + inner.growth * s) / across);
+            };
+            const auto chain = make_chain(line_from_corner(line, corner->at, split), mixing_size,
+                                          radius_of(mixing_size), is_finer(mixing_size));
+            wake.mixing.insert(wake.mixing.end(), chain.begin(), chain.end());
+        }
     }
     return wakes;
 }

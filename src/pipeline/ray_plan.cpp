@@ -61,7 +61,7 @@ SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, con
                            std::span<const ElementWake> wakes, const Box& domain) {
     std::vector<SizeSource> along_wakes;
     for (std::size_t e = 0; e < wakes.size(); ++e)
-        for (const auto* sources : {&wakes[e].outer, &wakes[e].inner})
+        for (const auto* sources : {&wakes[e].outer, &wakes[e].inner, &wakes[e].mixing})
             for (const WakeSource& wake : *sources)
                 if (wake.begins >= rays.wake_lengths[e]) along_wakes.push_back(wake.source);
     const bool decided = decides_on_sizes(options);
