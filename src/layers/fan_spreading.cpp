@@ -21,10 +21,13 @@ namespace lamina::layers {
 
 namespace {
 
-/// Fans of up to this angle, such as those at the corners of bases, give all of it: half to either side. What is left is
-/// the bisector alone, as in a structured grid, and no cells as narrow as a first layer is high. Wider fans, at sharp
-/// trailing edges, give the second angle to either side, since cells at the wall are as skewed as rays lean.
-constexpr double max_fan_given_deg = 120, given_by_wide_fans_deg = 30;
+/// Fans of up to the first angle, such as those at the corners of bases, give up to the second one to either side;
+/// wider ones, at sharp trailing edges, the third. Cells at the wall are as skewed as rays lean.
+constexpr double max_corner_fan_deg = 120, given_by_corner_fans_deg = 35, given_by_wide_fans_deg = 30;
+/// Where the wall turns by more than the first angle, its fan keeps a column. If rows turned by that at one ray, the
+/// line between the middles of the long cells on both sides would pass far below the face between them. The middle of a
+/// narrow column is next to its faces. It is as wide as any column of a fan, but no wider than the second angle.
+constexpr double max_turning_at_ray_deg = 35, max_kept_column_deg = 10;
 /// A stretch of columns ends where the wall turns inwards by more than this.
 constexpr double concave_corner_deg = 20;
 /// Columns widen up to this share of the distance of the fan's rays at the height of the front.
@@ -121,17 +124,27 @@ std::vector<double> openings(std::span<const FanColumn> columns, double max_leve
     return openings_to(low, max_opening, columns);
 }
 
+/// Returns the angle that a fan of a corner or of a sharp trailing edge gives to one side.
+double given_angle(const FanSide& side, double max_ray_angle) {
+    const WallVertex& fan = side.vertices[side.fan];
+    const double angle = fan.turning + fan.tilt[1] - fan.tilt[0];
+    double to_both = 2 * core::radians(given_by_wide_fans_deg);
+    if (angle <= core::radians(max_corner_fan_deg)) {
+        const bool needs_column = fan.turning > core::radians(max_turning_at_ray_deg);
+        const double least = needs_column ? std::min(max_ray_angle, core::radians(max_kept_column_deg)) : 0;
+        const double kept = std::max(least, fan.turning - 2 * core::radians(given_by_corner_fans_deg));
+        to_both = std::max(angle - kept, 0.0);
+    }
+    // What is left of a fan that leans lies round the bisector, too, which is nearer to one of its sides.
+    const double lean = 0.5 * (fan.tilt[0] + fan.tilt[1]);
+    return std::max(0.5 * to_both + (side.ahead ? lean : -lean), 0.0);
+}
+
 /// Gives a part of a fan's angle to one side.
 void spread(const FanSide& side, double max_ray_angle, std::vector<WallVertex>& vertices) {
     const std::vector<FanColumn> columns = columns_beside(side);
     if (columns.empty()) return;
-    const WallVertex& fan = side.vertices[side.fan];
-    const double angle = fan.turning + fan.tilt[1] - fan.tilt[0];
-    // The bisector of a fan that leans lies nearer to one of its sides.
-    const double to_bisector = 0.5 * fan.turning + (side.ahead ? fan.tilt[1] : -fan.tilt[0]);
-    const double given =
-        angle <= core::radians(max_fan_given_deg) ? std::max(to_bisector, 0.0) : core::radians(given_by_wide_fans_deg);
-    const double max_opening = level_share * max_ray_angle;
+    const double max_opening = level_share * max_ray_angle, given = given_angle(side, max_ray_angle);
     const std::vector<double> angles = openings(columns, max_opening * side.heights[side.fan], max_opening, given);
     double left = sum(angles);
     for (std::size_t k = 0; k < angles.size(); ++k) {

@@ -142,7 +142,7 @@ LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::sp
             const double last_spacing = layers[i] > 0 ? column[layers[i]] - column[layers[i] - 1] : 0;
             const bool cut = !refitted[i].empty();
             const LayerRange range = cut ? layer_range(limits[i], column, layers[i]) : LayerRange{layers[i], layers[i]};
-            ends[i] = {cut ? limits[i] : column[layers[i]], last_spacing, range};
+            ends[i] = {cut ? limits[i] : column[layers[i]], last_spacing, range, cut};
         }
     });
     limit_count_differences(set, layers);

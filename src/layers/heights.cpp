@@ -69,8 +69,8 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
         ends.reserve(front.size());
         for (std::size_t i = 0; i < front.size(); ++i) {
             const std::uint32_t n = layers[i];
-            ends.push_back(
-                {front[i], n > 0 ? heights[i][n] - heights[i][n - 1] : 0.0, layer_range(front[i], heights[i], n)});
+            ends.push_back({front[i], n > 0 ? heights[i][n] - heights[i][n - 1] : 0.0,
+                            layer_range(front[i], heights[i], n), false});
         }
         keep_counts_on_narrow_columns(set, ends, layers);
         limit_count_differences(set, layers);

@@ -223,7 +223,11 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
     // A column has at most front / spacing layers, so that one in (1 + spacing / front) of them is one layer.
     lower_to_neighbours(set, spacings, [&](std::size_t from, std::size_t to) {
         const double width = rays.between(from, to, std::min(front[from], front[to]));
-        const double layers = std::clamp((width / spacings[from] - no_change) / (full_change - no_change), 0.0, 1.0);
+        const double widths = width / spacings[from];
+        const double upright = std::clamp((widths - no_change) / (full_change - no_change), 0.0, 1.0);
+        // Rows rise towards `to`. Where rays lean to that side, too, cells would be sheared by both.
+        const double lean = std::max(tangent_of_lean(set.lines[from], set.lines[to]), 0.0);
+        const double layers = std::min(upright, widths * max_row_slope(lean));
         return spacings[from] * (1 + layers * spacings[from] / std::max(front[from], front[to]));
     });
     bound_layers();

@@ -15,8 +15,10 @@
 //      o-o--'I I`-o-o--o            o   number on a ray between wide columns
 //            I I
 //
-// Lengths along the string are widths of columns over the heights of their last layers, so that it changes least where
-// columns are narrowest. The numbers are its values, rounded.
+// Lengths along the string are squares of widths of columns over the heights of their last layers, so that it changes
+// most where columns are widest. The numbers are its values, rounded.
+//
+// A column whose rays lean counts as narrower, since its cells are sheared already (docs/decisions/0055).
 #include "layers/narrow_columns.hpp"
 
 #include <algorithm>
@@ -28,12 +30,15 @@ namespace lamina::layers {
 
 namespace {
 
-/// A column is narrow where its front is shorter than this share of the last layer's height.
+/// A column is narrow where its front is shorter than this share of the last layer's height. Where something cuts
+/// layers short, it counts as shorter where rays lean. Elsewhere numbers stay as the front asks, since the more layers are
+/// stretched, the more the last ones differ in height from the cells beyond.
 constexpr double narrow_share = 0.8;
 /// A column has this length at least, so that the string goes forward.
 constexpr double least_length = 1e-6;
-/// It has this length at most, as columns without layers do, so that sums of lengths are exact enough for short ones.
-constexpr double most_length = 100;
+/// It counts as this many heights wide at most, as columns without layers do, so that sums of lengths are exact enough
+/// for short ones.
+constexpr double most_width = 10;
 
 /// A place that the string goes through.
 struct Gate {
@@ -90,16 +95,21 @@ std::uint32_t rounded(double value) {
 void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
                                    std::vector<std::uint32_t>& counts) {
     const RayNeighbours rays(set);
-    /// Returns the length of the column between two neighbours.
-    const auto length_of = [&](std::size_t i, std::size_t j) {
+    /// Returns the width of the column between two neighbours, in heights of its last layer.
+    const auto width = [&](std::size_t i, std::size_t j) {
         const RayLine &a = set.lines[i], &b = set.lines[j];
         const double height = std::min(ends[i].height, ends[j].height);
-        const double width = length(b.origin - a.origin + height * (b.direction - a.direction));
+        const double apart = length(b.origin - a.origin + height * (b.direction - a.direction));
         const double spacing = std::max(ends[i].last_spacing, ends[j].last_spacing);
-        return width < most_length * spacing ? std::max(width / spacing, least_length) : most_length;
+        return apart < most_width * spacing ? apart / spacing : most_width;
+    };
+    const auto width_left = [&](std::size_t i, std::size_t j) {
+        const double lean = std::abs(tangent_of_lean(set.lines[i], set.lines[j]));
+        return width(i, j) * max_row_slope(lean);
     };
     const auto is_free = [&](std::size_t i) {
-        return length_of(rays.previous[i], i) < narrow_share || length_of(i, rays.next[i]) < narrow_share;
+        const auto measure = [&](std::size_t a, std::size_t b) { return ends[i].cut ? width_left(a, b) : width(a, b); };
+        return measure(rays.previous[i], i) < narrow_share || measure(i, rays.next[i]) < narrow_share;
     };
     for (std::size_t e = 0; e < set.elements(); ++e) {
         std::size_t first = set.begin[e];
@@ -111,7 +121,8 @@ void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd>
             const bool held = i == first || !is_free(i);
             const LayerRange range = held ? LayerRange{counts[i], counts[i]} : ends[i].layers;
             gates.push_back({along, double(range.least), double(range.most)});
-            along += length_of(i, rays.next[i]);
+            const double step = width_left(i, rays.next[i]);
+            along += std::max(step * step, least_length);
             i = rays.next[i];
         } while (i != first);
         gates.push_back({along, gates[0].least, gates[0].most});

@@ -16,6 +16,7 @@ struct ColumnEnd {
     double height;        ///< of the front
     double last_spacing;  ///< height of the last layer
     LayerRange layers;    ///< numbers of layers with which a stretch can keep the front where it is
+    bool cut;             ///< whether layers end there because something is in the way
 };
 
 /// Changes the numbers of layers beside narrow columns, within the ranges of their ends, so that they change from ray to

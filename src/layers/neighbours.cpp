@@ -1,11 +1,21 @@
 // The neighbours of rays, and limits on how much they differ.
 #include "layers/neighbours.hpp"
 
+#include <cmath>
+
 namespace lamina::layers {
 
 RayNeighbours::RayNeighbours(const RaySet& set) : next(set.following()), previous(next.size()) {
     for (std::size_t i = 0; i < next.size(); ++i) previous[next[i]] = i;
 }
+
+double tangent_of_lean(const RayLine& from, const RayLine& to) {
+    const Point edge = to.origin - from.origin, direction = from.direction + to.direction;
+    const double across = std::abs(cross(edge, direction));
+    return across > 0 ? dot(edge, direction) / across : 0;
+}
+
+double max_row_slope(double lean) { return std::max((1 - lean) / (1 + lean), 0.0); }
 
 void fill_fans(const RaySet& set, std::vector<double>& values) {
     const RayNeighbours rays(set);

@@ -88,6 +88,40 @@ TEST(FanSpreading, KeepsOriginsAndTheOrderOfDirections) {
     }
 }
 
+/// Returns a plate from which the corner at the origin, its first vertex, cuts off an angle. The corner turns by so many
+/// degrees, and the edges beside it are short.
+Outline plate_with_corner(double turning_deg) {
+    const double angle = core::radians(turning_deg);
+    const Point before{0, 1}, after = core::rotated(before, angle);
+    Outline outline{{0, 0}};
+    const auto lengths = [](int k) { return 1e-4 * k * (1 + 0.05 * k); };
+    for (int k = 1; k <= 60; ++k) outline.push_back(lengths(k) * after);
+    for (int k = 60; k >= 1; --k) outline.push_back(-lengths(k) * before);
+    return outline;
+}
+
+/// Long cells on both sides of one ray at which rows turn by 90 degrees have a skewness of 2.5. Fans of corners keep a
+/// column for that, and rays beside them lean by no more than 35 degrees.
+TEST(FanSpreading, CornersKeepAColumn) {
+    const LayerOptions options;
+    for (const double turning : {40.0, 60.0, 75.0, 90.0, 100.0, 115.0}) {
+        SCOPED_TRACE(turning);
+        const Outline outline = plate_with_corner(turning);
+        std::vector<Point> at_corner;
+        for (const RayLine& ray : spread_rays(outline, true))
+            if (ray.origin == outline[0]) at_corner.push_back(ray.direction);
+        ASSERT_GE(at_corner.size(), 2u);
+        const auto turned = [](Point a, Point b) { return core::degrees(core::angle_between(a, b)); };
+        const double kept = turned(at_corner.front(), at_corner.back());
+        EXPECT_GT(kept, 0.99 * options.max_ray_angle_deg);
+        const Point before = -perpendicular(unit(outline[0] - outline.back())),
+                    after = -perpendicular(unit(outline[1] - outline[0]));
+        EXPECT_LT(turned(before, at_corner.front()), 35.01);
+        EXPECT_LT(turned(at_corner.back(), after), 35.01);
+        EXPECT_NEAR(turned(before, at_corner.front()), turned(at_corner.back(), after), 0.01) << "round the bisector";
+    }
+}
+
 /// Returns a wedge whose finely divided tail bulges: its walls are concave first, and then convex.
 Outline bulging_tail() {
     const auto half_thickness = [](double x) {
@@ -148,7 +182,9 @@ RaySet parallel_rays(std::size_t count, double apart) {
 }
 
 /// Returns the numbers on rays so far apart, which stand between two others with 40 layers and wide columns.
-std::vector<std::uint32_t> kept_counts(std::vector<std::uint32_t> counts, double apart) {
+/// All rays lean by so many degrees.
+std::vector<std::uint32_t> kept_counts(std::vector<std::uint32_t> counts, double apart, double lean_deg = 0,
+                                       bool cut = false) {
     RaySet set = parallel_rays(counts.size() + 4, apart);
     for (std::size_t i = 0; i < 2; ++i) {
         set.lines[i].origin.x -= 2.0 - double(i);
@@ -157,7 +193,8 @@ std::vector<std::uint32_t> kept_counts(std::vector<std::uint32_t> counts, double
     counts.insert(counts.begin(), 2, 40);
     counts.insert(counts.end(), 2, 40);
     std::vector<layers::ColumnEnd> ends;
-    for (const std::uint32_t n : counts) ends.push_back({1.0, 0.1, {n - 2, n + 2}});
+    for (const std::uint32_t n : counts) ends.push_back({1.0, 0.1, {n - 4, n + 4}, cut});
+    for (RayLine& ray : set.lines) ray.direction = core::rotated(ray.direction, core::radians(lean_deg));
     layers::keep_counts_on_narrow_columns(set, ends, counts);
     return {counts.begin() + 2, counts.end() - 2};
 }
@@ -168,7 +205,7 @@ TEST(NarrowColumns, KeepTheirNumberOfLayers) {
     const std::vector<std::uint32_t> kept = kept_counts(wanted, 0.01);
     std::size_t changes_before = 0, changes = 0;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        EXPECT_LE(std::max(kept[i], wanted[i]) - std::min(kept[i], wanted[i]), 2u);
+        EXPECT_LE(std::max(kept[i], wanted[i]) - std::min(kept[i], wanted[i]), 4u);
         if (i == 0) continue;
         changes_before += wanted[i] != wanted[i - 1];
         changes += kept[i] != kept[i - 1];
@@ -179,6 +216,21 @@ TEST(NarrowColumns, KeepTheirNumberOfLayers) {
     EXPECT_TRUE(std::equal(kept.begin(), kept.end(), reversed.rbegin())) << "both directions count alike";
 }
 
+/// Rows rise by a layer where numbers change. Where rays lean, cells would be sheared by both.
+TEST(NarrowColumns, ColumnsThatLeanCountAsNarrower) {
+    const std::vector<std::uint32_t> wanted{40, 41, 42, 43, 44, 45, 44, 43, 42, 41, 40, 39};
+    const double apart = 0.12;
+    EXPECT_EQ(kept_counts(wanted, apart), wanted);
+    EXPECT_EQ(kept_counts(wanted, apart, 0, true), wanted);
+    for (const double lean : {-35.0, 35.0}) {
+        SCOPED_TRACE(lean);
+        EXPECT_EQ(kept_counts(wanted, apart, lean), wanted) << "nothing is in the way";
+        const std::vector<std::uint32_t> cut = kept_counts(wanted, apart, lean, true);
+        const auto [least, most] = std::minmax_element(cut.begin(), cut.end());
+        EXPECT_LE(*most - *least, 2u);
+    }
+}
+
 TEST(NarrowColumns, KeepTheRangesOfTheirRays) {
     std::mt19937 random(3);
     std::uniform_int_distribution<std::uint32_t> wanted(20, 40), below(0, 4), above(0, 4);
@@ -187,7 +239,7 @@ TEST(NarrowColumns, KeepTheRangesOfTheirRays) {
         std::vector<layers::ColumnEnd> ends;
         for (std::uint32_t& n : counts) {
             n = wanted(random);
-            ends.push_back({1, 0.1, {n - below(random), n + above(random)}});
+            ends.push_back({1, 0.1, {n - below(random), n + above(random)}, false});
         }
         layers::keep_counts_on_narrow_columns(parallel_rays(counts.size(), 0.01), ends, counts);
         for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -201,10 +253,10 @@ TEST(NarrowColumns, MayStandBesideRaysWithoutLayers) {
     const std::size_t rays = 40;
     for (const double apart : {0.0, 0.01, 2.0}) {
         std::vector<std::uint32_t> counts(rays, 3);
-        std::vector<layers::ColumnEnd> ends(rays, {1, 0.1, {1, 5}});
+        std::vector<layers::ColumnEnd> ends(rays, {1, 0.1, {1, 5}, false});
         for (std::size_t i = 10; i < 30; ++i) {
             counts[i] = 0;
-            ends[i] = {0, 0, {0, 0}};
+            ends[i] = {0, 0, {0, 0}, false};
         }
         const std::vector<std::uint32_t> wanted = counts;
         layers::keep_counts_on_narrow_columns(parallel_rays(rays, apart), ends, counts);
@@ -220,7 +272,7 @@ TEST(NarrowColumns, MayStandBesideRaysWithoutLayers) {
 
 TEST(NarrowColumns, ChangeEvenlyWhereTheyMustChange) {
     std::vector<std::uint32_t> counts(41, 30);
-    std::vector<layers::ColumnEnd> ends(41, {1, 0.1, {20, 40}});
+    std::vector<layers::ColumnEnd> ends(41, {1, 0.1, {20, 40}, false});
     for (const std::size_t held : {0, 1, 39, 40}) ends[held].layers = {30, 30};
     ends[20].layers = {34, 40};
     layers::keep_counts_on_narrow_columns(parallel_rays(counts.size(), 0.01), ends, counts);
