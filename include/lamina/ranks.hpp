@@ -79,6 +79,9 @@ public:
     std::vector<std::string> all_gather(std::string_view bytes);
     /// Collective: returns on each rank the bytes that rank 0 has for it. The argument of other ranks does not count.
     std::string scatter(const std::vector<std::string>& bytes);
+    /// Collective: sends each rank the bytes that are meant for it, of which there is one string for each rank. Returns
+    /// the bytes of all ranks for this one, in their order.
+    std::vector<std::string> exchange(const std::vector<std::string>& bytes);
     /// Collective: returns the bytes of rank 0.
     std::string broadcast(std::string_view bytes);
     /// Collective: opens a file, or creates it, for all ranks to write to. Throws IoError about the target on ranks that
@@ -101,6 +104,8 @@ protected:
     virtual std::vector<std::string> do_all_gather(std::string_view bytes) = 0;
     /// Returns what scatter() returns.
     virtual std::string do_scatter(const std::vector<std::string>& bytes) = 0;
+    /// Returns what exchange() returns.
+    virtual std::vector<std::string> do_exchange(const std::vector<std::string>& bytes) = 0;
     /// Returns the bytes of rank `from`.
     virtual std::string do_broadcast(std::string_view bytes, unsigned from) = 0;
     /// Sets the counter to 0.

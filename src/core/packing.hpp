@@ -33,6 +33,12 @@ public:
         if (!values.empty()) bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     }
     void put_text(std::string_view text) { put_all<char>({text.data(), text.size()}); }
+    /// Puts counts, of which many are small, without the zeros at the end.
+    void put_counts(std::span<const std::uint32_t> counts) {
+        while (!counts.empty() && counts.back() == 0) counts = counts.first(counts.size() - 1);
+        put_short(counts.size());
+        for (const std::uint32_t count : counts) put_short(count);
+    }
     std::string take() { return std::move(bytes_); }
 
 private:
@@ -65,6 +71,11 @@ public:
             number |= std::uint64_t{byte & 127u} << shift;
             if (byte < 128) return number;
         }
+    }
+    std::vector<std::uint32_t> get_counts() {
+        std::vector<std::uint32_t> counts(get_short());
+        for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(get_short());
+        return counts;
     }
     std::string get_text() {
         const std::vector<char> text = get_all<char>();

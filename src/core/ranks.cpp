@@ -72,6 +72,15 @@ std::string Ranks::scatter(const std::vector<std::string>& bytes) {
     return do_scatter(bytes);
 }
 
+std::vector<std::string> Ranks::exchange(const std::vector<std::string>& bytes) {
+    agree();
+    std::size_t sent = 0;
+    for (unsigned to = 0; to < size(); ++to)
+        if (to != rank()) sent += bytes[to].size();
+    count(sent);
+    return do_exchange(bytes);
+}
+
 std::string Ranks::broadcast(std::string_view bytes) {
     agree();
     count(rank() == 0 ? (size() - 1) * bytes.size() : 0);

@@ -72,16 +72,20 @@ protected:
         return cut(joined, sizes, offsets);
     }
 
+    std::vector<std::string> do_exchange(const std::vector<std::string>& bytes) override {
+        std::vector<int> sizes, offsets, of_others(size()), offsets_of_others;
+        const std::string joined = join(bytes, sizes, offsets);
+        MPI_Alltoall(sizes.data(), 1, MPI_INT, of_others.data(), 1, MPI_INT, all_);
+        std::string told(offsets_of(of_others, offsets_of_others), '\0');
+        MPI_Alltoallv(joined.data(), sizes.data(), offsets.data(), MPI_BYTE, told.data(), of_others.data(),
+                      offsets_of_others.data(), MPI_BYTE, all_);
+        return cut(told, of_others, offsets_of_others);
+    }
+
     std::string do_scatter(const std::vector<std::string>& bytes) override {
         std::vector<int> sizes, offsets;
         std::string joined;
-        if (rank_ == 0) {
-            for (const std::string& one : bytes) {
-                sizes.push_back(int_size(one.size()));
-                joined += one;
-            }
-            offsets_of(sizes, offsets);
-        }
+        if (rank_ == 0) joined = join(bytes, sizes, offsets);
         int mine = 0;
         MPI_Scatter(sizes.data(), 1, MPI_INT, &mine, 1, MPI_INT, 0, all_);
         std::string text(static_cast<std::size_t>(mine), '\0');
@@ -136,6 +140,17 @@ private:
         }
         int_size(sum);
         return sum;
+    }
+
+    /// Joins texts, and stores how long they are and where they begin.
+    static std::string join(const std::vector<std::string>& bytes, std::vector<int>& sizes, std::vector<int>& offsets) {
+        std::string joined;
+        for (const std::string& one : bytes) {
+            sizes.push_back(int_size(one.size()));
+            joined += one;
+        }
+        offsets_of(sizes, offsets);
+        return joined;
     }
 
     /// Cuts joined texts apart.

@@ -79,12 +79,17 @@ CheckedPiece refine_and_check_piece(const Decoupling& decoupling, std::size_t su
     return {std::move(linked.refinement), std::move(facts)};
 }
 
+bool is_good_estimate(double estimated, std::size_t made) {
+    const auto triangles = static_cast<double>(made);
+    return std::abs(estimated - triangles) <= 0.15 * triangles;
+}
+
 void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& check) {
     const std::size_t made = facts.findings.triangles;
     const auto triangles = static_cast<double>(made);
     ++summary.pieces;
     summary.largest = std::max(summary.largest, made);
-    summary.good_estimates += std::abs(facts.estimated_triangles - triangles) <= 0.15 * triangles;
+    summary.good_estimates += is_good_estimate(facts.estimated_triangles, made);
     summary.stats += facts.stats;
     summary.edge_over_size += triangles * facts.edge_over_size;
     summary.triangles += triangles;

@@ -60,6 +60,9 @@ struct CheckedPiece {
 CheckedPiece refine_and_check_piece(const Decoupling& decoupling, std::size_t subdomain, double min_angle_deg,
                                     core::BusyTimes& times, PieceWork work);
 
+/// Returns whether the number of triangles of a piece was estimated within 15 %.
+bool is_good_estimate(double estimated, std::size_t made);
+
 /// Adds the facts about the next piece to the summary and to the check.
 void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& check);
 

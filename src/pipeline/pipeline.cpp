@@ -294,7 +294,7 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
     made.held.numbers = std::move(counted.numbers);
     made.held.layer_pieces = counted.layer_pieces;
     made.summary = counted.summary;
-    made.first_triangle = std::move(counted.first_triangle);
+    made.first_triangle = {0};
     mesh.counts = counted.counts;
     if (!destination.checks()) return made;
     mesh::HashOfParts hash = counted.hash;

@@ -60,15 +60,14 @@ struct PieceNumbers {
 struct CountedMesh {
     MeshCounts counts;
     std::size_t layer_pieces = 0;
-    std::vector<PieceNumbers> numbers;        ///< of the held pieces
-    PiecesSummary summary;                    ///< on rank 0
-    std::vector<std::size_t> first_triangle;  ///< of all pieces; on rank 0
-    mesh::HashOfParts hash;                   ///< of all pieces; on rank 0
+    std::vector<PieceNumbers> numbers{};  ///< of the held pieces
+    PiecesSummary summary{};              ///< on rank 0
+    mesh::HashOfParts hash{};             ///< of all pieces; on rank 0
 };
 
-/// Collective: numbers all pieces in their order, behind the triangles of the layer, and completes the check with them and
-/// with what their borders need of each other. `check` is that of rank 0, which has its layer; null elsewhere. Nor does
-/// the layer count elsewhere.
+/// Collective: numbers all pieces in their order, behind the triangles of the layer, matches their borders, and adds
+/// both to the check, whose pieces become one with the numbers of triangles that it has in the mesh. `check` is that of
+/// rank 0, which has its layer; null elsewhere. Nor does the layer count elsewhere.
 CountedMesh count_and_check(const SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer,
                             double min_angle_deg, Ranks& ranks, mesh::PiecewiseCheck* check);
 

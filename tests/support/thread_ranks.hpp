@@ -22,8 +22,9 @@ namespace lamina::test {
 
 /// What the threads share.
 struct RankHub {
-    RankHub(unsigned n, unsigned taker) : slots(n), first_taker(taker), barrier(n) {}
+    RankHub(unsigned n, unsigned taker) : slots(n), from_to(n), first_taker(taker), barrier(n) {}
     std::vector<std::string> slots;
+    std::vector<std::vector<std::string>> from_to;  ///< what each rank sends to each
     std::atomic<unsigned> lowest_failed{0};
     std::atomic<std::uint64_t> counter{0};
     std::atomic<unsigned> first_taker;  ///< the rank that takes the first number; size(): any
@@ -93,6 +94,14 @@ protected:
         std::string mine = hub_.slots[rank_];
         wait();
         return mine;
+    }
+    std::vector<std::string> do_exchange(const std::vector<std::string>& bytes) override {
+        hub_.from_to[rank_] = bytes;
+        wait();
+        std::vector<std::string> told;
+        for (const auto& from : hub_.from_to) told.push_back(from[rank_]);
+        wait();
+        return told;
     }
     std::string do_broadcast(std::string_view bytes, unsigned from) override {
         if (rank_ == from) hub_.slots[from] = bytes;

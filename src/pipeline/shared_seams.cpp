@@ -1,0 +1,235 @@
+#include "pipeline/shared_seams.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "pipeline/border_chain.hpp"
+
+namespace lamina::pipeline {
+
+namespace {
+
+using core::Packer;
+using core::Unpacker;
+using Wanted = mesh::Seams::Wanted;
+
+/// Puts numbers below 16 two to a byte.
+class NibblePacker {
+public:
+    void put(std::uint8_t nibble) {
+        if (half_)
+            bytes_.back() = static_cast<char>(static_cast<unsigned char>(bytes_.back()) | nibble << 4);
+        else
+            bytes_.push_back(static_cast<char>(nibble));
+        half_ = !half_;
+    }
+    const std::string& bytes() const { return bytes_; }
+
+private:
+    std::string bytes_;
+    bool half_ = false;
+};
+
+/// A question for an edge, and where the answer goes.
+struct Question {
+    std::uint32_t piece = 0, edge = 0;
+    bool apex = false;
+    bool along_layer = false;
+    std::size_t seam_edge = 0;
+};
+
+/// Puts questions, piece by piece.
+std::string pack_questions(std::span<const Question> questions) {
+    Packer packer;
+    for (std::size_t begin = 0; begin < questions.size();) {
+        std::size_t end = begin;
+        while (end < questions.size() && questions[end].piece == questions[begin].piece &&
+               (end == begin || questions[end].edge > questions[end - 1].edge))
+            ++end;
+        packer.put_short(questions[begin].piece);
+        packer.put_short(end - begin);
+        std::uint32_t last = 0;
+        for (; begin < end; ++begin)
+            packer.put_short(2 * (questions[begin].edge - std::exchange(last, questions[begin].edge)) +
+                             (questions[begin].apex ? 1 : 0));
+    }
+    return packer.take();
+}
+
+}  // namespace
+
+SharedSeams::SharedSeams(const SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks)
+    : shared_(shared),
+      held_(held),
+      ranks_(ranks),
+      owners_(shared.decoupling.points.size() - shared.decoupling.separator_vertices, ranks.size()),
+      seams_(shared.decoupling.points) {}
+
+std::vector<std::string> SharedSeams::pack_borders() const {
+    std::vector<Packer> packers(ranks_.size());
+    std::vector<NibblePacker> classes(ranks_.size());
+    std::vector<unsigned> concerned;
+    std::vector<bool> is_concerned(ranks_.size(), false);
+    for (const HeldPiece& held : held_.pieces) {
+        const decoupling::SubdomainBorder& border = shared_.borders[held.piece].border;
+        for (const auto& loop : border.loops)
+            for (const VertexId v : loop) {
+                const unsigned owner = owners_.owner(v);
+                if (is_concerned[owner]) continue;
+                is_concerned[owner] = true;
+                concerned.push_back(owner);
+            }
+        const std::vector<Segment> chain = border_chain(border);
+        for (std::size_t i = 0; i < chain.size(); ++i) {
+            const std::uint8_t none = 0;
+            classes[owners_.owner(chain[i])].put(i < held.shape_classes.size() ? held.shape_classes[i] : none);
+        }
+        for (const unsigned owner : concerned) {
+            packers[owner].put_short(held.piece);
+            packers[owner].put_text(std::exchange(classes[owner], {}).bytes());
+            is_concerned[owner] = false;
+        }
+        concerned.clear();
+    }
+    std::vector<std::string> texts;
+    for (Packer& packer : packers) texts.push_back(packer.take());
+    return texts;
+}
+
+void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
+    const unsigned self = ranks_.rank();
+    Unpacker unpacker(told);
+    while (!unpacker.at_end()) {
+        const auto piece = static_cast<std::uint32_t>(unpacker.get_short());
+        const std::string classes = unpacker.get_text();
+        const decoupling::SubdomainBorder& border = shared_.borders[piece].border;
+        for (const auto& loop : border.loops)
+            for (const VertexId v : loop) {
+                if (owners_.owner(v) != self) continue;
+                if (owners_.is_in_layer(v)) {
+                    vertices_in_layer_.push_back(v);
+                    continue;
+                }
+                const std::size_t place = owners_.place(v);
+                if (used_.size() <= place) used_.resize(place + 1, 0);
+                used_[place] = 1;
+            }
+        const std::vector<Segment> chain = border_chain(border);
+        std::size_t next = 0;
+        for (std::uint32_t i = 0; i < chain.size(); ++i) {
+            if (owners_.owner(chain[i]) != self) continue;
+            const auto both = static_cast<unsigned char>(classes[next / 2]);
+            const auto its_class = static_cast<std::uint8_t>(next % 2 == 0 ? both & 15 : both >> 4);
+            ++next;
+            CollectedEdges& collected = owners_.is_in_layer(chain[i]) ? along_layer_ : between_;
+            collected.edges.push_back({chain[i].a, chain[i].b, mesh::unknown_apex, its_class});
+            collected.sources.push_back({rank, piece, i});
+        }
+    }
+}
+
+void SharedSeams::collect() {
+    const std::vector<std::string> told = ranks_.exchange(pack_borders());
+    for (std::uint32_t rank = 0; rank < told.size(); ++rank) take_borders(rank, told[rank]);
+    seams_.add(between_.edges);
+    seams_.match();
+}
+
+std::vector<std::uint32_t> SharedSeams::least_ratios() const {
+    mesh::QualityCollector ratios(0);
+    ratios.add_area_ratios(seams_.least_ratios());
+    return {ratios.area_ratios().begin(), ratios.area_ratios().end()};
+}
+
+std::string SharedSeams::answer(const std::string& questions) const {
+    const std::vector<Point>& points = shared_.decoupling.points;
+    Packer packer;
+    Unpacker unpacker(questions);
+    while (!unpacker.at_end()) {
+        const std::size_t number = unpacker.get_short();
+        const auto piece = std::lower_bound(held_.pieces.begin(), held_.pieces.end(), number,
+                                            [](const HeldPiece& one, std::size_t n) { return one.piece < n; });
+        const std::vector<Segment> chain = border_chain(shared_.borders[number].border);
+        std::size_t edge = 0;
+        for (std::size_t left = unpacker.get_short(); left > 0; --left) {
+            const std::size_t question = unpacker.get_short();
+            edge += question / 2;
+            const Point apex = piece->apexes[edge];
+            if (question % 2 == 1)
+                packer.put(apex);
+            else
+                packer.put(mesh::area_over(points[chain[edge].a.index()], points[chain[edge].b.index()], apex));
+        }
+    }
+    return packer.take();
+}
+
+void SharedSeams::ask(double even_ratio, mesh::PiecewiseCheck* check) {
+    std::vector<std::vector<Question>> asked(ranks_.size());
+    const auto add = [&](std::span<const Wanted> wanted, const CollectedEdges& collected, bool along_layer) {
+        for (const auto [edge, apex] : wanted) {
+            const Source& source = collected.sources[edge];
+            asked[source.rank].push_back({source.piece, source.edge, apex, along_layer, edge});
+        }
+    };
+    if (check) add(check->wanted(even_ratio), along_layer_, true);
+    add(seams_.wanted(even_ratio), between_, false);
+    std::vector<std::string> questions, answers;
+    for (const std::vector<Question>& of_rank : asked) questions.push_back(pack_questions(of_rank));
+    for (const std::string& of_rank : ranks_.exchange(questions)) answers.push_back(answer(of_rank));
+    answers = ranks_.exchange(answers);
+    for (std::size_t rank = 0; rank < answers.size(); ++rank) {
+        Unpacker unpacker(answers[rank]);
+        for (const Question& question : asked[rank]) {
+            if (question.apex) {
+                const auto apex = unpacker.get<Point>();
+                question.along_layer ? check->set_apex(question.seam_edge, apex)
+                                     : seams_.set_apex(question.seam_edge, apex);
+            } else {
+                const auto area = unpacker.get<double>();
+                question.along_layer ? check->set_area(question.seam_edge, area)
+                                     : seams_.set_area(question.seam_edge, area);
+            }
+        }
+    }
+}
+
+mesh::SeamFindings SharedSeams::findings() const {
+    mesh::SeamFindings findings;
+    const mesh::EdgePairs& pairs = seams_.pairs();
+    findings.edges = pairs.edges;
+    findings.vertices = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), std::uint8_t{1}));
+    findings.measures = seams_.measure([](Segment) { return false; });
+    for (const std::uint32_t e : pairs.boundary) findings.one_sided.push_back(seams_.edges()[e]);
+    for (const std::uint32_t e : pairs.overused) findings.overused.push_back(seams_.edges()[e]);
+    return findings;
+}
+
+void pack_findings(const mesh::SeamFindings& findings, Packer& packer) {
+    packer.put_short(findings.edges);
+    packer.put_short(findings.vertices);
+    packer.put_short(findings.measures.delaunay.edges);
+    packer.put_short(findings.measures.delaunay.violations);
+    packer.put(findings.measures.ratios.totals().max_area_ratio);
+    packer.put_counts(findings.measures.ratios.area_ratios());
+    packer.put_all<Segment>(findings.one_sided);
+    packer.put_all<Segment>(findings.overused);
+}
+
+mesh::SeamFindings unpack_findings(Unpacker& unpacker) {
+    mesh::SeamFindings findings;
+    findings.edges = unpacker.get_short();
+    findings.vertices = unpacker.get_short();
+    findings.measures.delaunay.edges = unpacker.get_short();
+    findings.measures.delaunay.violations = unpacker.get_short();
+    mesh::QualityTotals totals;
+    totals.max_area_ratio = unpacker.get<double>();
+    findings.measures.ratios.append(totals);
+    findings.measures.ratios.append_area_ratios(unpacker.get_counts());
+    findings.one_sided = unpacker.get_all<Segment>();
+    findings.overused = unpacker.get_all<Segment>();
+    return findings;
+}
+
+}  // namespace lamina::pipeline

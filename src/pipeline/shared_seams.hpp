@@ -1,0 +1,92 @@
+// The borders between pieces that several processes have made: each process matches some of the edges, and nobody all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <lamina/ranks.hpp>
+
+#include "core/packing.hpp"
+#include "mesh/seams.hpp"
+#include "pipeline/shared_pieces.hpp"
+
+namespace lamina::pipeline {
+
+/// Says which process matches which edges. Those of the layer's border belong to rank 0. Vertices beyond it are dealt
+/// to the processes in blocks of successive ids, and an edge goes with its newer end: that is a vertex of the line that
+/// it is a part of.
+class SeamOwners {
+public:
+    SeamOwners(std::size_t layer_vertices, unsigned processes) : layer_(layer_vertices), processes_(processes) {}
+
+    /// Returns the first vertex beyond the layer.
+    VertexId first() const { return VertexId{layer_}; }
+    bool is_in_layer(VertexId v) const { return v.index() < layer_; }
+    bool is_in_layer(Segment edge) const { return is_in_layer(edge.a) && is_in_layer(edge.b); }
+    unsigned owner(VertexId v) const {
+        return is_in_layer(v) ? 0u : static_cast<unsigned>((v.index() - layer_) / block % processes_);
+    }
+    unsigned owner(Segment edge) const { return owner(edge.a < edge.b ? edge.b : edge.a); }
+    /// Returns the place of a vertex beyond the layer among those of its owner.
+    std::size_t place(VertexId v) const {
+        const std::size_t at = v.index() - layer_;
+        return at / (block * processes_) * block + at % block;
+    }
+
+private:
+    static constexpr std::size_t block = 256;
+    std::size_t layer_;
+    unsigned processes_;
+};
+
+/// The edges that this process matches, on all ranks from one call to the next:
+/// collect(), then ask() with a ratio that rank 0 knows, then findings().
+class SharedSeams {
+public:
+    SharedSeams(const SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks);
+
+    /// Collective: gives all border edges of the held pieces to those who match them, and pairs those of this process.
+    void collect();
+    /// Returns the first of the vertices beyond the layer.
+    VertexId first_elsewhere() const { return owners_.first(); }
+    /// Returns the edges along the border of the layer, which are for the check of rank 0 to match, with the vertices
+    /// of pieces in the layer.
+    const std::vector<mesh::PieceBorderEdge>& along_layer() const { return along_layer_.edges; }
+    const std::vector<VertexId>& vertices_in_layer() const { return vertices_in_layer_; }
+    /// Returns the histogram of the least ratios of areas that are possible, as QualityCollector::area_ratios().
+    std::vector<std::uint32_t> least_ratios() const;
+    /// Collective: learns from those who hold the pieces what lies behind edges, where ratios of areas up to this one
+    /// need not be known. `check` is that of rank 0, which asks for edges along the layer; null elsewhere.
+    void ask(double even_ratio, mesh::PiecewiseCheck* check);
+    /// Returns what this process has found out.
+    mesh::SeamFindings findings() const;
+
+private:
+    /// Where an edge comes from.
+    struct Source {
+        std::uint32_t rank = 0, piece = 0, edge = 0;  ///< the edge is numbered in border_chain()
+    };
+    struct CollectedEdges {
+        std::vector<mesh::PieceBorderEdge> edges;
+        std::vector<Source> sources;
+    };
+    std::vector<std::string> pack_borders() const;
+    void take_borders(std::uint32_t rank, const std::string& told);
+    std::string answer(const std::string& questions) const;
+
+    const SharedDecoupling& shared_;
+    const HeldPieces& held_;
+    Ranks& ranks_;
+    SeamOwners owners_;
+    CollectedEdges along_layer_, between_;
+    std::vector<VertexId> vertices_in_layer_;
+    std::vector<std::uint8_t> used_;  ///< per vertex of this process beyond the layer
+    mesh::Seams seams_;
+};
+
+void pack_findings(const mesh::SeamFindings& findings, core::Packer& packer);
+mesh::SeamFindings unpack_findings(core::Unpacker& unpacker);
+
+}  // namespace lamina::pipeline
