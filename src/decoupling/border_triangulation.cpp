@@ -42,20 +42,17 @@ delaunay::Tris triangulate_inside(std::span<const Point> points, std::span<const
 
 }  // namespace
 
-double estimate_undivided(std::span<const Point> points, const SubdomainBorder& border, const SizeField& size) {
-    const LocalBorder local = localize(border, points);
+double estimate_undivided(const LocalBorder& local, const SizeField& size) {
     return delaunay::estimate_undivided(local.points, triangulate_inside(local.points, local.segments), size);
 }
 
-BorderTriangulation::BorderTriangulation(std::span<const Point> points, const SubdomainBorder& border,
-                                         const SizeField& size) {
-    LocalBorder local = localize(border, points);
+BorderTriangulation::BorderTriangulation(LocalBorder local, const SizeField& size) {
     points_ = std::move(local.points);
     auto edge = local.segments.begin();
-    for (const auto& loop : border.loops) {
+    for (const std::size_t n : local.loops) {
         std::vector<Index>& vertices = loops_.emplace_back();
-        vertices.reserve(loop.size());
-        for (std::size_t i = 0; i < loop.size(); ++i, ++edge) vertices.push_back(edge->a.value);
+        vertices.reserve(n);
+        for (std::size_t i = 0; i < n; ++i, ++edge) vertices.push_back(edge->a.value);
     }
     tris_ = triangulate_inside(points_, local.segments);
     Box box;

@@ -4,13 +4,12 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 
-#include "decoupling/subdomain_border.hpp"
+#include "decoupling/line_border.hpp"
 #include "delaunay/estimate.hpp"
 #include "delaunay/triangles.hpp"
 
@@ -25,8 +24,7 @@ struct WorkEstimate {
 /// A constrained Delaunay triangulation of the vertices of a border, kept inside the border.
 class BorderTriangulation {
 public:
-    /// Triangulates a border. `points` holds its vertices by their ids.
-    BorderTriangulation(std::span<const Point> points, const SubdomainBorder& border, const SizeField& size);
+    BorderTriangulation(LocalBorder border, const SizeField& size);
 
     WorkEstimate estimate() const { return {loads_.total, loads_.lattice}; }
 
@@ -82,6 +80,6 @@ private:
 };
 
 /// Estimates the number of triangles in a region that will be cut into subdomains, from its border.
-double estimate_undivided(std::span<const Point> points, const SubdomainBorder& border, const SizeField& size);
+double estimate_undivided(const LocalBorder& border, const SizeField& size);
 
 }  // namespace lamina::decoupling

@@ -10,13 +10,14 @@
 #include <lamina/ranks.hpp>
 
 #include "decoupling/cut_to_size.hpp"
-#include "decoupling/skeleton.hpp"
+#include "decoupling/lines.hpp"
+#include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
 /// The borders of all subdomains. The other members are those of Decoupling.
 struct CutRegion {
-    std::vector<Point> points;
+    Lines lines;
     std::vector<Segment> far_field;
     std::vector<EstimatedBorder> borders;
     std::size_t separator_vertices = 0;
@@ -32,20 +33,20 @@ struct OuterRegion {
 };
 
 /// Cuts the outer region as decouple() does, and throws what it throws. Collective where `ranks` are given: they divide
-/// the work among themselves; throws MeshError on rank 0 where another process would cut another region.
+/// the work among themselves, and each divides those lines alone that it needs for its share, and those of the far
+/// field; throws MeshError on rank 0 where another process would cut another region.
 LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr);
 
-/// Makes a subdomain from its border.
-LAMINA_EXPORT Subdomain make_subdomain(std::span<const Point> points, const EstimatedBorder& border,
-                                       const SizeField& size, const RefineOptions& refine);
+/// Makes a subdomain from its border. Divides its lines. `spacing` holds the size field and the rule of the region.
+LAMINA_EXPORT Subdomain make_subdomain(Lines& lines, const EstimatedBorder& border, const SeparatorSpacing& spacing,
+                                       const RefineOptions& refine);
 
-/// Collective, as the next one: throws MeshError on rank 0 where another process has another skeleton. What it tells of its
+/// Collective, as the next one: throws MeshError on rank 0 where another process has other lines. What it tells of its
 /// cuts would mean something else elsewhere.
-void require_same_skeleton(const Skeleton& skeleton, Ranks& ranks);
+void require_same_lines(const Lines& lines, Ranks& ranks);
 
 /// Throws MeshError on rank 0 where another process has other borders. Its numbers would mean other vertices, which no check
 /// of a piece by itself can see.
-LAMINA_EXPORT void require_same_borders(std::span<const Point> points, std::span<const EstimatedBorder> borders,
-                                        Ranks& ranks);
+LAMINA_EXPORT void require_same_borders(const Lines& lines, std::span<const EstimatedBorder> borders, Ranks& ranks);
 
 }  // namespace lamina::decoupling

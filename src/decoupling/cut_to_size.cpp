@@ -22,26 +22,27 @@ public:
         : spacing_(spacing), pieces_target_(pieces_target) {}
 
     /// Searches separators for all borders. May run at the same time as the other functions.
-    std::vector<SearchResult> search(std::span<const Point> points, std::span<const SubdomainBorder> borders) const {
+    std::vector<SearchResult> search(Lines& lines, std::span<const LineBorder> borders) const {
         return core::parallel_blocks(borders.size(), 1, [&](std::size_t i, std::size_t) {
-            return search_separator(points, borders[i], spacing_, pieces_target_);
+            return search_separator(localize(borders[i], lines, spacing_), spacing_, pieces_target_);
         });
     }
 
     /// Cuts the borders for which a separator was found, and returns their parts. The other borders are done.
-    std::vector<SubdomainBorder> cut(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
-                                     std::span<const SearchResult> results) {
-        std::vector<SubdomainBorder> parts;
+    std::vector<LineBorder> cut(Lines& lines, std::vector<LineBorder> borders, std::span<SearchResult> results) {
+        std::vector<LineBorder> parts;
         for (std::size_t i = 0; i < borders.size(); ++i) {
-            const auto& separator = results[i].separator;
+            auto& separator = results[i].separator;
             if (!separator) {
                 done_.push_back({std::move(borders[i]), results[i].estimate});
                 continue;
             }
-            const auto& [from, to, interior] = *separator;
-            std::vector<VertexId> line;
-            line.reserve(interior.size());
-            for (const Point p : interior) line.push_back(skeleton.add_point(p));
+            auto& [from, to, vertices, interior] = *separator;
+            const std::uint32_t number =
+                lines.add_line(vertex_of(borders[i], from, lines), vertex_of(borders[i], to, lines), 1);
+            lines.number(number, vertices);
+            if (!interior.empty()) lines.set_interior(number, std::move(interior));
+            const Stretch line{number, 0, static_cast<std::uint32_t>(vertices + 1)};
             if (from.loop != to.loop) {
                 parts.push_back(join(borders[i], from, to, line));
             } else {
@@ -54,10 +55,10 @@ public:
     }
 
     /// Cuts the borders and their parts until all are done.
-    void cut_all(Skeleton& skeleton, std::vector<SubdomainBorder> borders) {
+    void cut_all(Lines& lines, std::vector<LineBorder> borders) {
         while (!borders.empty()) {
-            const std::vector<SearchResult> results = search(skeleton.points, borders);
-            borders = cut(skeleton, std::move(borders), results);
+            std::vector<SearchResult> results = search(lines, borders);
+            borders = cut(lines, std::move(borders), results);
         }
     }
 
@@ -70,10 +71,10 @@ private:
 };
 
 /// Takes the borders of one loop away from the others, and returns them. Their order stays.
-std::vector<SubdomainBorder> take_simple(std::vector<SubdomainBorder>& borders) {
+std::vector<LineBorder> take_simple(std::vector<LineBorder>& borders) {
     const auto rest = std::stable_partition(borders.begin(), borders.end(),
-                                            [](const SubdomainBorder& border) { return border.loops.size() > 1; });
-    std::vector<SubdomainBorder> simple(std::make_move_iterator(rest), std::make_move_iterator(borders.end()));
+                                            [](const LineBorder& border) { return border.loops.size() > 1; });
+    std::vector<LineBorder> simple(std::make_move_iterator(rest), std::make_move_iterator(borders.end()));
     borders.erase(rest, borders.end());
     return simple;
 }
@@ -81,19 +82,19 @@ std::vector<SubdomainBorder> take_simple(std::vector<SubdomainBorder>& borders) 
 /// The searches that the processes still have to divide among themselves.
 class SharedSearches {
 public:
-    SharedSearches(std::span<const SubdomainBorder> others, const SeparatorSpacing& spacing, double pieces_target,
+    SharedSearches(std::span<const LineBorder> others, const SeparatorSpacing& spacing, double pieces_target,
                    Ranks& ranks)
         : others_(others), spacing_(spacing), pieces_target_(pieces_target), ranks_(ranks) {}
 
     /// Collective: returns the results for these borders. Processes that have nothing to do with them search some of the
     /// other borders meanwhile.
-    std::vector<SearchResult> search(std::span<const Point> points, std::span<const SubdomainBorder> borders) {
+    std::vector<SearchResult> search(Lines& lines, std::span<const LineBorder> borders) {
         SearchDealer dealer(ranks_.size());
         std::vector<DealtBorder> dealt;
-        for (const SubdomainBorder& border : borders) dealt.push_back({&border, dealer.deal(border)});
+        for (const LineBorder& border : borders) dealt.push_back({&border, dealer.deal(border)});
         for (; next_ < others_.size() && dealer.has_room(others_[next_]); ++next_)
             dealt.push_back({&others_[next_], dealer.deal(others_[next_])});
-        std::vector<SearchResult> results = search_together(points, dealt, spacing_, pieces_target_, ranks_);
+        std::vector<SearchResult> results = search_together(lines, dealt, spacing_, pieces_target_, ranks_);
         const auto rest = results.begin() + static_cast<std::ptrdiff_t>(borders.size());
         of_others_.insert(of_others_.end(), std::make_move_iterator(rest), std::make_move_iterator(results.end()));
         results.erase(rest, results.end());
@@ -101,14 +102,14 @@ public:
     }
 
     /// Collective: returns the results for the other borders.
-    std::vector<SearchResult> finish(std::span<const Point> points) {
-        const std::vector<SearchResult> rest = search(points, others_.subspan(std::exchange(next_, others_.size())));
+    std::vector<SearchResult> finish(Lines& lines) {
+        const std::vector<SearchResult> rest = search(lines, others_.subspan(std::exchange(next_, others_.size())));
         of_others_.insert(of_others_.end(), rest.begin(), rest.end());
         return std::move(of_others_);
     }
 
 private:
-    std::span<const SubdomainBorder> others_;
+    std::span<const LineBorder> others_;
     const SeparatorSpacing& spacing_;
     double pieces_target_;
     Ranks& ranks_;
@@ -118,36 +119,35 @@ private:
 
 }  // namespace
 
-std::vector<EstimatedBorder> cut_to_size(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
-                                         const SeparatorSpacing& spacing, double pieces_target) {
+std::vector<EstimatedBorder> cut_to_size(Lines& lines, std::vector<LineBorder> borders, const SeparatorSpacing& spacing,
+                                         double pieces_target) {
     // The subdomain round the bodies is cut many times over and would occupy one thread at first. The other threads
     // search the remaining subdomains meanwhile, whose borders hold none of the vertices that these cuts add.
-    std::vector<SubdomainBorder> others = take_simple(borders);
-    const std::vector<Point> points = skeleton.points;  // a copy, because cutting appends to the skeleton's points
+    std::vector<LineBorder> others = take_simple(borders);
     Bisection bisection(spacing, pieces_target);
     std::vector<SearchResult> results;
-    core::parallel_invoke([&] { bisection.cut_all(skeleton, std::move(borders)); },
-                          [&] { results = bisection.search(points, others); });
-    bisection.cut_all(skeleton, bisection.cut(skeleton, std::move(others), results));
+    core::parallel_invoke([&] { bisection.cut_all(lines, std::move(borders)); },
+                          [&] { results = bisection.search(lines, others); });
+    bisection.cut_all(lines, bisection.cut(lines, std::move(others), results));
     return bisection.take_done();
 }
 
-std::vector<EstimatedBorder> cut_to_size_together(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
+std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, std::vector<LineBorder> borders,
                                                   const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks) {
     // The order of all cuts is that of cut_to_size().
-    std::vector<SubdomainBorder> others = take_simple(borders);
+    std::vector<LineBorder> others = take_simple(borders);
     Bisection bisection(spacing, pieces_target);
     SharedSearches searches(others, spacing, pieces_target, ranks);
-    const auto cut_all = [&](SharedSearches& shared, std::vector<SubdomainBorder> parts) {
+    const auto cut_all = [&](SharedSearches& shared, std::vector<LineBorder> parts) {
         while (!parts.empty()) {
-            const std::vector<SearchResult> results = shared.search(skeleton.points, parts);
-            parts = bisection.cut(skeleton, std::move(parts), results);
+            std::vector<SearchResult> results = shared.search(lines, parts);
+            parts = bisection.cut(lines, std::move(parts), results);
         }
     };
     cut_all(searches, std::move(borders));
-    const std::vector<SearchResult> results = searches.finish(skeleton.points);
+    std::vector<SearchResult> results = searches.finish(lines);
     SharedSearches of_parts({}, spacing, pieces_target, ranks);
-    cut_all(of_parts, bisection.cut(skeleton, std::move(others), results));
+    cut_all(of_parts, bisection.cut(lines, std::move(others), results));
     return bisection.take_done();
 }
 

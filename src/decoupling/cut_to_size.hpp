@@ -7,27 +7,27 @@
 #include <lamina/ranks.hpp>
 
 #include "decoupling/border_triangulation.hpp"
+#include "decoupling/line_border.hpp"
+#include "decoupling/lines.hpp"
 #include "decoupling/separators.hpp"
-#include "decoupling/skeleton.hpp"
-#include "decoupling/subdomain_border.hpp"
 
 namespace lamina::decoupling {
 
 /// The border of a subdomain with its estimated work.
 struct EstimatedBorder {
-    SubdomainBorder border;
+    LineBorder border;
     WorkEstimate estimate;
 };
 
 /// Cuts every subdomain of more than about 1.5 x `pieces_target` triangles in two, and the halves again, along the good
 /// separators that search_separator() finds. A subdomain without one stays whole. Holes are joined to the outer loop
-/// first. Adds the new vertices to skeleton.points. The result does not depend on the number of threads.
-std::vector<EstimatedBorder> cut_to_size(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
-                                         const SeparatorSpacing& spacing, double pieces_target);
+/// first. Adds the separators to the lines. The result does not depend on the number of threads.
+std::vector<EstimatedBorder> cut_to_size(Lines& lines, std::vector<LineBorder> borders, const SeparatorSpacing& spacing,
+                                         double pieces_target);
 
 /// Collective: returns what cut_to_size() returns. The processes divide the search for separators among themselves.
 /// Precondition: all arguments are the same everywhere.
-std::vector<EstimatedBorder> cut_to_size_together(Skeleton& skeleton, std::vector<SubdomainBorder> borders,
+std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, std::vector<LineBorder> borders,
                                                   const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks);
 
 }  // namespace lamina::decoupling

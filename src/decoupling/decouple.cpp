@@ -2,6 +2,7 @@
 // are still too large. Source: J. K. Pardue, thesis (2015), chapter 5.
 #include <lamina/decoupling.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -12,8 +13,8 @@
 #include "decoupling/far_field.hpp"
 #include "decoupling/rings.hpp"
 #include "decoupling/separators.hpp"
+#include "decoupling/shared_search.hpp"
 #include "decoupling/skeleton.hpp"
-#include "decoupling/subdomain_border.hpp"
 
 namespace lamina::decoupling {
 
@@ -29,11 +30,13 @@ Box box_round(std::span<const Point> points, std::span<const std::vector<VertexI
 
 /// Starts a skeleton with the borders of the layers, turned clockwise: the outer region lies on their left.
 Skeleton start_skeleton(std::span<const Point> points, std::span<const std::vector<VertexId>> borders) {
-    Skeleton skeleton;
-    skeleton.points.assign(points.begin(), points.end());
-    for (const std::vector<VertexId>& border : borders)
-        for (std::size_t i = 0; i < border.size(); ++i)
-            skeleton.edges.push_back({border[i + 1 < border.size() ? i + 1 : 0], border[i]});
+    Skeleton skeleton(points);
+    for (const std::vector<VertexId>& border : borders) {
+        std::vector<VertexId> turned(border.rbegin(), border.rend());
+        // It begins with the edge between the first two vertices.
+        std::rotate(turned.begin(), turned.end() - 2, turned.end());
+        skeleton.add_loop(turned);
+    }
     return skeleton;
 }
 
@@ -54,51 +57,71 @@ struct UncutSkeleton {
     std::vector<Segment> far_field;  ///< edges of the far field; the region lies on their left
 };
 
-UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& spacing) {
+/// Divides all lines and numbers their vertices.
+void number_lines(Lines& lines, const SeparatorSpacing& spacing) {
+    core::parallel_for(lines.size(), 1, [&](std::size_t i, std::size_t) {
+        if (const auto line = static_cast<std::uint32_t>(i); !lines.is_loop(line)) lines.divide(line, spacing);
+    });
+    for (std::uint32_t line = 0; line < lines.size(); ++line)
+        if (!lines.is_loop(line)) lines.number(line, lines.divide(line, spacing));
+}
+
+UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& spacing, Ranks* ranks) {
     const FarField& far_field = region.far_field;
     const bool is_box = far_field.shape == FarFieldShape::box;
     const Box outermost = inscribed_box(far_field);
     const auto near_body = near_body_box(box_round(region.points, region.borders), outermost, far_field);
     UncutSkeleton uncut{start_skeleton(region.points, region.borders), {}};
+    Lines& lines = uncut.skeleton.lines;
+    std::vector<std::uint32_t> outermost_lines;
     if (near_body || is_box) {
         const RingBoxes boxes{near_body.value_or(outermost), outermost};
         const std::vector<Ring> rings = plan_rings(boxes, region.size, region.options.pieces_target);
-        uncut.far_field = add_rings(uncut.skeleton, rings, boxes, spacing, !is_box);
+        outermost_lines = add_rings(uncut.skeleton, rings, boxes, !is_box);
     }
-    if (!is_box) uncut.far_field = add_far_field_outline(uncut.skeleton, far_field, spacing);
+    if (ranks != nullptr) {
+        require_same_lines(lines, *ranks);
+        number_together(lines, spacing, *ranks);
+    } else {
+        number_lines(lines, spacing);
+    }
+    if (!is_box) {
+        uncut.far_field = add_far_field_outline(uncut.skeleton, far_field, spacing);
+        return uncut;
+    }
+    for (const std::uint32_t line : outermost_lines) {
+        lines.divide(line, spacing);
+        const std::vector<Segment> edges = edges_along(lines, line);
+        uncut.far_field.insert(uncut.far_field.end(), edges.begin(), edges.end());
+    }
     return uncut;
 }
 
 }  // namespace
 
 CutRegion cut_region(const OuterRegion& region, Ranks* ranks) {
+    if (ranks != nullptr && ranks->size() == 1) ranks = nullptr;
     const SeparatorSpacing spacing{region.size, region.options.separators};
-    auto [skeleton, far_field_edges] = draw_skeleton(region, spacing);
-    std::vector<SubdomainBorder> borders = trace_borders(skeleton.points, skeleton.edges);
+    auto [skeleton, far_field_edges] = draw_skeleton(region, spacing, ranks);
+    std::vector<LineBorder> borders = skeleton.trace();
+    CutRegion cut{std::move(skeleton.lines), std::move(far_field_edges), {}, 0};
     const double target = region.options.pieces_target;
-    CutRegion cut;
-    if (ranks != nullptr && ranks->size() > 1) {
-        require_same_skeleton(skeleton, *ranks);
-        cut.borders = cut_to_size_together(skeleton, std::move(borders), spacing, target, *ranks);
-    } else {
-        cut.borders = cut_to_size(skeleton, std::move(borders), spacing, target);
-    }
-    cut.separator_vertices = skeleton.points.size() - region.points.size();
-    cut.points = std::move(skeleton.points);
-    cut.far_field = std::move(far_field_edges);
+    cut.borders = ranks != nullptr ? cut_to_size_together(cut.lines, std::move(borders), spacing, target, *ranks)
+                                   : cut_to_size(cut.lines, std::move(borders), spacing, target);
+    cut.separator_vertices = cut.lines.vertices() - region.points.size();
     return cut;
 }
 
-Subdomain make_subdomain(std::span<const Point> points, const EstimatedBorder& estimated, const SizeField& size,
+Subdomain make_subdomain(Lines& lines, const EstimatedBorder& estimated, const SeparatorSpacing& spacing,
                          const RefineOptions& refine) {
-    LocalBorder border = localize(estimated.border, points);
+    LocalBorder border = localize(estimated.border, lines, spacing);
     Box box;
     for (const Point p : border.points) box.include(p);
     Subdomain subdomain;
     subdomain.points = std::move(border.points);
     subdomain.global = std::move(border.global);
     subdomain.segments = std::move(border.segments);
-    subdomain.size = size.restricted_to(box);
+    subdomain.size = spacing.size.restricted_to(box);
     subdomain.refine = refine;
     subdomain.refine.lattice = refine.lattice && estimated.estimate.lattice;
     subdomain.refine.expected_triangles = static_cast<std::size_t>(estimated.estimate.triangles);
@@ -116,13 +139,11 @@ double estimate_triangles(std::span<const Point> points, std::span<const std::ve
                           const SizeField& size, const FarField& far_field) {
     near_body_box(box_round(points, borders), inscribed_box(far_field), far_field);  // throws where there is no room
     Skeleton skeleton = start_skeleton(points, borders);
-    std::vector<VertexId> outline;
-    for (const Point corner : outline_of(far_field)) outline.push_back(skeleton.add_point(corner));
-    for (std::size_t i = 0; i < outline.size(); ++i)
-        skeleton.edges.push_back({outline[i], outline[(i + 1) % outline.size()]});
+    skeleton.add_new_loop(outline_of(far_field));
+    const SeparatorSpacing spacing{size, SeparatorRule::equidistributed};
     double triangles = 0;
-    for (const SubdomainBorder& border : trace_borders(skeleton.points, skeleton.edges))
-        triangles += estimate_undivided(skeleton.points, border, size);
+    for (const LineBorder& border : skeleton.trace())
+        triangles += estimate_undivided(localize(border, skeleton.lines, spacing), size);
     return triangles;
 }
 
@@ -132,13 +153,15 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
     validate(options);
     validate(refine);
     CutRegion cut = cut_region({points, borders, size, far_field, options});
+    const SeparatorSpacing spacing{size, options.separators};
     Decoupling result;
     result.subdomains.resize(cut.borders.size());
     core::parallel_for(cut.borders.size(), 1, [&](std::size_t i, std::size_t) {
-        result.subdomains[i] = make_subdomain(cut.points, cut.borders[i], size, refine);
+        result.subdomains[i] = make_subdomain(cut.lines, cut.borders[i], spacing, refine);
     });
     result.separator_vertices = cut.separator_vertices;
-    result.points = std::move(cut.points);
+    result.points.resize(cut.lines.vertices());
+    cut.lines.copy_points(result.points);
     result.far_field = std::move(cut.far_field);
     return result;
 }

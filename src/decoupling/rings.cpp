@@ -15,7 +15,6 @@
 #include <cmath>
 
 #include "core/bounding_box.hpp"
-#include "core/parallel.hpp"
 #include "delaunay/estimate.hpp"
 
 namespace lamina::decoupling {
@@ -165,8 +164,8 @@ std::vector<RingLine> add_junctions(Skeleton& skeleton, std::span<const Ring> ri
         for (std::size_t side = 0; side < sides; ++side)
             for (std::size_t j = 0; j < n; ++j)
                 junctions[level].push_back(
-                    skeleton.add_point(corners[side] + (static_cast<double>(j) / static_cast<double>(n)) *
-                                                           (corners[(side + 1) % sides] - corners[side])));
+                    skeleton.add_junction(corners[side] + (static_cast<double>(j) / static_cast<double>(n)) *
+                                                              (corners[(side + 1) % sides] - corners[side])));
         for (std::size_t j = 0; j < sides * n; ++j)
             lines.push_back({junctions[level][j], junctions[level][(j + 1) % (sides * n)], level == rings.size()});
     }
@@ -187,25 +186,16 @@ std::vector<Ring> plan_rings(const RingBoxes& boxes, const SizeField& size, doub
     return std::move(planner.rings);
 }
 
-std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const RingBoxes& boxes,
-                               const SeparatorSpacing& spacing, bool region_beyond) {
-    const std::vector<RingLine> lines = add_junctions(skeleton, rings, boxes);
-    const auto interiors = core::parallel_blocks(lines.size(), 1, [&](std::size_t i, std::size_t) {
-        constexpr std::size_t min_segments = 3;
-        return divide_separator(skeleton.points[lines[i].from.index()], skeleton.points[lines[i].to.index()], spacing,
-                                min_segments);
-    });
-    std::vector<Segment> outermost_edges;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        std::vector<VertexId> chain{lines[i].from};
-        for (const Point p : interiors[i]) chain.push_back(skeleton.add_point(p));
-        chain.push_back(lines[i].to);
-        skeleton.add_chain(chain, !lines[i].outermost || region_beyond);
-        if (!lines[i].outermost) continue;
-        const std::vector<Segment> edges = chain_edges(chain);
-        outermost_edges.insert(outermost_edges.end(), edges.begin(), edges.end());
+std::vector<std::uint32_t> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const RingBoxes& boxes,
+                                     bool region_beyond) {
+    constexpr std::uint32_t min_segments = 3;
+    std::vector<std::uint32_t> outermost;
+    for (const RingLine& line : add_junctions(skeleton, rings, boxes)) {
+        const std::uint32_t added =
+            skeleton.add_line(line.from, line.to, min_segments, !line.outermost || region_beyond);
+        if (line.outermost) outermost.push_back(added);
     }
-    return outermost_edges;
+    return outermost;
 }
 
 }  // namespace lamina::decoupling

@@ -1,13 +1,13 @@
 // Rings of trapezoids between the near-body box and the far field: the first subdomains.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <lamina/point.hpp>
 #include <lamina/sizing.hpp>
 
-#include "decoupling/separators.hpp"
 #include "decoupling/skeleton.hpp"
 
 namespace lamina::decoupling {
@@ -34,9 +34,9 @@ struct Ring {
 /// two, so that neighbouring rings share junctions. There is no ring where the near-body box is the outermost one.
 std::vector<Ring> plan_rings(const RingBoxes& boxes, const SizeField& size, double pieces_target);
 
-/// Adds near-body box, rings and outermost box to the skeleton. Returns the edges of the outermost box, with the region
-/// on their left. Where a region lies beyond it, they stand in the other direction as well.
-std::vector<Segment> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const RingBoxes& boxes,
-                               const SeparatorSpacing& spacing, bool region_beyond);
+/// Adds near-body box, rings and outermost box to the skeleton. Their lines are not divided yet. Returns the lines
+/// along the outermost box, with the region on their left. Where a region lies beyond it, it is on their right.
+std::vector<std::uint32_t> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const RingBoxes& boxes,
+                                     bool region_beyond);
 
 }  // namespace lamina::decoupling

@@ -1,5 +1,4 @@
 // Processes compare hashes of what they have cut.
-#include <bit>
 #include <cstdint>
 #include <string>
 
@@ -8,28 +7,14 @@
 #include <lamina/error.hpp>
 
 #include "core/packing.hpp"
+#include "core/word_hash.hpp"
 #include "decoupling/cut_region.hpp"
 
 namespace lamina::decoupling {
 
 namespace {
 
-/// A hash of numbers in their order: FNV-1a with words in place of bytes (http://www.isthe.com/chongo/tech/comp/fnv/).
-class WordHash {
-public:
-    void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 0x100000001b3u; }
-    void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-    void add(Point p) {
-        add(p.x);
-        add(p.y);
-    }
-    std::uint64_t value() const { return hash_; }
-
-private:
-    std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
-
-void require_same(const WordHash& hash, Ranks& ranks) {
+void require_same(const core::WordHash& hash, Ranks& ranks) {
     core::Packer packer;
     packer.put(hash.value());
     const std::vector<std::string> hashes = ranks.gather(packer.take());
@@ -43,22 +28,30 @@ void require_same(const WordHash& hash, Ranks& ranks) {
 
 }  // namespace
 
-void require_same_skeleton(const Skeleton& skeleton, Ranks& ranks) {
-    WordHash hash;
-    for (const Point p : skeleton.points) hash.add(p);
-    for (const Segment& edge : skeleton.edges) hash.add(std::uint64_t{edge.a.value} << 32 | edge.b.value);
+void require_same_lines(const Lines& lines, Ranks& ranks) {
+    core::WordHash hash;
+    for (std::uint32_t line = 0; line < lines.size(); ++line) {
+        if (lines.is_loop(line)) {
+            for (std::uint32_t i = 0; i < lines.segments(line); ++i) hash.add(lines.point(line, i));
+            continue;
+        }
+        const auto [from, to] = lines.ends(line);
+        hash.add(lines.point(from));
+        hash.add(lines.point(to));
+    }
+    hash.add(std::uint64_t{lines.vertices()});
     require_same(hash, ranks);
 }
 
-void require_same_borders(std::span<const Point> points, std::span<const EstimatedBorder> borders, Ranks& ranks) {
-    WordHash hash;
-    for (const Point p : points) hash.add(p);
+void require_same_borders(const Lines& lines, std::span<const EstimatedBorder> borders, Ranks& ranks) {
+    core::WordHash hash;
+    hash.add(std::uint64_t{lines.vertices()});
+    for (std::uint32_t line = 0; line < lines.size(); ++line) hash.add(std::uint64_t{lines.segments(line)});
     for (const EstimatedBorder& estimated : borders) {
         hash.add(estimated.estimate.triangles);
-        for (const auto& loop : estimated.border.loops) {
-            hash.add(std::uint64_t{loop.size()});
-            for (const VertexId v : loop) hash.add(std::uint64_t{v.value});
-        }
+        for (const LineLoop& loop : estimated.border.loops)
+            for (const Stretch& stretch : loop.stretches)
+                hash.add((std::uint64_t{stretch.line} << 40) ^ (std::uint64_t{stretch.first} << 20) ^ stretch.last);
     }
     require_same(hash, ranks);
 }

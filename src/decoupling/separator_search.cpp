@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
@@ -64,8 +65,8 @@ Box circle_box(Point a, Point b, double share) {
 /// The search in one subdomain.
 class SeparatorSearch {
 public:
-    SeparatorSearch(std::span<const Point> points, const SubdomainBorder& border, const SeparatorSpacing& spacing)
-        : border_(points, border, spacing.size), spacing_(spacing), size_(spacing.size) {}
+    SeparatorSearch(LocalBorder border, const SeparatorSpacing& spacing)
+        : border_(std::move(border), spacing.size), spacing_(spacing), size_(spacing.size) {}
 
     SearchResult run(double pieces_target) {
         SearchResult result{border_.estimate()};
@@ -76,7 +77,8 @@ public:
         if (tried == 0) return result;
         collect_border_edges();
         for (std::size_t i = 0; i < tried && !result.separator; ++i)
-            if (auto interior = divide(lines[i])) result.separator = {lines[i].from, lines[i].to, *std::move(interior)};
+            if (auto interior = divide(lines[i]))
+                result.separator = {lines[i].from, lines[i].to, interior->size(), *std::move(interior)};
         return result;
     }
 
@@ -213,9 +215,8 @@ private:
 
 }  // namespace
 
-SearchResult search_separator(std::span<const Point> points, const SubdomainBorder& border,
-                              const SeparatorSpacing& spacing, double pieces_target) {
-    return SeparatorSearch(points, border, spacing).run(pieces_target);
+SearchResult search_separator(LocalBorder border, const SeparatorSpacing& spacing, double pieces_target) {
+    return SeparatorSearch(std::move(border), spacing).run(pieces_target);
 }
 
 }  // namespace lamina::decoupling

@@ -1,7 +1,6 @@
 #include "decoupling/shared_search.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <functional>
 #include <string>
 
@@ -19,11 +18,7 @@ using core::Unpacker;
 enum class Found : std::uint8_t { nothing, nothing_without_lattice, separator };
 
 /// The time of a search is about in proportion to the vertices of the border.
-std::uint64_t work_of(const SubdomainBorder& border) {
-    std::uint64_t vertices = 0;
-    for (const auto& loop : border.loops) vertices += loop.size();
-    return vertices;
-}
+std::uint64_t work_of(const LineBorder& border) { return border.vertices(); }
 
 void pack_end(LoopVertex end, Packer& packer) {
     packer.put_short(end.loop);
@@ -40,6 +35,7 @@ void pack_result(const SearchResult& result, Packer& packer) {
         packer.put(Found::separator);
         pack_end(result.separator->from, packer);
         pack_end(result.separator->to, packer);
+        packer.put_short(result.separator->vertices);
         return;
     }
     packer.put(result.estimate.lattice ? Found::nothing : Found::nothing_without_lattice);
@@ -52,7 +48,8 @@ SearchResult unpack_result(Unpacker& unpacker) {
     const auto found = unpacker.get<Found>();
     if (found == Found::separator) {
         const LoopVertex from = unpack_end(unpacker);
-        result.separator = {from, unpack_end(unpacker), {}};
+        const LoopVertex to = unpack_end(unpacker);
+        result.separator = {from, to, static_cast<std::size_t>(unpacker.get_short())};
     } else {
         result.estimate.lattice = found == Found::nothing;
         result.estimate.triangles = unpacker.get<double>();
@@ -66,7 +63,7 @@ SearchDealer::SearchDealer(unsigned processes) {
     for (unsigned process = 0; process < processes; ++process) heap_.emplace_back(0, process);
 }
 
-unsigned SearchDealer::deal(const SubdomainBorder& border) {
+unsigned SearchDealer::deal(const LineBorder& border) {
     std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
     auto& [work, process] = heap_.back();
     work += work_of(border);
@@ -76,37 +73,44 @@ unsigned SearchDealer::deal(const SubdomainBorder& border) {
     return dealt_to;
 }
 
-bool SearchDealer::has_room(const SubdomainBorder& border) const {
-    return heap_.front().first + work_of(border) <= most_;
-}
+bool SearchDealer::has_room(const LineBorder& border) const { return heap_.front().first + work_of(border) <= most_; }
 
-std::vector<SearchResult> search_together(std::span<const Point> points, std::span<const DealtBorder> borders,
+std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
                                           const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks) {
     std::vector<std::size_t> own;
     for (std::size_t i = 0; i < borders.size(); ++i)
         if (borders[i].process == ranks.rank()) own.push_back(i);
     std::vector<SearchResult> results(borders.size());
     core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
-        results[own[i]] = search_separator(points, *borders[own[i]].border, spacing, pieces_target);
+        results[own[i]] = search_separator(localize(*borders[own[i]].border, lines, spacing), spacing, pieces_target);
     });
     Packer packer;
     for (const std::size_t i : own) pack_result(results[i], packer);
     const std::vector<std::string> told = ranks.all_gather(packer.take());
-
     std::vector<Unpacker> unpackers(told.begin(), told.end());
-    std::vector<std::size_t> undivided;
-    for (std::size_t i = 0; i < borders.size(); ++i) {
-        if (borders[i].process == ranks.rank()) continue;
-        results[i] = unpack_result(unpackers[borders[i].process]);
-        if (results[i].separator) undivided.push_back(i);
-    }
-    core::parallel_for(undivided.size(), 1, [&](std::size_t k, std::size_t) {
-        const auto& loops = borders[undivided[k]].border->loops;
-        Separator& separator = *results[undivided[k]].separator;
-        const auto at = [&](LoopVertex v) { return points[loops[v.loop][v.index].index()]; };
-        separator.interior = divide_separator(at(separator.from), at(separator.to), spacing);
-    });
+    for (std::size_t i = 0; i < borders.size(); ++i)
+        if (borders[i].process != ranks.rank()) results[i] = unpack_result(unpackers[borders[i].process]);
     return results;
+}
+
+void number_together(Lines& lines, const SeparatorSpacing& spacing, Ranks& ranks) {
+    // Successive lines go to one process: lines beside each other are often those of one subdomain.
+    const std::size_t n = lines.size(), begin = n * ranks.rank() / ranks.size(),
+                      end = n * (ranks.rank() + 1) / ranks.size();
+    core::parallel_for(end - begin, 1, [&](std::size_t i, std::size_t) {
+        const auto line = static_cast<std::uint32_t>(begin + i);
+        if (!lines.is_loop(line)) lines.divide(line, spacing);
+    });
+    Packer packer;
+    for (auto line = static_cast<std::uint32_t>(begin); line < end; ++line)
+        if (!lines.is_loop(line)) packer.put_short(lines.divide(line, spacing));
+    const std::vector<std::string> told = ranks.all_gather(packer.take());
+    std::vector<Unpacker> unpackers(told.begin(), told.end());
+    std::size_t rank = 0;
+    for (std::uint32_t line = 0; line < n; ++line) {
+        while (line >= n * (rank + 1) / ranks.size()) ++rank;
+        if (!lines.is_loop(line)) lines.number(line, unpackers[rank].get_short());
+    }
 }
 
 }  // namespace lamina::decoupling

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include <lamina/point.hpp>
 #include <lamina/ranks.hpp>
 
+#include "decoupling/line_border.hpp"
+#include "decoupling/lines.hpp"
 #include "decoupling/separator_search.hpp"
 #include "decoupling/separators.hpp"
-#include "decoupling/subdomain_border.hpp"
 
 namespace lamina::decoupling {
 
@@ -24,9 +24,9 @@ public:
     explicit SearchDealer(unsigned processes);
 
     /// Returns the number of the process that searches a border.
-    unsigned deal(const SubdomainBorder& border);
+    unsigned deal(const LineBorder& border);
     /// Returns whether the process that would get this border would have no more to do than the busiest one has already.
-    bool has_room(const SubdomainBorder& border) const;
+    bool has_room(const LineBorder& border) const;
 
 private:
     std::vector<std::pair<std::uint64_t, unsigned>> heap_;  ///< what each process has to do, the least on top
@@ -35,14 +35,18 @@ private:
 
 /// A border and the process that searches it.
 struct DealtBorder {
-    const SubdomainBorder* border;
+    const LineBorder* border;
     unsigned process;
 };
 
 /// Collective: returns what search_separator() finds in each border, but for the estimates of those that are cut, which
 /// count no more. Each process searches its own borders. What it tells of a border is its estimate, or the ends of its
-/// separator, which all others then divide. Precondition: all arguments are the same everywhere.
-std::vector<SearchResult> search_together(std::span<const Point> points, std::span<const DealtBorder> borders,
+/// separator and how many vertices that has: who needs these divides it. Precondition: all arguments are the same
+/// everywhere, but for the lines that are divided.
+std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
                                           const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks);
+
+/// Collective: divides all lines of `lines`, each by one process, and numbers their vertices.
+void number_together(Lines& lines, const SeparatorSpacing& spacing, Ranks& ranks);
 
 }  // namespace lamina::decoupling

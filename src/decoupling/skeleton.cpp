@@ -1,39 +1,92 @@
-// Chains of edges, and the far field as a chain.
+// Lines are traced as edges between the corners where they meet. Each border begins where it would begin if all its
+// segments were traced, line by line, those to the left of the line before those to its right.
 #include "decoupling/skeleton.hpp"
+
+#include "decoupling/traced_border.hpp"
 
 namespace lamina::decoupling {
 
-void Skeleton::add_chain(std::span<const VertexId> chain, bool both_directions) {
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-        edges.push_back({chain[i], chain[i + 1]});
-        if (both_directions) edges.push_back({chain[i + 1], chain[i]});
+void Skeleton::add_loop(std::span<const VertexId> loop) {
+    const std::uint32_t line = lines.add_loop(loop);
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+        ends_.push_back({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
+        edges_.push_back({line, i, true});
     }
 }
 
-std::vector<Segment> chain_edges(std::span<const VertexId> chain) {
+std::uint32_t Skeleton::add_new_loop(std::vector<Point> loop) {
+    const std::size_t first = corners_.size();
+    corners_.insert(corners_.end(), loop.begin(), loop.end());
+    const std::size_t n = loop.size();
+    const std::uint32_t line = lines.add_new_loop(std::move(loop));
+    for (std::uint32_t i = 0; i < n; ++i) {
+        ends_.push_back({VertexId{first + i}, VertexId{first + (i + 1 < n ? i + 1 : 0)}});
+        edges_.push_back({line, i, true});
+    }
+    return line;
+}
+
+std::uint32_t Skeleton::add_line(VertexId from, VertexId to, std::uint32_t min_segments, bool both_sides) {
+    const std::uint32_t line = lines.add_line({from}, {to}, min_segments);
+    ends_.push_back({from, to});
+    edges_.push_back({line, 0, true});
+    if (both_sides) {
+        ends_.push_back({to, from});
+        edges_.push_back({line, 0, false});
+    }
+    return line;
+}
+
+LineLoop Skeleton::loop_of(std::span<const std::uint32_t> edges) const {
+    LineLoop loop;
+    const Edge& begin = edges_[edges.front()];
+    for (const std::uint32_t e : edges) {
+        const auto [line, place, forward] = edges_[e];
+        const std::uint32_t n = lines.segments(line);
+        if (lines.is_loop(line)) {
+            if (place == 0) loop.add({line, 0, n});
+        } else if (forward) {
+            loop.add({line, 0, n});
+        } else if (e == edges.front()) {
+            loop.add({line, 1, 0});  // of its segments to the right of the line, the one at its begin comes first
+        } else {
+            loop.add({line, n, 0});
+        }
+    }
+    if (!begin.forward) loop.add({begin.line, lines.segments(begin.line), 1});
+    return loop;
+}
+
+std::vector<LineBorder> Skeleton::trace() const {
+    std::vector<LineBorder> borders;
+    for (const TracedBorder& traced : trace_borders(corners_, ends_)) {
+        LineBorder& border = borders.emplace_back();
+        for (const auto& loop : traced.loops) border.loops.push_back(loop_of(loop));
+    }
+    return borders;
+}
+
+std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line) {
     std::vector<Segment> edges;
-    for (std::size_t i = 0; i + 1 < chain.size(); ++i) edges.push_back({chain[i], chain[i + 1]});
+    for (std::uint32_t i = 0; i < lines.segments(line); ++i)
+        edges.push_back({lines.id(line, i), lines.id(line, i + 1)});
     return edges;
 }
 
 std::vector<Segment> add_far_field_outline(Skeleton& skeleton, const FarField& far_field,
                                            const SeparatorSpacing& spacing) {
     constexpr std::size_t min_segments_of_side = 3, min_segments_of_circle = 16;
-    std::vector<VertexId> loop;
+    std::vector<Point> loop;
     if (far_field.shape == FarFieldShape::circle) {
-        for (const Point p : divide_circle(far_field.center, far_field.radius, spacing.size, min_segments_of_circle))
-            loop.push_back(skeleton.add_point(p));
+        loop = divide_circle(far_field.center, far_field.radius, spacing.size, min_segments_of_circle);
     } else {
         for (std::size_t i = 0; i < far_field.outline.size(); ++i) {
             const Point u = far_field.outline[i], v = far_field.outline[(i + 1) % far_field.outline.size()];
-            loop.push_back(skeleton.add_point(u));
-            for (const Point p : divide_separator(u, v, spacing, min_segments_of_side))
-                loop.push_back(skeleton.add_point(p));
+            loop.push_back(u);
+            for (const Point p : divide_separator(u, v, spacing, min_segments_of_side)) loop.push_back(p);
         }
     }
-    loop.push_back(loop.front());
-    skeleton.add_chain(loop, false);
-    return chain_edges(loop);
+    return edges_along(skeleton.lines, skeleton.add_new_loop(std::move(loop)));
 }
 
 }  // namespace lamina::decoupling

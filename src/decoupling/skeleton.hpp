@@ -1,32 +1,58 @@
 // The lines between subdomains while they are being drawn.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
 
+#include "decoupling/line_border.hpp"
+#include "decoupling/lines.hpp"
 #include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
-/// Points and directed edges of all borders. An edge has the region to be meshed on its left; an edge between two
-/// subdomains stands in both directions.
-struct Skeleton {
-    std::vector<Point> points;
-    std::vector<Segment> edges;
+/// All lines before anything is cut to size, and where they meet.
+class Skeleton {
+public:
+    /// Begins with these points, which are corners.
+    explicit Skeleton(std::span<const Point> points) : lines(points), corners_(points.begin(), points.end()) {}
 
-    VertexId add_point(Point p) {
-        points.push_back(p);
-        return VertexId{points.size() - 1};
+    Lines lines;
+
+    /// Adds a vertex where lines meet. Precondition: there are no lines yet.
+    VertexId add_junction(Point p) {
+        corners_.push_back(p);
+        return lines.add_junction(p);
     }
-    /// Adds edges along a chain of vertices, in its direction and, where there are subdomains on both sides, in the
-    /// other direction as well.
-    void add_chain(std::span<const VertexId> chain, bool both_directions);
+    /// Adds a closed line along vertices that exist, with the region on its left.
+    void add_loop(std::span<const VertexId> loop);
+    /// Adds a closed line along new vertices, with the region on its left. Returns its number.
+    std::uint32_t add_new_loop(std::vector<Point> loop);
+    /// Adds a straight line between two junctions, with a region on its left and, where it has subdomains on both
+    /// sides, on its right as well. Returns its number.
+    std::uint32_t add_line(VertexId from, VertexId to, std::uint32_t min_segments, bool both_sides);
+
+    /// Returns the borders of all regions between the lines, once all vertices are numbered. Takes time in proportion
+    /// to the lines and not to their vertices.
+    std::vector<LineBorder> trace() const;
+
+private:
+    /// A line as an edge between corners, in one direction: a whole straight line, or a segment of a closed one.
+    struct Edge {
+        std::uint32_t line = 0, place = 0;
+        bool forward = true;
+    };
+    std::vector<Point> corners_;
+    std::vector<Segment> ends_;  ///< of the edges, in corners_
+    std::vector<Edge> edges_;
+
+    LineLoop loop_of(std::span<const std::uint32_t> edges) const;
 };
 
-/// Returns the edges along a chain of vertices.
-std::vector<Segment> chain_edges(std::span<const VertexId> chain);
+/// Returns the edges along a whole line.
+std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line);
 
 /// Adds the outline of a far field that is no box. Returns its edges, with the region on their left.
 std::vector<Segment> add_far_field_outline(Skeleton& skeleton, const FarField& far_field,

@@ -47,10 +47,13 @@ VertexId local_id(const Subdomain& subdomain, VertexId v) {
 
 }  // namespace
 
-std::vector<Segment> border_chain(const decoupling::SubdomainBorder& border) {
+std::vector<Segment> border_chain(const decoupling::LineBorder& border, const decoupling::Lines& lines) {
     std::vector<Segment> edges;
-    for (const auto& loop : border.loops)
+    edges.reserve(border.vertices());
+    for (const decoupling::LineLoop& of_border : border.loops) {
+        const std::vector<VertexId> loop = decoupling::ids_of(of_border, lines);
         for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
+    }
     if (!border.may_dangle) return edges;
     std::vector<Segment> sorted = edges;
     std::sort(sorted.begin(), sorted.end());

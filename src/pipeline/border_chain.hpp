@@ -5,14 +5,14 @@
 
 #include <lamina/decoupling.hpp>
 
-#include "decoupling/subdomain_border.hpp"
+#include "decoupling/line_border.hpp"
 #include "mesh/piece_check.hpp"
 
 namespace lamina::pipeline {
 
 /// Returns the edges of the border, with the ids that their ends have in the mesh, in the order of Subdomain::segments.
 /// Lines that dangle in the subdomain, whose edges run both ways, cancel out.
-std::vector<Segment> border_chain(const decoupling::SubdomainBorder& border);
+std::vector<Segment> border_chain(const decoupling::LineBorder& border, const decoupling::Lines& lines);
 
 /// Returns what lies behind the edges of the subdomain's border_chain(), from the border edges that the check of the piece has found.
 /// Adds a defect where these are other edges: the triangles of the piece do not add up to its border then.

@@ -48,13 +48,13 @@ mesh::WorstCell most_oversized(const Subdomain& subdomain, const Refinement& ref
     return worst;
 }
 
-PieceFacts facts_of(const Decoupling& decoupling, const Subdomain& subdomain, const delaunay::LinkedRefinement& linked,
+PieceFacts facts_of(std::span<const Point> points, const Subdomain& subdomain, const delaunay::LinkedRefinement& linked,
                     double min_angle_deg, std::size_t samples) {
     const Refinement& refinement = linked.refinement;
     PieceFacts facts;
-    facts.findings = mesh::check_piece({subdomain.points, subdomain.global, refinement.steiner_points,
-                                        refinement.triangles, linked.links, decoupling.points},
-                                       min_angle_deg);
+    facts.findings = mesh::check_piece(
+        {subdomain.points, subdomain.global, refinement.steiner_points, refinement.triangles, linked.links, points},
+        min_angle_deg);
     facts.stats = refinement.stats;
     facts.estimated_triangles = subdomain.estimated_triangles;
     facts.edge_over_size = mean_edge_over_size(subdomain, refinement, samples);
@@ -64,18 +64,17 @@ PieceFacts facts_of(const Decoupling& decoupling, const Subdomain& subdomain, co
 
 }  // namespace
 
-CheckedPiece refine_and_check_piece(const Decoupling& decoupling, std::size_t subdomain, double min_angle_deg,
-                                    core::BusyTimes& times, PieceWork work) {
+CheckedPiece refine_and_check_piece(const Subdomain& region, std::span<const Point> points, std::size_t subdomains,
+                                    double min_angle_deg, core::BusyTimes& times, PieceWork work) {
     // Together enough for a mean that is known within 0.5 %.
-    const std::size_t samples = 32 + 4096 / decoupling.subdomains.size();
-    const Subdomain& region = decoupling.subdomains[subdomain];
+    const std::size_t samples = 32 + 4096 / subdomains;
     delaunay::LinkedRefinement linked;
     {
         const core::BusyTimes::Scope busy(&times, work.refining);
         linked = delaunay::refine_linked(region.points, region.segments, region.size, region.refine);
     }
     const core::BusyTimes::Scope busy(&times, work.checking);
-    PieceFacts facts = facts_of(decoupling, region, linked, min_angle_deg, samples);
+    PieceFacts facts = facts_of(points, region, linked, min_angle_deg, samples);
     return {std::move(linked.refinement), std::move(facts)};
 }
 
@@ -104,7 +103,8 @@ PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std
     core::InOrder<PieceFacts> in_order([&](PieceFacts facts) { add_piece(std::move(facts), summary, check); });
     const auto make_piece = [&](std::size_t place) {
         if (keeper.begin) keeper.begin(place);
-        CheckedPiece piece = refine_and_check_piece(decoupling, order[place], min_angle_deg, times, work);
+        CheckedPiece piece = refine_and_check_piece(decoupling.subdomains[order[place]], decoupling.points,
+                                                    order.size(), min_angle_deg, times, work);
         in_order.put(place, std::move(piece.facts));
         keeper.keep(place, order[place], std::move(piece.refinement));
     };

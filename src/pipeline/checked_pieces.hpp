@@ -56,9 +56,9 @@ struct CheckedPiece {
     PieceFacts facts;
 };
 
-/// Refines one subdomain and checks the piece.
-CheckedPiece refine_and_check_piece(const Decoupling& decoupling, std::size_t subdomain, double min_angle_deg,
-                                    core::BusyTimes& times, PieceWork work);
+/// Refines one of so many subdomains and checks the piece. `points` holds its border vertices by their ids in the mesh.
+CheckedPiece refine_and_check_piece(const Subdomain& subdomain, std::span<const Point> points, std::size_t subdomains,
+                                    double min_angle_deg, core::BusyTimes& times, PieceWork work);
 
 /// Returns whether the number of triangles of a piece was estimated within 15 %.
 bool is_good_estimate(double estimated, std::size_t made);

@@ -14,40 +14,48 @@ constexpr std::uint64_t parts_of_kind = std::uint64_t{1} << 40;
 
 }  // namespace
 
-HeldParts::HeldParts(Decoupling decoupling, LayerCells cells, HeldNumbers held, const MeshCounts& counts,
-                     bool has_layer)
-    : decoupling_(std::move(decoupling)), cells_(std::move(cells)), held_(std::move(held)) {
+HeldParts::HeldParts(std::unique_ptr<SharedDecoupling> shared, LayerCells cells, HeldNumbers held,
+                     const MeshCounts& counts, const Ranks& ranks)
+    : shared_(std::move(shared)), cells_(std::move(cells)), held_(std::move(held)) {
     core::parallel_for(held_.pieces.size(), 1, [&](std::size_t i, std::size_t) {
         const std::size_t piece = held_.pieces[i];
         if (Refinement* refinement = held_.store->in_memory(piece))
-            number_in_mesh(decoupling_.subdomains[piece], held_.numbers[i].first_vertex, *refinement);
+            number_in_mesh(*shared_->subdomains[piece], held_.numbers[i].first_vertex, *refinement);
     });
-    if (!has_layer) return;
-    before_ = parts_before_pieces(decoupling_, cells_);
-    behind_ = parts_behind_pieces(decoupling_, cells_, counts.triangles);
+    points_ = parts_of_points(shared_->points());
+    for (std::size_t i = ranks.rank(); i < points_.size(); i += ranks.size()) own_points_.push_back(i);
+    if (ranks.rank() != 0) return;
+    layer_ = parts_of_layer(shared_->points(), cells_);
+    behind_ = parts_behind_pieces(shared_->points(), cells_, counts.triangles);
 }
 
 std::vector<std::uint64_t> HeldParts::places() const {
-    std::vector<std::uint64_t> places;
-    for (std::size_t i = 0; i < before_.size(); ++i) places.push_back(i);
+    std::vector<std::uint64_t> places(own_points_.begin(), own_points_.end());
+    for (std::size_t i = 0; i < layer_.size(); ++i) places.push_back(points_.size() + i);
     for (const std::size_t piece : held_.pieces) places.push_back(parts_of_kind + piece);
     for (std::size_t i = 0; i < behind_.size(); ++i) places.push_back(2 * parts_of_kind + i);
     return places;
 }
 
 void HeldParts::visit(std::size_t i, const std::function<void(const MeshPart&)>& take) const {
-    if (i < before_.size()) return take(before_[i]);
-    i -= before_.size();
+    if (i < own_points_.size()) {
+        const MeshPart& part = points_[own_points_[i]];
+        shared_->place(part.first_vertex, part.first_vertex + part.points.size());
+        return take(part);
+    }
+    i -= own_points_.size();
+    if (i < layer_.size()) return take(layer_[i]);
+    i -= layer_.size();
     if (i >= held_.pieces.size()) return take(behind_[i - held_.pieces.size()]);
     const std::size_t piece = held_.pieces[i];
     const auto take_piece = [&](const Refinement& refinement) {
-        take(part_of_piece(decoupling_, held_.layer_pieces, piece, held_.numbers[i].first_vertex,
+        take(part_of_piece(shared_->points(), held_.layer_pieces, piece, held_.numbers[i].first_vertex,
                            held_.numbers[i].first_triangle, refinement));
     };
     const PieceStore& store = *held_.store;
     if (const Refinement* refinement = store.in_memory(piece)) return take_piece(*refinement);
     Refinement refinement = store.read(piece);
-    number_in_mesh(decoupling_.subdomains[piece], held_.numbers[i].first_vertex, refinement);
+    number_in_mesh(*shared_->subdomains[piece], held_.numbers[i].first_vertex, refinement);
     take_piece(refinement);
 }
 

@@ -10,6 +10,7 @@
 #include <lamina/decoupling.hpp>
 #include <lamina/layers.hpp>
 #include <lamina/mesh_sink.hpp>
+#include <lamina/ranks.hpp>
 
 #include "pipeline/piece_store.hpp"
 #include "pipeline/shared_pieces.hpp"
@@ -26,17 +27,20 @@ struct HeldNumbers {
 
 class HeldParts : public MeshParts {
 public:
-    /// Rank 0 holds what no subdomain has, too.
-    HeldParts(Decoupling decoupling, LayerCells cells, HeldNumbers held, const MeshCounts& counts, bool has_layer);
+    /// Of the vertices of the decoupling each process has a share. Rank 0 holds the layer, too.
+    HeldParts(std::unique_ptr<SharedDecoupling> shared, LayerCells cells, HeldNumbers held, const MeshCounts& counts,
+              const Ranks& ranks);
 
     std::vector<std::uint64_t> places() const override;
     void visit(std::size_t i, const std::function<void(const MeshPart&)>& take) const override;
 
 private:
-    Decoupling decoupling_;
+    std::unique_ptr<SharedDecoupling> shared_;  ///< its lines are divided when their vertices are visited
     LayerCells cells_;
     HeldNumbers held_;
-    std::vector<MeshPart> before_, behind_;  ///< the parts before those of the subdomains, and those behind them
+    std::vector<MeshPart> points_;          ///< all parts of the vertices of the decoupling
+    std::vector<std::size_t> own_points_;   ///< the numbers of those of this process
+    std::vector<MeshPart> layer_, behind_;  ///< the other parts before those of the subdomains, and those behind them
 };
 
 }  // namespace lamina::pipeline

@@ -22,12 +22,16 @@ void for_parts(std::size_t first, std::size_t last, F&& f) {
 
 }  // namespace
 
-std::vector<MeshPart> parts_before_pieces(const Decoupling& decoupling, const LayerCells& cells) {
+std::vector<MeshPart> parts_of_points(std::span<const Point> points) {
     std::vector<MeshPart> parts;
-    const std::span<const Point> points(decoupling.points);
     for_parts(0, points.size(), [&](std::size_t begin, std::size_t end) {
         parts.push_back({.first_vertex = begin, .points = points.subspan(begin, end - begin)});
     });
+    return parts;
+}
+
+std::vector<MeshPart> parts_of_layer(std::span<const Point> points, const LayerCells& cells) {
+    std::vector<MeshPart> parts;
     for (std::size_t piece = 0; piece < cells.pieces(); ++piece)
         for_parts(cells.first_triangle[piece], cells.first_triangle[piece + 1],
                   [&](std::size_t begin, std::size_t end) {
@@ -41,12 +45,12 @@ std::vector<MeshPart> parts_before_pieces(const Decoupling& decoupling, const La
     return parts;
 }
 
-std::vector<MeshPart> parts_behind_pieces(const Decoupling& decoupling, const LayerCells& cells,
+std::vector<MeshPart> parts_behind_pieces(std::span<const Point> points, const LayerCells& cells,
                                           std::size_t triangles) {
     std::vector<MeshPart> parts;
     for_parts(0, cells.quads.size(), [&](std::size_t begin, std::size_t end) {
         parts.push_back({.first_cell = triangles + begin,
-                         .shared = decoupling.points,
+                         .shared = points,
                          .region = Region::layer,
                          .layers = std::span(cells.quad_layer).subspan(begin, end - begin),
                          .quads = std::span(cells.quads).subspan(begin, end - begin)});
@@ -61,13 +65,13 @@ void number_in_mesh(const Subdomain& subdomain, std::size_t first_vertex, Refine
             v = v.index() < subdomain.global.size() ? subdomain.global[v.index()] : VertexId{v.index() + shift};
 }
 
-MeshPart part_of_piece(const Decoupling& decoupling, std::size_t layer_pieces, std::size_t piece,
+MeshPart part_of_piece(std::span<const Point> points, std::size_t layer_pieces, std::size_t piece,
                        std::size_t first_vertex, std::size_t first_triangle, const Refinement& refinement) {
     return {.first_vertex = first_vertex,
             .points = refinement.steiner_points,
             .first_cell = first_triangle,
             .triangles = refinement.triangles,
-            .shared = decoupling.points,
+            .shared = points,
             .piece = static_cast<std::uint32_t>(layer_pieces + piece)};
 }
 

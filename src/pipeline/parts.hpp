@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
@@ -13,17 +14,19 @@
 
 namespace lamina::pipeline {
 
-/// Returns the parts before those of the subdomains: the vertices of the decoupling, then the triangles of the layer. They
-/// refer to the arguments.
-std::vector<MeshPart> parts_before_pieces(const Decoupling& decoupling, const LayerCells& cells);
+/// Return the parts before those of the subdomains: the vertices of the decoupling, which are `points`, then the
+/// triangles of the layer. They refer to the arguments.
+std::vector<MeshPart> parts_of_points(std::span<const Point> points);
+std::vector<MeshPart> parts_of_layer(std::span<const Point> points, const LayerCells& cells);
 /// Returns the parts behind them, of a mesh with this many triangles: the quadrilaterals of the layer.
-std::vector<MeshPart> parts_behind_pieces(const Decoupling& decoupling, const LayerCells& cells, std::size_t triangles);
+std::vector<MeshPart> parts_behind_pieces(std::span<const Point> points, const LayerCells& cells,
+                                          std::size_t triangles);
 
 /// Gives the vertices of a subdomain's triangles their numbers in the mesh, where its Steiner points begin with
 /// `first_vertex`.
 void number_in_mesh(const Subdomain& subdomain, std::size_t first_vertex, Refinement& refinement);
 /// Returns the part that number_in_mesh() has numbered. It refers to the arguments.
-MeshPart part_of_piece(const Decoupling& decoupling, std::size_t layer_pieces, std::size_t piece,
+MeshPart part_of_piece(std::span<const Point> points, std::size_t layer_pieces, std::size_t piece,
                        std::size_t first_vertex, std::size_t first_triangle, const Refinement& refinement);
 
 /// Returns the hash of the triangles of a subdomain, before they are numbered.

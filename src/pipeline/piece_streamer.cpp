@@ -17,7 +17,8 @@ PieceStreamer::PieceStreamer(const Decoupling& decoupling, const LayerCells& cel
       window_(std::size_t{4} * thread_count()),
       counts_{decoupling.points.size(), cells.triangles.size(), cells.quads.size(), cells.triangles.size()},
       in_order_([this](const MeshSink::Bytes& bytes) { sink_.append(bytes); }) {
-    for (const MeshPart& part : parts_before_pieces(decoupling, cells)) sink_.append(sink_.format(part));
+    for (const MeshPart& part : parts_of_points(decoupling.points)) sink_.append(sink_.format(part));
+    for (const MeshPart& part : parts_of_layer(decoupling.points, cells)) sink_.append(sink_.format(part));
     hash_.add(decoupling.points, std::span<const Triangle>(cells.triangles));
 }
 
@@ -57,8 +58,8 @@ void PieceStreamer::hand_on(NumberedPiece piece) {
     const Subdomain& subdomain = decoupling_.subdomains[piece.number];
     const mesh::HashOfParts hash = hash_of_piece(subdomain, piece.refinement);
     number_in_mesh(subdomain, piece.first_vertex, piece.refinement);
-    MeshSink::Bytes bytes = sink_.format(part_of_piece(decoupling_, cells_.pieces(), piece.number, piece.first_vertex,
-                                                       piece.first_triangle, piece.refinement));
+    MeshSink::Bytes bytes = sink_.format(part_of_piece(decoupling_.points, cells_.pieces(), piece.number,
+                                                       piece.first_vertex, piece.first_triangle, piece.refinement));
     piece.refinement = {};
     in_order_.put(piece.number, std::move(bytes));
     const std::lock_guard lock(mutex_);
@@ -68,7 +69,7 @@ void PieceStreamer::hand_on(NumberedPiece piece) {
 }
 
 void PieceStreamer::finish(std::span<const Marker> markers, std::span<const Segment> constraints) {
-    for (const MeshPart& part : parts_behind_pieces(decoupling_, cells_, counts_.triangles))
+    for (const MeshPart& part : parts_behind_pieces(decoupling_.points, cells_, counts_.triangles))
         sink_.append(sink_.format(part));
     hash_.add(decoupling_.points, std::span<const Quad>(cells_.quads));
     hash_.add(decoupling_.points, markers);

@@ -190,12 +190,11 @@ std::vector<std::size_t> first_triangles(std::span<const Refinement> refinements
 
 /// Returns the markers of the mesh, with the far field divided if the options ask for it.
 std::vector<Marker> markers_of(const RayPlan& plan, const CaseOptions& options, const Layer& layer,
-                               const Decoupling& decoupling) {
-    std::vector<Marker> markers = make_markers(plan.geometry, layer, decoupling.far_field, options.assemble);
+                               std::span<const Point> points, const std::vector<Segment>& far_field) {
+    std::vector<Marker> markers = make_markers(plan.geometry, layer, far_field, options.assemble);
     const FarFieldOptions& outer = options.far_field;
-    if (outer.tunnel || outer.ground)
-        mark_slip_walls(decoupling.points, markers, plan.far_field, outer.ground.has_value());
-    if (options.inlet_outlet || outer.tunnel) split_far_field(decoupling.points, markers, plan.conditions.alpha_deg);
+    if (outer.tunnel || outer.ground) mark_slip_walls(points, markers, plan.far_field, outer.ground.has_value());
+    if (options.inlet_outlet || outer.tunnel) split_far_field(points, markers, plan.conditions.alpha_deg);
     return markers;
 }
 
@@ -272,10 +271,10 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
                         const StageClock& clock, MadeMesh& mesh) {
     Ranks& ranks = *destination.ranks;
     MadePieces made;
-    const std::vector<std::size_t> order = decoupling::largest_first(work.decoupling.subdomains);
+    const std::vector<std::size_t> order = decoupling::largest_first(shared.cut.borders);
     made.held.store = std::make_unique<PieceStore>(order.size(), destination.beside);
     const double min_angle_deg = work.options.refine.min_angle_deg;
-    decoupling::require_same_borders(work.decoupling.points, shared.borders, ranks);
+    decoupling::require_same_borders(shared.cut.lines, shared.cut.borders, ranks);
     ranks.reset_counter();
     HeldPieces held;
     const auto fill_layer = [&] {
@@ -298,9 +297,9 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
     mesh.counts = counted.counts;
     if (!destination.checks()) return made;
     mesh::HashOfParts hash = counted.hash;
-    hash.add(work.decoupling.points, std::span<const Triangle>(made.cells.triangles));
-    hash.add(work.decoupling.points, std::span<const Quad>(made.cells.quads));
-    hash.add(work.decoupling.points, work.markers);
+    hash.add(shared.points(), std::span<const Triangle>(made.cells.triangles));
+    hash.add(shared.points(), std::span<const Quad>(made.cells.quads));
+    hash.add(shared.points(), work.markers);
     mesh.hash = hash.text();
     return made;
 }
@@ -345,22 +344,25 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
 
     clock.begin("decoupling", announce_estimate ? std::optional(result.estimate) : std::nullopt);
     const RefineOptions refine = refine_options(options, plan.conditions.chord, cost);
-    std::optional<SharedDecoupling> shared;
-    Decoupling alone;
+    std::unique_ptr<SharedDecoupling> shared;
+    Decoupling decoupling;
     if (destination.ranks != nullptr)
-        shared.emplace(share_cuts(layer, size, plan.far_field, options, *destination.ranks), size, refine);
+        shared =
+            std::make_unique<SharedDecoupling>(share_cuts(layer, size, plan.far_field, options, *destination.ranks),
+                                               size, options.decoupling.separators, refine);
     else
-        alone = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, refine);
-    Decoupling& decoupling = shared ? shared->decoupling : alone;
+        decoupling = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, refine);
+    const std::span<const Point> points = shared ? shared->points() : std::span<const Point>(decoupling.points);
     seconds.decoupling += clock.lap();
 
     result.threads = thread_count();
-    std::vector<Marker> markers = markers_of(plan, options, layer, decoupling);
+    std::vector<Marker> markers =
+        markers_of(plan, options, layer, points, shared ? shared->cut.far_field : decoupling.far_field);
     const std::span<const Segment> constraints = layer.edges.interfaces;
     // The heights are those of the layer as it is closed.
     summarize_growth(layer, options.layer, result);
-    mesh::PiecewiseCheck check(decoupling.points, {.min_angle_deg = options.refine.min_angle_deg,
-                                                   .first_heights = first_heights_of_markers(result, markers)});
+    mesh::PiecewiseCheck check(points, {.min_angle_deg = options.refine.min_angle_deg,
+                                        .first_heights = first_heights_of_markers(result, markers)});
 
     clock.begin("layer triangulation, refinement and check of pieces");
     core::BusyTimes times;
@@ -400,8 +402,8 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
             destination.keeps_mesh() ? result.mesh : pieces.layer);
     if (destination.ranks != nullptr) {
         made.constraints = layer.edges.interfaces;
-        made.parts = std::make_unique<HeldParts>(std::move(decoupling), std::move(pieces.cells), std::move(pieces.held),
-                                                 made.counts, destination.checks());
+        made.parts = std::make_unique<HeldParts>(std::move(shared), std::move(pieces.cells), std::move(pieces.held),
+                                                 made.counts, *destination.ranks);
     }
     seconds.assembly += clock.lap();
     result.seconds = seconds;

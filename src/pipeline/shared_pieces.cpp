@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include <lamina/error.hpp>
 #include <lamina/threads.hpp>
 
 #include "core/packing.hpp"
@@ -23,29 +24,49 @@ namespace {
 using core::Packer;
 using core::Unpacker;
 
-std::vector<std::uint8_t> classes_of(const SharedDecoupling& shared, std::size_t piece, std::span<const Point> apexes) {
-    const std::vector<Point>& points = shared.decoupling.points;
-    const std::vector<Segment> chain = border_chain(shared.borders[piece].border);
-    std::vector<std::uint8_t> classes;
-    for (std::size_t i = 0; i < chain.size(); ++i)
-        classes.push_back(mesh::shape_class_behind(points[chain[i].a.index()], points[chain[i].b.index()], apexes[i]));
-    return classes;
+/// Stores what the others need to know of the border of a piece.
+void describe_border(const SharedDecoupling& shared, HeldPiece& held) {
+    const std::span<const Point> points = shared.points();
+    const std::vector<Segment> chain = shared.chain(held.piece);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        held.shape_classes.push_back(
+            mesh::shape_class_behind(points[chain[i].a.index()], points[chain[i].b.index()], held.apexes[i]));
+        held.places += hash_of_places(chain[i], points);
+    }
+}
+
+/// Throws MeshError where the edges of two sides do not lie at the same places on both of them.
+void require_same_places(SharedDecoupling& shared, std::uint64_t places, std::span<const Segment> one_sided) {
+    for (const Segment& edge : one_sided) {
+        for (const VertexId end : {edge.a, edge.b}) shared.place(end.index(), end.index() + 1);
+        places -= hash_of_places(edge, shared.points());
+    }
+    if (places != 0)
+        throw MeshError(
+            "processes have divided a line between pieces in different ways: all must run the same program on "
+            "the same kind of machine");
 }
 
 }  // namespace
 
-SharedDecoupling::SharedDecoupling(decoupling::CutRegion cut, const SizeField& of_region, const RefineOptions& options)
-    : borders(std::move(cut.borders)), size(of_region), refine(options) {
-    decoupling.points = std::move(cut.points);
-    decoupling.far_field = std::move(cut.far_field);
-    decoupling.separator_vertices = cut.separator_vertices;
-    decoupling.subdomains.resize(borders.size());
-    for (std::size_t i = 0; i < borders.size(); ++i)
-        decoupling.subdomains[i].estimated_triangles = borders[i].estimate.triangles;
+SharedDecoupling::SharedDecoupling(decoupling::CutRegion cut_region, const SizeField& of_region,
+                                   SeparatorRule of_separators, const RefineOptions& options)
+    : cut(std::move(cut_region)),
+      size(of_region),
+      rule(of_separators),
+      refine(options),
+      subdomains(cut.borders.size()) {
+    cut.lines.gather_points();
 }
 
-void SharedDecoupling::make_subdomain(std::size_t i) {
-    decoupling.subdomains[i] = decoupling::make_subdomain(decoupling.points, borders[i], size, refine);
+void SharedDecoupling::place(std::size_t begin, std::size_t end) {
+    cut.lines.divide_between(VertexId{begin}, VertexId{end}, {size, rule});
+}
+
+const Subdomain& SharedDecoupling::make_subdomain(std::size_t i) {
+    subdomains[i] =
+        std::make_unique<Subdomain>(decoupling::make_subdomain(cut.lines, cut.borders[i], {size, rule}, refine));
+    return *subdomains[i];
 }
 
 HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t> order, double min_angle_deg,
@@ -54,12 +75,14 @@ HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t
     std::mutex mutex;
     std::atomic<bool> failed = false;
     const auto make_piece = [&](std::size_t number) {
-        shared.make_subdomain(number);
-        const Subdomain& subdomain = shared.decoupling.subdomains[number];
-        CheckedPiece made = refine_and_check_piece(shared.decoupling, number, min_angle_deg, times, work);
+        const Subdomain& subdomain = shared.make_subdomain(number);
+        CheckedPiece made =
+            refine_and_check_piece(subdomain, shared.points(), shared.pieces(), min_angle_deg, times, work);
         mesh::PieceFindings& findings = made.facts.findings;
-        std::vector<Point> apexes = apexes_of(subdomain, findings);
-        std::vector<std::uint8_t> classes = classes_of(shared, number, apexes);
+        HeldPiece piece;
+        piece.piece = number;
+        piece.apexes = apexes_of(subdomain, findings);
+        describe_border(shared, piece);
         findings.border = {};
         findings.border_vertices = {};
         mesh::QualityCollector totals(min_angle_deg);
@@ -70,7 +93,8 @@ HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t
         const std::lock_guard lock(mutex);
         held.hash.add(hash);
         held.area_ratios.append_area_ratios(shapes.area_ratios());
-        held.pieces.push_back({number, std::move(made.facts), std::move(apexes), std::move(classes)});
+        piece.facts = std::move(made.facts);
+        held.pieces.push_back(std::move(piece));
     };
     core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {
         try {
@@ -86,8 +110,8 @@ HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t
     return held;
 }
 
-CountedMesh count_and_check(const SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer,
-                            double min_angle_deg, Ranks& ranks, mesh::PiecewiseCheck* check) {
+CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer, double min_angle_deg,
+                            Ranks& ranks, mesh::PiecewiseCheck* check) {
     SharedSeams seams(shared, held, ranks);
     seams.collect();
     Packer record;
@@ -99,10 +123,10 @@ CountedMesh count_and_check(const SharedDecoupling& shared, HeldPieces& held, co
     CountedMesh of_mesh;
     std::vector<std::string> to_ranks;
     if (check) {
-        AllPieces all = add_up(
-            records, shared.borders.size(),
-            {shared.decoupling.points.size(), layer.triangles.size(), layer.quads.size(), layer.triangles.size()},
-            min_angle_deg);
+        AllPieces all =
+            add_up(records, shared.pieces(),
+                   {shared.cut.lines.vertices(), layer.triangles.size(), layer.quads.size(), layer.triangles.size()},
+                   min_angle_deg);
         of_mesh = {.counts = all.counts, .layer_pieces = layer.pieces(), .summary = all.summary, .hash = all.hash};
         all.findings.border = seams.along_layer();
         all.findings.border_vertices = seams.vertices_in_layer();
@@ -128,11 +152,20 @@ CountedMesh count_and_check(const SharedDecoupling& shared, HeldPieces& held, co
     counted.numbers = unpacker.get_all<PieceNumbers>();
     seams.ask(even_ratio, check);
     Packer findings;
+    findings.put(seams.places());
     pack_findings(seams.findings(), findings);
-    for (const std::string& of_rank : ranks.gather(findings.take())) {
+    const std::vector<std::string> of_ranks = ranks.gather(findings.take());
+    if (!check) return counted;
+    std::uint64_t places = 0;
+    std::vector<Segment> one_sided;
+    for (const std::string& of_rank : of_ranks) {
         Unpacker told(of_rank);
-        if (check) check->add_seams(unpack_findings(told));
+        places += told.get<std::uint64_t>();
+        const mesh::SeamFindings found = unpack_findings(told);
+        one_sided.insert(one_sided.end(), found.one_sided.begin(), found.one_sided.end());
+        check->add_seams(found);
     }
+    require_same_places(shared, places, one_sided);
     return counted;
 }
 

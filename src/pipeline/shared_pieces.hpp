@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
@@ -13,6 +14,7 @@
 
 #include "decoupling/cut_region.hpp"
 #include "mesh/hash.hpp"
+#include "pipeline/border_chain.hpp"
 #include "pipeline/checked_pieces.hpp"
 #include "pipeline/piece_store.hpp"
 
@@ -20,15 +22,26 @@ namespace lamina::pipeline {
 
 /// A decoupling of which all processes know the borders. Each makes those subdomains that it refines.
 struct SharedDecoupling {
-    Decoupling decoupling;  ///< the subdomains hold their estimates alone until they are made
-    std::vector<decoupling::EstimatedBorder> borders;
+    decoupling::CutRegion cut;
     SizeField size;
+    SeparatorRule rule;
     RefineOptions refine;
+    std::vector<std::unique_ptr<Subdomain>> subdomains;  ///< null until they are made
 
-    SharedDecoupling(decoupling::CutRegion cut, const SizeField& size, const RefineOptions& refine);
+    SharedDecoupling(decoupling::CutRegion cut, const SizeField& size, SeparatorRule rule, const RefineOptions& refine);
 
+    std::size_t pieces() const { return cut.borders.size(); }
+    /// Returns the number of vertices that no line of the decoupling has added.
+    std::size_t layer_vertices() const { return cut.lines.vertices() - cut.separator_vertices; }
+    /// Returns an array of the vertices of the decoupling by their ids. Only those of the layer, of the far field, of
+    /// subdomains that were made and of lines that were divided have their places in it.
+    std::span<const Point> points() const { return cut.lines.gathered(); }
+    /// Returns the border_chain() of a piece.
+    std::vector<Segment> chain(std::size_t piece) const { return border_chain(cut.borders[piece].border, cut.lines); }
+    /// Divides the lines that these vertices are on, so that they have their places.
+    void place(std::size_t begin, std::size_t end);
     /// Makes a subdomain. May be called for several of them at the same time.
-    void make_subdomain(std::size_t i);
+    const Subdomain& make_subdomain(std::size_t i);
 };
 
 /// A piece that this process has made, with what it leaves behind once it is stored.
@@ -37,6 +50,7 @@ struct HeldPiece {
     PieceFacts facts;                         ///< without the border and without the histogram of area ratios
     std::vector<Point> apexes;                ///< behind the edges of border_chain()
     std::vector<std::uint8_t> shape_classes;  ///< of the triangles there
+    std::uint64_t places = 0;                 ///< sum of hash_of_places() over these edges
 };
 
 /// All pieces that this process has made.
@@ -68,7 +82,7 @@ struct CountedMesh {
 /// Collective: numbers all pieces in their order, behind the triangles of the layer, matches their borders, and adds
 /// both to the check, whose pieces become one with the numbers of triangles that it has in the mesh. `check` is that of
 /// rank 0, which has its layer; null elsewhere. Nor does the layer count elsewhere.
-CountedMesh count_and_check(const SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer,
-                            double min_angle_deg, Ranks& ranks, mesh::PiecewiseCheck* check);
+CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer, double min_angle_deg,
+                            Ranks& ranks, mesh::PiecewiseCheck* check);
 
 }  // namespace lamina::pipeline

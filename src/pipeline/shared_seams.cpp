@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "pipeline/border_chain.hpp"
+#include "core/word_hash.hpp"
 
 namespace lamina::pipeline {
 
@@ -35,6 +35,7 @@ private:
 struct Question {
     std::uint32_t piece = 0, edge = 0;
     bool apex = false;
+    bool ends = false;  ///< whether the ends of the edge are wanted, too
     bool along_layer = false;
     std::size_t seam_edge = 0;
 };
@@ -51,20 +52,29 @@ std::string pack_questions(std::span<const Question> questions) {
         packer.put_short(end - begin);
         std::uint32_t last = 0;
         for (; begin < end; ++begin)
-            packer.put_short(2 * (questions[begin].edge - std::exchange(last, questions[begin].edge)) +
-                             (questions[begin].apex ? 1 : 0));
+            packer.put_short(4 * (questions[begin].edge - std::exchange(last, questions[begin].edge)) +
+                             (questions[begin].ends ? 2 : 0) + (questions[begin].apex ? 1 : 0));
     }
     return packer.take();
 }
 
 }  // namespace
 
-SharedSeams::SharedSeams(const SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks)
+std::uint64_t hash_of_places(Segment edge, std::span<const Point> points) {
+    const auto [low, high] = std::minmax(edge.a, edge.b);
+    core::WordHash hash;
+    hash.add(std::uint64_t{low.value} << 32 | high.value);
+    hash.add(points[low.index()]);
+    hash.add(points[high.index()]);
+    return edge.a < edge.b ? hash.value() : -hash.value();
+}
+
+SharedSeams::SharedSeams(SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks)
     : shared_(shared),
       held_(held),
       ranks_(ranks),
-      owners_(shared.decoupling.points.size() - shared.decoupling.separator_vertices, ranks.size()),
-      seams_(shared.decoupling.points) {}
+      owners_(shared.layer_vertices(), ranks.size()),
+      seams_(shared.points()) {}
 
 std::vector<std::string> SharedSeams::pack_borders() const {
     std::vector<Packer> packers(ranks_.size());
@@ -72,15 +82,14 @@ std::vector<std::string> SharedSeams::pack_borders() const {
     std::vector<unsigned> concerned;
     std::vector<bool> is_concerned(ranks_.size(), false);
     for (const HeldPiece& held : held_.pieces) {
-        const decoupling::SubdomainBorder& border = shared_.borders[held.piece].border;
-        for (const auto& loop : border.loops)
-            for (const VertexId v : loop) {
+        for (const decoupling::LineLoop& loop : shared_.cut.borders[held.piece].border.loops)
+            for (const VertexId v : decoupling::ids_of(loop, shared_.cut.lines)) {
                 const unsigned owner = owners_.owner(v);
                 if (is_concerned[owner]) continue;
                 is_concerned[owner] = true;
                 concerned.push_back(owner);
             }
-        const std::vector<Segment> chain = border_chain(border);
+        const std::vector<Segment> chain = shared_.chain(held.piece);
         for (std::size_t i = 0; i < chain.size(); ++i) {
             const std::uint8_t none = 0;
             classes[owners_.owner(chain[i])].put(i < held.shape_classes.size() ? held.shape_classes[i] : none);
@@ -103,9 +112,8 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
     while (!unpacker.at_end()) {
         const auto piece = static_cast<std::uint32_t>(unpacker.get_short());
         const std::string classes = unpacker.get_text();
-        const decoupling::SubdomainBorder& border = shared_.borders[piece].border;
-        for (const auto& loop : border.loops)
-            for (const VertexId v : loop) {
+        for (const decoupling::LineLoop& loop : shared_.cut.borders[piece].border.loops)
+            for (const VertexId v : decoupling::ids_of(loop, shared_.cut.lines)) {
                 if (owners_.owner(v) != self) continue;
                 if (owners_.is_in_layer(v)) {
                     vertices_in_layer_.push_back(v);
@@ -115,7 +123,7 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
                 if (used_.size() <= place) used_.resize(place + 1, 0);
                 used_[place] = 1;
             }
-        const std::vector<Segment> chain = border_chain(border);
+        const std::vector<Segment> chain = shared_.chain(piece);
         std::size_t next = 0;
         for (std::uint32_t i = 0; i < chain.size(); ++i) {
             if (owners_.owner(chain[i]) != self) continue;
@@ -143,23 +151,28 @@ std::vector<std::uint32_t> SharedSeams::least_ratios() const {
 }
 
 std::string SharedSeams::answer(const std::string& questions) const {
-    const std::vector<Point>& points = shared_.decoupling.points;
+    const std::span<const Point> points = shared_.points();
     Packer packer;
     Unpacker unpacker(questions);
     while (!unpacker.at_end()) {
         const std::size_t number = unpacker.get_short();
         const auto piece = std::lower_bound(held_.pieces.begin(), held_.pieces.end(), number,
                                             [](const HeldPiece& one, std::size_t n) { return one.piece < n; });
-        const std::vector<Segment> chain = border_chain(shared_.borders[number].border);
+        const std::vector<Segment> chain = shared_.chain(number);
         std::size_t edge = 0;
         for (std::size_t left = unpacker.get_short(); left > 0; --left) {
             const std::size_t question = unpacker.get_short();
-            edge += question / 2;
+            edge += question / 4;
             const Point apex = piece->apexes[edge];
+            const Point a = points[chain[edge].a.index()], b = points[chain[edge].b.index()];
             if (question % 2 == 1)
                 packer.put(apex);
             else
-                packer.put(mesh::area_over(points[chain[edge].a.index()], points[chain[edge].b.index()], apex));
+                packer.put(mesh::area_over(a, b, apex));
+            if (question & 2) {
+                packer.put(a);
+                packer.put(b);
+            }
         }
     }
     return packer.take();
@@ -170,7 +183,9 @@ void SharedSeams::ask(double even_ratio, mesh::PiecewiseCheck* check) {
     const auto add = [&](std::span<const Wanted> wanted, const CollectedEdges& collected, bool along_layer) {
         for (const auto [edge, apex] : wanted) {
             const Source& source = collected.sources[edge];
-            asked[source.rank].push_back({source.piece, source.edge, apex, along_layer, edge});
+            // Rank 0 has the layer. Beyond it one side tells where the ends of the edge are.
+            const bool ends = apex && !along_layer && collected.edges[edge].a < collected.edges[edge].b;
+            asked[source.rank].push_back({source.piece, source.edge, apex, ends, along_layer, edge});
         }
     };
     if (check) add(check->wanted(even_ratio), along_layer_, true);
@@ -191,6 +206,11 @@ void SharedSeams::ask(double even_ratio, mesh::PiecewiseCheck* check) {
                 question.along_layer ? check->set_area(question.seam_edge, area)
                                      : seams_.set_area(question.seam_edge, area);
             }
+            if (question.ends) {
+                const Segment ends = seams_.edges()[question.seam_edge];
+                shared_.cut.lines.set_gathered(ends.a, unpacker.get<Point>());
+                shared_.cut.lines.set_gathered(ends.b, unpacker.get<Point>());
+            }
         }
     }
 }
@@ -204,6 +224,14 @@ mesh::SeamFindings SharedSeams::findings() const {
     for (const std::uint32_t e : pairs.boundary) findings.one_sided.push_back(seams_.edges()[e]);
     for (const std::uint32_t e : pairs.overused) findings.overused.push_back(seams_.edges()[e]);
     return findings;
+}
+
+std::uint64_t SharedSeams::places() const {
+    std::uint64_t sum = 0;
+    for (const HeldPiece& piece : held_.pieces) sum += piece.places;
+    for (const mesh::PieceBorderEdge& edge : along_layer_.edges)
+        sum -= hash_of_places({edge.a, edge.b}, shared_.points());
+    return sum;
 }
 
 void pack_findings(const mesh::SeamFindings& findings, Packer& packer) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,11 +42,16 @@ private:
     unsigned processes_;
 };
 
+/// Returns a hash of the ids and places of the ends of an edge. That of the opposite edge is its negative, so that the
+/// sum over all borders is the sum over the edges of one side: the others have the same places on both sides, whoever
+/// has divided their lines.
+std::uint64_t hash_of_places(Segment edge, std::span<const Point> points);
+
 /// The edges that this process matches, on all ranks from one call to the next:
 /// collect(), then ask() with a ratio that rank 0 knows, then findings().
 class SharedSeams {
 public:
-    SharedSeams(const SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks);
+    SharedSeams(SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks);
 
     /// Collective: gives all border edges of the held pieces to those who match them, and pairs those of this process.
     void collect();
@@ -62,6 +68,9 @@ public:
     void ask(double even_ratio, mesh::PiecewiseCheck* check);
     /// Returns what this process has found out.
     mesh::SeamFindings findings() const;
+    /// Returns the sum of hash_of_places() over the borders of the held pieces, without the edges along the layer that
+    /// this process has been told of.
+    std::uint64_t places() const;
 
 private:
     /// Where an edge comes from.
@@ -76,7 +85,7 @@ private:
     void take_borders(std::uint32_t rank, const std::string& told);
     std::string answer(const std::string& questions) const;
 
-    const SharedDecoupling& shared_;
+    SharedDecoupling& shared_;
     const HeldPieces& held_;
     Ranks& ranks_;
     SeamOwners owners_;

@@ -10,8 +10,10 @@
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
+#include "decoupling/line_border.hpp"
+#include "decoupling/lines.hpp"
 #include "decoupling/separators.hpp"
-#include "decoupling/subdomain_border.hpp"
+#include "decoupling/traced_border.hpp"
 #include "support/point_sets.hpp"
 
 namespace lamina::test {
@@ -312,13 +314,32 @@ TEST(SubdomainBorders, SplitAndJoinKeepEveryEdge) {
         for (int v : values) result.push_back(VertexId{static_cast<std::size_t>(v)});
         return result;
     };
-    const decoupling::SubdomainBorder ring{{ids({0, 1, 2, 3}), ids({4, 5, 6})}};
-    const decoupling::SubdomainBorder slit = decoupling::join(ring, {1, 2}, {0, 1}, ids({8, 9}));
+    decoupling::Lines lines(std::vector<Point>(7));
+    const std::uint32_t outer = lines.add_loop(ids({0, 1, 2, 3})), hole = lines.add_loop(ids({4, 5, 6}));
+    const auto add_line = [&](const decoupling::LineBorder& border, decoupling::LoopVertex from,
+                              decoupling::LoopVertex to, std::uint32_t interior) {
+        const std::uint32_t line = lines.add_line(vertex_of(border, from, lines), vertex_of(border, to, lines), 1);
+        lines.number(line, interior);
+        return decoupling::Stretch{line, 0, interior + 1};
+    };
+    decoupling::LineBorder ring{{{}, {}}};
+    ring.loops[0].add({outer, 0, 4});
+    ring.loops[1].add({hole, 0, 3});
+    const decoupling::Stretch line = add_line(ring, {1, 2}, {0, 1}, 2);  // vertices 7 and 8
+    const decoupling::LineBorder slit = decoupling::join(ring, {1, 2}, {0, 1}, line);
     ASSERT_EQ(slit.loops.size(), 1u);
-    EXPECT_EQ(slit.loops[0], ids({6, 4, 5, 6, 8, 9, 1, 2, 3, 0, 1, 9, 8}));
-    const decoupling::BorderHalves halves = decoupling::split(slit, 1, 8, ids({7}));
-    EXPECT_EQ(halves.first.loops[0], ids({4, 7, 3, 0, 1, 9, 8, 6}));
-    EXPECT_EQ(halves.second.loops[0], ids({3, 7, 4, 5, 6, 8, 9, 1, 2}));
+    EXPECT_TRUE(slit.may_dangle);
+    EXPECT_EQ(ids_of(slit.loops[0], lines), ids({6, 4, 5, 6, 7, 8, 1, 2, 3, 0, 1, 8, 7}));
+    EXPECT_EQ(slit.loops[0].vertices, 13u);
+    const decoupling::Stretch across = add_line(slit, {0, 1}, {0, 8}, 1);  // vertex 9
+    const decoupling::BorderHalves halves = decoupling::split(slit, 1, 8, across);
+    EXPECT_EQ(ids_of(halves.first.loops[0], lines), ids({4, 9, 3, 0, 1, 8, 7, 6}));
+    EXPECT_EQ(ids_of(halves.second.loops[0], lines), ids({3, 9, 4, 5, 6, 7, 8, 1, 2}));
+    // A line that ends inside another one.
+    const decoupling::Stretch inside = add_line(halves.second, {0, 5}, {0, 3}, 3);  // from 7 to 5: vertices 10 to 12
+    const decoupling::BorderHalves quarters = decoupling::split(halves.second, 5, 3, inside);
+    EXPECT_EQ(ids_of(quarters.first.loops[0], lines), ids({7, 10, 11, 12, 5, 6}));
+    EXPECT_EQ(ids_of(quarters.second.loops[0], lines), ids({5, 12, 11, 10, 7, 8, 1, 2, 3, 9, 4}));
 }
 
 // A line dangles in a subdomain, for instance between a body and the border to which it was joined.

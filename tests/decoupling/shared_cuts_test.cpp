@@ -10,6 +10,7 @@
 #include <lamina/decoupling.hpp>
 
 #include "decoupling/cut_region.hpp"
+#include "decoupling/lines.hpp"
 #include "support/thread_ranks.hpp"
 
 namespace lamina::test {
@@ -60,8 +61,16 @@ SizeField size_of(const CutCase& c) {
     return {c.discs.sources, {.gradation = c.gradation}, {{0.5 - half, -half}, {0.5 + half, half}}};
 }
 
+/// Returns all vertices, each where its line has it.
+std::vector<Point> points_of(decoupling::CutRegion& cut, const SizeField& size, SeparatorRule rule) {
+    for (std::uint32_t line = 0; line < cut.lines.size(); ++line)
+        if (!cut.lines.is_loop(line)) cut.lines.divide(line, {size, rule});
+    std::vector<Point> points(cut.lines.vertices());
+    cut.lines.copy_points(points);
+    return points;
+}
+
 void expect_equal(const decoupling::CutRegion& one, const decoupling::CutRegion& other) {
-    EXPECT_EQ(one.points, other.points);
     EXPECT_EQ(one.far_field, other.far_field);
     EXPECT_EQ(one.separator_vertices, other.separator_vertices);
     ASSERT_EQ(one.borders.size(), other.borders.size());
@@ -73,6 +82,13 @@ void expect_equal(const decoupling::CutRegion& one, const decoupling::CutRegion&
     }
 }
 
+/// Returns how many lines are divided.
+std::size_t divided(const decoupling::CutRegion& cut) {
+    std::size_t sum = 0;
+    for (std::uint32_t line = 0; line < cut.lines.size(); ++line) sum += cut.lines.is_divided(line);
+    return sum;
+}
+
 TEST(SharedCuts, AreThoseOfOneProcess) {
     const DecouplingOptions defaults;
     for (const CutCase& c : cut_cases()) {
@@ -80,14 +96,22 @@ TEST(SharedCuts, AreThoseOfOneProcess) {
         const SizeField size = size_of(c);
         const DecouplingOptions options{defaults.separators, c.pieces_target};
         const decoupling::OuterRegion region{c.discs.points, c.discs.borders, size, c.far_field, options};
-        const decoupling::CutRegion alone = decoupling::cut_region(region);
+        decoupling::CutRegion alone = decoupling::cut_region(region);
+        const std::size_t lines = alone.lines.size();
+        EXPECT_EQ(divided(alone), lines);
+        const std::vector<Point> points = points_of(alone, size, options.separators);
         EXPECT_EQ(alone.borders.size() > 10, c.name != "one piece") << alone.borders.size();
         for (const unsigned n : {1u, 2u, 3u, 7u}) {
             SCOPED_TRACE(n);
             std::atomic<std::size_t> bytes = 0;
             EXPECT_EQ(run_ranks(n,
                                 [&](Ranks& ranks) {
-                                    expect_equal(alone, decoupling::cut_region(region, &ranks));
+                                    decoupling::CutRegion cut = decoupling::cut_region(region, &ranks);
+                                    expect_equal(alone, cut);
+                                    if (n == 7 && lines > 40) {
+                                        EXPECT_LT(divided(cut), 3 * lines / 4);
+                                    }
+                                    EXPECT_EQ(points_of(cut, size, options.separators), points);
                                     bytes += ranks.traffic().bytes;
                                 }),
                       "");

@@ -1,0 +1,127 @@
+// The lines along which subdomains meet. Their vertices have successive ids, so that a line and how many vertices it
+// has tell all ids on it; where they lie is found out by who needs it (docs/decisions/0056).
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <lamina/export.hpp>
+#include <lamina/ids.hpp>
+#include <lamina/point.hpp>
+
+#include "core/uninitialized.hpp"
+#include "decoupling/separators.hpp"
+
+namespace lamina::decoupling {
+
+/// A vertex, given by a line and its place on it: 0 is the begin of the line. Those that are on no line, as junctions
+/// of lines are, have `no_line`.
+struct LineVertex {
+    static constexpr std::uint32_t no_line = std::numeric_limits<std::uint32_t>::max();
+
+    VertexId id;
+    std::uint32_t line = no_line, place = 0;
+};
+
+/// A part of a line from one place to another, in either direction.
+struct Stretch {
+    std::uint32_t line = 0, first = 0, last = 0;
+
+    /// Returns the number of its segments.
+    std::uint32_t segments() const { return first < last ? last - first : first - last; }
+    /// Returns the place that is so many segments behind the first one.
+    std::uint32_t place(std::uint32_t i) const { return first < last ? first + i : first - i; }
+    friend bool operator==(const Stretch&, const Stretch&) = default;
+};
+
+/// All lines, in the order in which their vertices are numbered. One thread adds lines; others may meanwhile look at
+/// those that were there before, and divide them.
+class LAMINA_EXPORT Lines {
+public:
+    /// The vertices that exist before all lines.
+    explicit Lines(std::span<const Point> points);
+    Lines(Lines&&) noexcept;
+    Lines& operator=(Lines&&) noexcept;
+    ~Lines();
+
+    /// Adds a vertex on no line. Precondition: no vertices of lines are numbered yet.
+    VertexId add_junction(Point p);
+    /// Adds a closed line along vertices that exist. Returns its number.
+    std::uint32_t add_loop(std::span<const VertexId> loop);
+    /// Adds a closed line along new vertices, and numbers them.
+    std::uint32_t add_new_loop(std::vector<Point> loop);
+    /// Adds a straight line whose vertices are not numbered yet.
+    std::uint32_t add_line(const LineVertex& from, const LineVertex& to, std::uint32_t min_segments);
+    /// Numbers the vertices inside the last line that has none, of which there are so many.
+    void number(std::uint32_t line, std::size_t interior);
+    /// Says where the vertices inside a line lie, whoever has divided it.
+    void set_interior(std::uint32_t line, std::vector<Point> interior);
+
+    /// Returns the number of lines, and of all vertices.
+    std::size_t size() const { return size_.load(std::memory_order_acquire); }
+    std::size_t vertices() const { return vertices_; }
+    std::uint32_t segments(std::uint32_t line) const { return at(line).segments; }
+    /// Returns both ends of a line that is no loop.
+    std::pair<LineVertex, LineVertex> ends(std::uint32_t line) const { return {at(line).from, at(line).to}; }
+    LineVertex vertex(std::uint32_t line, std::uint32_t place) const;
+    VertexId id(std::uint32_t line, std::uint32_t place) const;
+    /// Returns the id of the first vertex inside a line. Precondition: the line is no loop.
+    VertexId first_inside(std::uint32_t line) const { return at(line).first; }
+    bool is_loop(std::uint32_t line) const { return !at(line).loop.empty(); }
+
+    /// Divides a line, unless that was done. Returns the number of vertices inside it. Any thread may call it. Throws
+    /// MeshError where it has another number of vertices than number() was told.
+    std::size_t divide(std::uint32_t line, const SeparatorSpacing& spacing);
+    /// Returns whether the places of the vertices of a line are known. Precondition: no other thread divides lines.
+    bool is_divided(std::uint32_t line) const { return !at(line).interior.empty(); }
+    /// Divides the lines that have vertices from `begin` to before `end` inside.
+    void divide_between(VertexId begin, VertexId end, const SeparatorSpacing& spacing);
+    /// Returns where a vertex lies. Precondition: its line is divided.
+    Point point(std::uint32_t line, std::uint32_t place) const;
+    Point point(const LineVertex& v) const {
+        return v.line == LineVertex::no_line ? points_[v.id.index()] : point(v.line, v.place);
+    }
+
+    /// Copies the vertices of all lines that are divided, and those on no line, to their ids.
+    void copy_points(std::span<Point> points) const;
+    /// Makes one array of all vertices, by their ids. Those of lines that are not divided yet have no place in it until
+    /// divide() gives them one. Call it when all vertices are numbered.
+    void gather_points();
+    std::span<const Point> gathered() const { return gathered_.all(); }
+    /// Sets the place of a vertex that another process has told.
+    void set_gathered(VertexId v, Point p) { gathered_[v.index()] = p; }
+
+private:
+    struct Line {
+        LineVertex from, to;
+        VertexId first;
+        std::uint32_t segments = 0, min_segments = 1;
+        std::uint32_t own = 0;  ///< of a loop: the number of vertices that were added with it
+        std::once_flag divided;
+        std::vector<Point> interior;  ///< of a loop: all its vertices, the first one at the end again
+        std::vector<VertexId> loop;
+    };
+    static constexpr std::size_t chunk_size = 1024, max_chunks = 16384;
+    struct Chunk;
+
+    /// Returns the id behind those of the vertices of a line that were added with it.
+    static std::size_t end_of(const Line& line);
+    Line& at(std::uint32_t line) const;
+    Line& add();
+    static void store(const Line& line, std::span<Point> points);
+
+    std::vector<Point> points_;  ///< of the vertices on no line
+    std::unique_ptr<std::unique_ptr<Chunk>[]> chunks_;
+    std::atomic<std::size_t> size_ = 0;
+    std::size_t vertices_ = 0;
+    core::UninitializedArray<Point> gathered_;
+};
+
+}  // namespace lamina::decoupling
