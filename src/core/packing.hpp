@@ -33,11 +33,17 @@ public:
         if (!values.empty()) bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     }
     void put_text(std::string_view text) { put_all<char>({text.data(), text.size()}); }
-    /// Puts counts, of which many are small, without the zeros at the end.
+    /// Puts counts, of which many are small and many are 0, without the zeros at the end.
     void put_counts(std::span<const std::uint32_t> counts) {
         while (!counts.empty() && counts.back() == 0) counts = counts.first(counts.size() - 1);
         put_short(counts.size());
-        for (const std::uint32_t count : counts) put_short(count);
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            put_short(counts[i]);
+            if (counts[i] != 0) continue;
+            std::size_t more = 0;
+            while (counts[i + 1] == 0) ++more, ++i;
+            put_short(more);
+        }
     }
     std::string take() { return std::move(bytes_); }
 
@@ -74,7 +80,10 @@ public:
     }
     std::vector<std::uint32_t> get_counts() {
         std::vector<std::uint32_t> counts(get_short());
-        for (std::uint32_t& count : counts) count = static_cast<std::uint32_t>(get_short());
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            counts[i] = static_cast<std::uint32_t>(get_short());
+            if (counts[i] == 0) i += get_short();
+        }
         return counts;
     }
     std::string get_text() {

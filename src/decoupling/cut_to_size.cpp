@@ -82,29 +82,55 @@ std::vector<LineBorder> take_simple(std::vector<LineBorder>& borders) {
 /// The searches that the processes still have to divide among themselves.
 class SharedSearches {
 public:
+    /// The others are the regions without holes, in their order.
     SharedSearches(std::span<const LineBorder> others, const SeparatorSpacing& spacing, double pieces_target,
                    Ranks& ranks)
-        : others_(others), spacing_(spacing), pieces_target_(pieces_target), ranks_(ranks) {}
+        : others_(others),
+          spacing_(spacing),
+          pieces_target_(pieces_target),
+          ranks_(ranks),
+          of_others_(others.size()),
+          dealer_(ranks.size()) {
+        std::size_t begin = 0;
+        for (unsigned process = 0; process < ranks.size(); ++process) {
+            next_.push_back(begin);
+            while (begin < others.size() && process_of(begin) == process) ++begin;
+            end_.push_back(begin);
+        }
+    }
 
-    /// Collective: returns the results for these borders. Processes that have nothing to do with them search some of the
-    /// other borders meanwhile.
+    /// Collective: returns the results for these borders. Processes that have nothing to do with them search some of
+    /// their share of the other borders meanwhile.
     std::vector<SearchResult> search(Lines& lines, std::span<const LineBorder> borders) {
-        SearchDealer dealer(ranks_.size());
+        dealer_.begin_round();
         std::vector<DealtBorder> dealt;
-        for (const LineBorder& border : borders) dealt.push_back({&border, dealer.deal(border)});
-        for (; next_ < others_.size() && dealer.has_room(others_[next_]); ++next_)
-            dealt.push_back({&others_[next_], dealer.deal(others_[next_])});
+        for (const LineBorder& border : borders) dealt.push_back({&border, dealer_.deal(border)});
+        std::vector<std::size_t> meanwhile;
+        for (unsigned process = 0; process < ranks_.size(); ++process)
+            for (std::size_t& next = next_[process]; next < end_[process] && dealer_.has_room(process, others_[next]);
+                 ++next) {
+                dealer_.deal_to(process, others_[next]);
+                dealt.push_back({&others_[next], process});
+                meanwhile.push_back(next);
+            }
         std::vector<SearchResult> results = search_together(lines, dealt, spacing_, pieces_target_, ranks_);
-        const auto rest = results.begin() + static_cast<std::ptrdiff_t>(borders.size());
-        of_others_.insert(of_others_.end(), std::make_move_iterator(rest), std::make_move_iterator(results.end()));
-        results.erase(rest, results.end());
+        for (std::size_t i = 0; i < meanwhile.size(); ++i)
+            of_others_[meanwhile[i]] = std::move(results[borders.size() + i]);
+        results.resize(borders.size());
         return results;
     }
 
     /// Collective: returns the results for the other borders.
     std::vector<SearchResult> finish(Lines& lines) {
-        const std::vector<SearchResult> rest = search(lines, others_.subspan(std::exchange(next_, others_.size())));
-        of_others_.insert(of_others_.end(), rest.begin(), rest.end());
+        std::vector<DealtBorder> dealt;
+        std::vector<std::size_t> rest;
+        for (unsigned process = 0; process < ranks_.size(); ++process)
+            for (; next_[process] < end_[process]; ++next_[process]) {
+                dealt.push_back({&others_[next_[process]], process});
+                rest.push_back(next_[process]);
+            }
+        std::vector<SearchResult> results = search_together(lines, dealt, spacing_, pieces_target_, ranks_);
+        for (std::size_t i = 0; i < rest.size(); ++i) of_others_[rest[i]] = std::move(results[i]);
         return std::move(of_others_);
     }
 
@@ -113,8 +139,11 @@ private:
     const SeparatorSpacing& spacing_;
     double pieces_target_;
     Ranks& ranks_;
-    std::size_t next_ = 0;                 ///< the first of the others that is not dealt yet
-    std::vector<SearchResult> of_others_;  ///< of those that are
+    std::vector<std::size_t> next_, end_;  ///< per process: its share of the others that is not searched yet
+    std::vector<SearchResult> of_others_;
+    SearchDealer dealer_;
+
+    unsigned process_of(std::size_t i) const { return simple_region_process(i, others_.size(), ranks_.size()); }
 };
 
 }  // namespace

@@ -81,7 +81,7 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
     }
     if (ranks != nullptr) {
         require_same_lines(lines, *ranks);
-        number_together(lines, spacing, *ranks);
+        uncut.skeleton.number_together(spacing, *ranks);
     } else {
         number_lines(lines, spacing);
     }

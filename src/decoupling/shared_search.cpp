@@ -59,21 +59,33 @@ SearchResult unpack_result(Unpacker& unpacker) {
 
 }  // namespace
 
-SearchDealer::SearchDealer(unsigned processes) {
-    for (unsigned process = 0; process < processes; ++process) heap_.emplace_back(0, process);
+SearchDealer::SearchDealer(unsigned processes) : work_(processes, 0) {
+    for (unsigned process = 0; process < processes; ++process) dealt_.emplace_back(0, process);
+}
+
+void SearchDealer::begin_round() {
+    work_.assign(work_.size(), 0);
+    most_ = 0;
 }
 
 unsigned SearchDealer::deal(const LineBorder& border) {
-    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
-    auto& [work, process] = heap_.back();
+    std::pop_heap(dealt_.begin(), dealt_.end(), std::greater<>());
+    auto& [work, process] = dealt_.back();
     work += work_of(border);
-    most_ = std::max(most_, work);
     const unsigned dealt_to = process;
-    std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    std::push_heap(dealt_.begin(), dealt_.end(), std::greater<>());
+    deal_to(dealt_to, border);
     return dealt_to;
 }
 
-bool SearchDealer::has_room(const LineBorder& border) const { return heap_.front().first + work_of(border) <= most_; }
+void SearchDealer::deal_to(unsigned process, const LineBorder& border) {
+    work_[process] += work_of(border);
+    most_ = std::max(most_, work_[process]);
+}
+
+bool SearchDealer::has_room(unsigned process, const LineBorder& border) const {
+    return work_[process] + work_of(border) <= most_;
+}
 
 std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
                                           const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks) {
@@ -93,24 +105,17 @@ std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBor
     return results;
 }
 
-void number_together(Lines& lines, const SeparatorSpacing& spacing, Ranks& ranks) {
-    // Successive lines go to one process: lines beside each other are often those of one subdomain.
-    const std::size_t n = lines.size(), begin = n * ranks.rank() / ranks.size(),
-                      end = n * (ranks.rank() + 1) / ranks.size();
-    core::parallel_for(end - begin, 1, [&](std::size_t i, std::size_t) {
-        const auto line = static_cast<std::uint32_t>(begin + i);
-        if (!lines.is_loop(line)) lines.divide(line, spacing);
-    });
+void number_together(Lines& lines, std::span<const unsigned> process, const SeparatorSpacing& spacing, Ranks& ranks) {
+    std::vector<std::uint32_t> own;
+    for (std::uint32_t line = 0; line < lines.size(); ++line)
+        if (process[line] == ranks.rank() && !lines.is_loop(line)) own.push_back(line);
+    core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) { lines.divide(own[i], spacing); });
     Packer packer;
-    for (auto line = static_cast<std::uint32_t>(begin); line < end; ++line)
-        if (!lines.is_loop(line)) packer.put_short(lines.divide(line, spacing));
+    for (const std::uint32_t line : own) packer.put_short(lines.divide(line, spacing));
     const std::vector<std::string> told = ranks.all_gather(packer.take());
     std::vector<Unpacker> unpackers(told.begin(), told.end());
-    std::size_t rank = 0;
-    for (std::uint32_t line = 0; line < n; ++line) {
-        while (line >= n * (rank + 1) / ranks.size()) ++rank;
-        if (!lines.is_loop(line)) lines.number(line, unpackers[rank].get_short());
-    }
+    for (std::uint32_t line = 0; line < lines.size(); ++line)
+        if (!lines.is_loop(line)) lines.number(line, unpackers[process[line]].get_short());
 }
 
 }  // namespace lamina::decoupling

@@ -17,7 +17,7 @@
 
 namespace lamina::decoupling {
 
-/// Says which process searches which subdomain: the one that has the least to do so far, and the lowest of these. All
+/// Says which process searches which subdomain: the one that has got the least so far, and the lowest of these. All
 /// processes come to the same answer.
 class SearchDealer {
 public:
@@ -25,11 +25,17 @@ public:
 
     /// Returns the number of the process that searches a border.
     unsigned deal(const LineBorder& border);
-    /// Returns whether the process that would get this border would have no more to do than the busiest one has already.
-    bool has_room(const LineBorder& border) const;
+    /// Begins with what the processes do at the same time next.
+    void begin_round();
+    /// Gives a border to a process, of which deal() takes no account.
+    void deal_to(unsigned process, const LineBorder& border);
+    /// Returns whether a process that gets this border has no more to do in this round than the busiest one has
+    /// already.
+    bool has_room(unsigned process, const LineBorder& border) const;
 
 private:
-    std::vector<std::pair<std::uint64_t, unsigned>> heap_;  ///< what each process has to do, the least on top
+    std::vector<std::uint64_t> work_;                        ///< what each process has to do in this round
+    std::vector<std::pair<std::uint64_t, unsigned>> dealt_;  ///< what deal() has given to each, the least on top
     std::uint64_t most_ = 0;
 };
 
@@ -46,7 +52,13 @@ struct DealtBorder {
 std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
                                           const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks);
 
-/// Collective: divides all lines of `lines`, each by one process, and numbers their vertices.
-void number_together(Lines& lines, const SeparatorSpacing& spacing, Ranks& ranks);
+/// Returns the process that searches the i-th of n regions without holes. Successive regions, which often share a line,
+/// go to one process.
+inline unsigned simple_region_process(std::size_t i, std::size_t n, unsigned processes) {
+    return static_cast<unsigned>(i * processes / n);
+}
+
+/// Collective: divides all lines but loops, each by its process, and numbers their vertices.
+void number_together(Lines& lines, std::span<const unsigned> process, const SeparatorSpacing& spacing, Ranks& ranks);
 
 }  // namespace lamina::decoupling

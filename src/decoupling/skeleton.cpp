@@ -2,6 +2,9 @@
 // segments were traced, line by line, those to the left of the line before those to its right.
 #include "decoupling/skeleton.hpp"
 
+#include <algorithm>
+
+#include "decoupling/shared_search.hpp"
 #include "decoupling/traced_border.hpp"
 
 namespace lamina::decoupling {
@@ -57,13 +60,38 @@ LineLoop Skeleton::loop_of(std::span<const std::uint32_t> edges) const {
     return loop;
 }
 
-std::vector<LineBorder> Skeleton::trace() const {
+void Skeleton::trace_edges() {
+    if (traced_edges_ == edges_.size()) return;
+    traced_ = trace_borders(corners_, ends_);
+    traced_edges_ = edges_.size();
+}
+
+std::vector<LineBorder> Skeleton::trace() {
+    trace_edges();
     std::vector<LineBorder> borders;
-    for (const TracedBorder& traced : trace_borders(corners_, ends_)) {
+    borders.reserve(traced_.size());
+    for (const TracedBorder& region : traced_) {
         LineBorder& border = borders.emplace_back();
-        for (const auto& loop : traced.loops) border.loops.push_back(loop_of(loop));
+        for (const auto& loop : region.loops) border.loops.push_back(loop_of(loop));
     }
     return borders;
+}
+
+void Skeleton::number_together(const SeparatorSpacing& spacing, Ranks& ranks) {
+    trace_edges();
+    const auto is_simple = [](const TracedBorder& region) { return region.loops.size() == 1; };
+    const auto simple = static_cast<std::size_t>(std::count_if(traced_.begin(), traced_.end(), is_simple));
+    std::vector<unsigned> process(lines.size(), ranks.size());
+    std::size_t next = 0;
+    for (const TracedBorder& region : traced_) {
+        if (!is_simple(region)) continue;
+        const unsigned searching = simple_region_process(next++, simple, ranks.size());
+        for (const std::uint32_t e : region.loops.front())
+            if (unsigned& dividing = process[edges_[e].line]; dividing == ranks.size()) dividing = searching;
+    }
+    for (std::uint32_t line = 0; line < lines.size(); ++line)
+        if (process[line] == ranks.size()) process[line] = line % ranks.size();
+    decoupling::number_together(lines, process, spacing, ranks);
 }
 
 std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line) {

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include <lamina/decoupling.hpp>
+#include <lamina/ranks.hpp>
 
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
 #include "decoupling/separators.hpp"
+#include "decoupling/traced_border.hpp"
 
 namespace lamina::decoupling {
 
@@ -36,7 +38,10 @@ public:
 
     /// Returns the borders of all regions between the lines, once all vertices are numbered. Takes time in proportion
     /// to the lines and not to their vertices.
-    std::vector<LineBorder> trace() const;
+    std::vector<LineBorder> trace();
+    /// Collective: numbers the vertices inside all straight lines. A process divides the lines of those regions that
+    /// simple_region_process() gives to it.
+    void number_together(const SeparatorSpacing& spacing, Ranks& ranks);
 
 private:
     /// A line as an edge between corners, in one direction: a whole straight line, or a segment of a closed one.
@@ -47,6 +52,10 @@ private:
     std::vector<Point> corners_;
     std::vector<Segment> ends_;  ///< of the edges, in corners_
     std::vector<Edge> edges_;
+    std::vector<TracedBorder> traced_;  ///< the borders between the first traced_edges_ of the edges
+    std::size_t traced_edges_ = 0;
+
+    void trace_edges();
 
     LineLoop loop_of(std::span<const std::uint32_t> edges) const;
 };

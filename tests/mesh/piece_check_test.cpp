@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -176,6 +178,71 @@ TEST(PieceCheck, NeedsFewTrianglesBehindBorders) {
         EXPECT_EQ(check.isotropic.max_neighbour_area_ratio, expected.isotropic.max_neighbour_area_ratio);
         EXPECT_EQ(check.isotropic.p999_neighbour_area_ratio, expected.isotropic.p999_neighbour_area_ratio);
         EXPECT_LT(told, border_edges);
+    }
+}
+
+/// Checks the pieces where edges that end at vertices from `from` on are matched by themselves, as by another process.
+/// `damage` may change what that process gets.
+MeshCheck check_pieces_with_seams_elsewhere(
+    const CutMesh& cut, VertexId from, const std::function<void(std::vector<mesh::PieceBorderEdge>&)>& damage = {}) {
+    PiecewiseCheck check(cut.shared, {});
+    check.match_elsewhere(from);
+    std::vector<mesh::PieceBorderEdge> elsewhere;
+    std::set<VertexId> vertices;
+    std::vector<std::size_t> first;
+    std::size_t next = 0;
+    const auto is_elsewhere = [&](VertexId v) { return !(v < from); };
+    for (const OwnedPiece& piece : cut.pieces) {
+        mesh::PieceFindings findings = mesh::check_piece(
+            {piece.border, piece.ids, piece.inner, piece.triangles, piece.links, cut.shared}, proved_min_angle_deg);
+        const auto goes = [&](const mesh::PieceBorderEdge& edge) { return is_elsewhere(std::max(edge.a, edge.b)); };
+        std::copy_if(findings.border.begin(), findings.border.end(), std::back_inserter(elsewhere), goes);
+        std::erase_if(findings.border, goes);
+        std::copy_if(findings.border_vertices.begin(), findings.border_vertices.end(),
+                     std::inserter(vertices, vertices.end()), is_elsewhere);
+        std::erase_if(findings.border_vertices, is_elsewhere);
+        check.add_piece(std::move(findings));
+        first.push_back(next);
+        next += piece.triangles.size();
+    }
+    if (damage) damage(elsewhere);
+    mesh::Seams seams(cut.shared);
+    seams.add(elsewhere);
+    seams.match();
+    mesh::SeamFindings found;
+    found.edges = seams.pairs().edges;
+    found.vertices = vertices.size();
+    found.measures = seams.measure([](Segment) { return false; });
+    for (const std::uint32_t e : seams.pairs().boundary) found.one_sided.push_back(seams.edges()[e]);
+    for (const std::uint32_t e : seams.pairs().overused) found.overused.push_back(seams.edges()[e]);
+    check.add_seams(found);
+    return check.finish(cut.markers, cut.constraints, first);
+}
+
+TEST(PieceCheck, TakesSeamsThatWereMatchedElsewhere) {
+    const CutMesh pieces = cut_mesh(uneven_box(), 10.5);
+    const MeshCheck expected = check_pieces(pieces);
+    ASSERT_TRUE(expected.valid());
+    for (const std::size_t from : {std::size_t{0}, pieces.shared.size() / 2, pieces.shared.size()}) {
+        SCOPED_TRACE(from);
+        const VertexId first{from};
+        const MeshCheck check = check_pieces_with_seams_elsewhere(pieces, first);
+        ASSERT_TRUE(check.valid()) << check.defects.front().description;
+        EXPECT_EQ(check.euler_characteristic, expected.euler_characteristic);
+        EXPECT_EQ(check.interior_edges, expected.interior_edges);
+        EXPECT_EQ(check.delaunay_violations, expected.delaunay_violations);
+        EXPECT_EQ(check.isotropic.max_neighbour_area_ratio, expected.isotropic.max_neighbour_area_ratio);
+        EXPECT_EQ(check.isotropic.p999_neighbour_area_ratio, expected.isotropic.p999_neighbour_area_ratio);
+        EXPECT_EQ(check.walls.edges, expected.walls.edges);
+        if (from == pieces.shared.size()) continue;
+        using Edges = std::vector<mesh::PieceBorderEdge>;
+        EXPECT_FALSE(check_pieces_with_seams_elsewhere(pieces, first, [](Edges& edges) { edges.pop_back(); }).valid());
+        EXPECT_FALSE(check_pieces_with_seams_elsewhere(pieces, first, [](Edges& edges) {
+                         edges.push_back(edges.front());
+                     }).valid());
+        EXPECT_FALSE(check_pieces_with_seams_elsewhere(pieces, first, [](Edges& edges) {
+                         std::swap(edges.front().a, edges.front().b);
+                     }).valid());
     }
 }
 
