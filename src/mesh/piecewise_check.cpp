@@ -23,6 +23,18 @@ std::span<const Segment>::iterator find_constraint(std::span<const Segment> cons
     return at != constraints.end() && *at == Segment{a, b} ? at : constraints.end();
 }
 
+/// Returns whether as many of these edges begin at each vertex as end there.
+bool is_closed(std::span<const BoundaryEdge> edges) {
+    std::vector<VertexId> begins, ends;
+    for (const BoundaryEdge& edge : edges) {
+        begins.push_back(edge.ends.a);
+        ends.push_back(edge.ends.b);
+    }
+    std::sort(begins.begin(), begins.end());
+    std::sort(ends.begin(), ends.end());
+    return begins == ends;
+}
+
 /// Calls f(v) for the vertices of all cells.
 template <class F>
 void for_vertices_of_cells(const Mesh& mesh, F&& f) {
@@ -120,7 +132,10 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
     for (const std::uint32_t e : seams_.pairs().boundary)
         boundary.push_back(e < layer_edges_.size() ? layer_edges_[e] : BoundaryEdge{seams_.edges()[e]});
     for (const Segment& edge : elsewhere_.one_sided) boundary.push_back({edge});
-    const bool conforming = seams_.pairs().overused.empty() && elsewhere_.overused.empty();
+    // The borders of pieces are closed. Those that other processes have told are so only if nothing was lost.
+    const bool closed = is_closed(boundary);
+    if (!closed) defects.add([] { return MeshDefect{"the edges of one cell alone do not form loops", {}}; });
+    const bool conforming = closed && seams_.pairs().overused.empty() && elsewhere_.overused.empty();
     check_whole_boundary(shared_points_, markers, boundary, conforming, options_, check, defects);
     forget_borders();
     return finished();
