@@ -4,8 +4,8 @@
     tools/scaling.py build/release/src/app/lamina build/release/bench/lamina_measure_ranks > out/scaling.json
 
 lamina_measure_ranks makes the same mesh on 1, 2, 4 ... ranks and says how much processor time each rank takes for each
-stage. What does not become less with more ranks is repeated by each; what rank 0 alone does is told apart. A file of the
-same mesh says how many triangles each piece has. The replay deals pieces of the same sizes as ranks ask for them, the
+stage. What does not become less with more ranks is repeated by each; what rank 0 alone does is told apart. Runs on a finer
+mesh say which part of both grows with the mesh. A file of the same mesh says how many triangles each piece has. The replay deals pieces of the same sizes as ranks ask for them, the
 largest estimates first, and adds the rest. docs/scaling.md states the assumptions and shows the result.
 """
 
@@ -54,6 +54,15 @@ def sizes_of(program, gradation):
         return piece_sizes(mesh)
 
 
+def measure(program, gradation, ranks):
+    """Returns what the ranks of runs with these numbers of ranks did."""
+    runs = json.loads(subprocess.run([program, str(gradation), *ranks],
+                                     check=True, capture_output=True, text=True).stdout)  # fmt: skip
+    if len({run["hash"] for run in runs}) != 1:
+        sys.exit("the ranks have made different meshes")
+    return runs
+
+
 def stage_seconds(run, names):
     """Returns the processor time of each rank in these stages."""
     return [sum(seconds for name, seconds in stages if name in names) for stages in run["stages"]]
@@ -71,15 +80,27 @@ def summarize(run):
             "bytes_a_piece": run["bytes"] / run["pieces"], "messages": run["messages"]}  # fmt: skip
 
 
-def calibrate(triangles, parts):
-    """Returns the processor time of what every rank repeats, of what is divided, and of rank 0, per triangle."""
+def beyond_share(parts, name):
+    """Returns what the busiest of the most ranks takes beyond its share of what one rank takes."""
     one, most = parts[0], parts[-1]
     share = 1 / most["ranks"]
-    repeated = max(0.0, (most["decoupling"] - share * one["decoupling"]) / (1 - share))
-    return {"layer": one["before"], "cutting_repeated": repeated / triangles,
-            "cutting_divided": (one["decoupling"] - repeated) / triangles,
-            "piece_per_triangle": one["pieces_of_all"] / triangles,
-            "end_at_rank_0": most["end_at_rank_0"] / triangles}  # fmt: skip
+    return max(0.0, (most[name] - share * one[name]) / (1 - share))
+
+
+def calibrate(measured):
+    """Returns the processor time of what is divided, per triangle, and of what every rank repeats or rank 0 does alone.
+
+    `measured` has the triangles and the parts of two meshes. What is repeated has a fixed part and one per triangle.
+    """
+    (triangles, parts), (finer_triangles, finer_parts) = measured
+    cost = {"layer": parts[0]["before"], "piece_per_triangle": parts[0]["pieces_of_all"] / triangles}
+    for name, what in (("cutting", "decoupling"), ("end", "end_at_rank_0")):
+        small, large = beyond_share(parts, what), beyond_share(finer_parts, what)
+        per_triangle = max(0.0, (large - small) / (finer_triangles - triangles))
+        cost[f"{name}_repeated"] = per_triangle
+        cost[f"{name}_fixed"] = max(0.0, small - per_triangle * triangles)
+        cost[f"{name}_divided"] = (parts[0][what] - small) / triangles
+    return cost
 
 
 def replay(ranks, triangles, sizes, cost, model):
@@ -94,12 +115,13 @@ def replay(ranks, triangles, sizes, cost, model):
         noise = 1 + abs(chance.gauss(0, model["noise"]))
         work.append((estimate, size * cost["piece_per_triangle"] * noise))
     work.sort(reverse=True)
-    repeated = cost["cutting_repeated"] * (1 - model["divided_too"])
-    divided = cost["cutting_divided"] + cost["cutting_repeated"] * model["divided_too"]
-    end = cost["end_at_rank_0"] * (1 - model["divided_too"] * (1 - 1 / ranks))
-    if model["search_repeated"] > 0:
-        repeated, divided = repeated + divided, 0.0
-    start = cost["layer"] + triangles * (repeated + divided / ranks)
+    repeated, divided = {}, {}
+    for name in ("cutting", "end"):
+        of_all = cost[f"{name}_fixed"] + triangles * cost[f"{name}_repeated"]
+        repeated[name] = of_all * (1 - model["divided_too"])
+        divided[name] = triangles * cost[f"{name}_divided"] + of_all * model["divided_too"]
+    start = cost["layer"] + repeated["cutting"] + divided["cutting"] / ranks
+    end = repeated["end"] + divided["end"] / ranks
     if ranks >= count:
         last = start + model["fetch_seconds"] + max(seconds for _, seconds in work)
     else:
@@ -112,7 +134,7 @@ def replay(ranks, triangles, sizes, cost, model):
     told = hops * (model["latency_seconds"] * model["rounds"] + 40 * count / model["bytes_per_second"])
     reductions = 4 * hops * model["latency_seconds"]
     output = triangles * model["bytes_per_triangle"] / model["output_bytes_per_second"]
-    return {"seconds": last + triangles * end + told + reductions + output, "pieces": count, "start": start}
+    return {"seconds": last + end + told + reductions + output, "pieces": count, "start": start}
 
 
 def tables(sizes, cost, model):
@@ -132,7 +154,6 @@ def tables(sizes, cost, model):
 
 MODEL = {
     "piece_scale": 1.0,  # size of pieces, relative to those of the run
-    "search_repeated": 0.0,  # 1: every rank searches all separators, as before docs/decisions/0051
     "divided_too": 0.0,  # share of what ranks repeat, and of the end at rank 0, that they would divide as well
     "estimate_error": 0.05,  # of the work of pieces, on either side
     "noise": 0.02,  # of the time of a piece
@@ -144,8 +165,7 @@ MODEL = {
     "output_bytes_per_second": 1e10,  # of the file system, shared by all ranks
 }
 VARIANTS = {
-    "every rank repeats the decomposition, as before": {"search_repeated": 1.0},
-    "ranks divide the search for separators, as now": {},
+    "as now": {},
     "as now, pieces of a quarter": {"piece_scale": 0.25},
     "as now, 24 bytes a triangle to disk": {"bytes_per_triangle": 24.0},
     "ranks divide 90 % of the rest as well": {"divided_too": 0.9},
@@ -158,6 +178,7 @@ def main():
     parser.add_argument("program", help="lamina")
     parser.add_argument("measure", help="lamina_measure_ranks")
     parser.add_argument("--gradation", type=float, default=0.0026, help="of the runs that are measured")
+    parser.add_argument("--finer", type=float, default=0.0013, help="gradation of a finer mesh on one and on most ranks")
     parser.add_argument("--ranks", default="1,2,4,8,16,32", help="of the runs that are measured [%(default)s]")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the model")
     arguments = parser.parse_args()
@@ -166,14 +187,14 @@ def main():
         if name not in MODEL:
             parser.error(f"no parameter '{name}' (known: {', '.join(MODEL)})")
         MODEL[name] = float(value)
-    runs = json.loads(subprocess.run([arguments.measure, str(arguments.gradation), *arguments.ranks.split(",")],
-                                     check=True, capture_output=True, text=True).stdout)  # fmt: skip
-    if len({run["hash"] for run in runs}) != 1:
-        sys.exit("the ranks have made different meshes")
+    ranks = arguments.ranks.split(",")
+    runs = measure(arguments.measure, arguments.gradation, ranks)
+    finer = measure(arguments.measure, arguments.finer, [ranks[0], ranks[-1]])
     triangles = runs[0]["triangles"]
     sizes = sizes_of(arguments.program, arguments.gradation)
     parts = [summarize(run) for run in runs]
-    cost = calibrate(triangles, parts)
+    finer_parts = [summarize(run) for run in finer]
+    cost = calibrate([(triangles, parts), (finer[0]["triangles"], finer_parts)])
     one = replay(1, triangles, sizes, cost, MODEL)["seconds"]
     for part in parts:
         busiest = part["before"] + part["decoupling"] + part["pieces_of_all"] / part["ranks"] + part["end_at_rank_0"]
@@ -184,6 +205,7 @@ def main():
         "triangles": triangles,
         "pieces": runs[0]["pieces"],
         "measured": parts,
+        "finer": {"triangles": finer[0]["triangles"], "pieces": finer[0]["pieces"], "measured": finer_parts},
         "cost": cost,
         "model": MODEL,
         "replayed": {name: tables(sizes, cost, {**MODEL, **change}) for name, change in VARIANTS.items()},
