@@ -24,15 +24,20 @@ namespace {
 using core::Packer;
 using core::Unpacker;
 
-/// Stores what the others need to know of the border of a piece.
-void describe_border(const SharedDecoupling& shared, HeldPiece& held) {
+/// Returns what the others need to know of the border of a piece.
+HeldPiece describe_border(const SharedDecoupling& shared, std::size_t number, mesh::PieceFindings& findings) {
+    HeldPiece held;
+    held.piece = number;
+    held.apexes = apexes_of(*shared.subdomains[number], findings);
     const std::span<const Point> points = shared.points();
-    const std::vector<Segment> chain = shared.chain(held.piece);
+    const std::vector<Segment> chain = shared.chain(number);
+    held.shape_classes.reserve(chain.size());
     for (std::size_t i = 0; i < chain.size(); ++i) {
-        held.shape_classes.push_back(
-            mesh::shape_class_behind(points[chain[i].a.index()], points[chain[i].b.index()], held.apexes[i]));
+        const Point a = points[chain[i].a.index()], b = points[chain[i].b.index()];
+        held.shape_classes.push_back(mesh::shape_class_behind(a, b, held.apexes[i]));
         held.places += hash_of_places(chain[i], points);
     }
+    return held;
 }
 
 /// Throws MeshError where the edges of two sides do not lie at the same places on both of them.
@@ -79,10 +84,7 @@ HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t
         CheckedPiece made =
             refine_and_check_piece(subdomain, shared.points(), shared.pieces(), min_angle_deg, times, work);
         mesh::PieceFindings& findings = made.facts.findings;
-        HeldPiece piece;
-        piece.piece = number;
-        piece.apexes = apexes_of(subdomain, findings);
-        describe_border(shared, piece);
+        HeldPiece piece = describe_border(shared, number, findings);
         findings.border = {};
         findings.border_vertices = {};
         mesh::QualityCollector totals(min_angle_deg);

@@ -102,8 +102,19 @@ std::vector<std::string> SharedSeams::pack_borders() const {
         concerned.clear();
     }
     std::vector<std::string> texts;
+    texts.reserve(packers.size());
     for (Packer& packer : packers) texts.push_back(packer.take());
     return texts;
+}
+
+void SharedSeams::take_vertex(VertexId v) {
+    if (owners_.is_in_layer(v)) {
+        vertices_in_layer_.push_back(v);
+        return;
+    }
+    const std::size_t place = owners_.place(v);
+    if (used_.size() <= place) used_.resize(place + 1, 0);
+    used_[place] = 1;
 }
 
 void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
@@ -113,16 +124,8 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
         const auto piece = static_cast<std::uint32_t>(unpacker.get_short());
         const std::string classes = unpacker.get_text();
         for (const decoupling::LineLoop& loop : shared_.cut.borders[piece].border.loops)
-            for (const VertexId v : decoupling::ids_of(loop, shared_.cut.lines)) {
-                if (owners_.owner(v) != self) continue;
-                if (owners_.is_in_layer(v)) {
-                    vertices_in_layer_.push_back(v);
-                    continue;
-                }
-                const std::size_t place = owners_.place(v);
-                if (used_.size() <= place) used_.resize(place + 1, 0);
-                used_[place] = 1;
-            }
+            for (const VertexId v : decoupling::ids_of(loop, shared_.cut.lines))
+                if (owners_.owner(v) == self) take_vertex(v);
         const std::vector<Segment> chain = shared_.chain(piece);
         std::size_t next = 0;
         for (std::uint32_t i = 0; i < chain.size(); ++i) {

@@ -82,6 +82,7 @@ private:
         std::vector<Source> sources;
     };
     std::vector<std::string> pack_borders() const;
+    void take_vertex(VertexId v);
     void take_borders(std::uint32_t rank, const std::string& told);
     std::string answer(const std::string& questions) const;
 
