@@ -1,5 +1,5 @@
-// Parallel loops and tasks on the threads of the standard library alone (LAMINA_THREADS=std), for machines without
-// oneTBB.
+// Parallel loops and tasks on the threads of the standard library alone (LAMINA_THREADS=std), for pages in a browser and
+// for machines without oneTBB.
 //
 // with_threads() starts the threads of a crew, which take jobs from a list until it ends. The thread that posts a job
 // works at it, too; then it withdraws what nobody has taken, and waits for those who work at it still. While it waits

@@ -1,4 +1,4 @@
-// What loops and tasks are to the threads that run them, whatever starts the threads.
+// A parallel loop and a task as the threads see them that run them. Nothing here starts a thread.
 #pragma once
 
 #include <algorithm>

@@ -38,7 +38,8 @@ public:
     /// Returns what finish() needs beyond findings with unknown_apex, whose pieces other processes hold, in ascending
     /// order. The edges of all pieces are numbered in the order in which they were added.
     LAMINA_EXPORT std::vector<Wanted> wanted();
-    /// As wanted(), where the edges here are some of all, and ratios of areas up to this one need not be known.
+    /// Returns what wanted() returns, where the edges here are some of all, and ratios of areas up to this one need not be
+    /// known.
     LAMINA_EXPORT std::vector<Wanted> wanted(double even_ratio);
     /// Returns the ratios of areas in all pieces, and the least ones between pieces, on both sides of these edges.
     LAMINA_EXPORT QualityCollector least_ratios();

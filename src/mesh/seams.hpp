@@ -19,7 +19,7 @@
 
 namespace lamina::mesh {
 
-/// What the pairs of edges that fit together add to the check of a mesh.
+/// The numbers that pairs of edges which fit together add to the check of a mesh.
 struct SeamMeasures {
     DelaunayCount delaunay;      ///< of the edges between two pieces
     QualityCollector ratios{0};  ///< of the areas on both sides of these
@@ -84,7 +84,7 @@ private:
     bool matched_ = false;
 };
 
-/// What a process has found out about seams that it has matched for all. The edges of the layer are not among them.
+/// The findings of one process about the seams that it has matched for all. The edges of the layer are not among them.
 struct SeamFindings {
     std::size_t edges = 0;     ///< each once, whether it has two sides or one
     std::size_t vertices = 0;  ///< those of its vertices that some piece has

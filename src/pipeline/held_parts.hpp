@@ -27,7 +27,7 @@ struct HeldNumbers {
 
 class HeldParts : public MeshParts {
 public:
-    /// Of the vertices of the decoupling each process has a share. Rank 0 holds the layer, too.
+    /// Each process has a share of the vertices of the decoupling. Rank 0 holds the layer, too.
     HeldParts(std::unique_ptr<SharedDecoupling> shared, LayerCells cells, HeldNumbers held, const MeshCounts& counts,
               const Ranks& ranks);
 

@@ -1,4 +1,4 @@
-// What the processes tell rank 0 of the pieces that they have made, and how it adds them up.
+// The records of pieces that processes send to rank 0, and the sums that rank 0 makes of them.
 #pragma once
 
 #include <cstddef>

@@ -73,7 +73,7 @@ public:
     std::uint64_t places() const;
 
 private:
-    /// Where an edge comes from.
+    /// The process and the piece that an edge comes from, and the number of the edge there.
     struct Source {
         std::uint32_t rank = 0, piece = 0, edge = 0;  ///< the edge is numbered in border_chain()
     };
