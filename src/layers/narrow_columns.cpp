@@ -36,8 +36,8 @@ namespace {
 constexpr double narrow_share = 0.8;
 /// A column has this length at least, so that the string goes forward.
 constexpr double least_length = 1e-6;
-/// It counts as this many heights wide at most, as columns without layers do, so that sums of lengths are exact enough
-/// for short ones.
+/// A column counts as this many heights wide at most, as columns without layers do, so that sums of lengths are exact
+/// enough for short ones.
 constexpr double most_width = 10;
 
 /// A place that the string goes through.

@@ -8,10 +8,13 @@
 #include <vector>
 
 #include <lamina/error.hpp>
+#include <lamina/ids.hpp>
 #include <lamina/io.hpp>
+#include <lamina/point.hpp>
 #include <lamina/shared_mesh.hpp>
 #include <lamina/stream.hpp>
 
+#include "pipeline/shared_seams.hpp"
 #include "pipeline/stream_cases.hpp"
 #include "support/pvtu_parts.hpp"
 #include "support/temporary_folder.hpp"
@@ -65,6 +68,17 @@ void expect_same_mesh(const TemporaryFolder& folder, const StreamCase& c, const 
     EXPECT_EQ(failure, "");
     EXPECT_TRUE(folder.read("shared" + format) == folder.read("stream" + format)) << format;
     std::filesystem::remove(file);
+}
+
+TEST(SharedMesh, HashesOfPlacesCancelWherePlacesAreTheSame) {
+    const std::vector<Point> points{{0, 0}, {1, 0.5}, {2, -3}};
+    std::vector<Point> moved = points;
+    moved[1].y += 0x1p-53;
+    const Segment edge{VertexId{0}, VertexId{1}}, opposite{VertexId{1}, VertexId{0}}, other{VertexId{1}, VertexId{2}};
+    EXPECT_EQ(pipeline::hash_of_places(edge, points) + pipeline::hash_of_places(opposite, points), 0u);
+    EXPECT_NE(pipeline::hash_of_places(edge, points) + pipeline::hash_of_places(opposite, moved), 0u);
+    EXPECT_NE(pipeline::hash_of_places(edge, points), pipeline::hash_of_places(opposite, points));
+    EXPECT_NE(pipeline::hash_of_places(edge, points), pipeline::hash_of_places(other, points));
 }
 
 TEST(SharedMesh, IsTheMeshOfOneProcess) {
