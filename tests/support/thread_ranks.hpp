@@ -22,7 +22,8 @@ namespace lamina::test {
 
 /// What the threads share.
 struct RankHub {
-    RankHub(unsigned n, unsigned taker) : slots(n), from_to(n), first_taker(taker), barrier(n) {}
+    RankHub(unsigned n, unsigned taker) : ranks(n), slots(n), from_to(n), first_taker(taker), barrier(n) {}
+    const unsigned ranks;  ///< their number
     std::vector<std::string> slots;
     std::vector<std::vector<std::string>> from_to;  ///< what each rank sends to each
     std::atomic<unsigned> lowest_failed{0};
@@ -59,7 +60,7 @@ class ThreadRanks : public Ranks {
 public:
     ThreadRanks(unsigned rank, RankHub& hub) : rank_(rank), hub_(hub) {}
     unsigned rank() const override { return rank_; }
-    unsigned size() const override { return static_cast<unsigned>(hub_.slots.size()); }
+    unsigned size() const override { return hub_.ranks; }
 
 protected:
     unsigned lowest_failed(bool failed) override {
