@@ -14,6 +14,7 @@
 
 #include "core/bounding_box.hpp"
 #include "core/parallel.hpp"
+#include "delaunay/sort_by_bits.hpp"
 
 namespace lamina::delaunay {
 
@@ -73,20 +74,6 @@ private:
     double scale_ = 0;
 };
 
-/// Sorts the items by their bits from `first_bit` up; items whose bits agree keep their order.
-inline void radix_sort(std::vector<std::uint64_t>& items, unsigned first_bit) {
-    constexpr unsigned digit_bits = 11;
-    constexpr std::size_t digits = std::size_t{1} << digit_bits;
-    std::vector<std::uint64_t> other(items.size());
-    for (unsigned shift = first_bit; shift < 64; shift += digit_bits) {
-        std::array<std::uint32_t, digits + 1> start{};
-        for (const std::uint64_t k : items) ++start[(k >> shift & (digits - 1)) + 1];
-        for (std::size_t d = 1; d < digits; ++d) start[d] += start[d - 1];
-        for (const std::uint64_t k : items) other[start[k >> shift & (digits - 1)]++] = k;
-        items.swap(other);
-    }
-}
-
 /// Points in the order of their positions along the curve.
 class CurveOrder {
 public:
@@ -100,11 +87,7 @@ public:
         core::parallel_for(points.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) items_[i] = key(curve(points[i])) << index_bits_ | i;
         });
-        constexpr std::size_t min_radix_size = 2000;  // std::sort() is quicker below
-        if (items_.size() < min_radix_size)
-            std::sort(items_.begin(), items_.end());
-        else
-            radix_sort(items_, index_bits_);
+        sort_by_bits(items_, index_bits_, index_bits_ + key_bits);
     }
     std::size_t size() const { return items_.size(); }
     /// Returns the index of the i-th point along the curve.

@@ -17,6 +17,7 @@
 #include "core/parallel.hpp"
 #include "delaunay/pieces/convex_hull.hpp"
 #include "delaunay/pieces/cut_piece.hpp"
+#include "delaunay/pieces/grow_in_parts.hpp"
 #include "delaunay/pieces/leaf_brio.hpp"
 #include "delaunay/pieces/vertex_index_map.hpp"
 #include "delaunay/pieces/whole_piece.hpp"
@@ -160,7 +161,7 @@ PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, cons
     }
     if (!whole.border.empty()) return triangulate_and_join(*sorted, std::move(whole), options, times);
     const core::BusyTimes::Scope busy(times, triangulating);
-    return one_piece(without_ghosts(triangulate_points(points)).triangles, points.size());
+    return one_piece(triangulate_in_parts(points), points.size());
 }
 
 PiecewiseTriangulation triangulate_in_pieces(std::span<const Point> points, std::span<const Segment> border,
