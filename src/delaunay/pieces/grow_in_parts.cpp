@@ -107,6 +107,7 @@ public:
     }
 
 private:
+    /// Inserts the vertices that wait, in their order. Those near the same vertex of the sample follow one another.
     void insert_waiting(std::span<const Point> points, std::span<const Index> order) {
         Cavity cavity;
         Index recent = no_index, last_near = no_index;
