@@ -39,10 +39,10 @@ namespace lamina::delaunay::pieces {
 
 namespace {
 
-constexpr std::size_t point_grain = 1 << 14;
+constexpr std::size_t growth_grain = 1 << 14;
 
 /// One point of so many is in the sample. In a smaller sample triangles at borders hold more points, which wait.
-constexpr std::size_t points_per_sample = 64;
+constexpr std::size_t points_per_sampled_one = 64;
 
 /// Points of a part, more or less.
 constexpr std::size_t points_per_part = 1 << 16;
@@ -56,7 +56,7 @@ void bring_outermost_forward(std::size_t sample, std::vector<Index>& order, Grow
     const auto further = [&](unsigned d, Index a, Index b) {
         return dot(grown.vertices[a] - grown.vertices[b], directions[d]) > 0;
     };
-    const auto blocks = core::parallel_blocks(order.size(), point_grain, [&](std::size_t begin, std::size_t end) {
+    const auto blocks = core::parallel_blocks(order.size(), growth_grain, [&](std::size_t begin, std::size_t end) {
         Outermost found;
         found.fill(static_cast<Index>(begin + 1));
         for (std::size_t i = begin + 1; i < end; ++i)
@@ -79,7 +79,7 @@ void bring_outermost_forward(std::size_t sample, std::vector<Index>& order, Grow
 }
 
 /// The triangles of a part or of all parts, and one of them at each vertex of the sample.
-struct Part {
+struct GrowingPart {
     Tris tris;
     std::vector<Index> at_sample;  ///< no_index for vertices of the sample in other parts
     std::vector<Index> waiting;    ///< vertices that were not inserted
@@ -126,23 +126,24 @@ private:
     void deal() {
         const bool by_place = !division_.along.empty();
         if (!by_place) near_ = core::UninitializedArray<Index>(vertices_.size() - first_);
-        dealt_ = core::parallel_blocks(vertices_.size() - first_, point_grain, [&](std::size_t begin, std::size_t end) {
-            std::vector<std::vector<Index>> dealt(parts_.size());
-            Index recent = beside_ghost(sample_, 0);
-            for (std::size_t i = begin; i < end; ++i) {
-                const Point p = vertices_[first_ + i];
-                const auto v = static_cast<Index>(first_ + i);
-                if (by_place) {
-                    dealt[division_.part_near(p)].push_back(v);
-                    continue;
+        dealt_ =
+            core::parallel_blocks(vertices_.size() - first_, growth_grain, [&](std::size_t begin, std::size_t end) {
+                std::vector<std::vector<Index>> dealt(parts_.size());
+                Index recent = beside_ghost(sample_, 0);
+                for (std::size_t i = begin; i < end; ++i) {
+                    const Point p = vertices_[first_ + i];
+                    const auto v = static_cast<Index>(first_ + i);
+                    if (by_place) {
+                        dealt[division_.part_near(p)].push_back(v);
+                        continue;
+                    }
+                    const Point from = vertices_[sample_[recent].v[0]];
+                    near_[i] = delaunay::find_place<false>(vertices_.data(), sample_.data(), recent, from, p);
+                    dealt[division_.part[near_[i]]].push_back(v);
+                    recent = beside_ghost(sample_, near_[i]);
                 }
-                const Point from = vertices_[sample_[recent].v[0]];
-                near_[i] = delaunay::find_place<false>(vertices_.data(), sample_.data(), recent, from, p);
-                dealt[division_.part[near_[i]]].push_back(v);
-                recent = beside_ghost(sample_, near_[i]);
-            }
-            return dealt;
-        });
+                return dealt;
+            });
     }
     /// Returns a vertex of the sample near a vertex behind it.
     Index near_in_sample(Index v) const {
@@ -162,7 +163,7 @@ private:
     }
 
     /// Cuts a part out of the sample, with borders round it.
-    void cut_out(std::size_t k, Part& part) const {
+    void cut_out(std::size_t k, GrowingPart& part) const {
         for (std::size_t i = division_.first[k]; i < division_.first[k + 1]; ++i) {
             Tri t = sample_[division_.order[i]];
             for (Link& n : t.n)
@@ -173,7 +174,7 @@ private:
     }
 
     void grow(std::size_t k) {
-        Part& part = parts_[k];
+        GrowingPart& part = parts_[k];
         std::size_t count = division_.first[k + 1] - division_.first[k];
         for (const auto& block : dealt_) count += 2 * block[k].size();
         part.tris.reserve(count);
@@ -199,25 +200,25 @@ private:
     /// Returns a triangle whose circle holds vertex v, or which has an equal vertex; no_index where a border bars the
     /// way from `start`, or where that is no_index. Precondition: `start` is no ghost.
     template <bool Borders>
-    Index find_place(const Part& part, Index start, Index v) const {
+    Index find_place(const GrowingPart& part, Index start, Index v) const {
         if (start == no_index) return no_index;
         const Point from = vertices_[part.tris[start].v[0]];
         return delaunay::find_place<Borders>(vertices_.data(), part.tris.data(), start, from, vertices_[v]);
     }
     /// Returns a triangle at a vertex of the sample, for find_place().
-    Index start_at(const Part& part, Index v) const {
+    Index start_at(const GrowingPart& part, Index v) const {
         const Index t = part.at_sample[v];
         return t == no_index ? no_index : beside_ghost(part.tris, t);
     }
 
-    Index equal_vertex(const Part& part, Index place, Index v) const {
+    Index equal_vertex(const GrowingPart& part, Index place, Index v) const {
         for (const Index w : part.tris[place].v)
             if (vertices_[w] == vertices_[v]) return w;
         return no_index;
     }
 
     /// Inserts a vertex, unless its cavity ends at a border.
-    bool insert(Part& part, Index place, Index v, Cavity& cavity) const {
+    bool insert(GrowingPart& part, Index place, Index v, Cavity& cavity) const {
         const Point p = vertices_[v];
         find_cavity<true>(vertices_.data(), part.tris.data(), place, relative_to(vertices_.data(), part.tris[place], p),
                           p, cavity);
@@ -236,7 +237,7 @@ private:
     /// Puts the parts one behind the other, in the place of the sample.
     void join() {
         std::vector<Index> first{0};  // the first triangle of each part
-        for (Part& part : parts_) {
+        for (GrowingPart& part : parts_) {
             first.push_back(first.back() + static_cast<Index>(part.tris.size()));
             all_.waiting.insert(all_.waiting.end(), part.waiting.begin(), part.waiting.end());
         }
@@ -266,15 +267,15 @@ private:
     Division division_;
     Index first_;  ///< the first vertex behind the sample
     Tris sample_;
-    Part all_;  ///< all triangles, once the parts are joined
-    std::vector<Part> parts_;
+    GrowingPart all_;  ///< all triangles, once the parts are joined
+    std::vector<GrowingPart> parts_;
     core::UninitializedArray<Index> near_;                ///< for each vertex from first_ on its triangle in the sample
     std::vector<std::vector<std::vector<Index>>> dealt_;  ///< vertices from first_ on in blocks, and there by parts
 };
 
 /// Writes all triangles but the ghosts, with the indices of points. Precondition: `triangles` has room for all.
 void put_triangles_of_points(const Tris& tris, std::span<const Index> order, std::vector<Triangle>& triangles) {
-    const auto count = core::parallel_blocks(tris.size(), point_grain, [&](std::size_t begin, std::size_t end) {
+    const auto count = core::parallel_blocks(tris.size(), growth_grain, [&](std::size_t begin, std::size_t end) {
         std::size_t inner = 0;
         for (std::size_t t = begin; t < end; ++t) inner += !is_growing_ghost(tris[t]);
         return inner;
@@ -282,8 +283,8 @@ void put_triangles_of_points(const Tris& tris, std::span<const Index> order, std
     std::vector<std::size_t> first(count.size() + 1, 0);
     std::partial_sum(count.begin(), count.end(), first.begin() + 1);
     triangles.resize(first.back());
-    core::parallel_for(tris.size(), point_grain, [&](std::size_t begin, std::size_t end) {
-        Triangle* to = triangles.data() + first[begin / point_grain];
+    core::parallel_for(tris.size(), growth_grain, [&](std::size_t begin, std::size_t end) {
+        Triangle* to = triangles.data() + first[begin / growth_grain];
         for (std::size_t t = begin; t < end; ++t) {
             if (is_growing_ghost(tris[t])) continue;
             const Index* v = tris[t].v;
@@ -295,7 +296,7 @@ void put_triangles_of_points(const Tris& tris, std::span<const Index> order, std
 }  // namespace
 
 std::vector<Triangle> triangulate_in_parts(std::span<const Point> points) {
-    const std::size_t parts = points.size() / points_per_part, sample = points.size() / points_per_sample;
+    const std::size_t parts = points.size() / points_per_part, sample = points.size() / points_per_sampled_one;
     if (parts < 2) return without_ghosts(triangulate_points(points)).triangles;
     check_points(points);
     std::vector<Index> order;
