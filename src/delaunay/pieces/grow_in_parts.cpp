@@ -89,7 +89,7 @@ struct GrowingPart {
 class PartwiseGrowth {
 public:
     /// Precondition: `room` is as large as there will be triangles.
-    PartwiseGrowth(GrowingTriangulation& grown, Division division, std::size_t sample, Tris room)
+    PartwiseGrowth(GrowingTriangulation& grown, TriangleParts division, std::size_t sample, Tris room)
         : vertices_(grown.vertices),
           division_(std::move(division)),
           first_(static_cast<Index>(sample + 1)),
@@ -264,7 +264,7 @@ private:
     }
 
     std::span<const Point> vertices_;
-    Division division_;
+    TriangleParts division_;
     Index first_;  ///< the first vertex behind the sample
     Tris sample_;
     GrowingPart all_;  ///< all triangles, once the parts are joined
@@ -301,7 +301,7 @@ std::vector<Triangle> triangulate_in_parts(std::span<const Point> points) {
     check_points(points);
     std::vector<Index> order;
     GrowingTriangulation grown;
-    std::optional<Division> division;
+    std::optional<TriangleParts> division;
     Tris room;
     std::vector<Triangle> triangles;
     core::parallel_invoke(

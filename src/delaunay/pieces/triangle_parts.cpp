@@ -14,8 +14,8 @@ namespace lamina::delaunay::pieces {
 namespace {
 
 /// Divides an order of triangles into parts of equal size.
-Division divide(std::vector<Index> order, std::size_t parts) {
-    Division d;
+TriangleParts divide(std::vector<Index> order, std::size_t parts) {
+    TriangleParts d;
     d.order = std::move(order);
     const std::size_t count = d.order.size();
     d.place.resize(count);
@@ -30,7 +30,7 @@ Division divide(std::vector<Index> order, std::size_t parts) {
 }
 
 /// Returns whether few of the triangles have a neighbour in another part.
-bool has_short_borders(const Tris& tris, const Division& division) {
+bool has_short_borders(const Tris& tris, const TriangleParts& division) {
     std::size_t count = 0;
     for (Index t = 0; t < tris.size(); ++t)
         count +=
@@ -84,7 +84,7 @@ Point main_direction(std::span<const std::array<Point, 2>> edges) {
 
 /// Divides the triangles in the order of their shortest edges along the direction that these have on the whole. The
 /// shortest edge of a triangle between two lines lies on one of them, and so does that of a needle along a line.
-Division divide_across(const GrowingTriangulation& grown, std::size_t parts) {
+TriangleParts divide_across(const GrowingTriangulation& grown, std::size_t parts) {
     std::vector<std::array<Point, 2>> edges;
     edges.reserve(grown.tris.size());
     for (const Tri& t : grown.tris) edges.push_back(shortest_edge(grown, t));
@@ -96,7 +96,7 @@ Division divide_across(const GrowingTriangulation& grown, std::size_t parts) {
     std::vector<Index> order(places.size());
     std::vector<double> along(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) std::tie(along[i], order[i]) = places[i];
-    Division division = divide(std::move(order), parts);
+    TriangleParts division = divide(std::move(order), parts);
     division.direction = direction;
     division.along = std::move(along);
     return division;
@@ -104,12 +104,12 @@ Division divide_across(const GrowingTriangulation& grown, std::size_t parts) {
 
 }  // namespace
 
-Index Division::near(Point p) const {
+Index TriangleParts::near(Point p) const {
     const auto at = std::lower_bound(along.begin(), along.end() - 1, dot(p, direction));
     return order[static_cast<std::size_t>(at - along.begin())];
 }
 
-std::size_t Division::part_near(Point p) const {
+std::size_t TriangleParts::part_near(Point p) const {
     const double at = dot(p, direction);
     std::size_t k = 0, end = size();
     while (end - k > 1) {
@@ -119,13 +119,13 @@ std::size_t Division::part_near(Point p) const {
     return k;
 }
 
-std::optional<Division> find_parts(const GrowingTriangulation& grown, std::size_t parts) {
+std::optional<TriangleParts> find_parts(const GrowingTriangulation& grown, std::size_t parts) {
     // Lines across are short between lines that run the same way, and in a fan; ...
-    Division across = divide_across(grown, parts);
+    TriangleParts across = divide_across(grown, parts);
     if (has_short_borders(grown.tris, across)) return across;
     // ... rings round its centre are in a cross, where each triangle leads to the next one. The triangle that a search
     // finds last lies at an end, and layers seen from there are short.
-    Division by_steps = divide(breadth_first(grown.tris, breadth_first(grown.tris, 0).back()), parts);
+    TriangleParts by_steps = divide(breadth_first(grown.tris, breadth_first(grown.tris, 0).back()), parts);
     if (has_short_borders(grown.tris, by_steps)) return by_steps;
     return {};
 }

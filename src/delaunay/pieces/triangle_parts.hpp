@@ -1,4 +1,4 @@
-// Division of a triangulation into parts with short borders.
+// TriangleParts of a triangulation into parts with short borders.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace lamina::delaunay::pieces {
 
 /// The parts of a triangulation, of about equally many triangles.
-struct Division {
+struct TriangleParts {
     std::vector<Index> order;        ///< the triangles, part by part
     std::vector<Index> place;        ///< for each triangle its place in `order`
     std::vector<Index> part;         ///< for each triangle its part
@@ -32,6 +32,6 @@ struct Division {
 
 /// Returns so many parts, where a sixteenth of the triangles at most has a neighbour in another part; nothing where no
 /// such parts were found. Precondition: the triangulation is not empty.
-std::optional<Division> find_parts(const GrowingTriangulation& grown, std::size_t parts);
+std::optional<TriangleParts> find_parts(const GrowingTriangulation& grown, std::size_t parts);
 
 }  // namespace lamina::delaunay::pieces
