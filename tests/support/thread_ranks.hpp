@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <exception>
 #include <fstream>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -137,12 +136,12 @@ private:
 
 /// Calls work(ranks) as each of `n` ranks at once. What it throws goes through Ranks::fail(), as in the program, and the
 /// line that all ranks end with is returned; empty: none has failed. `first_taker` is the rank that takes the first piece.
-inline std::string run_ranks(unsigned n, const std::function<void(Ranks&)>& work,
-                             std::optional<unsigned> first_taker = {}) {
+template <class RankClass = ThreadRanks, class Work>
+std::string run_ranks(unsigned n, Work&& work, std::optional<unsigned> first_taker = {}) {
     RankHub hub(n, first_taker.value_or(n));
     std::vector<std::string> lines(n);
     const auto run = [&](unsigned rank) {
-        ThreadRanks ranks(rank, hub);
+        RankClass ranks(rank, hub);
         try {
             try {
                 work(ranks);
