@@ -33,8 +33,8 @@ struct OuterRegion {
 };
 
 /// Cuts the outer region as decouple() does, and throws what it throws. Collective where `ranks` are given: they divide
-/// the work among themselves, and each divides those lines alone that it needs for its share, and those of the far
-/// field; throws MeshError on rank 0 where another process would cut another region.
+/// the work among themselves, and each divides those lines alone that it needs for its share; throws MeshError on rank 0
+/// where another process would cut another region.
 LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr);
 
 /// Makes a subdomain from its border. Divides its lines. `spacing` holds the size field and the rule of the region.

@@ -90,7 +90,6 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
         return uncut;
     }
     for (const std::uint32_t line : outermost_lines) {
-        lines.divide(line, spacing);
         const std::vector<Segment> edges = edges_along(lines, line);
         uncut.far_field.insert(uncut.far_field.end(), edges.begin(), edges.end());
     }

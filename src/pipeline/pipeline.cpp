@@ -188,6 +188,11 @@ std::vector<std::size_t> first_triangles(std::span<const Refinement> refinements
     return in_order;
 }
 
+/// Returns whether markers depend on where the edges of the far field lie.
+bool divides_far_field(const CaseOptions& options) {
+    return options.inlet_outlet || options.far_field.tunnel || options.far_field.ground;
+}
+
 /// Returns the markers of the mesh, with the far field divided if the options ask for it.
 std::vector<Marker> markers_of(const RayPlan& plan, const CaseOptions& options, const Layer& layer,
                                std::span<const Point> points, const std::vector<Segment>& far_field) {
@@ -279,6 +284,7 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
     HeldPieces held;
     const auto fill_layer = [&] {
         if (!destination.checks()) return;
+        shared.place(shared.cut.far_field);  // for the check of the boundary
         made.cells = work.fill_layer();
         check_layer(work, made);
     };
@@ -356,6 +362,7 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     seconds.decoupling += clock.lap();
 
     result.threads = thread_count();
+    if (shared && divides_far_field(options)) shared->place(shared->cut.far_field);
     std::vector<Marker> markers =
         markers_of(plan, options, layer, points, shared ? shared->cut.far_field : decoupling.far_field);
     const std::span<const Segment> constraints = layer.edges.interfaces;

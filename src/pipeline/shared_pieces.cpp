@@ -42,10 +42,8 @@ HeldPiece describe_border(const SharedDecoupling& shared, std::size_t number, me
 
 /// Throws MeshError where the edges of two sides do not lie at the same places on both of them.
 void require_same_places(SharedDecoupling& shared, std::uint64_t places, std::span<const Segment> one_sided) {
-    for (const Segment& edge : one_sided) {
-        for (const VertexId end : {edge.a, edge.b}) shared.place(end.index(), end.index() + 1);
-        places -= hash_of_places(edge, shared.points());
-    }
+    shared.place(one_sided);
+    for (const Segment& edge : one_sided) places -= hash_of_places(edge, shared.points());
     if (places != 0)
         throw MeshError(
             "processes have divided a line between pieces in different ways: all must run the same program on "
@@ -66,6 +64,11 @@ SharedDecoupling::SharedDecoupling(decoupling::CutRegion cut_region, const SizeF
 
 void SharedDecoupling::place(std::size_t begin, std::size_t end) {
     cut.lines.divide_between(VertexId{begin}, VertexId{end}, {size, rule});
+}
+
+void SharedDecoupling::place(std::span<const Segment> edges) {
+    for (const Segment& edge : edges)
+        for (const VertexId end : {edge.a, edge.b}) place(end.index(), end.index() + 1);
 }
 
 const Subdomain& SharedDecoupling::make_subdomain(std::size_t i) {

@@ -33,13 +33,15 @@ struct SharedDecoupling {
     std::size_t pieces() const { return cut.borders.size(); }
     /// Returns the number of vertices that no line of the decoupling has added.
     std::size_t layer_vertices() const { return cut.lines.vertices() - cut.separator_vertices; }
-    /// Returns an array of the vertices of the decoupling by their ids. Only those of the layer, of the far field, of
-    /// subdomains that were made and of lines that were divided have their places in it.
+    /// Returns an array of the vertices of the decoupling by their ids. Only those of the layer, of subdomains that were
+    /// made and of lines that were divided have their places in it.
     std::span<const Point> points() const { return cut.lines.gathered(); }
     /// Returns the border_chain() of a piece.
     std::vector<Segment> chain(std::size_t piece) const { return border_chain(cut.borders[piece].border, cut.lines); }
     /// Divides the lines that these vertices are on, so that they have their places.
     void place(std::size_t begin, std::size_t end);
+    /// Does so with the ends of these edges.
+    void place(std::span<const Segment> edges);
     /// Makes a subdomain. May be called for several of them at the same time.
     const Subdomain& make_subdomain(std::size_t i);
 };
