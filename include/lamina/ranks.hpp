@@ -70,6 +70,9 @@ public:
     void reset_counter();
     /// Returns the counter and adds 1 to it, at once for all ranks. Any thread may call it, and no rank waits for another.
     std::uint64_t next_number();
+    /// Returns whether a rank has failed since the counter was set to 0. Any thread may call it, and no rank waits for
+    /// another.
+    bool has_failed();
 
     /// Collective: does nothing but ask whether a rank has failed.
     void agree();

@@ -51,6 +51,11 @@ std::uint64_t Ranks::next_number() {
     return do_add_to_counter(1);
 }
 
+bool Ranks::has_failed() {
+    count(sizeof(std::uint64_t));
+    return do_add_to_counter(0) >= beyond_all;
+}
+
 std::vector<std::string> Ranks::gather(std::string_view bytes) {
     agree();
     count(rank() == 0 ? 0 : bytes.size());

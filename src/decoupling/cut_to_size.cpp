@@ -34,7 +34,7 @@ public:
         for (std::size_t i = 0; i < borders.size(); ++i) {
             auto& separator = results[i].separator;
             if (!separator) {
-                done_.push_back({std::move(borders[i]), results[i].estimate});
+                done_.push_back({std::move(borders[i]), results[i].estimate, results[i].process});
                 continue;
             }
             auto& [from, to, vertices, interior] = *separator;

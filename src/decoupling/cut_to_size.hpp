@@ -17,6 +17,7 @@ namespace lamina::decoupling {
 struct EstimatedBorder {
     LineBorder border;
     WorkEstimate estimate;
+    unsigned process = 0;  ///< that has searched it
 };
 
 /// Cuts every subdomain of more than about 1.5 x `pieces_target` triangles in two, and the halves again, along the good

@@ -72,9 +72,13 @@ public:
     std::pair<LineVertex, LineVertex> ends(std::uint32_t line) const { return {at(line).from, at(line).to}; }
     LineVertex vertex(std::uint32_t line, std::uint32_t place) const;
     VertexId id(std::uint32_t line, std::uint32_t place) const;
-    /// Returns the id of the first vertex inside a line. Precondition: the line is no loop.
+    /// Returns the id of the first vertex that was added with a line, if there is one.
     VertexId first_inside(std::uint32_t line) const { return at(line).first; }
     bool is_loop(std::uint32_t line) const { return !at(line).loop.empty(); }
+    /// Returns the number of vertices that were added with a line: they have successive ids.
+    std::size_t own_vertices(std::uint32_t line) const { return end_of(at(line)) - at(line).first.index(); }
+    /// Returns the number of vertices on no line, which have the lowest ids.
+    std::size_t junctions() const { return points_.size(); }
 
     /// Divides a line, unless that was done. Returns the number of vertices inside it. Any thread may call it. Throws
     /// MeshError where it has another number of vertices than number() was told.

@@ -8,26 +8,13 @@
 
 namespace lamina::decoupling {
 
-namespace {
-
-/// Returns the numbers from 0 to n, those with the largest of these estimates first.
-template <class Estimate>
-std::vector<std::size_t> by_estimate(std::size_t n, Estimate&& estimate) {
-    std::vector<std::size_t> order(n);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return estimate(a) > estimate(b); });
-    return order;
-}
-
-}  // namespace
-
 std::vector<std::size_t> largest_first(std::span<const Subdomain> subdomains) {
-    return by_estimate(subdomains.size(), [&](std::size_t i) { return subdomains[i].estimated_triangles; });
-}
-
-std::vector<std::size_t> largest_first(std::span<const EstimatedBorder> borders) {
-    return by_estimate(borders.size(), [&](std::size_t i) { return borders[i].estimate.triangles; });
+    std::vector<std::size_t> order(subdomains.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return subdomains[a].estimated_triangles > subdomains[b].estimated_triangles;
+    });
+    return order;
 }
 
 std::vector<Refinement> refine_all(std::span<const Subdomain> subdomains, core::BusyTimes* times, std::size_t kind) {

@@ -8,7 +8,6 @@
 #include <lamina/decoupling.hpp>
 
 #include "core/busy_times.hpp"
-#include "decoupling/cut_to_size.hpp"
 
 namespace lamina::decoupling {
 
@@ -19,6 +18,5 @@ LAMINA_EXPORT std::vector<Refinement> refine_all(std::span<const Subdomain> subd
 
 /// Returns the numbers of the subdomains, those of the largest first.
 LAMINA_EXPORT std::vector<std::size_t> largest_first(std::span<const Subdomain> subdomains);
-LAMINA_EXPORT std::vector<std::size_t> largest_first(std::span<const EstimatedBorder> borders);
 
 }  // namespace lamina::decoupling

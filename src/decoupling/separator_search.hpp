@@ -23,6 +23,7 @@ struct Separator {
 struct SearchResult {
     WorkEstimate estimate;
     std::optional<Separator> separator = {};
+    unsigned process = 0;  ///< that has searched it
 };
 
 /// Estimates the work of a subdomain and, where it is more than about 1.5 x `pieces_target` triangles, looks for a good

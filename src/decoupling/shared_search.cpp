@@ -100,8 +100,10 @@ std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBor
     for (const std::size_t i : own) pack_result(results[i], packer);
     const std::vector<std::string> told = ranks.all_gather(packer.take());
     std::vector<Unpacker> unpackers(told.begin(), told.end());
-    for (std::size_t i = 0; i < borders.size(); ++i)
+    for (std::size_t i = 0; i < borders.size(); ++i) {
         if (borders[i].process != ranks.rank()) results[i] = unpack_result(unpackers[borders[i].process]);
+        results[i].process = borders[i].process;
+    }
     return results;
 }
 

@@ -47,20 +47,29 @@ VertexId local_id(const Subdomain& subdomain, VertexId v) {
 
 }  // namespace
 
-std::vector<Segment> border_chain(const decoupling::LineBorder& border, const decoupling::Lines& lines) {
-    std::vector<Segment> edges;
+BorderChain border_chain(const decoupling::LineBorder& border, const decoupling::Lines& lines) {
+    BorderChain chain;
+    auto& [edges, edge_lines] = chain;
     edges.reserve(border.vertices());
+    edge_lines.reserve(border.vertices());
     for (const decoupling::LineLoop& of_border : border.loops) {
         const std::vector<VertexId> loop = decoupling::ids_of(of_border, lines);
         for (std::size_t i = 0; i < loop.size(); ++i) edges.push_back({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
+        for (const decoupling::Stretch& stretch : of_border.stretches)
+            edge_lines.insert(edge_lines.end(), stretch.segments(), stretch.line);
     }
-    if (!border.may_dangle) return edges;
+    if (!border.may_dangle) return chain;
     std::vector<Segment> sorted = edges;
     std::sort(sorted.begin(), sorted.end());
-    std::erase_if(edges, [&](const Segment& edge) {
-        return std::binary_search(sorted.begin(), sorted.end(), Segment{edge.b, edge.a});
-    });
-    return edges;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (std::binary_search(sorted.begin(), sorted.end(), Segment{edges[i].b, edges[i].a})) continue;
+        edges[kept] = edges[i];
+        edge_lines[kept++] = edge_lines[i];
+    }
+    edges.resize(kept);
+    edge_lines.resize(kept);
+    return chain;
 }
 
 std::vector<Point> apexes_of(const Subdomain& subdomain, mesh::PieceFindings& findings) {

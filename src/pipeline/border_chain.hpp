@@ -1,6 +1,7 @@
 // The border of a subdomain as a chain of edges: all processes know it from the decoupling, whoever holds the piece.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
@@ -10,9 +11,15 @@
 
 namespace lamina::pipeline {
 
+/// The edges of a border, and the lines that they are on.
+struct BorderChain {
+    std::vector<Segment> edges;
+    std::vector<std::uint32_t> lines;  ///< per edge
+};
+
 /// Returns the edges of the border, with the ids that their ends have in the mesh, in the order of Subdomain::segments.
 /// Lines that dangle in the subdomain, whose edges run both ways, cancel out.
-std::vector<Segment> border_chain(const decoupling::LineBorder& border, const decoupling::Lines& lines);
+BorderChain border_chain(const decoupling::LineBorder& border, const decoupling::Lines& lines);
 
 /// Returns what lies behind the edges of the subdomain's border_chain(), from the border edges that the check of the piece has found.
 /// Adds a defect where these are other edges: the triangles of the piece do not add up to its border then.

@@ -276,8 +276,8 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
                         const StageClock& clock, MadeMesh& mesh) {
     Ranks& ranks = *destination.ranks;
     MadePieces made;
-    const std::vector<std::size_t> order = decoupling::largest_first(shared.cut.borders);
-    made.held.store = std::make_unique<PieceStore>(order.size(), destination.beside);
+    const PieceDeal deal = deal_pieces(shared.cut.borders, ranks.rank(), ranks.size());
+    made.held.store = std::make_unique<PieceStore>(shared.pieces(), destination.beside);
     const double min_angle_deg = work.options.refine.min_angle_deg;
     decoupling::require_same_borders(shared.cut.lines, shared.cut.borders, ranks);
     ranks.reset_counter();
@@ -289,7 +289,7 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
         check_layer(work, made);
     };
     core::parallel_invoke(fill_layer, [&] {
-        held = take_and_refine(shared, order, min_angle_deg, work.times, {refinement_work, check_work}, ranks,
+        held = take_and_refine(shared, deal, min_angle_deg, work.times, {refinement_work, check_work}, ranks,
                                *made.held.store);
     });
     clock.begin("numbering");

@@ -30,7 +30,7 @@ HeldPiece describe_border(const SharedDecoupling& shared, std::size_t number, me
     held.piece = number;
     held.apexes = apexes_of(*shared.subdomains[number], findings);
     const std::span<const Point> points = shared.points();
-    const std::vector<Segment> chain = shared.chain(number);
+    const std::vector<Segment> chain = shared.chain(number).edges;
     held.shape_classes.reserve(chain.size());
     for (std::size_t i = 0; i < chain.size(); ++i) {
         const Point a = points[chain[i].a.index()], b = points[chain[i].b.index()];
@@ -77,11 +77,12 @@ const Subdomain& SharedDecoupling::make_subdomain(std::size_t i) {
     return *subdomains[i];
 }
 
-HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t> order, double min_angle_deg,
+HeldPieces take_and_refine(SharedDecoupling& shared, const PieceDeal& deal, double min_angle_deg,
                            core::BusyTimes& times, PieceWork work, Ranks& ranks, PieceStore& store) {
     HeldPieces held;
     std::mutex mutex;
     std::atomic<bool> failed = false;
+    std::atomic<std::size_t> next_own = 0;
     const auto make_piece = [&](std::size_t number) {
         const Subdomain& subdomain = shared.make_subdomain(number);
         CheckedPiece made =
@@ -103,8 +104,10 @@ HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t
     };
     core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {
         try {
-            for (std::uint64_t place; !failed && (place = ranks.next_number()) < order.size();)
-                make_piece(order[place]);
+            for (std::size_t place; !failed && (place = next_own++) < deal.own.size() && !ranks.has_failed();)
+                make_piece(deal.own[place]);
+            for (std::uint64_t place; !failed && (place = ranks.next_number()) < deal.shared.size();)
+                make_piece(deal.shared[place]);
         } catch (...) {
             failed = true;
             throw;

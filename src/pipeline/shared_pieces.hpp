@@ -16,6 +16,7 @@
 #include "mesh/hash.hpp"
 #include "pipeline/border_chain.hpp"
 #include "pipeline/checked_pieces.hpp"
+#include "pipeline/piece_deal.hpp"
 #include "pipeline/piece_store.hpp"
 
 namespace lamina::pipeline {
@@ -37,7 +38,7 @@ struct SharedDecoupling {
     /// made and of lines that were divided have their places in it.
     std::span<const Point> points() const { return cut.lines.gathered(); }
     /// Returns the border_chain() of a piece.
-    std::vector<Segment> chain(std::size_t piece) const { return border_chain(cut.borders[piece].border, cut.lines); }
+    BorderChain chain(std::size_t piece) const { return border_chain(cut.borders[piece].border, cut.lines); }
     /// Divides the lines that these vertices are on, so that they have their places.
     void place(std::size_t begin, std::size_t end);
     /// Does so with the ends of these edges.
@@ -62,9 +63,9 @@ struct HeldPieces {
     mesh::HashOfParts hash;                 ///< of their triangles
 };
 
-/// Refines and checks the pieces that this process gets: whoever is free takes the next one of the order from a counter
-/// that all share. Each piece goes to the store. Where a piece fails, all processes end soon.
-HeldPieces take_and_refine(SharedDecoupling& shared, std::span<const std::size_t> order, double min_angle_deg,
+/// Refines and checks the pieces that this process gets: its own ones, then those that whoever is free takes from a
+/// counter that all share. Each piece goes to the store. Where a piece fails, all processes end soon.
+HeldPieces take_and_refine(SharedDecoupling& shared, const PieceDeal& deal, double min_angle_deg,
                            core::BusyTimes& times, PieceWork work, Ranks& ranks, PieceStore& store);
 
 /// Where the vertices and triangles of a piece begin in the mesh.

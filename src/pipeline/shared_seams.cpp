@@ -12,6 +12,7 @@ namespace {
 
 using core::Packer;
 using core::Unpacker;
+using decoupling::LineVertex;
 using Wanted = mesh::Seams::Wanted;
 
 /// Puts numbers below 16 two to a byte.
@@ -30,6 +31,14 @@ private:
     std::string bytes_;
     bool half_ = false;
 };
+
+/// Calls f for all vertices of a border, in the order of its loops.
+template <class F>
+void for_vertices(const decoupling::LineBorder& border, const decoupling::Lines& lines, F&& f) {
+    for (const decoupling::LineLoop& loop : border.loops)
+        for (const decoupling::Stretch& stretch : loop.stretches)
+            for (std::uint32_t i = 0; i < stretch.segments(); ++i) f(lines.vertex(stretch.line, stretch.place(i)));
+}
 
 /// A question for an edge, and where the answer goes.
 struct Question {
@@ -73,8 +82,14 @@ SharedSeams::SharedSeams(SharedDecoupling& shared, const HeldPieces& held, Ranks
     : shared_(shared),
       held_(held),
       ranks_(ranks),
-      owners_(shared.layer_vertices(), ranks.size()),
+      owners_(shared.cut.lines, shared.cut.borders, shared.layer_vertices(), ranks.rank()),
+      used_(owners_.own_vertices(), 0),
       seams_(shared.points()) {}
+
+const HeldPiece& SharedSeams::held(std::size_t piece) const {
+    return *std::lower_bound(held_.pieces.begin(), held_.pieces.end(), piece,
+                             [](const HeldPiece& one, std::size_t number) { return one.piece < number; });
+}
 
 std::vector<std::string> SharedSeams::pack_borders() const {
     std::vector<Packer> packers(ranks_.size());
@@ -82,17 +97,16 @@ std::vector<std::string> SharedSeams::pack_borders() const {
     std::vector<unsigned> concerned;
     std::vector<bool> is_concerned(ranks_.size(), false);
     for (const HeldPiece& held : held_.pieces) {
-        for (const decoupling::LineLoop& loop : shared_.cut.borders[held.piece].border.loops)
-            for (const VertexId v : decoupling::ids_of(loop, shared_.cut.lines)) {
-                const unsigned owner = owners_.owner(v);
-                if (is_concerned[owner]) continue;
-                is_concerned[owner] = true;
-                concerned.push_back(owner);
-            }
-        const std::vector<Segment> chain = shared_.chain(held.piece);
-        for (std::size_t i = 0; i < chain.size(); ++i) {
+        for_vertices(shared_.cut.borders[held.piece].border, shared_.cut.lines, [&](const LineVertex& v) {
+            const unsigned owner = owners_.owner(v);
+            if (is_concerned[owner]) return;
+            is_concerned[owner] = true;
+            concerned.push_back(owner);
+        });
+        const BorderChain chain = shared_.chain(held.piece);
+        for (std::size_t i = 0; i < chain.edges.size(); ++i) {
             const std::uint8_t none = 0;
-            classes[owners_.owner(chain[i])].put(i < held.shape_classes.size() ? held.shape_classes[i] : none);
+            classes[owners_.owner(chain.lines[i])].put(i < held.shape_classes.size() ? held.shape_classes[i] : none);
         }
         for (const unsigned owner : concerned) {
             packers[owner].put_short(held.piece);
@@ -107,14 +121,11 @@ std::vector<std::string> SharedSeams::pack_borders() const {
     return texts;
 }
 
-void SharedSeams::take_vertex(VertexId v) {
-    if (owners_.is_in_layer(v)) {
-        vertices_in_layer_.push_back(v);
-        return;
-    }
-    const std::size_t place = owners_.place(v);
-    if (used_.size() <= place) used_.resize(place + 1, 0);
-    used_[place] = 1;
+void SharedSeams::take_vertex(const LineVertex& v) {
+    if (owners_.is_in_layer(v.id))
+        vertices_in_layer_.push_back(v.id);
+    else
+        used_[owners_.place(v)] = 1;
 }
 
 void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
@@ -123,18 +134,21 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
     while (!unpacker.at_end()) {
         const auto piece = static_cast<std::uint32_t>(unpacker.get_short());
         const std::string classes = unpacker.get_text();
-        for (const decoupling::LineLoop& loop : shared_.cut.borders[piece].border.loops)
-            for (const VertexId v : decoupling::ids_of(loop, shared_.cut.lines))
-                if (owners_.owner(v) == self) take_vertex(v);
-        const std::vector<Segment> chain = shared_.chain(piece);
+        for_vertices(shared_.cut.borders[piece].border, shared_.cut.lines, [&](const LineVertex& v) {
+            if (owners_.owner(v) == self) take_vertex(v);
+        });
+        const auto [edges, lines] = shared_.chain(piece);
+        const HeldPiece* here = rank == self ? &held(piece) : nullptr;
         std::size_t next = 0;
-        for (std::uint32_t i = 0; i < chain.size(); ++i) {
-            if (owners_.owner(chain[i]) != self) continue;
+        for (std::uint32_t i = 0; i < edges.size(); ++i) {
+            if (owners_.owner(lines[i]) != self) continue;
             const auto both = static_cast<unsigned char>(classes[next / 2]);
             const auto its_class = static_cast<std::uint8_t>(next % 2 == 0 ? both & 15 : both >> 4);
             ++next;
-            CollectedEdges& collected = owners_.is_in_layer(chain[i]) ? along_layer_ : between_;
-            collected.edges.push_back({chain[i].a, chain[i].b, mesh::unknown_apex, its_class});
+            const auto [a, b] = edges[i];
+            CollectedEdges& collected = owners_.is_in_layer(a) && owners_.is_in_layer(b) ? along_layer_ : between_;
+            const Point apex = here != nullptr && i < here->apexes.size() ? here->apexes[i] : mesh::unknown_apex;
+            collected.edges.push_back({a, b, apex, its_class});
             collected.sources.push_back({rank, piece, i});
         }
     }
@@ -159,14 +173,13 @@ std::string SharedSeams::answer(const std::string& questions) const {
     Unpacker unpacker(questions);
     while (!unpacker.at_end()) {
         const std::size_t number = unpacker.get_short();
-        const auto piece = std::lower_bound(held_.pieces.begin(), held_.pieces.end(), number,
-                                            [](const HeldPiece& one, std::size_t n) { return one.piece < n; });
-        const std::vector<Segment> chain = shared_.chain(number);
+        const HeldPiece& piece = held(number);
+        const std::vector<Segment> chain = shared_.chain(number).edges;
         std::size_t edge = 0;
         for (std::size_t left = unpacker.get_short(); left > 0; --left) {
             const std::size_t question = unpacker.get_short();
             edge += question / 4;
-            const Point apex = piece->apexes[edge];
+            const Point apex = piece.apexes[edge];
             const Point a = points[chain[edge].a.index()], b = points[chain[edge].b.index()];
             if (question % 2 == 1)
                 packer.put(apex);
@@ -181,13 +194,17 @@ std::string SharedSeams::answer(const std::string& questions) const {
     return packer.take();
 }
 
+/// Returns whether an edge between pieces is one of a piece that this process holds.
+bool SharedSeams::has_source_here(std::size_t edge) const { return between_.sources[edge].rank == ranks_.rank(); }
+
 void SharedSeams::ask(double even_ratio, mesh::PiecewiseCheck* check) {
     std::vector<std::vector<Question>> asked(ranks_.size());
     const auto add = [&](std::span<const Wanted> wanted, const CollectedEdges& collected, bool along_layer) {
         for (const auto [edge, apex] : wanted) {
             const Source& source = collected.sources[edge];
-            // Rank 0 has the layer. Beyond it one side tells where the ends of the edge are.
-            const bool ends = apex && !along_layer && collected.edges[edge].a < collected.edges[edge].b;
+            // Rank 0 has the layer. Beyond it one side tells where the ends of the edge are, unless a piece here has it.
+            const bool ends = apex && !along_layer && collected.edges[edge].a < collected.edges[edge].b &&
+                              !has_source_here(seams_.pairs().twin[edge]);
             asked[source.rank].push_back({source.piece, source.edge, apex, ends, along_layer, edge});
         }
     };

@@ -11,36 +11,10 @@
 
 #include "core/packing.hpp"
 #include "mesh/seams.hpp"
+#include "pipeline/seam_owners.hpp"
 #include "pipeline/shared_pieces.hpp"
 
 namespace lamina::pipeline {
-
-/// Says which process matches which edges. Those of the layer's border belong to rank 0. Vertices beyond it are dealt
-/// to the processes in blocks of successive ids, and an edge goes with its newer end: that is a vertex of the line that
-/// it is a part of.
-class SeamOwners {
-public:
-    SeamOwners(std::size_t layer_vertices, unsigned processes) : layer_(layer_vertices), processes_(processes) {}
-
-    /// Returns the first vertex beyond the layer.
-    VertexId first() const { return VertexId{layer_}; }
-    bool is_in_layer(VertexId v) const { return v.index() < layer_; }
-    bool is_in_layer(Segment edge) const { return is_in_layer(edge.a) && is_in_layer(edge.b); }
-    unsigned owner(VertexId v) const {
-        return is_in_layer(v) ? 0u : static_cast<unsigned>((v.index() - layer_) / block % processes_);
-    }
-    unsigned owner(Segment edge) const { return owner(edge.a < edge.b ? edge.b : edge.a); }
-    /// Returns the place of a vertex beyond the layer among those of its owner.
-    std::size_t place(VertexId v) const {
-        const std::size_t at = v.index() - layer_;
-        return at / (block * processes_) * block + at % block;
-    }
-
-private:
-    static constexpr std::size_t block = 256;
-    std::size_t layer_;
-    unsigned processes_;
-};
 
 /// Returns a hash of the ids and places of the ends of an edge. That of the opposite edge is its negative, so that the
 /// sum over all borders is the sum over the edges of one side: the others have the same places on both sides, whoever
@@ -82,9 +56,11 @@ private:
         std::vector<Source> sources;
     };
     std::vector<std::string> pack_borders() const;
-    void take_vertex(VertexId v);
+    const HeldPiece& held(std::size_t piece) const;
+    void take_vertex(const decoupling::LineVertex& v);
     void take_borders(std::uint32_t rank, const std::string& told);
     std::string answer(const std::string& questions) const;
+    bool has_source_here(std::size_t edge) const;
 
     SharedDecoupling& shared_;
     const HeldPieces& held_;

@@ -1,0 +1,24 @@
+// Which process makes which pieces of a mesh.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "decoupling/cut_to_size.hpp"
+
+namespace lamina::pipeline {
+
+/// The pieces that a process makes: first those that are its own, then any of those that all share, as one is free. Both
+/// are in the order of the work, the largest first.
+struct PieceDeal {
+    std::vector<std::size_t> own;
+    std::vector<std::size_t> shared;  ///< the same for all processes
+};
+
+/// Deals the pieces. A process keeps those that it has searched, whose lines it has divided and along which it matches
+/// the seams, but no more than three quarters of an equal share of the work by estimate; all others are shared. What is
+/// shared makes up for wrong estimates, and for processes that have other work or are slow.
+PieceDeal deal_pieces(std::span<const decoupling::EstimatedBorder> borders, unsigned process, unsigned processes);
+
+}  // namespace lamina::pipeline

@@ -1,0 +1,50 @@
+// deal_pieces(): every piece is made once, and no process is bound to more than its share.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "core/random.hpp"
+#include "pipeline/piece_deal.hpp"
+
+namespace lamina::test {
+namespace {
+
+TEST(PieceDeal, GivesEachPieceToOneProcessOrToAll) {
+    core::Random random(7);
+    for (const unsigned processes : {1u, 2u, 5u, 40u}) {
+        SCOPED_TRACE(processes);
+        std::vector<decoupling::EstimatedBorder> borders(100);
+        double work = 0;
+        for (decoupling::EstimatedBorder& border : borders) {
+            border.estimate.triangles = 1000 + static_cast<double>(random.below(50'000));
+            border.process = static_cast<unsigned>(random.below(processes));
+            work += border.estimate.triangles;
+        }
+        std::vector<int> times(borders.size(), 0);
+        const std::vector<std::size_t> shared = pipeline::deal_pieces(borders, 0, processes).shared;
+        EXPECT_EQ(shared.empty(), processes == 1);
+        for (const std::size_t piece : shared) ++times[piece];
+        const auto is_larger = [&](std::size_t a, std::size_t b) {
+            return borders[a].estimate.triangles > borders[b].estimate.triangles;
+        };
+        for (unsigned process = 0; process < processes; ++process) {
+            const pipeline::PieceDeal deal = pipeline::deal_pieces(borders, process, processes);
+            EXPECT_EQ(deal.shared, shared);
+            double own_work = 0;
+            for (const std::size_t piece : deal.own) {
+                EXPECT_EQ(borders[piece].process, process);
+                own_work += borders[piece].estimate.triangles;
+                ++times[piece];
+            }
+            EXPECT_LE(own_work, work / processes * (1 + 1e-12));
+            EXPECT_TRUE(std::is_sorted(deal.own.begin(), deal.own.end(), is_larger));
+            EXPECT_TRUE(std::is_sorted(deal.shared.begin(), deal.shared.end(), is_larger));
+        }
+        EXPECT_EQ(times, std::vector<int>(borders.size(), 1));
+    }
+}
+
+}  // namespace
+}  // namespace lamina::test
