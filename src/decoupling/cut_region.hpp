@@ -16,11 +16,23 @@
 namespace lamina::decoupling {
 
 /// The borders of all subdomains. The other members are those of Decoupling.
-struct CutRegion {
+struct LAMINA_EXPORT CutRegion {
     Lines lines;
+    RingRegions rings;
     std::vector<Segment> far_field;
     std::vector<EstimatedBorder> borders;
     std::size_t separator_vertices = 0;
+
+    /// Returns the border of a subdomain.
+    LineBorder border(std::size_t subdomain) const;
+    /// Calls f for the lines of a subdomain, for some of them more than once.
+    template <class F>
+    void for_lines(std::size_t subdomain, F&& f) const {
+        const EstimatedBorder& border = borders[subdomain];
+        if (border.trapezoid != EstimatedBorder::no_trapezoid) return rings.for_lines(border.trapezoid, f);
+        for (const LineLoop& loop : border.border.loops)
+            for (const Stretch& stretch : loop.stretches) f(stretch.line);
+    }
 };
 
 /// The outer region with what decides how it is cut: the arguments of decouple().
@@ -37,8 +49,9 @@ struct OuterRegion {
 /// where another process would cut another region.
 LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr);
 
-/// Makes a subdomain from its border. Divides its lines. `spacing` holds the size field and the rule of the region.
-LAMINA_EXPORT Subdomain make_subdomain(Lines& lines, const EstimatedBorder& border, const SeparatorSpacing& spacing,
+/// Makes a subdomain from its border. Divides its lines, and estimates its work where another process has searched it.
+/// `spacing` holds the size field and the rule of the region.
+LAMINA_EXPORT Subdomain make_subdomain(CutRegion& cut, std::size_t subdomain, const SeparatorSpacing& spacing,
                                        const RefineOptions& refine);
 
 /// Collective, as the next one: throws MeshError on rank 0 where another process has other lines. What it tells of its
@@ -47,6 +60,6 @@ void require_same_lines(const Lines& lines, Ranks& ranks);
 
 /// Throws MeshError on rank 0 where another process has other borders. Its numbers would mean other vertices, which no check
 /// of a piece by itself can see.
-LAMINA_EXPORT void require_same_borders(const Lines& lines, std::span<const EstimatedBorder> borders, Ranks& ranks);
+LAMINA_EXPORT void require_same_borders(const CutRegion& cut, Ranks& ranks);
 
 }  // namespace lamina::decoupling

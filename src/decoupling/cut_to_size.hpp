@@ -1,6 +1,9 @@
 // Bisection of subdomains until each holds about the target number of triangles.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
@@ -9,26 +12,37 @@
 #include "decoupling/border_triangulation.hpp"
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
+#include "decoupling/ring_regions.hpp"
 #include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
 
 /// The border of a subdomain with its estimated work.
 struct EstimatedBorder {
-    LineBorder border;
-    WorkEstimate estimate;
-    unsigned process = 0;  ///< that has searched it
+    static constexpr std::uint32_t no_trapezoid = std::numeric_limits<std::uint32_t>::max();
+
+    LineBorder border;                          ///< empty where it is a trapezoid of a ring
+    std::uint32_t trapezoid = no_trapezoid;     ///< its number
+    double work = 0;                            ///< number of triangles, about; all processes know the same
+    std::optional<WorkEstimate> estimate = {};  ///< where this process has searched it
+    unsigned process = 0;                       ///< that has searched it
+};
+
+/// All regions before they are cut: trapezoids, and others whose borders are given.
+struct UncutRegions {
+    std::vector<LineBorder> borders;
+    RingRegions rings;
 };
 
 /// Cuts every subdomain of more than about 1.5 x `pieces_target` triangles in two, and the halves again, along the good
 /// separators that search_separator() finds. A subdomain without one stays whole. Holes are joined to the outer loop
 /// first. Adds the separators to the lines. The result does not depend on the number of threads.
-std::vector<EstimatedBorder> cut_to_size(Lines& lines, std::vector<LineBorder> borders, const SeparatorSpacing& spacing,
+std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
                                          double pieces_target);
 
 /// Collective: returns what cut_to_size() returns. The processes divide the search for separators among themselves.
 /// Precondition: all arguments are the same everywhere.
-std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, std::vector<LineBorder> borders,
-                                                  const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks);
+std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
+                                                  double pieces_target, Ranks& ranks);
 
 }  // namespace lamina::decoupling

@@ -102,18 +102,25 @@ CutRegion cut_region(const OuterRegion& region, Ranks* ranks) {
     if (ranks != nullptr && ranks->size() == 1) ranks = nullptr;
     const SeparatorSpacing spacing{region.size, region.options.separators};
     auto [skeleton, far_field_edges] = draw_skeleton(region, spacing, ranks);
-    std::vector<LineBorder> borders = skeleton.trace();
-    CutRegion cut{std::move(skeleton.lines), std::move(far_field_edges), {}, 0};
+    UncutRegions uncut{skeleton.trace(), skeleton.rings};
+    CutRegion cut{std::move(skeleton.lines), std::move(skeleton.rings), std::move(far_field_edges), {}, 0};
     const double target = region.options.pieces_target;
-    cut.borders = ranks != nullptr ? cut_to_size_together(cut.lines, std::move(borders), spacing, target, *ranks)
-                                   : cut_to_size(cut.lines, std::move(borders), spacing, target);
+    cut.borders = ranks != nullptr ? cut_to_size_together(cut.lines, std::move(uncut), spacing, target, *ranks)
+                                   : cut_to_size(cut.lines, std::move(uncut), spacing, target);
     cut.separator_vertices = cut.lines.vertices() - region.points.size();
     return cut;
 }
 
-Subdomain make_subdomain(Lines& lines, const EstimatedBorder& estimated, const SeparatorSpacing& spacing,
+LineBorder CutRegion::border(std::size_t subdomain) const {
+    const EstimatedBorder& border = borders[subdomain];
+    return border.trapezoid == EstimatedBorder::no_trapezoid ? border.border : rings.border(border.trapezoid, lines);
+}
+
+Subdomain make_subdomain(CutRegion& cut, std::size_t number, const SeparatorSpacing& spacing,
                          const RefineOptions& refine) {
-    LocalBorder border = localize(estimated.border, lines, spacing);
+    LocalBorder border = localize(cut.border(number), cut.lines, spacing);
+    const std::optional<WorkEstimate>& known = cut.borders[number].estimate;
+    const WorkEstimate estimate = known ? *known : BorderTriangulation(border, spacing.size).estimate();
     Box box;
     for (const Point p : border.points) box.include(p);
     Subdomain subdomain;
@@ -122,9 +129,9 @@ Subdomain make_subdomain(Lines& lines, const EstimatedBorder& estimated, const S
     subdomain.segments = std::move(border.segments);
     subdomain.size = spacing.size.restricted_to(box);
     subdomain.refine = refine;
-    subdomain.refine.lattice = refine.lattice && estimated.estimate.lattice;
-    subdomain.refine.expected_triangles = static_cast<std::size_t>(estimated.estimate.triangles);
-    subdomain.estimated_triangles = estimated.estimate.triangles;
+    subdomain.refine.lattice = refine.lattice && estimate.lattice;
+    subdomain.refine.expected_triangles = static_cast<std::size_t>(estimate.triangles);
+    subdomain.estimated_triangles = estimate.triangles;
     return subdomain;
 }
 
@@ -156,7 +163,7 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
     Decoupling result;
     result.subdomains.resize(cut.borders.size());
     core::parallel_for(cut.borders.size(), 1, [&](std::size_t i, std::size_t) {
-        result.subdomains[i] = make_subdomain(cut.lines, cut.borders[i], spacing, refine);
+        result.subdomains[i] = make_subdomain(cut, i, spacing, refine);
     });
     result.separator_vertices = cut.separator_vertices;
     result.points.resize(cut.lines.vertices());

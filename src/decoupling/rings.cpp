@@ -143,39 +143,37 @@ private:
     double pieces_target_;
 };
 
-/// A straight line between two junctions that is still to be divided.
-struct RingLine {
-    VertexId from, to;
-    bool outermost = false;  ///< on the outermost box
+/// The junctions on the boxes between rings, inside and outside all of them: level by level from inside, and
+/// counter-clockwise on each.
+struct RingJunctions {
+    std::vector<std::size_t> per_side;  ///< per level
+    std::vector<std::uint32_t> first;   ///< per level: how many are on those before
+    std::uint32_t first_id = 0;
+
+    VertexId at(std::size_t level, std::size_t j) const {
+        return VertexId{std::size_t{first_id} + first[level] + j % (sides * per_side[level])};
+    }
 };
 
-/// Adds the junctions of all lines to the skeleton. Returns the lines along the boxes, from the near-body box outwards,
-/// then those between the trapezoids of each ring.
-std::vector<RingLine> add_junctions(Skeleton& skeleton, std::span<const Ring> rings, const RingBoxes& boxes) {
-    std::vector<RingLine> lines;
-    // junctions[level][side * per_side[level] + j] are on the box between two rings, or inside or outside all of them.
-    std::vector<std::vector<VertexId>> junctions(rings.size() + 1);
-    std::vector<std::size_t> per_side(rings.size() + 1);
+/// Adds the junctions to the skeleton.
+RingJunctions add_junctions(Skeleton& skeleton, std::span<const Ring> rings, const RingBoxes& boxes) {
+    RingJunctions junctions;
+    junctions.first_id = static_cast<std::uint32_t>(skeleton.lines.junctions());
+    std::uint32_t added = 0;
     for (std::size_t level = 0; level <= rings.size(); ++level) {
         const std::size_t of_inner_ring = level > 0 ? rings[level - 1].per_side : 1;
         const std::size_t of_outer_ring = level < rings.size() ? rings[level].per_side : 1;
-        const std::size_t n = per_side[level] = std::max(of_inner_ring, of_outer_ring);
+        const std::size_t n = std::max(of_inner_ring, of_outer_ring);
+        junctions.per_side.push_back(n);
+        junctions.first.push_back(added);
         const auto corners = (level < rings.size() ? boxes.at(rings[level].inner) : boxes.outermost).corners();
         for (std::size_t side = 0; side < sides; ++side)
             for (std::size_t j = 0; j < n; ++j)
-                junctions[level].push_back(
-                    skeleton.add_junction(corners[side] + (static_cast<double>(j) / static_cast<double>(n)) *
-                                                              (corners[(side + 1) % sides] - corners[side])));
-        for (std::size_t j = 0; j < sides * n; ++j)
-            lines.push_back({junctions[level][j], junctions[level][(j + 1) % (sides * n)], level == rings.size()});
+                skeleton.add_junction(corners[side] + (static_cast<double>(j) / static_cast<double>(n)) *
+                                                          (corners[(side + 1) % sides] - corners[side]));
+        added += static_cast<std::uint32_t>(sides * n);
     }
-    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
-        const std::size_t n = rings[ring].per_side;
-        for (std::size_t j = 0; j < sides * n; ++j)
-            lines.push_back(
-                {junctions[ring][j * (per_side[ring] / n)], junctions[ring + 1][j * (per_side[ring + 1] / n)]});
-    }
-    return lines;
+    return junctions;
 }
 
 }  // namespace
@@ -189,11 +187,26 @@ std::vector<Ring> plan_rings(const RingBoxes& boxes, const SizeField& size, doub
 std::vector<std::uint32_t> add_rings(Skeleton& skeleton, std::span<const Ring> rings, const RingBoxes& boxes,
                                      bool region_beyond) {
     constexpr std::uint32_t min_segments = 3;
+    const auto first_line = static_cast<std::uint32_t>(skeleton.lines.size());
+    const RingJunctions junctions = add_junctions(skeleton, rings, boxes);
     std::vector<std::uint32_t> outermost;
-    for (const RingLine& line : add_junctions(skeleton, rings, boxes)) {
-        const std::uint32_t added =
-            skeleton.add_line(line.from, line.to, min_segments, !line.outermost || region_beyond);
-        if (line.outermost) outermost.push_back(added);
+    // Trapezoids are not traced: the regions round the bodies and beyond the rings are.
+    for (std::size_t level = 0; level <= rings.size(); ++level) {
+        const bool is_outermost = level == rings.size();
+        for (std::size_t j = 0; j < sides * junctions.per_side[level]; ++j) {
+            const std::uint32_t added = skeleton.add_line(junctions.at(level, j), junctions.at(level, j + 1),
+                                                          min_segments, {level == 0, is_outermost && region_beyond});
+            if (is_outermost) outermost.push_back(added);
+        }
+    }
+    for (std::size_t ring = 0; ring < rings.size(); ++ring) {
+        const std::size_t n = rings[ring].per_side;
+        const std::size_t inner = junctions.per_side[ring] / n, outer = junctions.per_side[ring + 1] / n;
+        skeleton.rings.add({first_line + junctions.first[ring], static_cast<std::uint32_t>(inner),
+                            first_line + junctions.first[ring + 1], static_cast<std::uint32_t>(outer),
+                            static_cast<std::uint32_t>(skeleton.lines.size()), static_cast<std::uint32_t>(sides * n)});
+        for (std::size_t j = 0; j < sides * n; ++j)
+            skeleton.add_line(junctions.at(ring, j * inner), junctions.at(ring + 1, j * outer), min_segments, {});
     }
     return outermost;
 }

@@ -43,12 +43,14 @@ void require_same_lines(const Lines& lines, Ranks& ranks) {
     require_same(hash, ranks);
 }
 
-void require_same_borders(const Lines& lines, std::span<const EstimatedBorder> borders, Ranks& ranks) {
+void require_same_borders(const CutRegion& cut, Ranks& ranks) {
+    const Lines& lines = cut.lines;
     core::WordHash hash;
     hash.add(std::uint64_t{lines.vertices()});
     for (std::uint32_t line = 0; line < lines.size(); ++line) hash.add(std::uint64_t{lines.segments(line)});
-    for (const EstimatedBorder& estimated : borders) {
-        hash.add(estimated.estimate.triangles);
+    for (const EstimatedBorder& estimated : cut.borders) {
+        hash.add(estimated.work);
+        hash.add(std::uint64_t{estimated.trapezoid} << 32 | estimated.process);
         for (const LineLoop& loop : estimated.border.loops)
             for (const Stretch& stretch : loop.stretches)
                 hash.add((std::uint64_t{stretch.line} << 40) ^ (std::uint64_t{stretch.first} << 20) ^ stretch.last);

@@ -69,8 +69,8 @@ public:
         : border_(std::move(border), spacing.size), spacing_(spacing), size_(spacing.size) {}
 
     SearchResult run(double pieces_target) {
-        SearchResult result{border_.estimate()};
-        if (result.estimate.triangles <= max_whole * pieces_target) return result;
+        SearchResult result{border_.estimate(), border_.estimate().triangles};
+        if (result.work <= max_whole * pieces_target) return result;
         std::vector<CandidateLine> lines = candidates();
         const std::size_t tried = std::min(lines.size(), max_tried);
         std::partial_sort(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(tried), lines.end(), is_better);

@@ -21,7 +21,8 @@ struct Separator {
 
 /// The estimated work of a subdomain, and a good separator if one was looked for and found.
 struct SearchResult {
-    WorkEstimate estimate;
+    std::optional<WorkEstimate> estimate;  ///< where this process has searched it
+    double work = 0;                       ///< the number of triangles, about; all processes know the same
     std::optional<Separator> separator = {};
     unsigned process = 0;  ///< that has searched it
 };

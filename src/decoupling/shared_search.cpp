@@ -1,6 +1,7 @@
 #include "decoupling/shared_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -14,11 +15,24 @@ namespace {
 using core::Packer;
 using core::Unpacker;
 
-/// What is known of a border once it is searched.
-enum class Found : std::uint8_t { nothing, nothing_without_lattice, separator };
+/// What is known of a border that is cut. Smaller numbers are work_code() of one that is not.
+constexpr std::uint8_t has_separator = 255;
 
-/// The time of a search is about in proportion to the vertices of the border.
-std::uint64_t work_of(const LineBorder& border) { return border.vertices(); }
+/// Numbers of triangles within 6 % of each other as a number below 255: eight of them double the work.
+constexpr int codes_per_doubling = 8;
+
+std::uint8_t work_code(double triangles) {
+    int exponent = 0;
+    const double share = std::frexp(std::max(triangles, 1.0), &exponent);  // from 1/2 to below 1
+    const int code = codes_per_doubling * (exponent - 1) + static_cast<int>((2 * share - 1) * codes_per_doubling);
+    return static_cast<std::uint8_t>(std::min(code, has_separator - 1));
+}
+
+/// Returns the middle of the numbers of triangles with this code.
+double decoded_work(std::uint8_t code) {
+    const int steps = code % codes_per_doubling;
+    return std::ldexp(1 + (steps + 0.5) / codes_per_doubling, code / codes_per_doubling);
+}
 
 void pack_end(LoopVertex end, Packer& packer) {
     packer.put_short(end.loop);
@@ -32,27 +46,25 @@ LoopVertex unpack_end(Unpacker& unpacker) {
 
 void pack_result(const SearchResult& result, Packer& packer) {
     if (result.separator) {
-        packer.put(Found::separator);
+        packer.put(has_separator);
         pack_end(result.separator->from, packer);
         pack_end(result.separator->to, packer);
         packer.put_short(result.separator->vertices);
         return;
     }
-    packer.put(result.estimate.lattice ? Found::nothing : Found::nothing_without_lattice);
-    packer.put(result.estimate.triangles);
+    packer.put(work_code(result.estimate->triangles));
 }
 
 /// Takes what pack_result() has put there. The separator is still to be divided.
 SearchResult unpack_result(Unpacker& unpacker) {
     SearchResult result;
-    const auto found = unpacker.get<Found>();
-    if (found == Found::separator) {
+    const auto found = unpacker.get<std::uint8_t>();
+    if (found == has_separator) {
         const LoopVertex from = unpack_end(unpacker);
         const LoopVertex to = unpack_end(unpacker);
         result.separator = {from, to, static_cast<std::size_t>(unpacker.get_short())};
     } else {
-        result.estimate.lattice = found == Found::nothing;
-        result.estimate.triangles = unpacker.get<double>();
+        result.work = decoded_work(found);
     }
     return result;
 }
@@ -68,24 +80,22 @@ void SearchDealer::begin_round() {
     most_ = 0;
 }
 
-unsigned SearchDealer::deal(const LineBorder& border) {
+unsigned SearchDealer::deal(std::size_t vertices) {
     std::pop_heap(dealt_.begin(), dealt_.end(), std::greater<>());
     auto& [work, process] = dealt_.back();
-    work += work_of(border);
+    work += vertices;
     const unsigned dealt_to = process;
     std::push_heap(dealt_.begin(), dealt_.end(), std::greater<>());
-    deal_to(dealt_to, border);
+    deal_to(dealt_to, vertices);
     return dealt_to;
 }
 
-void SearchDealer::deal_to(unsigned process, const LineBorder& border) {
-    work_[process] += work_of(border);
+void SearchDealer::deal_to(unsigned process, std::size_t vertices) {
+    work_[process] += vertices;
     most_ = std::max(most_, work_[process]);
 }
 
-bool SearchDealer::has_room(unsigned process, const LineBorder& border) const {
-    return work_[process] + work_of(border) <= most_;
-}
+bool SearchDealer::has_room(unsigned process, std::size_t vertices) const { return work_[process] + vertices <= most_; }
 
 std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
                                           const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks) {
@@ -101,10 +111,21 @@ std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBor
     const std::vector<std::string> told = ranks.all_gather(packer.take());
     std::vector<Unpacker> unpackers(told.begin(), told.end());
     for (std::size_t i = 0; i < borders.size(); ++i) {
-        if (borders[i].process != ranks.rank()) results[i] = unpack_result(unpackers[borders[i].process]);
-        results[i].process = borders[i].process;
+        SearchResult& result = results[i];
+        const unsigned process = borders[i].process;
+        if (process != ranks.rank())
+            result = unpack_result(unpackers[process]);
+        else if (!result.separator)
+            result.work = decoded_work(work_code(result.estimate->triangles));  // what the others know
+        result.process = process;
     }
     return results;
+}
+
+std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes) {
+    std::vector<std::size_t> shares;
+    for (unsigned process = 0; process <= processes; ++process) shares.push_back(regions * process / processes);
+    return shares;
 }
 
 void number_together(Lines& lines, std::span<const unsigned> process, const SeparatorSpacing& spacing, Ranks& ranks) {

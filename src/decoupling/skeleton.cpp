@@ -2,8 +2,6 @@
 // segments were traced, line by line, those to the left of the line before those to its right.
 #include "decoupling/skeleton.hpp"
 
-#include <algorithm>
-
 #include "decoupling/shared_search.hpp"
 #include "decoupling/traced_border.hpp"
 
@@ -29,11 +27,13 @@ std::uint32_t Skeleton::add_new_loop(std::vector<Point> loop) {
     return line;
 }
 
-std::uint32_t Skeleton::add_line(VertexId from, VertexId to, std::uint32_t min_segments, bool both_sides) {
+std::uint32_t Skeleton::add_line(VertexId from, VertexId to, std::uint32_t min_segments, Sides traced) {
     const std::uint32_t line = lines.add_line({from}, {to}, min_segments);
-    ends_.push_back({from, to});
-    edges_.push_back({line, 0, true});
-    if (both_sides) {
+    if (traced.left) {
+        ends_.push_back({from, to});
+        edges_.push_back({line, 0, true});
+    }
+    if (traced.right) {
         ends_.push_back({to, from});
         edges_.push_back({line, 0, false});
     }
@@ -60,17 +60,9 @@ LineLoop Skeleton::loop_of(std::span<const std::uint32_t> edges) const {
     return loop;
 }
 
-void Skeleton::trace_edges() {
-    if (traced_edges_ == edges_.size()) return;
-    traced_ = trace_borders(corners_, ends_);
-    traced_edges_ = edges_.size();
-}
-
 std::vector<LineBorder> Skeleton::trace() {
-    trace_edges();
     std::vector<LineBorder> borders;
-    borders.reserve(traced_.size());
-    for (const TracedBorder& region : traced_) {
+    for (const TracedBorder& region : trace_borders(corners_, ends_)) {
         LineBorder& border = borders.emplace_back();
         for (const auto& loop : region.loops) border.loops.push_back(loop_of(loop));
     }
@@ -78,17 +70,13 @@ std::vector<LineBorder> Skeleton::trace() {
 }
 
 void Skeleton::number_together(const SeparatorSpacing& spacing, Ranks& ranks) {
-    trace_edges();
-    const auto is_simple = [](const TracedBorder& region) { return region.loops.size() == 1; };
-    const auto simple = static_cast<std::size_t>(std::count_if(traced_.begin(), traced_.end(), is_simple));
     std::vector<unsigned> process(lines.size(), ranks.size());
-    std::size_t next = 0;
-    for (const TracedBorder& region : traced_) {
-        if (!is_simple(region)) continue;
-        const unsigned searching = simple_region_process(next++, simple, ranks.size());
-        for (const std::uint32_t e : region.loops.front())
-            if (unsigned& dividing = process[edges_[e].line]; dividing == ranks.size()) dividing = searching;
-    }
+    const std::vector<std::size_t> shares = region_shares(rings.size(), ranks.size());
+    for (unsigned searching = 0; searching < ranks.size(); ++searching)
+        for (std::size_t region = shares[searching]; region < shares[searching + 1]; ++region)
+            rings.for_lines(region, [&](std::uint32_t line) {
+                if (unsigned& dividing = process[line]; dividing == ranks.size()) dividing = searching;
+            });
     for (std::uint32_t line = 0; line < lines.size(); ++line)
         if (process[line] == ranks.size()) process[line] = line % ranks.size();
     decoupling::number_together(lines, process, spacing, ranks);

@@ -10,6 +10,7 @@
 
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
+#include "decoupling/ring_regions.hpp"
 #include "decoupling/separators.hpp"
 #include "decoupling/traced_border.hpp"
 
@@ -32,15 +33,21 @@ public:
     void add_loop(std::span<const VertexId> loop);
     /// Adds a closed line along new vertices, with the region on its left. Returns its number.
     std::uint32_t add_new_loop(std::vector<Point> loop);
-    /// Adds a straight line between two junctions, with a region on its left and, where it has subdomains on both
-    /// sides, on its right as well. Returns its number.
-    std::uint32_t add_line(VertexId from, VertexId to, std::uint32_t min_segments, bool both_sides);
+    /// The sides of a line on which there are regions to trace. Regions of rings are no such.
+    struct Sides {
+        bool left = false, right = false;
+    };
+    /// Adds a straight line between two junctions. Returns its number.
+    std::uint32_t add_line(VertexId from, VertexId to, std::uint32_t min_segments, Sides traced);
 
-    /// Returns the borders of all regions between the lines, once all vertices are numbered. Takes time in proportion
-    /// to the lines and not to their vertices.
+    /// The regions between lines of which the borders follow from numbers.
+    RingRegions rings;
+
+    /// Returns the borders of all other regions between the lines, once all vertices are numbered. Takes time in
+    /// proportion to the lines and not to their vertices.
     std::vector<LineBorder> trace();
-    /// Collective: numbers the vertices inside all straight lines. A process divides the lines of those regions that
-    /// simple_region_process() gives to it.
+    /// Collective: numbers the vertices inside all straight lines. A process divides the lines of those trapezoids
+    /// that it will search, so far as no process before it does.
     void number_together(const SeparatorSpacing& spacing, Ranks& ranks);
 
 private:
@@ -52,11 +59,6 @@ private:
     std::vector<Point> corners_;
     std::vector<Segment> ends_;  ///< of the edges, in corners_
     std::vector<Edge> edges_;
-    std::vector<TracedBorder> traced_;  ///< the borders between the first traced_edges_ of the edges
-    std::size_t traced_edges_ = 0;
-
-    void trace_edges();
-
     LineLoop loop_of(std::span<const std::uint32_t> edges) const;
 };
 

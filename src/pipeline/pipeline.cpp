@@ -279,7 +279,7 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
     const PieceDeal deal = deal_pieces(shared.cut.borders, ranks.rank(), ranks.size());
     made.held.store = std::make_unique<PieceStore>(shared.pieces(), destination.beside);
     const double min_angle_deg = work.options.refine.min_angle_deg;
-    decoupling::require_same_borders(shared.cut.lines, shared.cut.borders, ranks);
+    decoupling::require_same_borders(shared.cut, ranks);
     ranks.reset_counter();
     HeldPieces held;
     const auto fill_layer = [&] {

@@ -10,20 +10,20 @@ constexpr std::uint32_t no_owner = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
-SeamOwners::SeamOwners(const decoupling::Lines& lines, std::span<const decoupling::EstimatedBorder> borders,
-                       std::size_t layer_vertices, unsigned self)
+SeamOwners::SeamOwners(const decoupling::CutRegion& cut, std::size_t layer_vertices, unsigned self)
     : layer_(layer_vertices),
-      of_line_(lines.size(), no_owner),
-      of_junction_(lines.junctions() - layer_vertices, no_owner),
-      first_id_(lines.size()),
-      first_place_(lines.size()),
+      of_line_(cut.lines.size(), no_owner),
+      of_junction_(cut.lines.junctions() - layer_vertices, no_owner),
+      first_id_(cut.lines.size()),
+      first_place_(cut.lines.size()),
       first_place_of_junction_(of_junction_.size()) {
+    const decoupling::Lines& lines = cut.lines;
     const auto is_of_layer = [&](std::uint32_t line) { return lines.is_loop(line) && is_in_layer(lines.id(line, 0)); };
-    for (const decoupling::EstimatedBorder& estimated : borders)
-        for (const decoupling::LineLoop& loop : estimated.border.loops)
-            for (const decoupling::Stretch& stretch : loop.stretches)
-                if (std::uint32_t& owner = of_line_[stretch.line]; owner == no_owner)
-                    owner = is_of_layer(stretch.line) ? 0 : estimated.process;
+    for (std::size_t piece = 0; piece < cut.borders.size(); ++piece)
+        cut.for_lines(piece, [&](std::uint32_t line) {
+            if (std::uint32_t& owner = of_line_[line]; owner == no_owner)
+                owner = is_of_layer(line) ? 0 : cut.borders[piece].process;
+        });
     const auto own = [&](std::uint32_t owner, std::size_t vertices) {
         const auto first = static_cast<std::uint32_t>(own_vertices_);
         if (owner == self) own_vertices_ += vertices;

@@ -3,12 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <lamina/ids.hpp>
 
-#include "decoupling/cut_to_size.hpp"
+#include "decoupling/cut_region.hpp"
 #include "decoupling/lines.hpp"
 
 namespace lamina::pipeline {
@@ -20,8 +19,7 @@ class SeamOwners {
 public:
     /// `layer_vertices` is the number of vertices that no line of the decoupling has added; `self` is the process whose
     /// places are asked for.
-    SeamOwners(const decoupling::Lines& lines, std::span<const decoupling::EstimatedBorder> borders,
-               std::size_t layer_vertices, unsigned self);
+    SeamOwners(const decoupling::CutRegion& cut, std::size_t layer_vertices, unsigned self);
 
     /// Returns the first vertex beyond the layer.
     VertexId first() const { return VertexId{layer_}; }

@@ -72,8 +72,7 @@ void SharedDecoupling::place(std::span<const Segment> edges) {
 }
 
 const Subdomain& SharedDecoupling::make_subdomain(std::size_t i) {
-    subdomains[i] =
-        std::make_unique<Subdomain>(decoupling::make_subdomain(cut.lines, cut.borders[i], {size, rule}, refine));
+    subdomains[i] = std::make_unique<Subdomain>(decoupling::make_subdomain(cut, i, {size, rule}, refine));
     return *subdomains[i];
 }
 

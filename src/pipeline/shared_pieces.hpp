@@ -38,7 +38,7 @@ struct SharedDecoupling {
     /// made and of lines that were divided have their places in it.
     std::span<const Point> points() const { return cut.lines.gathered(); }
     /// Returns the border_chain() of a piece.
-    BorderChain chain(std::size_t piece) const { return border_chain(cut.borders[piece].border, cut.lines); }
+    BorderChain chain(std::size_t piece) const { return border_chain(cut.border(piece), cut.lines); }
     /// Divides the lines that these vertices are on, so that they have their places.
     void place(std::size_t begin, std::size_t end);
     /// Does so with the ends of these edges.

@@ -82,7 +82,7 @@ SharedSeams::SharedSeams(SharedDecoupling& shared, const HeldPieces& held, Ranks
     : shared_(shared),
       held_(held),
       ranks_(ranks),
-      owners_(shared.cut.lines, shared.cut.borders, shared.layer_vertices(), ranks.rank()),
+      owners_(shared.cut, shared.layer_vertices(), ranks.rank()),
       used_(owners_.own_vertices(), 0),
       seams_(shared.points()) {}
 
@@ -97,7 +97,7 @@ std::vector<std::string> SharedSeams::pack_borders() const {
     std::vector<unsigned> concerned;
     std::vector<bool> is_concerned(ranks_.size(), false);
     for (const HeldPiece& held : held_.pieces) {
-        for_vertices(shared_.cut.borders[held.piece].border, shared_.cut.lines, [&](const LineVertex& v) {
+        for_vertices(shared_.cut.border(held.piece), shared_.cut.lines, [&](const LineVertex& v) {
             const unsigned owner = owners_.owner(v);
             if (is_concerned[owner]) return;
             is_concerned[owner] = true;
@@ -134,7 +134,7 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
     while (!unpacker.at_end()) {
         const auto piece = static_cast<std::uint32_t>(unpacker.get_short());
         const std::string classes = unpacker.get_text();
-        for_vertices(shared_.cut.borders[piece].border, shared_.cut.lines, [&](const LineVertex& v) {
+        for_vertices(shared_.cut.border(piece), shared_.cut.lines, [&](const LineVertex& v) {
             if (owners_.owner(v) == self) take_vertex(v);
         });
         const auto [edges, lines] = shared_.chain(piece);

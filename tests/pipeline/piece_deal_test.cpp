@@ -18,24 +18,22 @@ TEST(PieceDeal, GivesEachPieceToOneProcessOrToAll) {
         std::vector<decoupling::EstimatedBorder> borders(100);
         double work = 0;
         for (decoupling::EstimatedBorder& border : borders) {
-            border.estimate.triangles = 1000 + static_cast<double>(random.below(50'000));
+            border.work = 1000 + static_cast<double>(random.below(50'000));
             border.process = static_cast<unsigned>(random.below(processes));
-            work += border.estimate.triangles;
+            work += border.work;
         }
         std::vector<int> times(borders.size(), 0);
         const std::vector<std::size_t> shared = pipeline::deal_pieces(borders, 0, processes).shared;
         EXPECT_EQ(shared.empty(), processes == 1);
         for (const std::size_t piece : shared) ++times[piece];
-        const auto is_larger = [&](std::size_t a, std::size_t b) {
-            return borders[a].estimate.triangles > borders[b].estimate.triangles;
-        };
+        const auto is_larger = [&](std::size_t a, std::size_t b) { return borders[a].work > borders[b].work; };
         for (unsigned process = 0; process < processes; ++process) {
             const pipeline::PieceDeal deal = pipeline::deal_pieces(borders, process, processes);
             EXPECT_EQ(deal.shared, shared);
             double own_work = 0;
             for (const std::size_t piece : deal.own) {
                 EXPECT_EQ(borders[piece].process, process);
-                own_work += borders[piece].estimate.triangles;
+                own_work += borders[piece].work;
                 ++times[piece];
             }
             EXPECT_LE(own_work, work / processes * (1 + 1e-12));

@@ -1,0 +1,63 @@
+// The trapezoids of rings, whose borders follow from their numbers: nobody has to trace or to hold them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "decoupling/line_border.hpp"
+#include "decoupling/lines.hpp"
+
+namespace lamina::decoupling {
+
+/// All trapezoids between successive boxes, ring by ring from inside and counter-clockwise in each. Boxes consist of
+/// lines in counter-clockwise order, and lines lead outwards between the trapezoids of a ring.
+class RingRegions {
+public:
+    /// The lines of a ring by their numbers. Each trapezoid has as many lines on a box as any other.
+    struct RingLines {
+        std::uint32_t first_inner = 0, inner_per_trapezoid = 1;  ///< on the box inside
+        std::uint32_t first_outer = 0, outer_per_trapezoid = 1;  ///< on the box outside
+        std::uint32_t first_radial = 0;                          ///< line i is between trapezoids i - 1 and i
+        std::uint32_t trapezoids = 0;
+    };
+
+    void add(const RingLines& ring) {
+        rings_.push_back(ring);
+        end_.push_back(size() + ring.trapezoids);
+    }
+    /// Returns the number of all trapezoids.
+    std::size_t size() const { return end_.empty() ? 0 : end_.back(); }
+
+    /// Returns the border of a trapezoid. It begins as a loop would that was traced from the edge with the lowest number.
+    LAMINA_EXPORT LineBorder border(std::size_t trapezoid, const Lines& lines) const;
+    /// Calls f for the lines round a trapezoid.
+    template <class F>
+    void for_lines(std::size_t trapezoid, F&& f) const {
+        const auto [ring, j] = find(trapezoid);
+        for (std::uint32_t i = 0; i < ring.inner_per_trapezoid; ++i)
+            f(ring.first_inner + j * ring.inner_per_trapezoid + i);
+        f(ring.first_radial + j);
+        for (std::uint32_t i = 0; i < ring.outer_per_trapezoid; ++i)
+            f(ring.first_outer + j * ring.outer_per_trapezoid + i);
+        f(ring.first_radial + (j + 1 < ring.trapezoids ? j + 1 : 0));
+    }
+    /// Returns the number of vertices of a trapezoid's border.
+    std::size_t vertices(std::size_t trapezoid, const Lines& lines) const {
+        std::size_t sum = 0;
+        for_lines(trapezoid, [&](std::uint32_t line) { sum += lines.segments(line); });
+        return sum;
+    }
+
+private:
+    struct Place {
+        const RingLines& ring;
+        std::uint32_t j;  ///< number of the trapezoid in its ring
+    };
+    Place find(std::size_t trapezoid) const;
+
+    std::vector<RingLines> rings_;
+    std::vector<std::size_t> end_;  ///< per ring: the number behind those of its trapezoids
+};
+
+}  // namespace lamina::decoupling
