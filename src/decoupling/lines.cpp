@@ -132,7 +132,7 @@ std::size_t Lines::divide(std::uint32_t number, const SeparatorSpacing& spacing)
                 "processes divide a line between subdomains in different ways: all must run the same program "
                 "on the same kind of machine");
         line.interior = std::move(interior);
-        if (gathered_.size() > 0) store(line, {gathered_.data(), gathered_.size()});
+        if (gathered_.data() != nullptr) store(line, gathered_points());
     });
     return line.interior.size();
 }
@@ -166,8 +166,8 @@ void Lines::copy_points(std::span<Point> points) const {
 }
 
 void Lines::gather_points() {
-    gathered_ = core::UninitializedArray<Point>(vertices_);
-    copy_points({gathered_.data(), gathered_.size()});
+    gathered_ = core::ScratchMemory(vertices_ * sizeof(Point), false);
+    copy_points(gathered_points());
 }
 
 }  // namespace lamina::decoupling

@@ -16,7 +16,7 @@
 #include <lamina/ids.hpp>
 #include <lamina/point.hpp>
 
-#include "core/uninitialized.hpp"
+#include "core/scratch_memory.hpp"
 #include "decoupling/separators.hpp"
 
 namespace lamina::decoupling {
@@ -98,9 +98,11 @@ public:
     /// Makes one array of all vertices, by their ids. Those of lines that are not divided yet have no place in it until
     /// divide() gives them one. Call it when all vertices are numbered.
     void gather_points();
-    std::span<const Point> gathered() const { return gathered_.all(); }
+    std::span<const Point> gathered() const {
+        return {reinterpret_cast<const Point*>(gathered_.data()), gathered_.data() != nullptr ? vertices_ : 0};
+    }
     /// Sets the place of a vertex that another process has told.
-    void set_gathered(VertexId v, Point p) { gathered_[v.index()] = p; }
+    void set_gathered(VertexId v, Point p) { gathered_points()[v.index()] = p; }
 
 private:
     struct Line {
@@ -125,7 +127,12 @@ private:
     std::unique_ptr<std::unique_ptr<Chunk>[]> chunks_;
     std::atomic<std::size_t> size_ = 0;
     std::size_t vertices_ = 0;
-    core::UninitializedArray<Point> gathered_;
+    /// Each process has places for some lines alone: memory is taken for these, page by page.
+    core::ScratchMemory gathered_;
+
+    std::span<Point> gathered_points() {
+        return {reinterpret_cast<Point*>(gathered_.data()), gathered_.data() != nullptr ? vertices_ : 0};
+    }
 };
 
 }  // namespace lamina::decoupling
