@@ -33,6 +33,11 @@ struct MeshCounts {
     std::size_t layer_triangles = 0;  ///< how many of the triangles belong to the layer
 };
 
+/// How much is in a part.
+struct PartCounts {
+    std::size_t points = 0, triangles = 0, quads = 0;
+};
+
 /// The parts of a mesh that one process holds, where several processes hold it together.
 class MeshParts {
 public:
@@ -46,6 +51,8 @@ public:
     virtual std::vector<std::uint64_t> places() const = 0;
     /// Calls take() with part i of these. May be called on several threads at once. Throws IoError.
     virtual void visit(std::size_t i, const std::function<void(const MeshPart&)>& take) const = 0;
+    /// Returns how much is in part i, without reading it.
+    virtual PartCounts counts(std::size_t i) const = 0;
 };
 
 /// A frame holds what a mesh has beside the cells and points of its parts.

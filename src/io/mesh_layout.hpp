@@ -42,6 +42,8 @@ public:
     virtual MeshSink::Bytes format(const MeshPart& part) const = 0;
     /// Returns the sizes of these, in a fraction of the time.
     virtual std::vector<std::size_t> sizes(const MeshPart& part) const = 0;
+    /// Returns them without the part, where they follow from how much is in it; nothing where they do not.
+    virtual std::optional<std::vector<std::size_t>> sizes(const PartCounts&) const { return std::nullopt; }
     /// Throws UsageError for marker names that the format cannot hold.
     virtual void require_names(std::span<const Marker> markers) const = 0;
     /// Returns all of the file, for sections of these sizes. The stretches may refer to the frame.

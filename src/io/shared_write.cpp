@@ -59,10 +59,13 @@ Arrangement arrange(const MeshParts& parts, const MeshLayout& layout, Ranks& ran
     const std::vector<std::uint64_t> places = parts.places();
     std::vector<std::uint64_t> sizes(places.size() * sections);
     core::parallel_for(places.size(), 1, [&](std::size_t i, std::size_t) {
-        parts.visit(i, [&](const MeshPart& part) {
-            const std::vector<std::size_t> of_part = layout.sizes(part);
+        const auto take = [&](const std::vector<std::size_t>& of_part) {
             std::copy(of_part.begin(), of_part.end(), sizes.begin() + static_cast<std::ptrdiff_t>(i * sections));
-        });
+        };
+        if (const auto of_part = layout.sizes(parts.counts(i)))
+            take(*of_part);
+        else
+            parts.visit(i, [&](const MeshPart& part) { take(layout.sizes(part)); });
     });
     Packer packer;
     packer.put<std::uint64_t>((places.size() + batch_size() - 1) / batch_size());

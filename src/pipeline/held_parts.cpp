@@ -59,4 +59,16 @@ void HeldParts::visit(std::size_t i, const std::function<void(const MeshPart&)>&
     take_piece(refinement);
 }
 
+PartCounts HeldParts::counts(std::size_t i) const {
+    const auto of = [](const MeshPart& part) {
+        return PartCounts{part.points.size(), part.triangles.size(), part.quads.size()};
+    };
+    if (i < own_points_.size()) return of(points_[own_points_[i]]);
+    i -= own_points_.size();
+    if (i < layer_.size()) return of(layer_[i]);
+    i -= layer_.size();
+    if (i >= held_.pieces.size()) return of(behind_[i - held_.pieces.size()]);
+    return held_.store->counts(held_.pieces[i]);
+}
+
 }  // namespace lamina::pipeline

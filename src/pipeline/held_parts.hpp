@@ -33,6 +33,7 @@ public:
 
     std::vector<std::uint64_t> places() const override;
     void visit(std::size_t i, const std::function<void(const MeshPart&)>& take) const override;
+    PartCounts counts(std::size_t i) const override;
 
 private:
     std::unique_ptr<SharedDecoupling> shared_;  ///< its lines are divided when their vertices are visited

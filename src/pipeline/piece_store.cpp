@@ -29,6 +29,11 @@ void PieceStore::put(std::size_t piece, Refinement refinement) {
     stored_[piece] = {offset, refinement.steiner_points.size(), refinement.triangles.size()};
 }
 
+PartCounts PieceStore::counts(std::size_t piece) const {
+    if (file_) return {.points = stored_[piece].points, .triangles = stored_[piece].triangles};
+    return {.points = in_memory_[piece].steiner_points.size(), .triangles = in_memory_[piece].triangles.size()};
+}
+
 Refinement PieceStore::read(std::size_t piece) const {
     const Stored& stored = stored_[piece];
     Refinement refinement;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/mesh_sink.hpp>
 
 #include "core/unnamed_file.hpp"
 
@@ -25,6 +26,8 @@ public:
     /// Returns the piece where it lies in memory; null: it is on the disk.
     Refinement* in_memory(std::size_t piece) { return file_ ? nullptr : &in_memory_[piece]; }
     const Refinement* in_memory(std::size_t piece) const { return file_ ? nullptr : &in_memory_[piece]; }
+    /// Returns how many vertices and triangles a piece has.
+    PartCounts counts(std::size_t piece) const;
     /// Returns a piece from the disk, without statistics. Any thread may call it. Throws IoError.
     Refinement read(std::size_t piece) const;
 
