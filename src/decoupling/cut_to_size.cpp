@@ -46,6 +46,12 @@ private:
     RingRegions rings_;
 };
 
+/// A border that is still to be searched.
+struct Part {
+    LineBorder border;
+    unsigned process = any_process;  ///< that should search it, since it has divided the most of its lines
+};
+
 /// Cuts borders in two, and their parts again.
 class Bisection {
 public:
@@ -53,9 +59,9 @@ public:
         : spacing_(spacing), pieces_target_(pieces_target) {}
 
     /// Searches separators for all borders. May run at the same time as the other functions.
-    std::vector<SearchResult> search(Lines& lines, std::span<const LineBorder> borders) const {
-        return core::parallel_blocks(borders.size(), 1, [&](std::size_t i, std::size_t) {
-            return search_separator(localize(borders[i], lines, spacing_), spacing_, pieces_target_);
+    std::vector<SearchResult> search(Lines& lines, std::span<const Part> parts) const {
+        return core::parallel_blocks(parts.size(), 1, [&](std::size_t i, std::size_t) {
+            return search_separator(localize(parts[i].border, lines, spacing_), spacing_, pieces_target_);
         });
     }
     std::vector<SearchResult> search(Lines& lines, const SimpleRegions& regions) const {
@@ -65,30 +71,30 @@ public:
     }
 
     /// Cuts the borders for which a separator was found, and returns their parts. The other borders are done.
-    std::vector<LineBorder> cut(Lines& lines, std::vector<LineBorder> borders, std::span<SearchResult> results) {
-        std::vector<LineBorder> parts;
-        for (std::size_t i = 0; i < borders.size(); ++i)
+    std::vector<Part> cut(Lines& lines, std::vector<Part> whole, std::span<SearchResult> results) {
+        std::vector<Part> parts;
+        for (std::size_t i = 0; i < whole.size(); ++i)
             if (results[i].separator)
-                cut_in_two(lines, borders[i], *results[i].separator, parts);
+                cut_in_two(lines, whole[i].border, results[i], parts);
             else
-                add_done({std::move(borders[i])}, results[i]);
+                add_done({std::move(whole[i].border)}, results[i]);
         return parts;
     }
-    std::vector<LineBorder> cut(Lines& lines, const SimpleRegions& regions, std::span<SearchResult> results) {
-        std::vector<LineBorder> parts;
+    std::vector<Part> cut(Lines& lines, const SimpleRegions& regions, std::span<SearchResult> results) {
+        std::vector<Part> parts;
         for (std::size_t i = 0; i < regions.size(); ++i)
             if (results[i].separator)
-                cut_in_two(lines, regions.border(i, lines), *results[i].separator, parts);
+                cut_in_two(lines, regions.border(i, lines), results[i], parts);
             else
                 add_done(regions.whole(i), results[i]);
         return parts;
     }
 
     /// Cuts the borders and their parts until all are done.
-    void cut_all(Lines& lines, std::vector<LineBorder> borders) {
-        while (!borders.empty()) {
-            std::vector<SearchResult> results = search(lines, borders);
-            borders = cut(lines, std::move(borders), results);
+    void cut_all(Lines& lines, std::vector<Part> parts) {
+        while (!parts.empty()) {
+            std::vector<SearchResult> results = search(lines, parts);
+            parts = cut(lines, std::move(parts), results);
         }
     }
 
@@ -105,19 +111,20 @@ private:
         border.process = result.process;
         done_.push_back(std::move(border));
     }
-    static void cut_in_two(Lines& lines, const LineBorder& border, Separator& separator,
-                           std::vector<LineBorder>& parts) {
-        auto& [from, to, vertices, interior] = separator;
+    static void cut_in_two(Lines& lines, const LineBorder& border, SearchResult& result, std::vector<Part>& parts) {
+        auto& [from, to, vertices, interior] = *result.separator;
         const std::uint32_t number = lines.add_line(vertex_of(border, from, lines), vertex_of(border, to, lines), 1);
         lines.number(number, vertices);
         if (!interior.empty()) lines.set_interior(number, std::move(interior));
         const Stretch line{number, 0, static_cast<std::uint32_t>(vertices + 1)};
         if (from.loop != to.loop) {
-            parts.push_back(join(border, from, to, line));
+            parts.push_back({join(border, from, to, line), result.process});
         } else {
             auto [first, second] = split(border, from.index, to.index, line);
-            parts.push_back(std::move(first));
-            parts.push_back(std::move(second));
+            // The larger part stays: it is the one that the next round waits for.
+            const bool first_stays = first.vertices() >= second.vertices();
+            parts.push_back({std::move(first), first_stays ? result.process : any_process});
+            parts.push_back({std::move(second), first_stays ? any_process : result.process});
         }
     }
 };
@@ -140,22 +147,45 @@ public:
 
     /// Collective: returns the results for these borders. Processes that have nothing to do with them search some of
     /// their share of the other borders meanwhile.
-    std::vector<SearchResult> search(Lines& lines, std::span<const LineBorder> borders) {
+    std::vector<SearchResult> search(Lines& lines, std::span<const Part> parts) {
         dealer_.begin_round();
-        std::vector<DealtBorder> dealt;
-        for (const LineBorder& border : borders) dealt.push_back({&border, dealer_.deal(border.vertices())});
-        const auto has_room = [&](unsigned process, std::size_t region) {
-            const std::size_t vertices = others_.vertices(region, lines);
-            if (!dealer_.has_room(process, vertices)) return false;
-            dealer_.deal_to(process, vertices);
-            return true;
-        };
-        return search_with_others(lines, std::move(dealt), has_room);
+        Round round;
+        for (const Part& part : parts)
+            round.dealt.push_back({&part.border, dealer_.deal(part.border.vertices(), part.process)});
+        for (unsigned process = 0; process < ranks_.size(); ++process)
+            for (std::size_t& next = next_[process];
+                 next < end_[process] && dealer_.deal_if_room(process, others_.vertices(next, lines)); ++next)
+                add_other(next, process, lines, round);
+        return search_round(lines, round);
     }
 
-    /// Collective: returns the results for the other borders.
+    /// Collective: returns the results for the other borders. Processes that have had the more to do with the borders
+    /// before leave regions at the end of their shares to those that have had less.
     std::vector<SearchResult> finish(Lines& lines) {
-        search_with_others(lines, {}, [](unsigned, std::size_t) { return true; });
+        std::vector<std::uint64_t> work;
+        std::uint64_t all = 0;
+        const auto vertices = [&](std::size_t region) { return others_.vertices(region, lines); };
+        for (unsigned process = 0; process < ranks_.size(); ++process) {
+            work.push_back(dealer_.work(process));
+            for (std::size_t i = next_[process]; i < end_[process]; ++i) work.back() += vertices(i);
+            all += work.back();
+        }
+        const std::uint64_t mean = all / ranks_.size();
+        std::vector<std::size_t> left;
+        for (unsigned process = 0; process < ranks_.size(); ++process)
+            while (end_[process] > next_[process] && work[process] - vertices(end_[process] - 1) > mean) {
+                work[process] -= vertices(--end_[process]);
+                left.push_back(end_[process]);
+            }
+        Round round;
+        for (unsigned process = 0; process < ranks_.size(); ++process) {
+            for (; next_[process] < end_[process]; ++next_[process]) add_other(next_[process], process, lines, round);
+            for (; !left.empty() && (work[process] < mean || process + 1 == ranks_.size()); left.pop_back()) {
+                work[process] += vertices(left.back());
+                add_other(left.back(), process, lines, round);
+            }
+        }
+        search_round(lines, round);
         return std::move(of_others_);
     }
 
@@ -168,25 +198,35 @@ private:
     std::vector<SearchResult> of_others_;
     SearchDealer dealer_;
 
-    /// Searches those borders, and of its own others each process the next ones that it has room for. Returns the results
-    /// for the former.
-    template <class HasRoom>
-    std::vector<SearchResult> search_with_others(Lines& lines, std::vector<DealtBorder> dealt, HasRoom&& has_room) {
-        const std::size_t given = dealt.size();
-        std::deque<LineBorder> own;
-        std::vector<std::size_t> meanwhile;
-        for (unsigned process = 0; process < ranks_.size(); ++process)
-            for (std::size_t& next = next_[process]; next < end_[process] && has_room(process, next); ++next) {
-                const bool is_own = process == ranks_.rank();
-                dealt.push_back({is_own ? &own.emplace_back(others_.border(next, lines)) : nullptr, process});
-                meanwhile.push_back(next);
-            }
-        std::vector<SearchResult> results = search_together(lines, dealt, spacing_, pieces_target_, ranks_);
-        for (std::size_t i = 0; i < meanwhile.size(); ++i) of_others_[meanwhile[i]] = std::move(results[given + i]);
+    /// What all processes search until they tell each other what they have found.
+    struct Round {
+        std::vector<DealtBorder> dealt;   ///< borders that are given, then others
+        std::vector<std::size_t> others;  ///< the numbers of these
+        std::deque<LineBorder> own;       ///< the borders of those that this process searches
+    };
+
+    void add_other(std::size_t region, unsigned process, const Lines& lines, Round& round) const {
+        const bool is_own = process == ranks_.rank();
+        round.dealt.push_back({is_own ? &round.own.emplace_back(others_.border(region, lines)) : nullptr, process});
+        round.others.push_back(region);
+    }
+    /// Returns the results for the borders that are given.
+    std::vector<SearchResult> search_round(Lines& lines, const Round& round) {
+        std::vector<SearchResult> results = search_together(lines, round.dealt, spacing_, pieces_target_, ranks_);
+        const std::size_t given = round.dealt.size() - round.others.size();
+        for (std::size_t i = 0; i < round.others.size(); ++i)
+            of_others_[round.others[i]] = std::move(results[given + i]);
         results.resize(given);
         return results;
     }
 };
+
+/// Returns borders that any process may search.
+std::vector<Part> parts_of(std::vector<LineBorder> borders) {
+    std::vector<Part> parts;
+    for (LineBorder& border : borders) parts.push_back({std::move(border)});
+    return parts;
+}
 
 }  // namespace
 
@@ -197,7 +237,7 @@ std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, con
     const SimpleRegions others(regions);
     Bisection bisection(spacing, pieces_target);
     std::vector<SearchResult> results;
-    core::parallel_invoke([&] { bisection.cut_all(lines, std::move(regions.borders)); },
+    core::parallel_invoke([&] { bisection.cut_all(lines, parts_of(std::move(regions.borders))); },
                           [&] { results = bisection.search(lines, others); });
     bisection.cut_all(lines, bisection.cut(lines, others, results));
     return bisection.take_done();
@@ -209,13 +249,13 @@ std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions reg
     const SimpleRegions others(regions), none;
     Bisection bisection(spacing, pieces_target);
     SharedSearches searches(others, spacing, pieces_target, ranks);
-    const auto cut_all = [&](SharedSearches& shared, std::vector<LineBorder> parts) {
+    const auto cut_all = [&](SharedSearches& shared, std::vector<Part> parts) {
         while (!parts.empty()) {
             std::vector<SearchResult> results = shared.search(lines, parts);
             parts = bisection.cut(lines, std::move(parts), results);
         }
     };
-    cut_all(searches, std::move(regions.borders));
+    cut_all(searches, parts_of(std::move(regions.borders)));
     std::vector<SearchResult> results = searches.finish(lines);
     SharedSearches of_parts(none, spacing, pieces_target, ranks);
     cut_all(of_parts, bisection.cut(lines, others, results));

@@ -71,31 +71,39 @@ SearchResult unpack_result(Unpacker& unpacker) {
 
 }  // namespace
 
-SearchDealer::SearchDealer(unsigned processes) : work_(processes, 0) {
-    for (unsigned process = 0; process < processes; ++process) dealt_.emplace_back(0, process);
+SearchDealer::SearchDealer(unsigned processes) : work_(processes, 0), in_round_(processes, 0), of_deal_(processes, 0) {
+    for (unsigned process = 0; process < processes; ++process) least_.emplace_back(0, process);
 }
 
 void SearchDealer::begin_round() {
-    work_.assign(work_.size(), 0);
+    in_round_.assign(in_round_.size(), 0);
     most_ = 0;
 }
 
-unsigned SearchDealer::deal(std::size_t vertices) {
-    std::pop_heap(dealt_.begin(), dealt_.end(), std::greater<>());
-    auto& [work, process] = dealt_.back();
-    work += vertices;
-    const unsigned dealt_to = process;
-    std::push_heap(dealt_.begin(), dealt_.end(), std::greater<>());
-    deal_to(dealt_to, vertices);
-    return dealt_to;
+unsigned SearchDealer::deal(std::size_t vertices, unsigned process) {
+    const std::uint64_t work = 2 * vertices;
+    if (process == any_process) {
+        while (least_.front().first != of_deal_[least_.front().second]) {
+            std::pop_heap(least_.begin(), least_.end(), std::greater<>());
+            least_.pop_back();
+        }
+        process = least_.front().second;
+    }
+    of_deal_[process] += work;
+    least_.emplace_back(of_deal_[process], process);
+    std::push_heap(least_.begin(), least_.end(), std::greater<>());
+    work_[process] += work;
+    in_round_[process] += work;
+    most_ = std::max(most_, in_round_[process]);
+    return process;
 }
 
-void SearchDealer::deal_to(unsigned process, std::size_t vertices) {
+bool SearchDealer::deal_if_room(unsigned process, std::size_t vertices) {
+    if (in_round_[process] + vertices > most_) return false;
+    in_round_[process] += vertices;
     work_[process] += vertices;
-    most_ = std::max(most_, work_[process]);
+    return true;
 }
-
-bool SearchDealer::has_room(unsigned process, std::size_t vertices) const { return work_[process] + vertices <= most_; }
 
 std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
                                           const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks) {

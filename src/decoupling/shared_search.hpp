@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,25 +18,30 @@
 
 namespace lamina::decoupling {
 
-/// Says which process searches which subdomain: the one that has got the least so far, and the lowest of these. All
-/// processes come to the same answer.
+/// Stands for any process.
+inline constexpr unsigned any_process = std::numeric_limits<unsigned>::max();
+
+/// Says which process searches which subdomain. All processes come to the same answer. Work is counted in vertices of
+/// borders that are searched; a border that is cut counts twice, since candidates for separators are tried.
 class SearchDealer {
 public:
     explicit SearchDealer(unsigned processes);
 
-    /// Returns the number of the process that searches a border of so many vertices.
-    unsigned deal(std::size_t vertices);
     /// Begins with what the processes do at the same time next.
     void begin_round();
-    /// Gives such a border to a process, of which deal() takes no account.
-    void deal_to(unsigned process, std::size_t vertices);
-    /// Returns whether a process that gets such a border has no more to do in this round than the busiest one has
-    /// already.
-    bool has_room(unsigned process, std::size_t vertices) const;
+    /// Deals a border that will be cut to this process, or else to the one to which deal() has given the least so far.
+    /// Returns the process.
+    unsigned deal(std::size_t vertices, unsigned process);
+    /// Gives a process a region of its share, unless it would have more to do in this round than the busiest one has
+    /// already. Returns whether it has got it.
+    bool deal_if_room(unsigned process, std::size_t vertices);
+    /// Returns all that a process has got.
+    std::uint64_t work(unsigned process) const { return work_[process]; }
 
 private:
-    std::vector<std::uint64_t> work_;                        ///< what each process has to do in this round
-    std::vector<std::pair<std::uint64_t, unsigned>> dealt_;  ///< what deal() has given to each, the least on top
+    std::vector<std::uint64_t> work_, in_round_, of_deal_;  ///< per process: in all, in this round, and by deal()
+    /// What deal() has given to processes, the least on top. Entries that are out of date differ from of_deal_.
+    std::vector<std::pair<std::uint64_t, unsigned>> least_;
     std::uint64_t most_ = 0;
 };
 
