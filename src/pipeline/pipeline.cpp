@@ -276,10 +276,8 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
                         const StageClock& clock, MadeMesh& mesh) {
     Ranks& ranks = *destination.ranks;
     MadePieces made;
-    const PieceDeal deal = deal_pieces(shared.cut.borders, ranks.rank(), ranks.size());
     made.held.store = std::make_unique<PieceStore>(shared.pieces(), destination.beside);
     const double min_angle_deg = work.options.refine.min_angle_deg;
-    decoupling::require_same_borders(shared.cut, ranks);
     ranks.reset_counter();
     HeldPieces held;
     const auto fill_layer = [&] {
@@ -289,8 +287,8 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
         check_layer(work, made);
     };
     core::parallel_invoke(fill_layer, [&] {
-        held = take_and_refine(shared, deal, min_angle_deg, work.times, {refinement_work, check_work}, ranks,
-                               *made.held.store);
+        held =
+            take_and_refine(shared, min_angle_deg, work.times, {refinement_work, check_work}, ranks, *made.held.store);
     });
     clock.begin("numbering");
     CountedMesh counted =
@@ -319,12 +317,18 @@ void share_unexcused(Ranks& ranks, std::vector<mesh::NarrowTriangle>& unexcused)
     unexcused = unpacker.get_all<mesh::NarrowTriangle>();
 }
 
-/// Collective: cuts the outer region. The processes divide the work among themselves.
-decoupling::CutRegion share_cuts(const Layer& layer, const SizeField& size, const FarField& far_field,
-                                 const CaseOptions& options, Ranks& ranks) {
+/// Collective: cuts the outer region, and deals its pieces. The processes divide the work among themselves.
+std::unique_ptr<SharedDecoupling> share_decoupling(const Layer& layer, const SizeField& size, const FarField& far_field,
+                                                   const CaseOptions& options, const RefineOptions& refine,
+                                                   Ranks& ranks) {
     validate(options.decoupling);
     validate(options.refine);
-    return decoupling::cut_region({layer.points, layer.borders, size, far_field, options.decoupling}, &ranks);
+    auto shared = std::make_unique<SharedDecoupling>(
+        decoupling::cut_region({layer.points, layer.borders, size, far_field, options.decoupling}, &ranks), size,
+        options.decoupling.separators, refine);
+    decoupling::require_same_borders(shared->cut, ranks);
+    shared->deal = deal_pieces(shared->cut.borders, ranks.rank(), ranks.size());
+    return shared;
 }
 
 /// Makes the mesh on these rays: the stages from the layer's border to the check. `seconds` holds the times so far;
@@ -353,9 +357,7 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     std::unique_ptr<SharedDecoupling> shared;
     Decoupling decoupling;
     if (destination.ranks != nullptr)
-        shared =
-            std::make_unique<SharedDecoupling>(share_cuts(layer, size, plan.far_field, options, *destination.ranks),
-                                               size, options.decoupling.separators, refine);
+        shared = share_decoupling(layer, size, plan.far_field, options, refine, *destination.ranks);
     else
         decoupling = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, refine);
     const std::span<const Point> points = shared ? shared->points() : std::span<const Point>(decoupling.points);

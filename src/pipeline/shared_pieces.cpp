@@ -76,9 +76,10 @@ const Subdomain& SharedDecoupling::make_subdomain(std::size_t i) {
     return *subdomains[i];
 }
 
-HeldPieces take_and_refine(SharedDecoupling& shared, const PieceDeal& deal, double min_angle_deg,
-                           core::BusyTimes& times, PieceWork work, Ranks& ranks, PieceStore& store) {
+HeldPieces take_and_refine(SharedDecoupling& shared, double min_angle_deg, core::BusyTimes& times, PieceWork work,
+                           Ranks& ranks, PieceStore& store) {
     HeldPieces held;
+    const PieceDeal& deal = shared.deal;
     std::mutex mutex;
     std::atomic<bool> failed = false;
     std::atomic<std::size_t> next_own = 0;

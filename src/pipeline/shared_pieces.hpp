@@ -28,6 +28,7 @@ struct SharedDecoupling {
     SeparatorRule rule;
     RefineOptions refine;
     std::vector<std::unique_ptr<Subdomain>> subdomains;  ///< null until they are made
+    PieceDeal deal{};
 
     SharedDecoupling(decoupling::CutRegion cut, const SizeField& size, SeparatorRule rule, const RefineOptions& refine);
 
@@ -65,8 +66,8 @@ struct HeldPieces {
 
 /// Refines and checks the pieces that this process gets: its own ones, then those that whoever is free takes from a
 /// counter that all share. Each piece goes to the store. Where a piece fails, all processes end soon.
-HeldPieces take_and_refine(SharedDecoupling& shared, const PieceDeal& deal, double min_angle_deg,
-                           core::BusyTimes& times, PieceWork work, Ranks& ranks, PieceStore& store);
+HeldPieces take_and_refine(SharedDecoupling& shared, double min_angle_deg, core::BusyTimes& times, PieceWork work,
+                           Ranks& ranks, PieceStore& store);
 
 /// Where the vertices and triangles of a piece begin in the mesh.
 struct PieceNumbers {
