@@ -32,12 +32,40 @@ private:
     bool half_ = false;
 };
 
-/// Calls f for all vertices of a border, in the order of its loops.
+/// Calls f for the vertices of a border that belong to a process.
 template <class F>
-void for_vertices(const decoupling::LineBorder& border, const decoupling::Lines& lines, F&& f) {
+void for_owned_vertices(const decoupling::LineBorder& border, const decoupling::Lines& lines, const SeamOwners& owners,
+                        unsigned process, F&& f) {
     for (const decoupling::LineLoop& loop : border.loops)
-        for (const decoupling::Stretch& stretch : loop.stretches)
-            for (std::uint32_t i = 0; i < stretch.segments(); ++i) f(lines.vertex(stretch.line, stretch.place(i)));
+        for (const decoupling::Stretch& stretch : loop.stretches) {
+            // The first vertex may be one of another line, or of none; the others are inside this one.
+            if (const LineVertex first = lines.vertex(stretch.line, stretch.first); owners.owner(first) == process)
+                f(first);
+            if (owners.owner(stretch.line) != process) continue;
+            for (std::uint32_t i = 1; i < stretch.segments(); ++i) f(lines.vertex(stretch.line, stretch.place(i)));
+        }
+}
+
+/// Calls f(i, edge, line) for the edges of border_chain() on lines that take(line) takes.
+template <class Take, class F>
+void for_edges(const decoupling::LineBorder& border, const decoupling::Lines& lines, Take&& take, F&& f) {
+    if (border.may_dangle) {
+        const BorderChain chain = border_chain(border, lines);
+        for (std::uint32_t i = 0; i < chain.edges.size(); ++i)
+            if (take(chain.lines[i])) f(i, chain.edges[i], chain.lines[i]);
+        return;
+    }
+    std::uint32_t next = 0;
+    for (const decoupling::LineLoop& loop : border.loops)
+        for (const decoupling::Stretch& stretch : loop.stretches) {
+            const std::uint32_t n = stretch.segments(), first = std::exchange(next, next + n);
+            if (!take(stretch.line)) continue;
+            VertexId from = lines.id(stretch.line, stretch.first);
+            for (std::uint32_t i = 0; i < n; ++i) {
+                const VertexId to = lines.id(stretch.line, stretch.place(i + 1));
+                f(first + i, Segment{std::exchange(from, to), to}, stretch.line);
+            }
+        }
 }
 
 /// A question for an edge, and where the answer goes.
@@ -97,17 +125,24 @@ std::vector<std::string> SharedSeams::pack_borders() const {
     std::vector<unsigned> concerned;
     std::vector<bool> is_concerned(ranks_.size(), false);
     for (const HeldPiece& held : held_.pieces) {
-        for_vertices(shared_.cut.border(held.piece), shared_.cut.lines, [&](const LineVertex& v) {
-            const unsigned owner = owners_.owner(v);
+        const decoupling::LineBorder border = shared_.cut.border(held.piece);
+        const decoupling::Lines& lines = shared_.cut.lines;
+        const auto concern = [&](unsigned owner) {
             if (is_concerned[owner]) return;
             is_concerned[owner] = true;
             concerned.push_back(owner);
-        });
-        const BorderChain chain = shared_.chain(held.piece);
-        for (std::size_t i = 0; i < chain.edges.size(); ++i) {
-            const std::uint8_t none = 0;
-            classes[owners_.owner(chain.lines[i])].put(i < held.shape_classes.size() ? held.shape_classes[i] : none);
-        }
+        };
+        for (const decoupling::LineLoop& loop : border.loops)
+            for (const decoupling::Stretch& stretch : loop.stretches) {
+                concern(owners_.owner(lines.vertex(stretch.line, stretch.first)));
+                concern(owners_.owner(stretch.line));
+            }
+        for_edges(
+            border, lines, [](std::uint32_t) { return true; },
+            [&](std::uint32_t i, Segment, std::uint32_t line) {
+                const std::uint8_t none = 0;
+                classes[owners_.owner(line)].put(i < held.shape_classes.size() ? held.shape_classes[i] : none);
+            });
         for (const unsigned owner : concerned) {
             packers[owner].put_short(held.piece);
             packers[owner].put_text(std::exchange(classes[owner], {}).bytes());
@@ -134,23 +169,22 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
     while (!unpacker.at_end()) {
         const auto piece = static_cast<std::uint32_t>(unpacker.get_short());
         const std::string classes = unpacker.get_text();
-        for_vertices(shared_.cut.border(piece), shared_.cut.lines, [&](const LineVertex& v) {
-            if (owners_.owner(v) == self) take_vertex(v);
-        });
-        const auto [edges, lines] = shared_.chain(piece);
+        const decoupling::LineBorder border = shared_.cut.border(piece);
+        for_owned_vertices(border, shared_.cut.lines, owners_, self, [&](const LineVertex& v) { take_vertex(v); });
         const HeldPiece* here = rank == self ? &held(piece) : nullptr;
         std::size_t next = 0;
-        for (std::uint32_t i = 0; i < edges.size(); ++i) {
-            if (owners_.owner(lines[i]) != self) continue;
+        const auto take_edge = [&](std::uint32_t i, Segment edge, std::uint32_t) {
             const auto both = static_cast<unsigned char>(classes[next / 2]);
             const auto its_class = static_cast<std::uint8_t>(next % 2 == 0 ? both & 15 : both >> 4);
             ++next;
-            const auto [a, b] = edges[i];
-            CollectedEdges& collected = owners_.is_in_layer(a) && owners_.is_in_layer(b) ? along_layer_ : between_;
+            const bool in_layer = owners_.is_in_layer(edge.a) && owners_.is_in_layer(edge.b);
+            CollectedEdges& collected = in_layer ? along_layer_ : between_;
             const Point apex = here != nullptr && i < here->apexes.size() ? here->apexes[i] : mesh::unknown_apex;
-            collected.edges.push_back({a, b, apex, its_class});
+            collected.edges.push_back({edge.a, edge.b, apex, its_class});
             collected.sources.push_back({rank, piece, i});
-        }
+        };
+        for_edges(
+            border, shared_.cut.lines, [&](std::uint32_t line) { return owners_.owner(line) == self; }, take_edge);
     }
 }
 
