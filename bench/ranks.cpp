@@ -160,8 +160,8 @@ int main(int argc, char** argv) {
     }
     const lamina::CaseOptions options = lamina::bench::thesis_case(std::strtod(argv[first], nullptr));
     std::vector<std::string> runs;
-    // The first run asks the system for its memory.
-    if (!until_pieces) lamina::bench::measured(1, options, false);
+    // The first run asks the system for its memory, which counts where one rank is to be compared with.
+    if (!until_pieces && std::atoi(argv[first + 1]) == 1) lamina::bench::measured(1, options, false);
     for (int i = first + 1; i < argc; ++i)
         runs.push_back(lamina::bench::measured(static_cast<unsigned>(std::atoi(argv[i])), options, until_pieces));
     std::printf("[%s]\n", fmt::format("{}", fmt::join(runs, ",\n ")).c_str());

@@ -4,9 +4,11 @@
     tools/scaling.py build/release/src/app/lamina build/release/bench/lamina_measure_ranks > out/scaling.json
 
 lamina_measure_ranks makes the same mesh on 1, 2, 4 ... ranks and says how much processor time each rank takes for each
-stage. What does not become less with more ranks is repeated by each; what rank 0 alone does is told apart. Runs on a finer
-mesh say which part of both grows with the mesh. A file of the same mesh says how many triangles each piece has. The replay deals pieces of the same sizes as ranks ask for them, the
-largest estimates first, and adds the rest. docs/scaling.md states the assumptions and shows the result.
+stage, and what the busiest ranks take between each two exchanges. Two finer meshes, on two large numbers of ranks each,
+say what does not become less on more ranks, how it grows with the mesh, and for how long ranks wait for the cuts round the
+bodies, which are made one after the other. A file of the same mesh says how many triangles each piece has. The replay
+deals pieces of the same sizes as ranks ask for them, the largest estimates first, and adds the rest. docs/scaling.md
+states the assumptions and shows the result.
 """
 
 import argparse
@@ -43,6 +45,7 @@ CASE = ["naca:0012", "--preset", "none", "--first-height", "2.5e-5", "--growth",
         "--max-ray-angle", "4", "--far-field", "50"]  # that of lamina_measure_ranks
 PIECES = "layer triangulation, refinement and check of pieces"
 AT_END = ("numbering", "check", "assembly")
+LINES_SHARE = 0.15  # of what is divided of the decoupling: lines, which come before the searches
 
 
 def sizes_of(program, gradation):
@@ -54,9 +57,9 @@ def sizes_of(program, gradation):
         return piece_sizes(mesh)
 
 
-def measure(program, gradation, ranks):
-    """Returns what the ranks of runs with these numbers of ranks did."""
-    runs = json.loads(subprocess.run([program, str(gradation), *ranks],
+def measure(program, arguments):
+    """Returns what lamina_measure_ranks tells with these arguments."""
+    runs = json.loads(subprocess.run([program, *map(str, arguments)],
                                      check=True, capture_output=True, text=True).stdout)  # fmt: skip
     if len({run["hash"] for run in runs}) != 1:
         sys.exit("the ranks have made different meshes")
@@ -76,30 +79,62 @@ def summarize(run):
     return {"ranks": run["ranks"], "before": max(stage_seconds(run, before)),
             "decoupling": max(stage_seconds(run, {"decoupling"})), "pieces": max(stage_seconds(run, {PIECES})),
             "pieces_of_all": sum(stage_seconds(run, {PIECES})), "end_at_rank_0": at_end[0],
-            "end_elsewhere": max(at_end[1:], default=0.0),
+            "decoupling_with_waiting": with_waiting(run, {"decoupling"}), "end_with_waiting": with_waiting(run, AT_END),
             "bytes_a_piece": run["bytes"] / run["pieces"], "messages": run["messages"]}  # fmt: skip
 
 
-def beyond_share(parts, name):
-    """Returns what the busiest of the most ranks takes beyond its share of what one rank takes."""
-    one, most = parts[0], parts[-1]
-    share = 1 / most["ranks"]
-    return max(0.0, (most[name] - share * one[name]) / (1 - share))
+def of_all(run, names):
+    """Returns the processor time of all ranks together in these stages."""
+    return sum(stage_seconds(run, names))
 
 
-def calibrate(measured):
-    """Returns the processor time of what is divided, per triangle, and of what every rank repeats or rank 0 does alone.
+def with_waiting(run, names):
+    """Returns the time of these stages where all ranks wait for the busiest one at each exchange."""
+    return sum(seconds for name, seconds in run["with_waiting"] if name in names)
 
-    `measured` has the triangles and the parts of two meshes. What is repeated has a fixed part and one per triangle.
+
+def line_through(a, b):
+    """Returns the fixed part and the part per triangle of a line through two points (triangles, seconds); neither is
+    negative."""
+    slope = max(0.0, (b[1] - a[1]) / (b[0] - a[0]))
+    return max(0.0, a[1] - slope * a[0]), slope
+
+
+def power_through(a, b):
+    """Returns the seconds of 1e9 triangles and the power, of a power of the triangles through two such points."""
+    power = math.log(b[1] / a[1]) / math.log(b[0] / a[0])
+    return b[1] * (1e9 / b[0]) ** power, power
+
+
+def cutting_of(few, many):
+    """Returns what each rank repeats of the decoupling, what all divide, and for how long the cuts round the bodies keep
+    all waiting, from runs of the same mesh on few and on many ranks."""
+    stage = {"decoupling"}
+    repeated = (of_all(many, stage) - of_all(few, stage)) / (many["ranks"] - few["ranks"])
+    divided = of_all(few, stage) - few["ranks"] * repeated
+    # On many ranks the lines, which are divided first, and the share of the searches are the least part.
+    critical = with_waiting(many, stage) - repeated - LINES_SHARE * divided / many["ranks"]
+    return {"triangles": few["triangles"], "repeated": repeated, "divided": divided, "critical": critical}
+
+
+def calibrate(parts, triangles, cuts, ends):
+    """Returns the times that the replay needs, in seconds.
+
+    `parts` are the runs on one rank and more of a mesh with so many triangles, `cuts` two results of cutting_of(), `ends`
+    runs of two meshes on many ranks.
     """
-    (triangles, parts), (finer_triangles, finer_parts) = measured
-    cost = {"layer": parts[0]["before"], "piece_per_triangle": parts[0]["pieces_of_all"] / triangles}
-    for name, what in (("cutting", "decoupling"), ("end", "end_at_rank_0")):
-        small, large = beyond_share(parts, what), beyond_share(finer_parts, what)
-        per_triangle = max(0.0, (large - small) / (finer_triangles - triangles))
-        cost[f"{name}_repeated"] = per_triangle
-        cost[f"{name}_fixed"] = max(0.0, small - per_triangle * triangles)
-        cost[f"{name}_divided"] = (parts[0][what] - small) / triangles
+    one = parts[0]
+    cost = {"layer": one["before"], "piece_per_triangle": one["pieces_of_all"] / triangles,
+            "cutting_divided": one["decoupling"] / triangles,
+            "cutting_divided_on_many": cuts[1]["divided"] / cuts[1]["triangles"],
+            "end_divided": one["end_at_rank_0"] / triangles}  # fmt: skip
+    cost["cutting_fixed"], cost["cutting_repeated"] = line_through(
+        *((cut["triangles"], cut["repeated"]) for cut in cuts))
+    # The cuts round the bodies, and the check of the boundary at the end, go with the edges of borders.
+    cost["critical_of_1e9"], cost["critical_power"] = power_through(
+        *((cut["triangles"], cut["critical"]) for cut in cuts))
+    cost["end_of_1e9"], cost["end_power"] = power_through(
+        *((run["triangles"], with_waiting(run, AT_END) - of_all(run, AT_END) / run["ranks"]) for run in ends))
     return cost
 
 
@@ -115,13 +150,17 @@ def replay(ranks, triangles, sizes, cost, model):
         noise = 1 + abs(chance.gauss(0, model["noise"]))
         work.append((estimate, size * cost["piece_per_triangle"] * noise))
     work.sort(reverse=True)
-    repeated, divided = {}, {}
-    for name in ("cutting", "end"):
-        of_all = cost[f"{name}_fixed"] + triangles * cost[f"{name}_repeated"]
-        repeated[name] = of_all * (1 - model["divided_too"])
-        divided[name] = triangles * cost[f"{name}_divided"] + of_all * model["divided_too"]
-    start = cost["layer"] + repeated["cutting"] + divided["cutting"] / ranks
-    end = repeated["end"] + divided["end"] / ranks
+    divided_too = model["divided_too"]
+    cutting = (cost["cutting_fixed"] + triangles * cost["cutting_repeated"]) * (1 - divided_too)
+    if ranks == 1:
+        start = cost["layer"] + triangles * cost["cutting_divided"]
+        end = triangles * cost["end_divided"]
+    else:
+        share = triangles * cost["cutting_divided_on_many"] / ranks
+        critical = cost["critical_of_1e9"] * (triangles / 1e9) ** cost["critical_power"] * (1 - model["overlapped"])
+        start = cost["layer"] + cutting + LINES_SHARE * share + max(critical, (1 - LINES_SHARE) * share)
+        end = cost["end_of_1e9"] * (triangles / 1e9) ** cost["end_power"] * (1 - divided_too)
+        end += triangles * cost["end_divided"] / ranks
     if ranks >= count:
         last = start + model["fetch_seconds"] + max(seconds for _, seconds in work)
     else:
@@ -130,8 +169,8 @@ def replay(ranks, triangles, sizes, cost, model):
             heapq.heapreplace(free, free[0] + model["fetch_seconds"] + seconds)
         last = max(free)
     hops = math.ceil(math.log2(ranks)) if ranks > 1 else 0
-    # One scan over the pieces, and what each rank tells all others of its cuts, once for each round of cuts.
-    told = hops * (model["latency_seconds"] * model["rounds"] + 40 * count / model["bytes_per_second"])
+    # What each rank tells all others of its lines and of its cuts, once for each round of cuts.
+    told = hops * (model["latency_seconds"] * model["rounds"] + 10 * count / model["bytes_per_second"])
     reductions = 4 * hops * model["latency_seconds"]
     output = triangles * model["bytes_per_triangle"] / model["output_bytes_per_second"]
     return {"seconds": last + end + told + reductions + output, "pieces": count, "start": start}
@@ -155,6 +194,7 @@ def tables(sizes, cost, model):
 MODEL = {
     "piece_scale": 1.0,  # size of pieces, relative to those of the run
     "divided_too": 0.0,  # share of what ranks repeat, and of the end at rank 0, that they would divide as well
+    "overlapped": 0.0,  # share of the cuts round the bodies during which other ranks would make pieces
     "estimate_error": 0.05,  # of the work of pieces, on either side
     "noise": 0.02,  # of the time of a piece
     "fetch_seconds": 5e-6,  # one atomic fetch from another rank
@@ -168,8 +208,9 @@ VARIANTS = {
     "as now": {},
     "as now, pieces of a quarter": {"piece_scale": 0.25},
     "as now, 24 bytes a triangle to disk": {"bytes_per_triangle": 24.0},
-    "ranks divide 90 % of the rest as well": {"divided_too": 0.9},
-    "ranks divide all of it": {"divided_too": 1.0},
+    "ranks divide what they repeat": {"divided_too": 1.0},
+    "pieces are made during the cuts round the bodies": {"overlapped": 1.0},
+    "both": {"divided_too": 1.0, "overlapped": 1.0},
 }
 
 
@@ -178,7 +219,8 @@ def main():
     parser.add_argument("program", help="lamina")
     parser.add_argument("measure", help="lamina_measure_ranks")
     parser.add_argument("--gradation", type=float, default=0.0026, help="of the runs that are measured")
-    parser.add_argument("--finer", type=float, default=0.0013, help="gradation of a finer mesh on one and on most ranks")
+    parser.add_argument("--finer", default="0.0013,0.0004", help="gradations of two finer meshes [%(default)s]")
+    parser.add_argument("--many", default="64,256", help="two numbers of ranks that cut the finer meshes [%(default)s]")
     parser.add_argument("--ranks", default="1,2,4,8,16,32", help="of the runs that are measured [%(default)s]")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the model")
     arguments = parser.parse_args()
@@ -187,25 +229,30 @@ def main():
         if name not in MODEL:
             parser.error(f"no parameter '{name}' (known: {', '.join(MODEL)})")
         MODEL[name] = float(value)
-    ranks = arguments.ranks.split(",")
-    runs = measure(arguments.measure, arguments.gradation, ranks)
-    finer = measure(arguments.measure, arguments.finer, [ranks[0], ranks[-1]])
+    ranks, many = arguments.ranks.split(","), arguments.many.split(",")
+    runs = measure(arguments.measure, [arguments.gradation, *ranks])
+    cuts, ends = [], []
+    for gradation in arguments.finer.split(","):
+        cuts.append(cutting_of(*measure(arguments.measure, ["--until-pieces", gradation, *many])))
+        ends += measure(arguments.measure, [gradation, many[0]])
     triangles = runs[0]["triangles"]
     sizes = sizes_of(arguments.program, arguments.gradation)
     parts = [summarize(run) for run in runs]
-    finer_parts = [summarize(run) for run in finer]
-    cost = calibrate([(triangles, parts), (finer[0]["triangles"], finer_parts)])
+    cost = calibrate(parts, triangles, cuts, ends)
     one = replay(1, triangles, sizes, cost, MODEL)["seconds"]
     for part in parts:
-        busiest = part["before"] + part["decoupling"] + part["pieces_of_all"] / part["ranks"] + part["end_at_rank_0"]
-        part["speed_up_by_processor_time"] = (parts[0]["before"] + parts[0]["decoupling"] + parts[0]["pieces_of_all"]
-                                              + parts[0]["end_at_rank_0"]) / busiest  # fmt: skip
+        with_waiting_in_all = (part["before"] + part["decoupling_with_waiting"] + part["pieces_of_all"] / part["ranks"]
+                               + part["end_with_waiting"])  # fmt: skip
+        part["speed_up_with_waiting"] = (parts[0]["before"] + parts[0]["decoupling"] + parts[0]["pieces_of_all"]
+                                         + parts[0]["end_at_rank_0"]) / with_waiting_in_all  # fmt: skip
         part["speed_up_of_model"] = one / replay(part["ranks"], triangles, sizes, cost, MODEL)["seconds"]
     result = {
         "triangles": triangles,
         "pieces": runs[0]["pieces"],
         "measured": parts,
-        "finer": {"triangles": finer[0]["triangles"], "pieces": finer[0]["pieces"], "measured": finer_parts},
+        "cuts": cuts,
+        "ends": [{"triangles": run["triangles"], "with_waiting": with_waiting(run, AT_END),
+                  "mean": of_all(run, AT_END) / run["ranks"]} for run in ends],
         "cost": cost,
         "model": MODEL,
         "replayed": {name: tables(sizes, cost, {**MODEL, **change}) for name, change in VARIANTS.items()},
