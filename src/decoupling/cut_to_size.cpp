@@ -224,6 +224,7 @@ private:
 /// Returns borders that any process may search.
 std::vector<Part> parts_of(std::vector<LineBorder> borders) {
     std::vector<Part> parts;
+    parts.reserve(borders.size());
     for (LineBorder& border : borders) parts.push_back({std::move(border)});
     return parts;
 }

@@ -328,6 +328,7 @@ std::unique_ptr<SharedDecoupling> share_decoupling(const Layer& layer, const Siz
         options.decoupling.separators, refine);
     decoupling::require_same_borders(shared->cut, ranks);
     shared->deal = deal_pieces(shared->cut.borders, ranks.rank(), ranks.size());
+    if (divides_far_field(options)) shared->place(shared->cut.far_field);
     return shared;
 }
 
@@ -364,7 +365,6 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     seconds.decoupling += clock.lap();
 
     result.threads = thread_count();
-    if (shared && divides_far_field(options)) shared->place(shared->cut.far_field);
     std::vector<Marker> markers =
         markers_of(plan, options, layer, points, shared ? shared->cut.far_field : decoupling.far_field);
     const std::span<const Segment> constraints = layer.edges.interfaces;
