@@ -302,7 +302,7 @@ LAMINA_EXPORT void validate(const BorderOptions& options);
 inline constexpr double max_slant = 2;
 
 /// The growth of layers that are stretched differs from the requested growth by at most this factor.
-inline constexpr double max_stretch = 1.04;
+inline constexpr double max_stretch = 1.06;
 
 /// A line of layer points that leaves the wall.
 struct Ray {

@@ -80,6 +80,15 @@ double max_factor_below(double height, std::span<const double> heights, std::uin
     return low;
 }
 
+/// Returns the heights of a column without its stretch.
+std::vector<double> unstretched(const LayerHeights& heights, std::size_t ray) {
+    const std::span<const double> column = heights.of(ray);
+    std::vector<double> result(column.begin(), column.end());
+    const Stretch stretch = heights.column(ray).stretch;
+    stretch_heights({1 / stretch.factor, stretch.above}, result);
+    return result;
+}
+
 }  // namespace
 
 void stretch_heights(const Stretch& stretch, std::span<double> heights) {
@@ -123,26 +132,51 @@ Stretch stretch_of_layers(double height, std::span<const double> heights, std::u
     return {max_factor_below(height, heights, n), last_unstretched(n)};
 }
 
+namespace {
+
+/// The end of a column under its limit, and the number of layers that is wanted there.
+struct FoundEnd {
+    ColumnEnd end;
+    std::uint32_t layers;
+};
+
+/// Returns the end of the column of a ray. unstretched: its heights without its stretch, where its limit cuts it short;
+/// else empty.
+FoundEnd end_of_column(const LayerHeights& heights, std::size_t ray, double limit,
+                       std::span<const double> unstretched) {
+    const bool cut = !unstretched.empty();
+    const std::span<const double> column = cut ? unstretched : heights.of(ray);
+    const std::uint32_t n = cut ? layers_up_to(limit, column).layers : heights.column(ray).layers;
+    const double last_spacing = n > 0 ? column[n] - column[n - 1] : 0;
+    const LayerRange range = cut ? layer_range(limit, column, n) : LayerRange{n, n};
+    return {{cut ? limit : column[n], last_spacing, range, cut}, n};
+}
+
+/// Stretches heights so that layer n ends at this height. `stretch` was that of the heights and becomes the new one.
+/// Heights that had none and need none become empty.
+void stretch_to(double height, std::uint32_t n, Stretch& stretch, std::vector<double>& heights) {
+    const Stretch own = std::exchange(stretch, stretch_of_layers(height, heights, n));
+    if (own.factor == 1 && stretch.factor == 1) {
+        heights.clear();
+    } else {
+        stretch_heights(stretch, heights);
+    }
+}
+
+}  // namespace
+
 LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::span<const double> limits) {
-    std::vector<std::vector<double>> refitted(limits.size());
+    std::vector<std::vector<double>> refitted(limits.size());  // empty where a column stays as it is
     std::vector<HeightColumn> columns(limits.size());
     std::vector<std::uint32_t> layers(limits.size());
     std::vector<ColumnEnd> ends(limits.size());
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             columns[i] = heights.column(i);
-            std::span<const double> column = heights.of(i);
-            layers[i] = columns[i].layers;
-            if (limits[i] < heights.full_height(i)) {
-                refitted[i].assign(column.begin(), column.end());
-                stretch_heights({1 / columns[i].stretch.factor, columns[i].stretch.above}, refitted[i]);
-                column = refitted[i];
-                layers[i] = layers_up_to(limits[i], column).layers;
-            }
-            const double last_spacing = layers[i] > 0 ? column[layers[i]] - column[layers[i] - 1] : 0;
-            const bool cut = !refitted[i].empty();
-            const LayerRange range = cut ? layer_range(limits[i], column, layers[i]) : LayerRange{layers[i], layers[i]};
-            ends[i] = {cut ? limits[i] : column[layers[i]], last_spacing, range, cut};
+            if (limits[i] < heights.full_height(i)) refitted[i] = unstretched(heights, i);
+            const FoundEnd found = end_of_column(heights, i, limits[i], refitted[i]);
+            layers[i] = found.layers;
+            ends[i] = found.end;
         }
     });
     limit_count_differences(set, layers);
@@ -150,13 +184,9 @@ LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::sp
     limit_count_differences(set, layers);
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (refitted[i].empty()) continue;
-            const Stretch own = std::exchange(columns[i].stretch, stretch_of_layers(limits[i], refitted[i], layers[i]));
-            if (own.factor == 1 && columns[i].stretch.factor == 1) {
-                refitted[i].clear();
-            } else {
-                stretch_heights(columns[i].stretch, refitted[i]);
-            }
+            // A whole column that has fewer layers for the sake of its neighbours still ends where it did.
+            if (!ends[i].cut && layers[i] < columns[i].layers) refitted[i] = unstretched(heights, i);
+            if (!refitted[i].empty()) stretch_to(ends[i].height, layers[i], columns[i].stretch, refitted[i]);
         }
     });
     std::vector<double> table = heights.table();

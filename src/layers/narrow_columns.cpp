@@ -8,20 +8,20 @@
 //     |  /|  |           |   |
 //     |_/_|__|           |___|
 //
-// Each ray has a range of numbers with which a stretch can keep the front where it is. A string that is pulled taut
-// through these ranges changes as little as possible, and evenly where it must:
+// Each ray has a range of numbers with which a stretch can keep the front where it is. Among all sequences of numbers in
+// these ranges, the cheapest is taken. A change costs the fourth power of the tangent by which the rows that it shifts
+// are off a right angle with the rays. So a change costs little where columns are wide, and where rays lean, it costs
+// less in one direction than in the other (docs/decisions/0057):
 //
-//            _ _                    I   range of a ray between narrow columns
-//      o-o--'I I`-o-o--o            o   number on a ray between wide columns
-//            I I
+//         / / / /             / / / /
+//        /_/ / /             /_/_/ /      rays that lean to the right; rows that fall in this direction, and that rise
+//       / /_/ /             / / /_/
+//      / / / /_            / / / /
 //
-// Lengths along the string are squares of widths of columns over the heights of their last layers, so that it changes
-// most where columns are widest. The numbers are its values, rounded.
-//
-// A column whose rays lean counts as narrower, since its cells are sheared already (docs/decisions/0055).
 #include "layers/narrow_columns.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "layers/neighbours.hpp"
@@ -30,64 +30,76 @@ namespace lamina::layers {
 
 namespace {
 
-/// A column is narrow where its front is shorter than this share of the last layer's height. Where something cuts
-/// layers short, it counts as shorter where rays lean. Elsewhere numbers stay as the front asks, since the more layers are
-/// stretched, the more the last ones differ in height from the cells beyond.
+/// A column is narrow where its front is shorter than this share of the last layer's height. Elsewhere numbers stay as
+/// the front asks, since the more layers are stretched, the more the last ones differ in height from the cells beyond.
 constexpr double narrow_share = 0.8;
-/// A column has this length at least, so that the string goes forward.
-constexpr double least_length = 1e-6;
-/// A column counts as this many heights wide at most, as columns without layers do, so that sums of lengths are exact
-/// enough for short ones.
-constexpr double most_width = 10;
+/// The same where something cuts layers short. There it counts as shorter where rays lean.
+constexpr double narrow_share_of_cut = 1.5;
+/// A change costs this much at least, so that there are few of them.
+constexpr double least_cost = 0.05;
+/// The tangent counts as this much at most, so that sums of costs are exact enough for small ones.
+constexpr double most_tangent = 8;
+/// Changes by several layers at a time are undone later (limit_count_differences()); they cost this many times as much.
+constexpr double several_at_once = 100;
+/// A number costs this much times the square of its distance from the one that is wanted.
+constexpr double cost_of_distance = 0.01;
+/// It costs this much for each layer. So of two sequences that cost the same otherwise, as in mirrored input, the one
+/// with fewer layers is taken.
+constexpr double cost_of_layer = 1e-6;
 
-/// A place that the string goes through.
-struct Gate {
-    double along;  ///< length of the columns before
-    double least, most;
+/// What a ray may have, and what changes cost on the column before it.
+struct RayChoices {
+    LayerRange range;
+    std::uint32_t wanted;
+    double increase = 0, decrease = 0;
 };
 
-/// Returns the heights at which a string that is pulled taut goes through the gates, of which the first and the last are
-/// points.
-std::vector<double> pull_taut(std::span<const Gate> gates) {
-    std::vector<double> string(gates.size());
-    std::size_t apex = 0;
-    string[0] = gates[0].least;
-    while (apex + 1 < gates.size()) {
-        // The lines from the apex through all gates so far have slopes between those to two corners.
-        std::size_t low = apex + 1, high = low, bend = 0;
-        const auto slope_to = [&](std::size_t i, double height) {
-            return (height - string[apex]) / (gates[i].along - gates[apex].along);
-        };
-        double steepest = HUGE_VAL, flattest = -HUGE_VAL;
-        bool bends_up = false;
-        for (std::size_t i = apex + 1; i < gates.size() && bend == 0; ++i) {
-            const double to_least = slope_to(i, gates[i].least), to_most = slope_to(i, gates[i].most);
-            if (to_least > steepest) {
-                bend = high;
-                bends_up = true;
-            } else if (to_most < flattest) {
-                bend = low;
-            } else {
-                if (to_least >= flattest) low = i, flattest = to_least;
-                if (to_most <= steepest) high = i, steepest = to_most;
-            }
-        }
-        if (bend == 0) bend = gates.size() - 1;
-        const double height = bends_up ? gates[bend].most : gates[bend].least;
-        const double slope = slope_to(bend, height);
-        for (std::size_t i = apex + 1; i < bend; ++i)
-            string[i] = string[apex] + slope * (gates[i].along - gates[apex].along);
-        string[bend] = height;
-        apex = bend;
+/// The cheapest way to a number of layers.
+struct Way {
+    double cost;
+    std::uint32_t before;  ///< the number on the ray before
+};
+
+Way cheapest_way(std::uint32_t n, const RayChoices& ray, const LayerRange& range_before,
+                 std::span<const Way> ways_before) {
+    const double off = double(n) - double(ray.wanted);
+    const double own = cost_of_distance * off * off + cost_of_layer * n;
+    Way best{HUGE_VAL, 0};
+    for (const std::uint32_t m : {n, n - std::min(n, 1u), n + 1}) {
+        const std::uint32_t before = std::clamp(m, range_before.least, range_before.most);
+        const double change = double(n) - double(before);
+        const double several = std::abs(change) > 1 ? several_at_once : 1;
+        const double step = (change > 0 ? ray.increase : ray.decrease) * change * change * several;
+        const double cost = ways_before[before - range_before.least].cost + step + own;
+        if (cost < best.cost) best = {cost, before};
     }
-    return string;
+    return best;
 }
 
-/// Returns the nearest whole number, and the lower one of two. The slack makes halves that are not exact go down, too,
-/// so that mirrored input gives mirrored numbers.
-std::uint32_t rounded(double value) {
-    constexpr double slack = 1e-6;
-    return static_cast<std::uint32_t>(std::ceil(value - 0.5 - slack));
+/// Returns the cheapest sequence of numbers on rays, of which the first and the last have one choice.
+std::vector<std::uint32_t> cheapest_numbers(std::span<const RayChoices> rays) {
+    std::vector<std::vector<Way>> ways{{{0, 0}}};
+    for (std::size_t k = 1; k < rays.size(); ++k) {
+        std::vector<Way>& here = ways.emplace_back();
+        for (std::uint32_t n = rays[k].range.least; n <= rays[k].range.most; ++n)
+            here.push_back(cheapest_way(n, rays[k], rays[k - 1].range, ways[k - 1]));
+    }
+    std::vector<std::uint32_t> numbers(rays.size());
+    numbers.back() = rays.back().wanted;
+    for (std::size_t k = rays.size() - 1; k > 0; --k) numbers[k - 1] = ways[k][numbers[k] - rays[k].range.least].before;
+    return numbers;
+}
+
+/// Returns what it costs that the topmost row that two neighbouring rays share is one layer below the front on one of
+/// them: `below[0]` of the first, or `below[1]` of the second.
+double cost_of_change(const std::array<const RayLine*, 2>& rays, const std::array<double, 2>& heights,
+                      const std::array<double, 2>& below) {
+    const auto end = [&](std::size_t k) { return rays[k]->origin + (heights[k] - below[k]) * rays[k]->direction; };
+    const Point row = end(1) - end(0), along = rays[0]->direction + rays[1]->direction;
+    const double across = std::abs(cross(row, along)), shift = std::abs(dot(row, along));
+    const double tangent = shift < most_tangent * across ? shift / across : most_tangent;
+    const double square = tangent * tangent;
+    return std::max(square * square, least_cost);
 }
 
 }  // namespace
@@ -95,39 +107,35 @@ std::uint32_t rounded(double value) {
 void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
                                    std::vector<std::uint32_t>& counts) {
     const RayNeighbours rays(set);
-    /// Returns the width of the column between two neighbours, in heights of its last layer.
-    const auto width = [&](std::size_t i, std::size_t j) {
+    const auto is_narrow = [&](std::size_t i, std::size_t j, bool cut) {
         const RayLine &a = set.lines[i], &b = set.lines[j];
         const double height = std::min(ends[i].height, ends[j].height);
-        const double apart = length(b.origin - a.origin + height * (b.direction - a.direction));
+        const double width = length(b.origin - a.origin + height * (b.direction - a.direction));
         const double spacing = std::max(ends[i].last_spacing, ends[j].last_spacing);
-        return apart < most_width * spacing ? apart / spacing : most_width;
-    };
-    const auto width_left = [&](std::size_t i, std::size_t j) {
-        const double lean = std::abs(tangent_of_lean(set.lines[i], set.lines[j]));
-        return width(i, j) * max_row_slope(lean);
+        const double seen = cut ? max_row_slope(std::abs(tangent_of_lean(a, b))) : 1;
+        return seen * width < (cut ? narrow_share_of_cut : narrow_share) * spacing;
     };
     const auto is_free = [&](std::size_t i) {
-        const auto measure = [&](std::size_t a, std::size_t b) { return ends[i].cut ? width_left(a, b) : width(a, b); };
-        return measure(rays.previous[i], i) < narrow_share || measure(i, rays.next[i]) < narrow_share;
+        return is_narrow(rays.previous[i], i, ends[i].cut) || is_narrow(i, rays.next[i], ends[i].cut);
+    };
+    const auto cost_between = [&](std::size_t i, std::size_t j, double below_i, double below_j) {
+        return cost_of_change({&set.lines[i], &set.lines[j]}, {ends[i].height, ends[j].height}, {below_i, below_j});
     };
     for (std::size_t e = 0; e < set.elements(); ++e) {
         std::size_t first = set.begin[e];
         while (first + 1 < set.begin[e + 1] && is_free(first)) ++first;
-        std::vector<Gate> gates;
-        double along = 0;
-        std::size_t i = first;
-        do {
-            const bool held = i == first || !is_free(i);
-            const LayerRange range = held ? LayerRange{counts[i], counts[i]} : ends[i].layers;
-            gates.push_back({along, double(range.least), double(range.most)});
-            const double step = width_left(i, rays.next[i]);
-            along += std::max(step * step, least_length);
+        std::vector<RayChoices> choices{{{counts[first], counts[first]}, counts[first]}};
+        for (std::size_t i = first; choices.size() == 1 || i != first;) {
+            const std::size_t before = i;
             i = rays.next[i];
-        } while (i != first);
-        gates.push_back({along, gates[0].least, gates[0].most});
-        const std::vector<double> string = pull_taut(gates);
-        for (std::size_t k = 0; k + 1 < gates.size(); ++k, i = rays.next[i]) counts[i] = rounded(string[k]);
+            const bool held = i == first || !is_free(i);
+            choices.push_back({held ? LayerRange{counts[i], counts[i]} : ends[i].layers, counts[i],
+                               cost_between(before, i, 0, ends[i].last_spacing),
+                               cost_between(before, i, ends[before].last_spacing, 0)});
+        }
+        const std::vector<std::uint32_t> numbers = cheapest_numbers(choices);
+        std::size_t i = first;
+        for (std::size_t k = 0; k + 1 < numbers.size(); ++k, i = rays.next[i]) counts[i] = numbers[k];
     }
 }
 

@@ -29,6 +29,10 @@ constexpr double ray_fraction = 0.45;
 /// Largest rise of the limit per unit of distance between neighbouring rays. Two such slopes in a corner of 90 degrees
 /// leave 60 degrees to the outer region.
 constexpr double max_limit_slope = 0.25;
+/// Largest rise of the end of a layer per unit of distance between neighbouring rays, where rays are cut short. Rays
+/// from a rounded lip are parallel at the height of the layer, while the wall below turns away from them and heights
+/// along them grow with their slant. Rows would lie across them at 45 degrees (docs/decisions/0057).
+constexpr double max_end_slope = 0.6;
 /// Up to this number of rays, one scale does for all heights.
 constexpr std::size_t max_single_scale_rays = 600;
 /// Distance of the rays of a sample, as a share of the largest height of the scale.
@@ -213,11 +217,20 @@ void lower_to_sample(const RaySet& set, const RaySample& sample, std::span<const
 }  // namespace
 
 void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<double>& limits) {
+    const auto apart = [&](std::size_t from, std::size_t to, double height) {
+        return distance(at_height(set.lines[from], height), at_height(set.lines[to], height));
+    };
     lower_to_neighbours(set, limits, [&](std::size_t from, std::size_t to) {
         const double height = std::min(limits[from], heights.full_height(from));
-        return limits[from] +
-               max_limit_slope * distance(at_height(set.lines[from], height), at_height(set.lines[to], height));
+        return limits[from] + max_limit_slope * apart(from, to, height);
     });
+    std::vector<double> ends(limits.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = std::min(limits[i], heights.full_height(i));
+    lower_to_neighbours(set, ends, [&](std::size_t from, std::size_t to) {
+        return ends[from] + max_end_slope * apart(from, to, ends[from]);
+    });
+    for (std::size_t i = 0; i < ends.size(); ++i)
+        if (ends[i] < heights.full_height(i)) limits[i] = ends[i];
 }
 
 std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights) {

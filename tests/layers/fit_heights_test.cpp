@@ -8,6 +8,7 @@
 #include "layers/checked_layer.hpp"
 #include "layers/fit_heights.hpp"
 #include "layers/growth_laws.hpp"
+#include "layers/truncation.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -82,6 +83,49 @@ TEST(FitHeights, LayersInAWedgeThinWithoutSteps) {
         ++compared;
     }
     EXPECT_GT(compared, 60u);
+}
+
+/// A ray has fewer layers than requested because those of its neighbour are cut short. They end where all would.
+TEST(FitHeights, WholeColumnsThatHaveFewerLayersEndAtTheSameHeight) {
+    const LayerHeights one = one_column();
+    const std::size_t rays = 3;
+    RaySet set;
+    for (std::size_t i = 0; i < rays; ++i) set.lines.push_back({{double(i), 0}, {0, 1}});
+    set.begin.push_back(rays);
+    const LayerHeights heights(one.table(), std::vector<HeightColumn>(rays, one.column(0)));
+    const double limit = one.of(0)[requested - 2];
+    const LayerHeights fitted = layers::fit_heights(set, heights, std::vector{HUGE_VAL, limit, HUGE_VAL});
+    EXPECT_EQ(fitted.of(1)[requested - 2], limit);
+    for (const std::size_t i : {0, 2}) {
+        EXPECT_NEAR(fitted.of(i)[requested - 1] / one.full_height(0), 1, 1e-9);
+        EXPECT_GT(fitted.column(i).stretch.factor, 1);
+    }
+}
+
+/// Heights along rays grow with the slant of the rays. Where something cuts rays short, ends of neighbours that are near
+/// each other do not differ by much.
+TEST(FitHeights, EndsOfRaysDoNotRiseSteeply) {
+    const std::size_t rays = 30;
+    const double apart = 0.01, max_rise = 0.6 * apart;
+    const LayerHeights one = one_column();
+    const std::span<const double> column = one.of(0);
+    std::vector<double> table;
+    std::vector<HeightColumn> columns;
+    RaySet set;
+    for (std::size_t i = 0; i < rays; ++i) {
+        set.lines.push_back({{apart * double(i), 0}, {0, 1}});
+        columns.push_back({table.size(), requested, 1.2});
+        columns.back().slant = i < 10 ? 1 : 1.5;
+        for (const double h : column) table.push_back(columns.back().slant * h);
+    }
+    set.begin.push_back(rays);
+    const LayerHeights heights(table, columns);
+    std::vector<double> limits(rays, HUGE_VAL);
+    layers::smooth_limits(set, heights, limits);
+    const auto end = [&](std::size_t i) { return std::min(limits[i], heights.full_height(i)); };
+    for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(limits[i], HUGE_VAL) << i;
+    EXPECT_LT(limits[10], heights.full_height(10));
+    for (std::size_t i = 0; i + 1 < rays; ++i) EXPECT_LE(end(i + 1) - end(i), max_rise * (1 + 1e-12)) << i;
 }
 
 }  // namespace
