@@ -115,8 +115,13 @@ void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd>
         const double seen = cut ? max_row_slope(std::abs(tangent_of_lean(a, b))) : 1;
         return seen * width < (cut ? narrow_share_of_cut : narrow_share) * spacing;
     };
+    // Rows of one ray that has a layer more than both of its neighbours would turn twice as much as at a change.
+    const auto is_alone = [&](std::size_t i) {
+        const std::uint32_t beside = counts[rays.next[i]];
+        return counts[i] != beside && counts[rays.previous[i]] == beside;
+    };
     const auto is_free = [&](std::size_t i) {
-        return is_narrow(rays.previous[i], i, ends[i].cut) || is_narrow(i, rays.next[i], ends[i].cut);
+        return is_alone(i) || is_narrow(rays.previous[i], i, ends[i].cut) || is_narrow(i, rays.next[i], ends[i].cut);
     };
     const auto cost_between = [&](std::size_t i, std::size_t j, double below_i, double below_j) {
         return cost_of_change({&set.lines[i], &set.lines[j]}, {ends[i].height, ends[j].height}, {below_i, below_j});

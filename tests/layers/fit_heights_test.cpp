@@ -88,15 +88,15 @@ TEST(FitHeights, LayersInAWedgeThinWithoutSteps) {
 /// A ray has fewer layers than requested because those of its neighbour are cut short. They end where all would.
 TEST(FitHeights, WholeColumnsThatHaveFewerLayersEndAtTheSameHeight) {
     const LayerHeights one = one_column();
-    const std::size_t rays = 3;
+    const std::size_t rays = 4;
     RaySet set;
     for (std::size_t i = 0; i < rays; ++i) set.lines.push_back({{double(i), 0}, {0, 1}});
     set.begin.push_back(rays);
     const LayerHeights heights(one.table(), std::vector<HeightColumn>(rays, one.column(0)));
     const double limit = one.of(0)[requested - 2];
-    const LayerHeights fitted = layers::fit_heights(set, heights, std::vector{HUGE_VAL, limit, HUGE_VAL});
-    EXPECT_EQ(fitted.of(1)[requested - 2], limit);
-    for (const std::size_t i : {0, 2}) {
+    const LayerHeights fitted = layers::fit_heights(set, heights, std::vector{HUGE_VAL, limit, limit, HUGE_VAL});
+    for (const std::size_t i : {1, 2}) EXPECT_EQ(fitted.of(i)[requested - 2], limit);
+    for (const std::size_t i : {0, 3}) {
         EXPECT_NEAR(fitted.of(i)[requested - 1] / one.full_height(0), 1, 1e-9);
         EXPECT_GT(fitted.column(i).stretch.factor, 1);
     }
