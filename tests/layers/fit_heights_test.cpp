@@ -8,6 +8,7 @@
 #include "layers/checked_layer.hpp"
 #include "layers/fit_heights.hpp"
 #include "layers/growth_laws.hpp"
+#include "layers/layered_rays.hpp"
 #include "layers/truncation.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -126,6 +127,32 @@ TEST(FitHeights, EndsOfRaysDoNotRiseSteeply) {
     for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(limits[i], HUGE_VAL) << i;
     EXPECT_LT(limits[10], heights.full_height(10));
     for (std::size_t i = 0; i + 1 < rays; ++i) EXPECT_LE(end(i + 1) - end(i), max_rise * (1 + 1e-12)) << i;
+}
+
+/// Layers of two bodies meet. Where they lose layers for that, their ends are no cliffs.
+TEST(FitHeights, LayersThatMeetEndWithoutCliffs) {
+    const shapes::Outline flat = shapes::refined(shapes::box(), 500);
+    const shapes::Outline tooth = shapes::refined(
+        shapes::polygon({{0, 1.3}, {0.48, 1.3}, {0.5, 1.16}, {0.52, 1.3}, {1, 1.3}, {1, 2}, {0, 2}}), 500);
+    LayerOptions options;
+    options.layers = 35;
+    options.first_height = Length(1e-4, LengthUnit::input);
+    Rays rays = grow_rays(shapes::geometry({flat, tooth}), options, test::growth_of(options));
+    rays.limits.assign(rays.limits.size(), HUGE_VAL);  // as if no ray met anything
+    layers::fit_and_count_layers(rays);
+    const layers::LayeredRays layered = layers::layered_rays(rays);
+    const std::vector<std::size_t> next = rays.set.following();
+    double steepest = 0;
+    std::size_t empty = 0;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        const RayLine &a = rays.set.lines[i], &b = rays.set.lines[next[i]];
+        empty += rays.counts[i] == 0;
+        if (a.direction != b.direction) continue;
+        const Point step = layered.tip(next[i]) - layered.tip(i);
+        steepest = std::max(steepest, std::abs(dot(step, a.direction) / cross(step, a.direction)));
+    }
+    EXPECT_LE(steepest, 0.3);
+    EXPECT_EQ(empty, 0u);
 }
 
 }  // namespace
