@@ -78,7 +78,7 @@ TEST(Rays, TiltAcrossNoise) {
 }
 
 TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
-    const double min_cosine = std::cos(core::radians(66));
+    const double min_cosine = std::cos(core::radians(51));
     for (const Outline& outline :
          {noisy(shapes::circle(1, 300), 6e-3), shapes::refined(shapes::c_shape(0.05), 20), shapes::comb(4, 0.1),
           shapes::refined(shapes::v_notch(0.4), 20), noisy(shapes::joukowski(0.1, 0.4, 200), 1e-3)}) {
@@ -93,7 +93,7 @@ TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
                 const Point normal = -perpendicular(unit(next.origin - ray.origin));
                 EXPECT_GT(std::min(dot(normal, ray.direction), dot(normal, next.direction)), 0.2);
             }
-            // At vertices that turn gently, rays are within 65 degrees of both normals.
+            // At vertices that turn gently, rays are within 50 degrees of both normals.
             for (std::size_t i = 0; i < outline.size(); ++i) {
                 const std::size_t n = outline.size();
                 const Point before = unit(outline[i] - outline[(i + n - 1) % n]),
