@@ -56,6 +56,10 @@ void fit_and_count_layers(Rays& rays) {
     constexpr int max_rounds = 3;
     for (int round = 0;; ++round) {
         rays.fitted = fit_heights(rays.set, rays.heights, rays.limits);
+        // A whole column that was stretched for one layer less has no room for that layer any more.
+        for (std::size_t i = 0; i < rays.limits.size(); ++i)
+            if (rays.fitted.column(i).stretch.factor != 1)
+                rays.limits[i] = std::min(rays.limits[i], rays.heights.full_height(i));
         rays.counts = layer_counts(rays.set, rays.limits, rays.fitted);
         if (round == max_rounds || !lower_limits_of_lowered_rays(rays)) return;
     }
