@@ -35,7 +35,9 @@ struct MeshCounts {
 
 /// How much is in a part.
 struct PartCounts {
-    std::size_t points = 0, triangles = 0, quads = 0;
+    std::size_t points = 0;     ///< number of points, those that it shares with other parts among them
+    std::size_t triangles = 0;  ///< number of triangles
+    std::size_t quads = 0;      ///< number of quadrilaterals
 };
 
 /// The parts of a mesh that one process holds, where several processes hold it together.
