@@ -33,7 +33,7 @@ struct WorkCost {
 };
 
 /// The cost of generate_mesh().
-inline constexpr WorkCost mesh_cost{20e6, 50, 0.3e-6};
+inline constexpr WorkCost mesh_cost{20e6, 45, 0.2e-6};
 /// The cost of a triangulation of points and segments.
 inline constexpr WorkCost triangulation_cost{15e6, 90, 0.5e-6};
 /// The cost of refining a triangulation to sizes.

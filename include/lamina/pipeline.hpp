@@ -133,7 +133,7 @@ struct StageSeconds {
     double sizing = 0;               ///< size
     double decoupling = 0;           ///< decouple
     double refinement = 0;           ///< refine
-    double assembly = 0;             ///< assemble
+    double assembly = 0;             ///< summaries and warnings; pieces are put together while others are refined
     double check = 0;                ///< check
     double total = 0;                ///< the whole run
 };

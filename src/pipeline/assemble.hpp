@@ -23,8 +23,4 @@ void mark_slip_walls(std::span<const Point> points, std::vector<Marker>& markers
 /// are there; pieces and markers are not.
 Mesh layer_mesh(const Layer& layer, const LayerCells& cells);
 
-/// Does what the public assemble() does, with markers that are made already.
-Mesh assemble(std::vector<Marker> markers, const Layer& layer, LayerCells cells, Decoupling decoupling,
-              std::vector<Refinement> refinements);
-
 }  // namespace lamina::pipeline

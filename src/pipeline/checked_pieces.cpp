@@ -101,18 +101,18 @@ PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std
                                const PieceKeeper& keeper) {
     PiecesSummary summary;
     core::InOrder<PieceFacts> in_order([&](PieceFacts facts) { add_piece(std::move(facts), summary, check); });
-    const auto make_piece = [&](std::size_t place) {
-        if (keeper.begin) keeper.begin(place);
-        CheckedPiece piece = refine_and_check_piece(decoupling.subdomains[order[place]], decoupling.points,
-                                                    order.size(), min_angle_deg, times, work);
-        in_order.put(place, std::move(piece.facts));
-        keeper.keep(place, order[place], std::move(piece.refinement));
+    const auto make_piece = [&](std::size_t subdomain) {
+        keeper.begin(subdomain);
+        CheckedPiece piece = refine_and_check_piece(decoupling.subdomains[subdomain], decoupling.points, order.size(),
+                                                    min_angle_deg, times, work);
+        in_order.put(subdomain, std::move(piece.facts));
+        keeper.keep(subdomain, std::move(piece.refinement));
     };
     core::parallel_for(order.size(), 1, [&](std::size_t place, std::size_t) {
         try {
-            make_piece(place);
+            make_piece(order[place]);
         } catch (...) {
-            if (keeper.fail) keeper.fail();
+            keeper.fail();
             throw;
         }
     });

@@ -33,12 +33,12 @@ struct PieceWork {
 
 /// A receiver takes the pieces. All its functions run on several threads at once.
 struct PieceKeeper {
-    /// Called before the work on the piece of this place in the order begins; empty: nothing is to be done.
-    std::function<void(std::size_t place)> begin{};
+    /// Called before the work on a subdomain begins.
+    std::function<void(std::size_t subdomain)> begin;
     /// Takes the refinement of a subdomain.
-    std::function<void(std::size_t place, std::size_t subdomain, Refinement)> keep;
-    /// Called where the work on a piece has thrown, so that no other thread waits for it; may be empty.
-    std::function<void()> fail{};
+    std::function<void(std::size_t subdomain, Refinement)> keep;
+    /// Called where the work on a subdomain has thrown, so that no other thread waits for it.
+    std::function<void()> fail;
 };
 
 /// The facts about one piece.
@@ -67,8 +67,8 @@ bool is_good_estimate(double estimated, std::size_t made);
 void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& check);
 
 /// Refines all subdomains in parallel in this order. Each piece is checked while it lies in the cache of the thread that
-/// has made it, its findings are added to the check, and the piece is handed to the keeper. The result does not depend
-/// on the number of threads.
+/// has made it, its findings are added to the check in the order of the subdomains, and the piece is handed to the keeper.
+/// The result depends neither on this order nor on the number of threads.
 PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
                                core::BusyTimes& times, PieceWork work, mesh::PiecewiseCheck& check,
                                const PieceKeeper& keeper);

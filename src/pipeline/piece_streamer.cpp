@@ -1,25 +1,48 @@
 #include "pipeline/piece_streamer.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <span>
 #include <utility>
 
 #include <lamina/error.hpp>
 #include <lamina/threads.hpp>
 
+#include "decoupling/refine_all.hpp"
 #include "pipeline/parts.hpp"
 
 namespace lamina::pipeline {
 
-PieceStreamer::PieceStreamer(const Decoupling& decoupling, const LayerCells& cells, MeshSink& sink)
+PieceStreamer::PieceStreamer(const Decoupling& decoupling, PartTaker& taker, bool with_hash)
     : decoupling_(decoupling),
-      cells_(cells),
-      sink_(sink),
-      window_(std::size_t{4} * thread_count()),
-      counts_{decoupling.points.size(), cells.triangles.size(), cells.quads.size(), cells.triangles.size()},
-      in_order_([this](const MeshSink::Bytes& bytes) { sink_.append(bytes); }) {
-    for (const MeshPart& part : parts_of_points(decoupling.points)) sink_.append(sink_.format(part));
-    for (const MeshPart& part : parts_of_layer(decoupling.points, cells)) sink_.append(sink_.format(part));
-    hash_.add(decoupling.points, std::span<const Triangle>(cells.triangles));
+      taker_(taker),
+      with_hash_(with_hash),
+      window_(std::size_t{8} * thread_count()),
+      in_order_([](const PartTaker::Append& append) { append(); }) {}
+
+std::vector<std::size_t> PieceStreamer::order() const {
+    const std::span<const Subdomain> subdomains = decoupling_.subdomains;
+    // begin() lets all of the last ones be made once those before them are.
+    const std::size_t in_turn = subdomains.size() - std::min(subdomains.size(), window_);
+    std::vector<std::size_t> order(in_turn);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (const std::size_t last : decoupling::largest_first(subdomains.subspan(in_turn)))
+        order.push_back(in_turn + last);
+    return order;
+}
+
+void PieceStreamer::start(const LayerCells& cells) {
+    for (const MeshPart& part : parts_of_points(decoupling_.points)) taker_.take(part);
+    for (const MeshPart& part : parts_of_layer(decoupling_.points, cells)) taker_.take(part);
+    if (with_hash_) hash_.add(decoupling_.points, std::span<const Triangle>(cells.triangles));
+    std::vector<NumberedPiece> numbered;
+    {
+        const std::lock_guard lock(mutex_);
+        cells_ = &cells;
+        counts_ = {decoupling_.points.size(), cells.triangles.size(), cells.quads.size(), cells.triangles.size()};
+        numbered = number_waiting();
+    }
+    for (NumberedPiece& piece : numbered) hand_on(std::move(piece));
 }
 
 void PieceStreamer::begin(std::size_t piece) {
@@ -35,13 +58,17 @@ void PieceStreamer::fail() {
 }
 
 void PieceStreamer::take(std::size_t piece, Refinement refinement) {
-    for (NumberedPiece& numbered : number(piece, std::move(refinement))) hand_on(std::move(numbered));
+    std::vector<NumberedPiece> numbered;
+    {
+        const std::lock_guard lock(mutex_);
+        waiting_.emplace(piece, std::move(refinement));
+        if (cells_ != nullptr) numbered = number_waiting();
+    }
+    for (NumberedPiece& next : numbered) hand_on(std::move(next));
 }
 
-/// Returns the pieces whose numbers are known now.
-std::vector<PieceStreamer::NumberedPiece> PieceStreamer::number(std::size_t piece, Refinement refinement) {
-    const std::lock_guard lock(mutex_);
-    waiting_.emplace(piece, std::move(refinement));
+/// Returns the pieces whose numbers are known now. The mutex must be held.
+std::vector<PieceStreamer::NumberedPiece> PieceStreamer::number_waiting() {
     std::vector<NumberedPiece> numbered;
     for (auto first = waiting_.begin(); first != waiting_.end() && first->first == next_; ++next_) {
         numbered.push_back({next_, counts_.vertices, counts_.triangles, std::move(first->second)});
@@ -56,24 +83,24 @@ std::vector<PieceStreamer::NumberedPiece> PieceStreamer::number(std::size_t piec
 
 void PieceStreamer::hand_on(NumberedPiece piece) {
     const Subdomain& subdomain = decoupling_.subdomains[piece.number];
-    const mesh::HashOfParts hash = hash_of_piece(subdomain, piece.refinement);
+    mesh::HashOfParts hash;
+    if (with_hash_) hash = hash_of_piece(subdomain, piece.refinement);
     number_in_mesh(subdomain, piece.first_vertex, piece.refinement);
-    MeshSink::Bytes bytes = sink_.format(part_of_piece(decoupling_.points, cells_.pieces(), piece.number,
-                                                       piece.first_vertex, piece.first_triangle, piece.refinement));
-    piece.refinement = {};
-    in_order_.put(piece.number, std::move(bytes));
+    auto refinement = std::make_shared<const Refinement>(std::move(piece.refinement));
+    const MeshPart part = part_of_piece(decoupling_.points, cells_->pieces(), piece.number, piece.first_vertex,
+                                        piece.first_triangle, *refinement);
+    in_order_.put(piece.number, taker_.prepare(part, std::move(refinement)));
     const std::lock_guard lock(mutex_);
     hash_.add(hash);
     ++written_;
     changed_.notify_all();
 }
 
-void PieceStreamer::finish(std::span<const Marker> markers, std::span<const Segment> constraints) {
-    for (const MeshPart& part : parts_behind_pieces(decoupling_.points, cells_, counts_.triangles))
-        sink_.append(sink_.format(part));
-    hash_.add(decoupling_.points, std::span<const Quad>(cells_.quads));
+void PieceStreamer::finish(std::span<const Marker> markers) {
+    for (const MeshPart& part : parts_behind_pieces(decoupling_.points, *cells_, counts_.triangles)) taker_.take(part);
+    if (!with_hash_) return;
+    hash_.add(decoupling_.points, std::span<const Quad>(cells_->quads));
     hash_.add(decoupling_.points, markers);
-    sink_.finish(counts_, markers, constraints);
 }
 
 }  // namespace lamina::pipeline

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -175,19 +174,6 @@ struct MadeMesh {
     std::string hash{};
 };
 
-/// Returns the positions of the triangles of each refinement in the mesh, in this order of the refinements.
-std::vector<std::size_t> first_triangles(std::span<const Refinement> refinements, std::size_t layer_triangles,
-                                         std::span<const std::size_t> order) {
-    std::vector<std::size_t> first(refinements.size()), in_order;
-    std::size_t next = layer_triangles;
-    for (std::size_t i = 0; i < refinements.size(); ++i) {
-        first[i] = next;
-        next += refinements[i].triangles.size();
-    }
-    for (const std::size_t i : order) in_order.push_back(first[i]);
-    return in_order;
-}
-
 /// Returns whether markers depend on where the edges of the far field lie.
 bool divides_far_field(const CaseOptions& options) {
     return options.inlet_outlet || options.far_field.tunnel || options.far_field.ground;
@@ -224,8 +210,7 @@ struct PiecesWork {
 struct MadePieces {
     LayerCells cells{};
     PiecesSummary summary{};
-    std::vector<std::size_t> first_triangle{};  ///< of the subdomains in the mesh, in the order of the work
-    std::vector<Refinement> refinements{};      ///< empty where they are not kept
+    std::vector<std::size_t> first_triangle{};  ///< of the subdomains in the mesh
     HeldNumbers held{};                         ///< of a shared mesh
     Mesh layer{};                               ///< its cells as a mesh, once they are part of the check
 };
@@ -237,37 +222,47 @@ void check_layer(const PiecesWork& work, MadePieces& made) {
         work.check.add_layer(made.layer, work.layer.edges.interfaces);
 }
 
-/// Makes all pieces and keeps them. Large ones come first, so that no thread is left with a large one at the end.
-MadePieces make_pieces(const PiecesWork& work) {
+/// Makes all pieces and hands them to the taker in the order of their numbers.
+MadePieces make_pieces(const PiecesWork& work, PartTaker& taker, bool with_hash, MadeMesh& mesh) {
     MadePieces made;
-    made.refinements.resize(work.decoupling.subdomains.size());
-    const std::vector<std::size_t> order = decoupling::largest_first(work.decoupling.subdomains);
-    const auto keep = [&](std::size_t, std::size_t subdomain, Refinement piece) {
-        made.refinements[subdomain] = std::move(piece);
+    PieceStreamer streamer(work.decoupling, taker, with_hash);
+    const auto fill_layer = [&] {
+        made.cells = work.fill_layer();
+        streamer.start(made.cells);
     };
-    // Each of the first cuts of the layer occupies one thread, so the other threads refine meanwhile (thesis 6.6).
-    core::parallel_invoke([&] { made.cells = work.fill_layer(); },
-                          [&] { made.summary = work.refine(order, {.keep = keep}); });
-    made.first_triangle = first_triangles(made.refinements, made.cells.triangles.size(), order);
-    return made;
-}
-
-/// Makes all pieces and hands them to a sink in the order of their numbers, in which they are numbered.
-MadePieces stream_pieces(const PiecesWork& work, const OpenSink& open_sink, MadeMesh& mesh) {
-    MadePieces made;
-    made.cells = work.fill_layer();
-    mesh.sink = open_sink();
-    PieceStreamer streamer(work.decoupling, made.cells, *mesh.sink);
-    std::vector<std::size_t> order(work.decoupling.subdomains.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    made.summary = work.refine(order, {.begin = [&](std::size_t place) { streamer.begin(place); },
-                                       .keep = [&](std::size_t place, std::size_t,
-                                                   Refinement piece) { streamer.take(place, std::move(piece)); },
-                                       .fail = [&] { streamer.fail(); }});
-    streamer.finish(work.markers, work.layer.edges.interfaces);
+    const auto refine = [&] {
+        made.summary = work.refine(
+            streamer.order(), {.begin = [&](std::size_t piece) { streamer.begin(piece); },
+                               .keep = [&](std::size_t piece, Refinement r) { streamer.take(piece, std::move(r)); },
+                               .fail = [&] { streamer.fail(); }});
+    };
+    // Each of the first cuts of the layer occupies one thread, so the others refine meanwhile if that is not in vain
+    // (thesis 6.6).
+    if (streamer.holds_all()) {
+        core::parallel_invoke(fill_layer, refine);
+    } else {
+        fill_layer();
+        refine();
+    }
+    streamer.finish(work.markers);
     made.first_triangle = streamer.take_first_triangles();
     mesh.counts = streamer.counts();
     mesh.hash = streamer.hash();
+    return made;
+}
+
+/// Makes all pieces and a mesh of them.
+MadePieces keep_pieces(const PiecesWork& work, MadeMesh& mesh) {
+    MeshTaker taker(work.decoupling, mesh.result.mesh);
+    return make_pieces(work, taker, false, mesh);
+}
+
+/// Makes all pieces and hands them to a sink.
+MadePieces stream_pieces(const PiecesWork& work, const OpenSink& open_sink, MadeMesh& mesh) {
+    mesh.sink = open_sink();
+    SinkTaker taker(*mesh.sink);
+    MadePieces made = make_pieces(work, taker, true, mesh);
+    mesh.sink->finish(mesh.counts, work.markers, work.layer.edges.interfaces);
     return made;
 }
 
@@ -378,7 +373,7 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     PiecesWork work{plan, options, layer, decoupling, check, times, markers};
     MadePieces pieces = destination.ranks       ? share_pieces(work, *shared, destination, clock, made)
                         : destination.open_sink ? stream_pieces(work, *destination.open_sink, made)
-                                                : make_pieces(work);
+                                                : keep_pieces(work, made);
     record_shared_times(times, clock.lap(), seconds, result.thread_seconds);
 
     clock.begin("check");
@@ -395,14 +390,8 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     summarize_layer(layer, pieces.cells, result);
     record_columns(layer, pieces.cells, result);
     summarize_refinement(pieces.summary, result);
-    if (destination.keeps_mesh()) {
-        pieces.layer = {};  // so that memory does not peak here
-        result.mesh = assemble(std::move(markers), layer, std::move(pieces.cells), std::move(decoupling),
-                               std::move(pieces.refinements));
-        made.counts = {.triangles = result.mesh.triangles.size(), .quads = result.mesh.quads.size()};
-    } else {
-        result.mesh.markers = std::move(markers);
-    }
+    result.mesh.markers = std::move(markers);
+    if (destination.keeps_mesh()) result.mesh.constraints = layer.edges.interfaces;
     require_made_within(options.limits, made.counts.triangles, made.counts.quads, cost);
     if (destination.checks())
         result.warnings = find_warnings(
