@@ -362,6 +362,20 @@ TEST(FlowGuidance, EdgesAtBasesAreShort) {
     EXPECT_LE(longest_edge_at_base(with_flap, options), 1.1 * 60 / speed);
 }
 
+/// A thin boundary layer brings fast fluid near to the corner that it ends at.
+TEST(FlowGuidance, EdgesAreShorterAtBaseCornersBelowThinLayers) {
+    ElementFlow element;
+    element.upper = {{.at = {1, 0.01}, .s = 1, .speed = 1.5, .thickness = 0.02}};
+    element.lower = {{.at = {1, 0}, .s = 1, .speed = 1.5, .thickness = 0.004}};
+    const Flow flow{.chord = 1, .elements = {element}};
+    const auto spacings = pipeline::spacings_of_flow(flow, {.first_height = 1e-6});
+    ASSERT_EQ(spacings.size(), 2u);
+    EXPECT_EQ(spacings[0].a, element.upper[0].at);
+    EXPECT_DOUBLE_EQ(spacings[0].spacing, 60e-6 / 1.5);
+    EXPECT_EQ(spacings[1].a, element.lower[0].at);
+    EXPECT_DOUBLE_EQ(spacings[1].spacing, 45e-6 / 1.5);
+}
+
 TEST(FlowGuidance, TheResultSaysWhatTheFlowDecided) {
     const CaseOptions options = guided_options(3e6, 6);
     const MeshResult result = generate_mesh(two_elements(), options);
