@@ -110,6 +110,10 @@ LAMINA_EXPORT double largest_on_walls(const Flow& flow, double FlowPoint::*numbe
 /// Returns the largest value along the wall of one element.
 LAMINA_EXPORT double largest_on_walls(const ElementFlow& element, double FlowPoint::*number);
 
+/// Returns the largest skin friction that solutions have on an element: that of its boundary layers, or that of the last
+/// edges before the corners of its base, where the flow turns round them.
+LAMINA_EXPORT double largest_skin_friction(const ElementFlow& element);
+
 /// Returns the velocity at a point outside of the bodies as a multiple of the free stream's speed. Nearer to a wall
 /// than its panels are long one sees that they are straight: along the wall itself, ElementFlow has better values.
 LAMINA_EXPORT Point flow_velocity(const Flow& flow, Point p);

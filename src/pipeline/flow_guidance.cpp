@@ -18,10 +18,6 @@ constexpr double min_spacing = 2e-4;
 /// Spacing at the corners of a base, in first heights; less where the flow passes them faster than the free stream. With
 /// 100, y+ is a quarter too large there (docs/decisions/0040).
 constexpr double base_corner_heights = 60;
-/// The same at a corner whose boundary layer is thinner than this share of the one on the other side: there the fluid
-/// that goes round the corner is fast even near the wall. With 60, y+ is 1.3 times the request on the last edge before
-/// the lower corner of CRM-HL's main element (docs/decisions/0036).
-constexpr double thin_corner_heights = 45, thin_share = 0.25;
 
 /// Adds the heights along a side, from its stagnation point to its trailing edge.
 void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double most, bool reversed,
@@ -41,15 +37,11 @@ void add_heights(const std::vector<FlowPoint>& side, std::size_t element, double
 /// angle between rays.
 void add_base_corners(const ElementFlow& flow, std::size_t element, const LayerGrowth& growth,
                       std::vector<WallSpacing>& spacings) {
-    const FlowPoint &above = flow.upper.back(), &below = flow.lower.back();
-    if (above.at == below.at) return;
-    const auto add = [&](const FlowPoint& corner, const FlowPoint& other) {
-        const bool thin = corner.thickness < thin_share * other.thickness;
-        const double heights = (thin ? thin_corner_heights : base_corner_heights) / std::max(corner.speed, 1.0);
-        spacings.push_back({element, corner.at, corner.at, heights * growth.first_height_on(element)});
-    };
-    add(above, below);
-    add(below, above);
+    const Point above = flow.upper.back().at, below = flow.lower.back().at;
+    if (above == below) return;
+    const double heights = base_corner_heights / std::max(flow.upper.back().speed, 1.0);
+    const double spacing = heights * growth.first_height_on(element);
+    for (const Point corner : {above, below}) spacings.push_back({element, corner, corner, spacing});
 }
 
 }  // namespace
@@ -57,8 +49,7 @@ void add_base_corners(const ElementFlow& flow, std::size_t element, const LayerG
 std::vector<double> first_heights_of_flow(const Flow& flow, double y_plus, double reynolds) {
     std::vector<double> heights;
     for (const ElementFlow& element : flow.elements)
-        heights.push_back(y_plus * flow.chord /
-                          (reynolds * std::sqrt(0.5 * largest_on_walls(element, &FlowPoint::skin_friction))));
+        heights.push_back(y_plus * flow.chord / (reynolds * std::sqrt(0.5 * largest_skin_friction(element))));
     return heights;
 }
 
