@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
+#include <lamina/predicates.hpp>
 #include <lamina/threads.hpp>
 
 #include "app/stopwatch.hpp"
@@ -195,9 +196,39 @@ Point worst_place(const TriangleOutput& output, Badness badness) {
     return worst;
 }
 
+/// Returns why a triangulation is empty.
+std::string reason_for_no_triangles(const TriangleOutput& output) {
+    const std::vector<Point>& points = output.points;
+    bool on_one_line = true;
+    for (std::size_t i = 0, other = 0; on_one_line && i < points.size(); ++i) {
+        if (points[other] == points[0]) other = i;
+        on_one_line = orient2d(points[0], points[other], points[i]) == 0;
+    }
+    if (points.size() < 3) return "a triangle needs three points";
+    if (on_one_line) return "all points lie on one line";
+    if (output.holes.empty()) return "the segments enclose nothing (--keep-hull keeps what lies outside of them)";
+    return output.segments.empty() ? "the holes take all of it away, since no segments bound them"
+                                   : "the holes take all of it away";
+}
+
+Warning no_triangles_warning(const TriangleOutput& output) {
+    Warning warning{.code = WarningCode::no_triangles,
+                    .number = static_cast<double>(output.points.size()),
+                    .unit = "points",
+                    .message = fmt::format("{} points, but no triangle: {}", output.points.size(),
+                                           reason_for_no_triangles(output))};
+    if (!output.holes.empty()) {
+        warning.at = output.holes.front();
+    } else if (!output.points.empty()) {
+        warning.at = output.points.front();
+    }
+    return warning;
+}
+
 std::vector<Warning> find_warnings(const TriangleOutput& output, const RefineStats& stats,
                                    const DelaunaySettings& settings) {
     std::vector<Warning> warnings;
+    if (output.triangles.empty()) warnings.push_back(no_triangles_warning(output));
     const auto add = [&](WarningCode code, std::size_t count, const std::string& unit, Point at,
                          const std::string& text) {
         if (count == 0) return;

@@ -11,7 +11,8 @@ std::string warning_name(WarningCode code) {
         "first_layer_lost",     "rays_cut_in_the_open", "transition_out_of_range", "first_height_implausible",
         "large_angle",          "small_angle",          "refused_points",          "oversized_triangles",
         "surface_not_as_asked", "layers_thinned",       "topology_not_as_asked",   "swapped_columns",
-        "reversed_flow",        "crossing_tail_cut",    "unsuited_to_solver",      "flow_estimated"};
+        "reversed_flow",        "crossing_tail_cut",    "folded_outline",          "ambiguous_section",
+        "no_triangles",         "unsuited_to_solver",   "flow_estimated"};
     static_assert(names.size() == static_cast<std::size_t>(WarningCode::flow_estimated) + 1);
     return names[static_cast<std::size_t>(code)];
 }

@@ -1,12 +1,14 @@
 #include "geometry/coordinate_rows.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
 
 #include "core/text.hpp"
+#include "geometry/brackets.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/coordinate_fields.hpp"
 
@@ -68,12 +70,17 @@ bool is_whole(const std::string& text) {
     return end > start && (end == text.size() || text.substr(end) == ".");
 }
 
+/// Returns a line without the comment at its end that starts with a character for comments alone.
+std::string_view without_clear_comment(std::string_view line) {
+    return trimmed(line.substr(0, std::min({line.find_first_of("#!%"), line.find("//")})));
+}
+
 /// Returns a line without the comment at its end. A semicolon starts a comment where white space divides the numbers
 /// before it; else it is a separator.
 std::string_view without_comment(std::string_view line) {
-    line = line.substr(0, std::min({line.find_first_of("#!%"), line.find("//")}));
+    line = without_clear_comment(line);
     const std::size_t semicolon = line.find(';');
-    if (semicolon == std::string_view::npos) return trimmed(line);
+    if (semicolon == std::string_view::npos) return line;
     const std::string_view before = trimmed(line.substr(0, semicolon));
     const bool divided = std::any_of(before.begin(), before.end(), is_space) && read_fields(before).fields.size() >= 2;
     return divided ? before : trimmed(line);
@@ -116,23 +123,31 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     if (must_be_coordinates_in_run(fields)) row.damage_in_run = describe_damage(fields);
 }
 
-/// Reads one line, which is the first row where only blank lines and comments stand before it.
-TextRow read_row(std::string_view line, std::size_t number, bool is_first_row) {
+void read_comment(std::string_view line, TextRow& row) {
+    row.kind = RowKind::comment;
+    const std::size_t start = line.find_first_not_of("#!;%/ \t");
+    if (start == std::string_view::npos) return;
+    row.text = printable(line.substr(start));
+    row.names = lower_case_texts(read_fields(line.substr(start)).fields);
+}
+
+/// Reads one line, which is the first row where only blank lines and comments stand before it. It has several rows
+/// where it lists several points in brackets.
+void read_line(std::string_view line, std::size_t number, bool is_first_row, std::vector<TextRow>& rows) {
     TextRow row;
     row.line = number;
     line = trimmed(line);
-    if (line.empty()) return row;
-    if (starts_comment(line)) {
-        row.kind = RowKind::comment;
-        const std::size_t start = line.find_first_not_of("#!;%/ \t");
-        if (start != std::string_view::npos) {
-            row.text = printable(line.substr(start));
-            row.names = lower_case_texts(read_fields(line.substr(start)).fields);
-        }
+    if (line.empty() || (!starts_comment(line) && has_brackets_alone(line))) {
+        rows.push_back(std::move(row));
+    } else if (starts_comment(line)) {
+        read_comment(line, row);
+        rows.push_back(std::move(row));
+    } else if (const auto listed = rows_in_brackets(without_clear_comment(line)); !listed.empty()) {
+        for (const std::string& text : listed) read_text_or_numbers(text, is_first_row, rows.emplace_back(row));
     } else {
         read_text_or_numbers(line, is_first_row, row);
+        rows.push_back(std::move(row));
     }
-    return row;
 }
 
 }  // namespace
@@ -150,7 +165,7 @@ std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
         ++number;
         if (line.find('\0') != std::string_view::npos)
             throw InputError({file, number, {}}, "not a text file (NUL byte)");
-        rows.push_back(read_row(line, number, is_first_row));
+        read_line(with_plain_signs(line), number, is_first_row, rows);
         if (rows.back().kind != RowKind::blank && rows.back().kind != RowKind::comment) is_first_row = false;
         if (end == std::string_view::npos) break;
         text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);

@@ -42,7 +42,8 @@ struct TextRow {
     std::string damage_in_run;
 };
 
-/// Returns the rows of a text. Lines end in LF, CR LF or CR. Throws InputError, which names `file`, for NUL bytes.
+/// Returns the rows of a text: one for each line, or several for a line that lists points in brackets. Lines end in LF,
+/// CR LF or CR. Throws InputError, which names `file`, for NUL bytes.
 std::vector<TextRow> read_rows(std::string_view text, const std::string& file);
 
 }  // namespace lamina::geometry

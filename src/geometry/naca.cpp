@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -78,6 +79,34 @@ UsageError bad_digits(const std::string& digits, const std::string& reason) {
     return UsageError(fmt::format("naca:{}: {}", digits, reason));
 }
 
+/// Returns whether a name of digits and others begins as those of the 6-series do: 63 to 67.
+bool is_of_six_series(const std::string& name) {
+    return name.size() >= 5 && name[0] == '6' && name[1] >= '3' && name[1] <= '7';
+}
+
+/// Returns advice on the names of families that are not made here; empty for others. The ordinates of the 1-series and
+/// the 6-series follow from flows, not from formulas of their digits.
+std::string advice_on_family(const std::string& name) {
+    const bool is_modified = name.size() > 5 && (name[4] == '-' || name[5] == '-');
+    if (is_of_six_series(name)) return "; give a file of coordinates for a section of the 6-series, such as 63-012";
+    if (name.size() >= 5 && name.starts_with("16")) return "; give a file of coordinates for a section of the 1-series";
+    if (is_modified) return "; give a file of coordinates for a modified section, such as 0012-64";
+    return "";
+}
+
+/// Returns a warning where the digits of a five-digit section are also those of one of the 6-series, whose name is often
+/// written without its dash.
+std::optional<Warning> ambiguity_of(const std::string& digits) {
+    if (digits.size() != 5 || !is_of_six_series(digits)) return std::nullopt;
+    const double lift = 0.15 * (digits[0] - '0');
+    return Warning{.code = WarningCode::ambiguous_section,
+                   .number = lift,
+                   .unit = "design lift coefficient",
+                   .message = fmt::format("naca:{} is the five-digit section with a design lift coefficient of {:.2g}, "
+                                          "not NACA {}-{} of the 6-series; give a file of coordinates for that one",
+                                          digits, lift, digits.substr(0, 2), digits.substr(2))};
+}
+
 FourDigitLine four_digit_line(const std::string& digits) {
     const int camber = digits[0] - '0', position = digits[1] - '0';
     if ((camber == 0) != (position == 0))
@@ -99,7 +128,8 @@ FiveDigitLine five_digit_line(const std::string& digits) {
     if (lift == 0 || reflex > 1 || position < 1 + reflex || position > 5)
         throw bad_digits(digits,
                          "the first three digits must be 110 to 950 or, reflexed, 121 to 951, the second of them at "
-                         "most 5");
+                         "most 5" +
+                             advice_on_family(digits));
     FiveDigitLine line = reflex == 1 ? reflexed[position - 2] : simple[position - 1];
     line.k1 *= lift / 2.0;
     return line;
@@ -108,7 +138,8 @@ FiveDigitLine five_digit_line(const std::string& digits) {
 NacaSection parse_digits(const std::string& digits) {
     const std::size_t n = digits.size();
     if (!std::all_of(digits.begin(), digits.end(), is_digit) || (n != 4 && n != 5))
-        throw bad_digits(digits, "a section has 4 or 5 digits, as in naca:0012 or naca:23012");
+        throw bad_digits(digits,
+                         "a section has 4 or 5 digits, as in naca:0012 or naca:23012" + advice_on_family(digits));
     NacaSection section;
     section.thickness = (10 * (digits[n - 2] - '0') + (digits[n - 1] - '0')) / 100.0;
     if (section.thickness == 0) throw bad_digits(digits, "no thickness");
@@ -180,6 +211,7 @@ Element make_element(const std::string& digits, const NacaSurfaces& surfaces) {
     element.points_read = 0;
     element.repairs.clear();  // joining the surfaces and closing the base repair nothing
     element.name = "airfoil";
+    if (auto ambiguity = ambiguity_of(digits)) element.warnings.push_back(std::move(*ambiguity));
     return element;
 }
 

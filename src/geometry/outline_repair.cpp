@@ -13,6 +13,7 @@
 
 #include "core/polygon.hpp"
 #include "core/segments.hpp"
+#include "geometry/folds.hpp"
 #include "geometry/tail_crossing.hpp"
 
 namespace lamina::geometry {
@@ -105,6 +106,63 @@ std::string line_prefix(const std::vector<std::size_t>& lines) {
     return fmt::format("lines {} and {}: ", fmt::join(lines.begin(), lines.end() - 1, ", "), lines.back());
 }
 
+/// Adds a note to an element, as a repair with its lines and as a warning.
+void warn(Element& element, const std::vector<std::size_t>& lines, Warning warning) {
+    element.repairs.push_back(line_prefix(lines) + warning.message);
+    element.warnings.push_back(std::move(warning));
+}
+
+Warning fold_warning(const Fold& fold, std::string message) {
+    return {.code = WarningCode::folded_outline,
+            .at = fold.first.at,
+            .number = fold.share,
+            .unit = "extent",
+            .message = std::move(message)};
+}
+
+/// Leaves out points, or exchanges them, where the outline folds back between two neighbours, and says so. Where there
+/// are many folds, they are noise rather than slips, and all of them stay.
+void mend_folds(SourcePoints& points, bool closed, Element& element) {
+    constexpr std::size_t most_slips = 8;
+    SourcePoints mended = points;
+    std::vector<Fold> folds;
+    while (const std::optional<Fold> fold = mend_fold(mended, closed)) {
+        folds.push_back(*fold);
+        if (folds.size() > most_slips) return;
+    }
+    points = std::move(mended);
+    for (const Fold& fold : folds) {
+        const std::string first = coordinates(fold.first.at), second = coordinates(fold.second.at);
+        if (fold.mend == FoldMend::exchanged)
+            warn(
+                element, {fold.first.line, fold.second.line},
+                fold_warning(fold, fmt::format("the points {} and {} exchanged, since the outline ran back from one to "
+                                               "the other",
+                                               first, second)));
+        else
+            warn(
+                element, {fold.first.line},
+                fold_warning(fold, fmt::format("the point {} left out, since the outline ran back on itself between it "
+                                               "and {}; one of its digits may be wrong",
+                                               first, second)));
+    }
+}
+
+/// Says where an outline still folds back on itself.
+void warn_of_folds(const SourcePoints& points, Element& element) {
+    const std::vector<Fold> folds = find_narrow_folds(points);
+    if (folds.empty()) return;
+    const Fold& longest =
+        *std::max_element(folds.begin(), folds.end(), [](const auto& a, const auto& b) { return a.share < b.share; });
+    const std::string count = folds.size() == 1 ? "" : fmt::format(" in {} places", folds.size());
+    element.warnings.push_back(fold_warning(
+        longest,
+        fmt::format("{}the outline runs back on itself{}, from {} to {}, {:.2g} % of the section's length: are "
+                    "points out of order?",
+                    line_prefix({longest.first.line, longest.second.line}), count, coordinates(longest.first.at),
+                    coordinates(longest.second.at), 100 * longest.share)));
+}
+
 /// Cuts off a tail behind a crossing of the two surfaces, and says so.
 void cut_crossed_tail(SourcePoints& points, Element& element) {
     while (const std::optional<TailCut> cut = cut_crossing_tail(points)) {
@@ -112,12 +170,12 @@ void cut_crossed_tail(SourcePoints& points, Element& element) {
             "the surfaces {} near the trailing edge, at {}; the tail behind that, {:.2g} % of the section's "
             "length, was cut off",
             cut->at_vertex ? "meet" : "cross", coordinates(cut->at), 100 * cut->share);
-        element.repairs.push_back(line_prefix(cut->removed_lines) + text);
-        element.warnings.push_back({.code = WarningCode::crossing_tail_cut,
-                                    .at = cut->at,
-                                    .number = cut->share,
-                                    .unit = "extent",
-                                    .message = text});
+        warn(element, cut->removed_lines,
+             {.code = WarningCode::crossing_tail_cut,
+              .at = cut->at,
+              .number = cut->share,
+              .unit = "extent",
+              .message = text});
     }
 }
 
@@ -201,8 +259,10 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     const SourcePoint last = points.back();
     merge_crossed_neighbours(points, element.repairs);
     cut_flat_tail(points, element.repairs);
+    mend_folds(points, closed, element);
     cut_crossed_tail(points, element);
     if (!closed && points.back().at == last.at) close_outline(points, file, element.repairs);
+    warn_of_folds(points, element);
     if (is_clockwise(points)) {
         std::reverse(points.begin() + 1, points.end());
         const std::string line = points[0].line > 0 ? fmt::format("line {}: ", points[0].line) : "";

@@ -8,6 +8,7 @@
 
 #include <lamina/error.hpp>
 
+#include "geometry/characters.hpp"
 #include "geometry/columns.hpp"
 #include "geometry/coordinate_blocks.hpp"
 #include "geometry/join_blocks.hpp"
@@ -149,6 +150,23 @@ private:
     }
 };
 
+/// Throws InputError, which shows a line that may have been meant as coordinates.
+[[noreturn]] void refuse_without_coordinates(const std::vector<TextRow>& rows, const std::string& file) {
+    constexpr std::size_t most_shown = 60;  // bytes
+    if (rows.empty()) throw InputError({file, 0, {}}, "the file is empty");
+    const auto has_fraction = [](const TextRow& row) {
+        const std::size_t point = row.text.find('.');
+        return row.kind == RowKind::text && point != std::string::npos && point + 1 < row.text.size() &&
+               is_digit(row.text[point + 1]);
+    };
+    const auto row = std::find_if(rows.begin(), rows.end(), has_fraction);
+    if (row == rows.end()) throw InputError({file, 0, {}}, "no coordinates found: no line starts with two numbers");
+    const bool is_long = row->text.size() > most_shown;
+    throw InputError({file, row->line, {}},
+                     fmt::format("no coordinates found: no line starts with two numbers; this one is '{}{}'",
+                                 printable(std::string_view(row->text).substr(0, most_shown)), is_long ? "..." : ""));
+}
+
 }  // namespace
 
 std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, const std::string& file) {
@@ -156,7 +174,7 @@ std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, cons
     std::vector<RawOutline> outlines;
     for (CoordinateSection& section : document.sections)
         SectionAssembler(std::move(section), document, file, outlines).assemble();
-    if (outlines.empty()) throw InputError({file, 0, {}}, rows.empty() ? "the file is empty" : "no coordinates found");
+    if (outlines.empty()) refuse_without_coordinates(rows, file);
 
     for (RawOutline& outline : outlines)
         if (outline.format.empty()) outline.format = document.csv ? "csv" : document.titled ? "selig" : "xy";

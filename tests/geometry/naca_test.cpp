@@ -194,6 +194,37 @@ TEST(Naca, RefusesInputsThatNameNoSection) {
         EXPECT_THROW(naca(input), UsageError) << input;
 }
 
+std::string reason_against(const std::string& input) {
+    try {
+        naca(input);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Naca, DigitsThatTwoFamiliesShareGiveAWarning) {
+    for (const std::string input : {"naca:63012", "naca:65112:300", "naca:64012:blunt"}) {
+        const Element e = naca(input);
+        ASSERT_EQ(e.warnings.size(), 1u) << input;
+        EXPECT_EQ(e.warnings[0].code, WarningCode::ambiguous_section);
+        EXPECT_NEAR(e.warnings[0].number, 0.9, 1e-12);
+    }
+    EXPECT_NE(naca("naca:63012").warnings[0].message.find("not NACA 63-012 of the 6-series"), std::string::npos);
+    for (const std::string input : {"naca:0012", "naca:6312", "naca:23012", "naca:62012", "naca:61012"})
+        EXPECT_TRUE(naca(input).warnings.empty()) << input;
+}
+
+TEST(Naca, RefusalsOfOtherFamiliesSayWhereTheyComeFrom) {
+    for (const std::string input : {"naca:63-012", "naca:64212", "naca:66012", "naca:65A010", "naca:65(2)-415"})
+        EXPECT_NE(reason_against(input).find("coordinates for a section of the 6-series"), std::string::npos) << input;
+    for (const std::string input : {"naca:16012", "naca:16-212"})
+        EXPECT_NE(reason_against(input).find("1-series"), std::string::npos) << input;
+    for (const std::string input : {"naca:0012-64", "naca:23012-34"})
+        EXPECT_NE(reason_against(input).find("modified section"), std::string::npos) << input;
+    EXPECT_EQ(reason_against("naca:001").find("coordinates"), std::string::npos);
+}
+
 TEST(Naca, EverySectionIsSimple) {
     for (int camber = 1; camber <= 9; ++camber)
         for (int position = 1; position <= 9; ++position) {

@@ -57,6 +57,22 @@ TEST(Refusal, NothingToRead) {
     EXPECT_THROW(read_geometry({}), UsageError);
 }
 
+TEST(Refusal, FilesOfAnotherKindShowALine) {
+    expect_refusal("NACA 0012\nx=1.0 y=0.0\nx=0.5 y=0.1\n", 2,
+                   "no line starts with two numbers; this one is 'x=1.0 y=0.0'");
+    expect_refusal("[\n[\n1.0,\n0.0\n],\n[\n0.5,\n0.1\n]]\n", 3, "no line starts with two numbers; this one is '1.0,'");
+    expect_refusal("{\"x\": 1.0, \"y\": 0.0}\n{\"x\": 0.5, \"y\": 0.1}\n", 1, "no line starts with two numbers");
+    expect_refusal("one\ntwo\n", 0, "no coordinates found: no line starts with two numbers");
+}
+
+TEST(Refusal, DamagedNumbersInBrackets) {
+    expect_refusal("[[1.0, 0.0],\n [0.5, oops],\n [0, 0]]\n", 2, "'oops' is not a number");
+    expect_refusal("[[1.0, 0.0],\n [nan, 0.1],\n [0, 0]]\n", 2, "'nan' is not a finite number");
+    expect_refusal("[[1.0, 0.0],\n [0.5, 1.2.3],\n [0, 0]]\n", 2, "'1.2.3' is not a number");
+    expect_refusal("x = [1, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1]\n", 1,
+                   "10 numbers where x and y are expected");
+}
+
 TEST(Refusal, DamagedNumbers) {
     expect_refusal("t\n1 0\n0.5 nan\n0 0\n0.5 -0.1\n1 0\n", 3, "'nan' is not a finite number");
     expect_refusal("t\n1 0\n-inf 0.1\n0 0\n0.5 -0.1\n1 0\n", 3, "'-inf' is not a finite number");

@@ -66,11 +66,71 @@ inline const std::string z_column =
 inline const std::string clockwise = "SAMPLE\n1 0\n.75 -.03\n.5 -.05\n.2 -.04\n0 0\n.2 .06\n.5 .07\n.75 .04\n1 0\n";
 
 /// All files that hold the outline `loop`.
-inline const std::vector<std::string> same_loop = {
-    selig,         crlf,          old_mac,           no_title,         fortran,      csv,
-    csv_semicolon, decimal_comma, lednicer,          lednicer_one_run, two_surfaces, two_surfaces_one_run,
-    mses,          digits_title,  two_numbers_title, latin1_title,     comments,     tagged,
-    blank_inside,  double_spaced, z_column,          clockwise};
+/// Numbers as programs print lists of points, and with signs that only look like those of ASCII.
+inline const std::string python_list =
+    "[[1.0, 0.0],\n [0.75, 0.04],\n [0.5, 0.07],\n [0.2, 0.06],\n [0.0, 0.0],\n [0.2, -0.04],\n [0.5, -0.05],\n"
+    " [0.75, -0.03],\n [1.0, 0.0]]\n";
+inline const std::string numpy_array =
+    "array([[ 1.  ,  0.  ],\n       [ 0.75,  0.04],\n       [ 0.5 ,  0.07],\n       [ 0.2 ,  0.06],\n"
+    "       [ 0.  ,  0.  ],\n       [ 0.2 , -0.04],\n       [ 0.5 , -0.05],\n       [ 0.75, -0.03]])\n";
+inline const std::string one_line_list =
+    "{\"name\": \"sample\", \"points\": [[1, 0], [0.75, 0.04], [0.5, 0.07], [0.2, 0.06], [0, 0], [0.2, -0.04], "
+    "[0.5, -0.05], [0.75, -0.03], [1, 0]]}";
+inline const std::string c_array =
+    "double points[][2] = {\n{1.0, 0.0},\n{.75, .04},\n{.5, .07},\n{.2, .06},\n{0, 0}, // nose\n{.2, -.04},\n"
+    "{.5, -.05},\n{.75, -.03}\n};\n";
+inline const std::string matlab_matrix =
+    "xy = [1.0 0.0;\n.75 .04;\n.5 .07; % upper\n.2 .06;\n0 0; .2 -.04; .5 -.05];\n[.75 -.03];\n";
+inline const std::string numbers_in_brackets =
+    "SAMPLE\n(1.0) (0.0)\n(.75) (.04)\n(.5) (.07)\n(.2) (.06)\n(0.0) (0.0)\n(.2) (-.04)\n(.5) (-.05)\n"
+    "(.75) (-.03)\n";
+inline const std::string foam_points =
+    "9\n(\n(1 0 0)\n(.75 .04 0)\n(.5 .07 0)\n(.2 .06 0)\n(0 0 0)\n(.2 -.04 0)\n(.5 -.05 0)\n(.75 -.03 0)\n"
+    "(1 0 0)\n)\n";
+inline const std::string wide_spaces =
+    "SAMPLE\n\xC2\xA0"
+    "1.0\xC2\xA0"
+    "0.0\n.75\xE2\x80\x83.04\n.5\xE2\x80\xAF.07\n.2\xE3\x80\x80.06\n0.0 0.0\xEF\xBB\xBF\n"
+    ".2\xC2\xA0\xC2\xA0\xE2\x88\x92.04\n.5 \xE2\x80\x93.05\n.75 \xE2\x80\x91"
+    "3e\xE2\x88\x92"
+    "2\n1.0 0.0\n";
+inline const std::string latin1_spaces =
+    "SAMPLE\n1.0\xA0"
+    "0.0\n.75\xA0.04\n.5\xA0.07\n.2\xA0.06\n0.0\xA0"
+    "0.0\n.2\xA0\x96.04\n.5\xA0-.05\n.75\xA0-.03\n1.0\xA0"
+    "0.0\n";
+
+inline const std::vector<std::string> same_loop = {selig,
+                                                   crlf,
+                                                   old_mac,
+                                                   no_title,
+                                                   fortran,
+                                                   csv,
+                                                   csv_semicolon,
+                                                   decimal_comma,
+                                                   lednicer,
+                                                   lednicer_one_run,
+                                                   two_surfaces,
+                                                   two_surfaces_one_run,
+                                                   mses,
+                                                   digits_title,
+                                                   two_numbers_title,
+                                                   latin1_title,
+                                                   comments,
+                                                   tagged,
+                                                   blank_inside,
+                                                   double_spaced,
+                                                   z_column,
+                                                   clockwise,
+                                                   python_list,
+                                                   numpy_array,
+                                                   one_line_list,
+                                                   c_array,
+                                                   matlab_matrix,
+                                                   numbers_in_brackets,
+                                                   foam_points,
+                                                   wide_spaces,
+                                                   latin1_spaces};
 
 inline const std::string second_body = "1.3 -0.1\n1.2 -0.05\n1.1 -0.04\n1.02 -0.06\n1.1 -0.09\n1.3 -0.1\n";
 inline const std::string two_999 = selig + "999.0 999.0\n" + second_body;
