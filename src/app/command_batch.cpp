@@ -135,32 +135,49 @@ std::vector<BatchJob> jobs_of(const GivenOptions& options, const std::string& in
     return jobs;
 }
 
-/// Returns the files of all jobs. Throws where a file would be written twice or replace an input. Files are compared by
-/// their names: links are not followed.
-std::vector<RunFile> require_different_files(const std::vector<BatchJob>& jobs) {
-    const auto plain = [](const std::filesystem::path& path) {
-        return std::filesystem::absolute(path).lexically_normal();
-    };
-    std::set<std::filesystem::path> inputs, written;
-    for (const BatchJob& job : jobs)
-        for (const RunFile& file : files_of_case(job.mesh_case)) inputs.insert(plain(file.path));
-    std::vector<RunFile> files;
-    for (const BatchJob& job : jobs) {
-        if (job.mesh_case.outputs.empty()) throw UsageError("no output: give -o 'FOLDER/{name}.EXTENSION'");
-        const MeshDestination destination = destination_of_outputs(job.mesh_case);
-        for (const RunFile& file : files_written(job.mesh_case, destination)) {
-            if (is_standard_stream(file.path)) throw UsageError(file.role + ": a batch writes files, not '-'");
-            if (inputs.contains(plain(file.path)))
-                throw UsageError(fmt::format("{}: '{}' would replace an input", file.role, file.path.string()));
-            if (!written.insert(plain(file.path)).second)
-                throw UsageError(
-                    fmt::format("{}: '{}' would be written twice: put {{name}} and what is swept into the "
-                                "name, as in 'out/{{name}}_{{reynolds}}.su2'",
-                                file.role, file.path.string()));
-            files.push_back(file);
-        }
+/// The files of a batch, by their paths behind links. It is for many files: it looks each of them up.
+class BatchFiles {
+public:
+    explicit BatchFiles(const std::vector<BatchJob>& jobs) {
+        for (const BatchJob& job : jobs)
+            for (const RunFile& file : files_of_case(job.mesh_case)) add_input(path_behind_links(file.path));
     }
-    return files;
+
+    /// Throws where a file would be written twice or replace an input.
+    void add_output(const RunFile& file) {
+        if (is_standard_stream(file.path)) throw UsageError(file.role + ": a batch writes files, not '-'");
+        const std::filesystem::path path = path_behind_links(file.path);
+        if (inputs_.contains(path) || (input_folders_.contains(path) && std::filesystem::is_directory(path)))
+            throw UsageError(fmt::format("{}: '{}' would replace an input", file.role, file.path.string()));
+        if (!written_.insert(path).second)
+            throw UsageError(
+                fmt::format("{}: '{}' would be written twice: put {{name}} and what is swept into the "
+                            "name, as in 'out/{{name}}_{{reynolds}}.su2'",
+                            file.role, file.path.string()));
+        files_.push_back(file);
+    }
+
+    std::vector<RunFile> take() { return std::move(files_); }
+
+private:
+    std::set<std::filesystem::path> inputs_, input_folders_, written_;
+    std::vector<RunFile> files_;
+
+    void add_input(const std::filesystem::path& path) {
+        inputs_.insert(path);
+        std::filesystem::path folder = path.parent_path();
+        while (input_folders_.insert(folder).second && folder.has_relative_path()) folder = folder.parent_path();
+    }
+};
+
+/// Returns the files of all jobs and the given ones. Throws where a file would be written twice or replace an input.
+std::vector<RunFile> require_different_files(const std::vector<BatchJob>& jobs, const std::vector<RunFile>& others) {
+    BatchFiles files(jobs);
+    for (const BatchJob& job : jobs)
+        for (const RunFile& file : files_written(job.mesh_case, destination_of_outputs(job.mesh_case)))
+            files.add_output(file);
+    for (const RunFile& file : others) files.add_output(file);
+    return files.take();
 }
 
 /// Creates the folders of files that do not exist, such as one for each input, and returns them, inner ones before outer
@@ -204,21 +221,22 @@ void batch(const GivenOptions& options, const BatchArguments& arguments) {
             for (BatchJob& job : jobs_of(options, input, sweeps)) all.push_back(std::move(job));
     }
     if (all.empty()) throw UsageError("no INPUT: give airfoil files, naca:DIGITS or case files");
-    std::vector<RunFile> files = require_different_files(all);
+    for (const BatchJob& job : all)
+        if (job.mesh_case.outputs.empty()) throw UsageError("no output: give -o 'FOLDER/{name}.EXTENSION'");
     if (first_output.empty()) first_output = all.front().mesh_case.outputs.front();
-
-    std::vector<BatchJob> jobs;
-    for (std::size_t i = shard.number - 1; i < all.size(); i += shard.of) jobs.push_back(std::move(all[i]));
     BatchSettings settings;
     settings.jobs = arguments.jobs;
     const std::string stem = summary_stem(arguments, first_output, shard);
     settings.journal = stem + ".jsonl";
     settings.table = stem + ".csv";
+    const std::vector<RunFile> files =
+        require_different_files(all, {{settings.journal, "option --summary"}, {settings.table, "option --summary"}});
+
+    std::vector<BatchJob> jobs;
+    for (std::size_t i = shard.number - 1; i < all.size(); i += shard.of) jobs.push_back(std::move(all[i]));
     const MeshCase common = jobs.empty() ? MeshCase{} : jobs.front().mesh_case;
     settings.quiet = common.quiet;
     settings.strict = common.strict;
-    files.push_back({settings.journal, "option --summary"});
-    files.push_back({settings.table, "option --summary"});
     const SignalGuard guard(files);
     const std::vector<std::filesystem::path> created = prepare_folders(jobs, files);
     const BatchOutcome outcome = run_batch(jobs, settings);

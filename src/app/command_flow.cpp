@@ -130,6 +130,7 @@ void flow(const FlowArguments& arguments) {
     const ReferenceConditions reference = reference_conditions(conditions, bounding_box(geometry));
     geometry = prepare_surfaces(std::move(geometry), options.surface, {}, reference.chord);
     const Flow flow = solve_flow(geometry, conditions);
+    print_warnings_of_reader(geometry);
     print_warnings(flow.warnings);
     if (!arguments.table.empty()) write_file(arguments.table, flow_table(flow));
     if (!arguments.picture.empty()) {

@@ -11,6 +11,7 @@
 
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
+#include "app/progress.hpp"
 #include "app/run_files.hpp"
 #include "app/table_option.hpp"
 
@@ -35,7 +36,9 @@ bool names_airfoil(const std::string& name, const std::string& format) {
 /// Returns the outlines of an airfoil as the markers of a mesh without cells.
 Mesh mesh_of_outlines(const std::string& input) {
     Mesh mesh;
-    for (const Element& element : read_geometry(std::vector<std::string>{input}).elements) {
+    const Geometry geometry = read_geometry(std::vector<std::string>{input});
+    print_warnings_of_reader(geometry);
+    for (const Element& element : geometry.elements) {
         const std::size_t first = mesh.points.size(), count = element.points.size();
         mesh.points.insert(mesh.points.end(), element.points.begin(), element.points.end());
         Marker wall{element.name, MarkerKind::wall, {}};

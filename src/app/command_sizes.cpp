@@ -1,5 +1,6 @@
 // lamina sizes: the edge lengths that a solution asks for.
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -68,12 +69,23 @@ std::string sizes_summary(const SolutionSizes& made, const SizesArguments& argum
     return text + summary_line("wrote", arguments.output);
 }
 
+/// Returns the files that a solution consists of: a VTU file, or OpenFOAM's folders of fields and of the mesh.
+std::vector<RunFile> files_of_solution(const SizesArguments& arguments) {
+    std::vector<RunFile> files{{arguments.solution, "SOLUTION"}};
+    const auto add = [&](const std::vector<RunFile>& more) { files.insert(files.end(), more.begin(), more.end()); };
+    add(files_in(arguments.solution, "SOLUTION"));
+    if (!arguments.mesh.empty())
+        add(files_of_mesh(arguments.mesh, ""));
+    else if (std::filesystem::is_directory(arguments.solution))
+        add(files_of_mesh(path_behind_links(arguments.solution).parent_path().string(), "openfoam"));
+    return files;
+}
+
 void sizes(const SizesArguments& arguments) {
     SolutionSizeOptions options;
     for (const auto& [name, value] : arguments.options) set_by_name(solution_size_option_table(), name, value, options);
     validate(options);
-    std::vector<RunFile> inputs{{arguments.solution, "SOLUTION"}};
-    if (!arguments.mesh.empty()) inputs.push_back({arguments.mesh, "option --mesh"});
+    std::vector<RunFile> inputs = files_of_solution(arguments);
     std::optional<MeshCase> mesh_case;
     if (!arguments.case_file.empty()) {
         mesh_case = case_of_inputs({arguments.case_file});

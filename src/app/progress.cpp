@@ -75,6 +75,14 @@ void print_warnings(std::span<const Warning> warnings) {
     }
 }
 
+void print_warnings_of_reader(const Geometry& geometry) {
+    for (const Element& element : geometry.elements)
+        for (Warning warning : element.warnings) {
+            warning.message = element.name + ": " + warning.message;
+            print_warnings({&warning, 1});
+        }
+}
+
 void require_promised_angles(const MeshCheck& check, bool allow_defects) {
     const std::size_t narrow = check.isotropic.unexcused();
     if (allow_defects || narrow == 0) return;

@@ -47,6 +47,9 @@ private:
 /// Prints each warning as one line on standard error.
 void print_warnings(std::span<const Warning> warnings);
 
+/// Prints what the reader warned of, for commands that make no mesh.
+void print_warnings_of_reader(const Geometry& geometry);
+
 /// Throws MeshError where isotropic triangles have an angle below the bound that no sharp corner excuses, unless
 /// defects are allowed.
 void require_promised_angles(const MeshCheck& check, bool allow_defects);

@@ -24,15 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the path without links and dots, as far as it exists.
-fs::path resolved(const fs::path& path) {
-    const fs::path absolute = fs::absolute(path);
-    std::error_code failed;
-    fs::path result = fs::weakly_canonical(absolute, failed);
-    if (failed) result = absolute.lexically_normal();
-    return result.has_filename() ? result : result.parent_path();
-}
-
 bool is_file_or_folder(const fs::path& path) {
     std::error_code ignored;
     const fs::file_type type = fs::status(path, ignored).type();
@@ -53,7 +44,7 @@ bool replaces(const fs::path& output, const fs::path& other) {
     if (!is_file_or_folder(output) || !is_file_or_folder(other)) return false;
     std::error_code ignored;
     if (fs::equivalent(output, other, ignored)) return true;
-    const fs::path a = resolved(output), b = resolved(other);
+    const fs::path a = path_behind_links(output), b = path_behind_links(other);
     if (a == b) return true;
     // A folder that is written takes its files with it; a folder that is read may hold a folder that is written.
     return is_folder(a) && (is_inside(b, a) || is_inside(a, b));
@@ -71,6 +62,14 @@ bool are_one_file(const RunFile& output, const RunFile& other) {
 }
 
 }  // namespace
+
+fs::path path_behind_links(const fs::path& path) {
+    const fs::path absolute = fs::absolute(path);
+    std::error_code failed;
+    fs::path result = fs::weakly_canonical(absolute, failed);
+    if (failed) result = absolute.lexically_normal();
+    return result.has_filename() ? result : result.parent_path();
+}
 
 void require_distinct(std::span<const RunFile> inputs, std::span<const RunFile> outputs) {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -97,15 +96,22 @@ void require_parts_taken(std::span<const std::string> files, const WriteOptions&
         throw UsageError("option --parts: only PVTU files and OpenFOAM's folders have parts");
 }
 
+std::vector<RunFile> files_in(const fs::path& folder, const std::string& role) {
+    std::vector<RunFile> files;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+        files.push_back({entry.path(), role});
+    return files;
+}
+
 std::vector<RunFile> files_of_mesh(const std::string& mesh, const std::string& format) {
     std::vector<RunFile> files{{mesh, "MESH"}};
     const std::string known = format.empty() && is_folder(mesh) ? "openfoam" : format;  // no other format is a folder
     try {
         for (const fs::path& part : output_files(mesh, {.format = known})) {
             if (part != fs::path(mesh)) files.push_back({part, "MESH"});
-            std::error_code ignored;
-            for (const fs::directory_entry& entry : fs::directory_iterator(part, ignored))
-                files.push_back({entry.path(), "MESH"});
+            const std::vector<RunFile> inside = files_in(part, "MESH");
+            files.insert(files.end(), inside.begin(), inside.end());
         }
     } catch (const UsageError&) {
         // The name tells no format, so reading it fails.

@@ -22,6 +22,9 @@ struct RunFile {
     std::string role;  ///< the words of the command line that name it: "option --report"
 };
 
+/// Returns the absolute path of a file without links and dots, as far as it exists.
+std::filesystem::path path_behind_links(const std::filesystem::path& path);
+
 /// Throws UsageError where an output would replace an input or another output, under whatever name: links are followed.
 /// Folders are replaced with all that is in them. Devices and pipes may be named several times; "-", which stands for
 /// standard input and standard output, may stand for one output.
@@ -32,6 +35,9 @@ void require_format(const std::string& file, const std::string& format, const st
 
 /// Throws UsageError where parts are asked for that none of these mesh files has.
 void require_parts_taken(std::span<const std::string> files, const WriteOptions& options);
+
+/// Returns the files in a folder; none where it is no folder.
+std::vector<RunFile> files_in(const std::filesystem::path& folder, const std::string& role);
 
 /// Returns the files of a mesh that is read: those that its format consists of. The format is the one of this name or, if
 /// that is empty, the one that the name of the mesh tells.

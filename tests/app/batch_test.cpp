@@ -75,6 +75,29 @@ TEST(Batch, MissingFoldersAreCreatedUnlessTheCallIsWrong) {
     EXPECT_FALSE(fs::exists(folder / "some/fish")) << "nothing is in it";
 }
 
+TEST(Batch, NoFileReplacesAnInput) {
+    const TemporaryFolder folder;
+    const std::string wedge = "wedge\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n";
+    fs::create_directory(folder / "case");
+    for (const char* file : {"a.csv", "summary.csv", "a.dat", "case/a.dat"}) folder.write(file, wedge);
+    fs::create_directory_symlink(".", folder / "here");
+    fs::create_symlink("../a.dat", folder / "case/link.su2");
+    const std::vector<std::vector<std::string>> calls = {
+        {"a.csv", "-o", "out/{name}.su2", "--summary", "a.csv"},
+        {"a.csv", "summary.csv", "-o", "{name}.su2"},
+        {"a.dat", "-o", "here/{name}.dat", "--format", "su2"},
+        {"a.dat", "-o", "case/link.su2"},
+        {"case/a.dat", "-o", "out/{name}.su2", "--report", "here/case/{name}.dat"},
+        {"case/a.dat", "-o", "case", "--format", "openfoam"}};
+    for (std::vector<std::string> arguments : calls) {
+        SCOPED_TRACE(arguments[2] + " " + arguments[3]);
+        arguments.insert(arguments.begin(), "batch");
+        expect_refused(folder, arguments, usage, "would replace an input");
+    }
+    for (const char* file : {"a.csv", "summary.csv", "a.dat", "case/a.dat"})
+        EXPECT_EQ(folder.read(file), wedge) << file;
+}
+
 TEST(Batch, OneBadFileDoesNotStopTheRest) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "out");

@@ -110,6 +110,34 @@ TEST(DelaunayCommand, Refusals) {
     EXPECT_EQ(read_triangle_files(folder / "cross.1.poly").points.size(), 5u);
 }
 
+TEST(DelaunayCommand, EmptyTriangulationsGiveAWarning) {
+    const TemporaryFolder folder;
+    folder.write("line.node", "4 2\n1 0 0\n2 1 1\n3 2 2\n4 0 0\n");
+    folder.write("pair.node", "2 2\n1 0 0\n2 1 1\n");
+    folder.write("all.poly", "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 0.25 0.5\n");
+    folder.write("open.poly", "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n1 0\n1 1 3\n0\n");
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"line.node", "4 points, but no triangle: all points lie on one line"},
+        {"pair.node", "2 points, but no triangle: a triangle needs three points"},
+        {"all.poly", "4 points, but no triangle: the holes take all of it away"},
+        {"open.poly", "4 points, but no triangle: the segments enclose nothing"}};
+    for (const auto& [file, message] : cases) {
+        SCOPED_TRACE(file);
+        std::vector<std::string> arguments{"delaunay", file, "-o", "out", "--report", "r.json", "--quiet"};
+        const ProgramRun run = run_lamina(folder, arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NE(run.err.find("lamina: warning: " + message), std::string::npos) << run.err;
+        const auto warnings = nlohmann::json::parse(folder.read("r.json"))["warnings"];
+        ASSERT_EQ(warnings.size(), 1u);
+        EXPECT_EQ(warnings[0]["code"], "no_triangles");
+        EXPECT_EQ(warnings[0]["number"], file == "pair.node" ? 2 : 4);
+        arguments.push_back("--strict");
+        EXPECT_EQ(run_lamina(folder, arguments).exit_code, 4);
+        arguments.insert(arguments.end(), {"--min-angle", "20"});
+        EXPECT_EQ(run_lamina(folder, arguments).exit_code, 4);
+    }
+}
+
 TEST(DelaunayCommand, SegmentsThatChangeNothingAreCounted) {
     const TemporaryFolder folder;
     folder.write("a.poly", "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n6 0\n1 1 2\n2 2 2\n3 2 3\n4 3 4\n5 4 1\n6 1 4\n0\n");

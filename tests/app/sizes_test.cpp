@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,14 @@ TEST(SizesCommand, RefusesWhatItCannotUse) {
         {"sizes", "solution.vtu", "--field", "size", "--vertices", "14000", "--case", "case.toml", "-o", "case.toml"},
         usage, "would replace");
     EXPECT_EQ(folder.read("case.toml"), "input = \"naca:0012\"\n");
+    std::filesystem::create_directories(folder / "case/1000");
+    std::filesystem::create_directories(folder / "case/constant/polyMesh");
+    for (const char* file : {"case/1000/U", "case/constant/polyMesh/points"}) {
+        folder.write(file, "mine");
+        expect_refused(folder, {"sizes", "case/1000/", "--field", "U", "--vertices", "9000", "-o", file}, usage,
+                       "would replace");
+        EXPECT_EQ(folder.read(file), "mine");
+    }
     expect_refused(folder, {"sizes", "solution.vtu", "--vertices", "14000", "-o", "s.vtu"}, usage, "--field");
     expect_refused(folder, {"sizes", "solution.vtu", "--field", "size", "-o", "s.vtu"}, usage, "--vertices");
     expect_refused(folder, {"sizes", "solution.vtu", "--field", "q", "--vertices", "14000", "-o", "s.vtu"}, usage, "q");

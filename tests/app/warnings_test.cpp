@@ -74,6 +74,19 @@ TEST(WarningsOfTheProgram, AnglesBelowTheBoundWriteNothingUnlessDefectsAreAllowe
 /// A square that is 10 wide, as a .poly file.
 const std::string wide_square = "4 2 0 0\n1 0 0\n2 10 0\n3 10 10\n4 0 10\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
 
+TEST(WarningsOfTheProgram, WhatTheReaderFoundIsSaidByCommandsWithoutAMesh) {
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"flow", "naca:63012", "-o", "f.csv"},
+                                               {"plot", "naca:63012", "-o", "p.svg"},
+                                               {"mesh", "naca:63012", "--far-field", "10", "--quiet", "-o", "m.su2"}}) {
+        const ProgramRun run = run_lamina(folder, arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.err.find("lamina: warning: airfoil: naca:63012 is the five-digit section"), 0u) << run.err;
+    }
+    EXPECT_NE(run_lamina(folder, {"info", "naca:63012"}).out.find("naca:63012 is the five-digit"), std::string::npos);
+}
+
 TEST(WarningsOfTheProgram, DelaunayWarnsToo) {
     const TemporaryFolder folder;
     folder.write("square.poly", wide_square);
