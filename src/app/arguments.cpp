@@ -86,6 +86,15 @@ void refuse_empty_values(CLI::App& app) {
                 option->check([](const std::string& text) { return text.empty() ? "the value is empty" : ""; }, "");
 }
 
+/// Returns the reason of an error of CLI11, which says "Could not convert: --jobs = -1" of values that are no numbers.
+std::string reason_of(const CLI::ParseError& error) {
+    const std::string text = error.what(), beginning = "Could not convert: ", divider = " = ";
+    const std::size_t end = text.find(divider);
+    if (!text.starts_with(beginning) || end == std::string::npos) return text;
+    return "option " + text.substr(beginning.size(), end - beginning.size()) + ": '" +
+           text.substr(end + divider.size()) + "' is no number that it takes";
+}
+
 }  // namespace
 
 void run_arguments(CLI::App& app, std::vector<std::string> arguments) {
@@ -98,7 +107,7 @@ void run_arguments(CLI::App& app, std::vector<std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         // CLI11 names a missing argument first. An unknown option is more often the reason, as in --out for -o.
         if (error.get_exit_code() != 0) require_known_arguments(app);
-        if (error.get_exit_code() != 0) throw UsageError(error.what() + help_hint(app));
+        if (error.get_exit_code() != 0) throw UsageError(reason_of(error) + help_hint(app));
         app.exit(error);  // prints the answer to --help or --version
     }
 }

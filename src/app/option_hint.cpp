@@ -24,6 +24,9 @@ struct OtherWord {
 
 constexpr const char* inputs_have_no_option = "inputs are named without an option, as in lamina mesh FILE";
 
+constexpr const char* no_structured_grids =
+    "meshes are rows of cells along walls, --layer-topology quads leaves them whole, and triangles beyond";
+
 constexpr OtherWord mesh_words[] = {
     {"boxsize", "far-field"},
     {"distance", "far-field"},
@@ -147,6 +150,18 @@ constexpr OtherWord mesh_words[] = {
     {"maxelements", "max-triangles"},
     {"memory", "max-memory"},
     {"outputfile", "output"},
+    {"outputformat", "format"},
+    {"filetype", "format"},
+    {"wakelength", "wake"},
+    {"wakeangle", "wake"},
+    {"cells", "max-triangles"},
+    {"ncells", "max-triangles"},
+    {"elements", "max-triangles"},
+    {"cgrid", "", no_structured_grids},
+    {"ogrid", "", no_structured_grids},
+    {"hgrid", "", no_structured_grids},
+    {"gridtype", "", no_structured_grids},
+    {"unstructured", "", "all cells beyond the layer are triangles"},
     {"json", "report"},
     {"log", "report"},
     {"verbose", "progress"},
@@ -280,7 +295,9 @@ std::string triangle_switches(const std::string& word) {
 
 bool is_input(const std::string& word) {
     std::error_code ignored;
-    return plain_word(word).starts_with("naca") || std::filesystem::exists(word, ignored);
+    const std::string extension = std::filesystem::path(word).extension().string();
+    return plain_word(word).starts_with("naca") || extension == ".dat" || extension == ".toml" ||
+           std::filesystem::exists(word, ignored);
 }
 
 }  // namespace

@@ -64,8 +64,11 @@ OptionTable<DecouplingOptions> make_decoupling_table() {
 void require_convex(std::span<const Point> outline) {
     const std::size_t n = outline.size();
     if (n < 3) throw OptionError("far_field_outline", "an outline has three corners or more");
+    std::size_t leftmost_corners = 0;  // of a star that turns left at each corner there are several
     for (std::size_t i = 0; i < n; ++i) {
         const Point a = outline[i], b = outline[(i + 1) % n], c = outline[(i + 2) % n];
+        leftmost_corners += lexicographically_less(b, a) && lexicographically_less(b, c);
+        if (leftmost_corners > 1) throw OptionError("far_field_outline", "it runs round its middle more than once");
         if (!(orient2d(a, b, c) > 0))
             throw OptionError("far_field_outline",
                               fmt::format("not convex and counter-clockwise at ({}, {})", b.x, b.y));

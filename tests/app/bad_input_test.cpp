@@ -89,6 +89,8 @@ TEST(BadInput, WakesAndSizeSources) {
     const TemporaryFolder folder;
     for (const char* outline : {"", "1,2,3,4", "-9,-9,9,-9,0", "-9,-9,9,-9,0,x", "-9,-9,0,9,9,-9", "2,-1,3,-1,3,1"})
         expect_refused(folder, mesh_naca_with({"--far-field-outline", outline}), usage, "outline");
+    expect_refused(folder, mesh_naca_with({"--far-field-outline", "0,10,-5.9,-8.1,9.5,3.1,-9.5,3.1,5.9,-8.1"}), usage,
+                   "--far-field-outline: it runs round its middle more than once");
     expect_refused(folder, mesh_naca_with({"--far-field-outline", "-9,-9,9,-9,0,9", "--far-field-shape", "circle"}),
                    usage, "exclude each other");
     for (const char* wake : {"", "x", "10:", "10:0", "10:-1", "10:2:0", "10:2:1:1", "1e9", "nan", "10:inf"})

@@ -44,6 +44,11 @@ TEST(Hints, OptionsOfMeshUnderOtherNames) {
         {"--max-cells", "did you mean --max-triangles?"},
         {"--ncores", "did you mean --threads?"},
         {"--seed", "equal inputs give equal meshes"},
+        {"--output-format", "did you mean --format?"},
+        {"--wake-length", "did you mean --wake?"},
+        {"--cells", "did you mean --max-triangles?"},
+        {"--c-grid", "--layer-topology quads leaves them whole"},
+        {"--unstructured", "all cells beyond the layer are triangles"},
     };
     for (const auto& [option, hint] : options) {
         expect_refused(folder, {"mesh", "naca:0012", option, "-o", "a.su2"}, usage,
@@ -52,6 +57,15 @@ TEST(Hints, OptionsOfMeshUnderOtherNames) {
     }
     // A word that resembles nothing gets no hint.
     expect_refused(folder, {"mesh", "naca:0012", "--zzzzz"}, usage, "unknown option --zzzzz (see");
+}
+
+TEST(Hints, ValuesThatAreNoCounts) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"batch", "naca:0012", "-o", "{name}.su2", "--jobs", "-1"}, usage,
+                   "option --jobs: '-1' is no number that it takes");
+    expect_refused(folder, {"family", "naca:0012", "-o", "{level}.su2", "--levels", "many"}, usage,
+                   "option --levels: 'many' is no number that it takes");
+    expect_refused(folder, {"wing.dat", "-o", "a.su2"}, usage, "did you mean lamina mesh wing.dat?");
 }
 
 TEST(Hints, NumbersWithCommas) {
