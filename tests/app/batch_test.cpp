@@ -78,8 +78,10 @@ TEST(Batch, MissingFoldersAreCreatedUnlessTheCallIsWrong) {
 TEST(Batch, NoFileReplacesAnInput) {
     const TemporaryFolder folder;
     const std::string wedge = "wedge\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n";
-    fs::create_directory(folder / "case");
-    for (const char* file : {"a.csv", "summary.csv", "a.dat", "case/a.dat"}) folder.write(file, wedge);
+    fs::create_directories(folder / "case/constant/polyMesh");
+    const std::vector<std::string> inputs = {"a.csv", "summary.csv", "a.dat", "case/a.dat",
+                                             "case/constant/polyMesh/a.dat"};
+    for (const std::string& file : inputs) folder.write(file, wedge);
     fs::create_directory_symlink(".", folder / "here");
     fs::create_symlink("../a.dat", folder / "case/link.su2");
     const std::vector<std::vector<std::string>> calls = {
@@ -88,14 +90,13 @@ TEST(Batch, NoFileReplacesAnInput) {
         {"a.dat", "-o", "here/{name}.dat", "--format", "su2"},
         {"a.dat", "-o", "case/link.su2"},
         {"case/a.dat", "-o", "out/{name}.su2", "--report", "here/case/{name}.dat"},
-        {"case/a.dat", "-o", "case", "--format", "openfoam"}};
+        {"case/constant/polyMesh/a.dat", "-o", "case", "--format", "openfoam"}};
     for (std::vector<std::string> arguments : calls) {
-        SCOPED_TRACE(arguments[2] + " " + arguments[3]);
+        SCOPED_TRACE(arguments.back());
         arguments.insert(arguments.begin(), "batch");
         expect_refused(folder, arguments, usage, "would replace an input");
     }
-    for (const char* file : {"a.csv", "summary.csv", "a.dat", "case/a.dat"})
-        EXPECT_EQ(folder.read(file), wedge) << file;
+    for (const std::string& file : inputs) EXPECT_EQ(folder.read(file), wedge) << file;
 }
 
 TEST(Batch, OneBadFileDoesNotStopTheRest) {

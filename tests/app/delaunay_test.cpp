@@ -112,7 +112,7 @@ TEST(DelaunayCommand, Refusals) {
 
 TEST(DelaunayCommand, EmptyTriangulationsGiveAWarning) {
     const TemporaryFolder folder;
-    folder.write("line.node", "4 2\n1 0 0\n2 1 1\n3 2 2\n4 0 0\n");
+    folder.write("line.node", "4 2\n1 0 0\n2 1 1\n3 2 2\n4 5 5\n");
     folder.write("pair.node", "2 2\n1 0 0\n2 1 1\n");
     folder.write("all.poly", "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 0.25 0.5\n");
     folder.write("open.poly", "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n1 0\n1 1 3\n0\n");
