@@ -254,8 +254,17 @@ private:
         if (!journal_) throw IoError(settings_.journal.string(), "cannot be written");
         const bool done = result["outcome"] == "done";
         ++(done ? outcome_.done : outcome_.failed);
+        print_warnings(i, result);
         if (!settings_.quiet || !done) print(i, result, done);
         records_[i] = std::move(result);
+    }
+
+    void print_warnings(std::size_t i, const Json& result) const {
+        for (const Json& warning : result.value("warnings", Json::array())) {
+            std::fputs(fmt::format("lamina: warning: {}: {}\n", id_of(jobs_[i]), warning["message"].get<std::string>())
+                           .c_str(),
+                       stderr);
+        }
     }
 
     void print(std::size_t i, const Json& result, bool done) const {

@@ -99,6 +99,15 @@ TEST(Batch, NoFileReplacesAnInput) {
     for (const std::string& file : inputs) EXPECT_EQ(folder.read(file), wedge) << file;
 }
 
+TEST(Batch, WarningsAreLinesAlsoUnderQuiet) {
+    const TemporaryFolder folder;
+    const ProgramRun run = run_batch(folder, {"naca:63012", "naca:0012", "-o", "{name}.su2", "--quiet"});
+    EXPECT_EQ(run.exit_code, 0);
+    ASSERT_EQ(lines_of(run.err).size(), 1u) << run.err;
+    EXPECT_EQ(run.err.find("lamina: warning: naca_63012: airfoil: naca:63012 is the five-digit section"), 0u)
+        << run.err;
+}
+
 TEST(Batch, OneBadFileDoesNotStopTheRest) {
     const TemporaryFolder folder;
     fs::create_directory(folder / "out");
