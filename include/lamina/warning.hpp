@@ -31,6 +31,7 @@ enum class WarningCode {
     no_triangles,              ///< a triangulation is empty: its points lie on one line, or its holes take all away
     unsuited_to_solver,        ///< the solver that the mesh is written for cannot use its cells
     flow_estimated,            ///< the panel method failed, and the flow is that along flat plates
+    unused_seed,               ///< a hole or a region of a triangulation lies where it changes nothing
 };
 
 /// Returns the stable name of a kind: "first_layer_lost".

@@ -1,6 +1,7 @@
 #include "app/delaunay_run.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -211,6 +212,33 @@ std::string reason_for_no_triangles(const TriangleOutput& output) {
                                    : "the holes take all of it away";
 }
 
+Warning unused_seed_warning(const std::string& kind, std::size_t i, Point at, const std::string& reason) {
+    return {.code = WarningCode::unused_seed,
+            .at = at,
+            .number = static_cast<double>(i + 1),
+            .unit = kind,
+            .message = fmt::format("{} {} at ({:.6g}, {:.6g}) {}", kind, i + 1, at.x, at.y, reason)};
+}
+
+/// Returns warnings of holes beyond all points, as where they have other units, and of regions that no triangle is in.
+std::vector<Warning> find_unused_seeds(const TriangleInput& input, const ConstrainedRefinement& mesh) {
+    std::vector<Warning> warnings;
+    Box box;
+    for (const Point p : input.points) box.include(p);
+    for (std::size_t i = 0; i < input.holes.size(); ++i)
+        if (!box.contains(input.holes[i]))
+            warnings.push_back(
+                unused_seed_warning("hole", i, input.holes[i], "lies beyond all points and takes nothing away"));
+    std::vector<bool> used(input.regions.size());
+    for (const std::uint32_t region : mesh.regions)
+        if (region != ConstrainedRefinement::no_region) used[region] = true;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (!used[i])
+            warnings.push_back(unused_seed_warning("region", i, input.regions[i].at,
+                                                   "lies in no triangle, or where an earlier region does"));
+    return warnings;
+}
+
 Warning no_triangles_warning(const TriangleOutput& output) {
     Warning warning{.code = WarningCode::no_triangles,
                     .number = static_cast<double>(output.points.size()),
@@ -275,10 +303,12 @@ DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& setting
         mesh = unrefined(std::move(triangulation));
     result.refinement_seconds = watch.lap();
     result.refinement = mesh.stats;
+    result.warnings = find_unused_seeds(input, mesh);
     result.output = make_output(std::move(input), std::move(mesh));
     require_made_within(settings.limits, static_cast<double>(result.output.triangles.size()), refinement_cost,
                         thread_count());
-    result.warnings = find_warnings(result.output, result.refinement, settings);
+    for (Warning& warning : find_warnings(result.output, result.refinement, settings))
+        result.warnings.push_back(std::move(warning));
     return result;
 }
 

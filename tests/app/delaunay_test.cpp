@@ -138,6 +138,21 @@ TEST(DelaunayCommand, EmptyTriangulationsGiveAWarning) {
     }
 }
 
+TEST(DelaunayCommand, SeedsThatChangeNothingGiveAWarning) {
+    const TemporaryFolder folder;
+    const std::string square = "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n";
+    folder.write("hole.poly", square + "1\n1 50 50\n");
+    folder.write("regions.poly", square + "0\n3\n1 0.3 0.2 7 0.1\n2 0.6 0.2 8 0.2\n3 300 200 9 0.1\n");
+    const ProgramRun hole = run_lamina(folder, {"delaunay", "hole.poly", "-o", "out", "--quiet"});
+    EXPECT_EQ(hole.exit_code, 0);
+    EXPECT_EQ(hole.err, "lamina: warning: hole 1 at (50, 50) lies beyond all points and takes nothing away\n");
+    const ProgramRun regions = run_lamina(folder, {"delaunay", "regions.poly", "-o", "out", "--quiet", "--strict"});
+    EXPECT_EQ(regions.exit_code, 4);
+    EXPECT_NE(regions.err.find("region 2 at (0.6, 0.2) lies in no triangle, or where an earlier"), std::string::npos);
+    EXPECT_NE(regions.err.find("region 3 at (300, 200)"), std::string::npos) << regions.err;
+    EXPECT_EQ(regions.err.find("region 1"), std::string::npos) << regions.err;
+}
+
 TEST(DelaunayCommand, SegmentsThatChangeNothingAreCounted) {
     const TemporaryFolder folder;
     folder.write("a.poly", "4 2\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n6 0\n1 1 2\n2 2 2\n3 2 3\n4 3 4\n5 4 1\n6 1 4\n0\n");
