@@ -10,11 +10,11 @@ namespace lamina::geometry {
 
 namespace {
 
-constexpr std::string_view opening = "([{", closing = ")]}";
+constexpr std::string_view opening_brackets = "([{", closing_brackets = ")]}";
 
-bool is_opening(char c) { return opening.find(c) != std::string_view::npos; }
+bool is_opening(char c) { return opening_brackets.find(c) != std::string_view::npos; }
 
-bool is_bracket(char c) { return is_opening(c) || closing.find(c) != std::string_view::npos; }
+bool is_bracket(char c) { return is_opening(c) || closing_brackets.find(c) != std::string_view::npos; }
 
 /// Returns whether nothing but white space and separators stands in a text.
 bool only_separates(std::string_view text) {
