@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -78,6 +79,12 @@ public:
     void agree();
     /// Collective: returns the bytes of all ranks, in their order, on rank 0; nothing elsewhere.
     std::vector<std::string> gather(std::string_view bytes);
+    /// Joins the bytes of two ranks, those of the lower one first.
+    using Join = std::function<std::string(std::string_view, std::string_view)>;
+    /// Collective: returns on rank 0 what `join` makes of the bytes of all ranks; nothing elsewhere. Ranks join them
+    /// pairwise, so that none calls `join` more often than the logarithm of their number. It does not matter to the result
+    /// of `join` which bytes are joined first.
+    std::string reduce(std::string bytes, const Join& join);
     /// Collective: returns the bytes of all ranks, in their order, on all of them.
     std::vector<std::string> all_gather(std::string_view bytes);
     /// Collective: returns on each rank the bytes that rank 0 has for it. The argument of other ranks does not count.
@@ -111,6 +118,10 @@ protected:
     virtual std::vector<std::string> do_exchange(const std::vector<std::string>& bytes) = 0;
     /// Returns the bytes of rank `from`.
     virtual std::string do_broadcast(std::string_view bytes, unsigned from) = 0;
+    /// Sends bytes to one rank, which receives them: once at most between two questions whether a rank has failed.
+    virtual void do_send(unsigned to, std::string_view bytes) = 0;
+    /// Returns the bytes that one rank sends to this one.
+    virtual std::string do_receive(unsigned from) = 0;
     /// Sets the counter to 0.
     virtual void do_reset_counter() = 0;
     /// Returns what open_file() returns.

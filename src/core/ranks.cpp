@@ -1,6 +1,9 @@
 // What all kinds of ranks have in common: the question before each collective function, and the count of what is sent.
 #include <lamina/ranks.hpp>
 
+#include <exception>
+#include <utility>
+
 #include "core/packing.hpp"
 
 namespace lamina {
@@ -60,6 +63,32 @@ std::vector<std::string> Ranks::gather(std::string_view bytes) {
     agree();
     count(rank() == 0 ? 0 : bytes.size());
     return do_gather(bytes);
+}
+
+//      rank   0   1   2   3   4   5
+//             0 <-1   2 <-3   4 <-5
+//             0 <---- 2       4
+//             0 <------------ 4
+std::string Ranks::reduce(std::string bytes, const Join& join) {
+    agree();
+    std::exception_ptr failure;
+    for (unsigned step = 1; step < size(); step *= 2) {
+        if (rank() % (2 * step) != 0) {
+            count(bytes.size());
+            do_send(rank() - step, std::exchange(bytes, {}));
+            break;
+        }
+        if (rank() + step >= size()) continue;
+        const std::string other = do_receive(rank() + step);
+        // A rank that fails goes on as the others expect it to: they learn of it at the next question.
+        try {
+            if (!failure) bytes = join(bytes, other);
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    }
+    if (failure) std::rethrow_exception(failure);
+    return bytes;
 }
 
 std::vector<std::string> Ranks::all_gather(std::string_view bytes) {

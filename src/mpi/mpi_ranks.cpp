@@ -102,6 +102,20 @@ protected:
         return text;
     }
 
+    void do_send(unsigned to, std::string_view bytes) override {
+        MPI_Send(bytes.data(), int_size(bytes.size()), MPI_BYTE, static_cast<int>(to), 0, all_);
+    }
+
+    std::string do_receive(unsigned from) override {
+        MPI_Status status;
+        MPI_Probe(static_cast<int>(from), 0, all_, &status);
+        int size = 0;
+        MPI_Get_count(&status, MPI_BYTE, &size);
+        std::string bytes(static_cast<std::size_t>(size), '\0');
+        MPI_Recv(bytes.data(), size, MPI_BYTE, static_cast<int>(from), 0, all_, MPI_STATUS_IGNORE);
+        return bytes;
+    }
+
     void do_reset_counter() override {
         if (rank_ == 0) {
             const std::uint64_t zero = 0;

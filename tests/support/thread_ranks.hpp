@@ -6,11 +6,13 @@
 #include <barrier>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <semaphore>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,10 +23,13 @@ namespace lamina::test {
 
 /// What the threads share.
 struct RankHub {
-    RankHub(unsigned n, unsigned taker) : ranks(n), slots(n), from_to(n), first_taker(taker), barrier(n) {}
+    RankHub(unsigned n, unsigned taker) : ranks(n), slots(n), from_to(n), first_taker(taker), barrier(n) {
+        for (unsigned rank = 0; rank < n; ++rank) sent.emplace_back(0);
+    }
     const unsigned ranks;  ///< their number
     std::vector<std::string> slots;
     std::vector<std::vector<std::string>> from_to;  ///< what each rank sends to each
+    std::deque<std::binary_semaphore> sent;         ///< by each rank, to one that has not taken it yet
     std::atomic<unsigned> lowest_failed{0};
     std::atomic<std::uint64_t> counter{0};
     std::atomic<unsigned> first_taker;  ///< the rank that takes the first number; size(): any
@@ -109,6 +114,14 @@ protected:
         std::string text = hub_.slots[from];
         wait();
         return text;
+    }
+    void do_send(unsigned, std::string_view bytes) override {
+        hub_.slots[rank_] = bytes;
+        hub_.sent[rank_].release();
+    }
+    std::string do_receive(unsigned from) override {
+        hub_.sent[from].acquire();
+        return hub_.slots[from];
     }
     void do_reset_counter() override {
         wait();

@@ -1,0 +1,58 @@
+// Ranks that join what they have: the same on any number of them, and what becomes of failures.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <lamina/error.hpp>
+#include <lamina/ranks.hpp>
+
+#include "support/thread_ranks.hpp"
+
+namespace lamina::test {
+namespace {
+
+std::string concatenated(std::string_view one, std::string_view other) { return std::string(one) + std::string(other); }
+
+TEST(Ranks, JoinTheirBytesInTheirOrder) {
+    for (const unsigned n : {1u, 2u, 3u, 4u, 5u, 7u, 8u}) {
+        SCOPED_TRACE(n);
+        std::vector<std::size_t> joins(n);
+        const std::string failure = run_ranks(n, [&](Ranks& ranks) {
+            const std::string own(1, static_cast<char>('a' + ranks.rank()));
+            for (int repeat = 0; repeat < 20; ++repeat) {
+                const std::string all = ranks.reduce(own, [&](std::string_view one, std::string_view other) {
+                    ++joins[ranks.rank()];
+                    return concatenated(one, other);
+                });
+                EXPECT_EQ(all, ranks.rank() == 0 ? std::string("abcdefgh").substr(0, n) : "");
+            }
+        });
+        EXPECT_EQ(failure, "");
+        std::size_t sum = 0;
+        for (const std::size_t of_rank : joins) {
+            EXPECT_LE(of_rank, 20u * 3u);
+            sum += of_rank;
+        }
+        EXPECT_EQ(sum, 20u * (n - 1));
+    }
+}
+
+TEST(Ranks, EndTogetherWhereOneCannotJoin) {
+    for (const unsigned failing : {0u, 2u}) {
+        const std::string failure = run_ranks(4, [&](Ranks& ranks) {
+            ranks.reduce("bytes", [&](std::string_view one, std::string_view other) {
+                if (ranks.rank() == failing) throw MeshError("cannot be joined");
+                return concatenated(one, other);
+            });
+            ranks.agree();
+        });
+        EXPECT_NE(failure.find("cannot be joined"), std::string::npos) << failure;
+        EXPECT_EQ(failure.find("differently"), std::string::npos) << failure;
+    }
+}
+
+}  // namespace
+}  // namespace lamina::test
