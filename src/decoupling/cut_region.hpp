@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct LAMINA_EXPORT CutRegion {
     Lines lines;
     RingRegions rings;
     std::vector<Segment> far_field;
+    std::vector<std::uint32_t> far_field_lines;  ///< those that these edges are on, with the region on their left
     std::vector<EstimatedBorder> borders;
     std::size_t separator_vertices = 0;
 

@@ -55,6 +55,7 @@ std::vector<Point> outline_of(const FarField& far_field) {
 struct UncutSkeleton {
     Skeleton skeleton;
     std::vector<Segment> far_field;  ///< edges of the far field; the region lies on their left
+    std::vector<std::uint32_t> far_field_lines{};
 };
 
 /// Divides all lines and numbers their vertices.
@@ -87,12 +88,14 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
     }
     if (!is_box) {
         uncut.far_field = add_far_field_outline(uncut.skeleton, far_field, spacing);
+        uncut.far_field_lines.push_back(static_cast<std::uint32_t>(lines.size() - 1));
         return uncut;
     }
     for (const std::uint32_t line : outermost_lines) {
         const std::vector<Segment> edges = edges_along(lines, line);
         uncut.far_field.insert(uncut.far_field.end(), edges.begin(), edges.end());
     }
+    uncut.far_field_lines = std::move(outermost_lines);
     return uncut;
 }
 
@@ -101,9 +104,14 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
 CutRegion cut_region(const OuterRegion& region, Ranks* ranks) {
     if (ranks != nullptr && ranks->size() == 1) ranks = nullptr;
     const SeparatorSpacing spacing{region.size, region.options.separators};
-    auto [skeleton, far_field_edges] = draw_skeleton(region, spacing, ranks);
+    auto [skeleton, far_field_edges, far_field_lines] = draw_skeleton(region, spacing, ranks);
     UncutRegions uncut{skeleton.trace(), skeleton.rings};
-    CutRegion cut{std::move(skeleton.lines), std::move(skeleton.rings), std::move(far_field_edges), {}, 0};
+    CutRegion cut{std::move(skeleton.lines),
+                  std::move(skeleton.rings),
+                  std::move(far_field_edges),
+                  std::move(far_field_lines),
+                  {},
+                  0};
     const double target = region.options.pieces_target;
     cut.borders = ranks != nullptr ? cut_to_size_together(cut.lines, std::move(uncut), spacing, target, *ranks)
                                    : cut_to_size(cut.lines, std::move(uncut), spacing, target);

@@ -112,6 +112,14 @@ LineVertex Lines::vertex(std::uint32_t number, std::uint32_t place) const {
 
 VertexId Lines::id(std::uint32_t line, std::uint32_t place) const { return vertex(line, place).id; }
 
+bool Lines::runs_along(std::uint32_t number, Segment edge) const {
+    const Line& line = at(number);
+    if (!line.loop.empty())
+        return edge.b.index() == line.first.index() + (edge.a.index() + 1 - line.first.index()) % line.own;
+    return edge.a == line.from.id ? edge.b == id(number, 1)
+                                  : edge.b == line.to.id || edge.b.index() == edge.a.index() + 1;
+}
+
 Point Lines::point(std::uint32_t number, std::uint32_t place) const {
     const Line& line = at(number);
     if (!line.loop.empty()) return line.interior[place];

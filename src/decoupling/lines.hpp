@@ -75,6 +75,9 @@ public:
     /// Returns the id of the first vertex that was added with a line, if there is one.
     VertexId first_inside(std::uint32_t line) const { return at(line).first; }
     bool is_loop(std::uint32_t line) const { return !at(line).loop.empty(); }
+    /// Returns whether an edge between two successive vertices has the direction of the line. Precondition: the vertices
+    /// were added with the line, or the line is no loop.
+    bool runs_along(std::uint32_t line, Segment edge) const;
     /// Returns the number of vertices that were added with a line: they have successive ids.
     std::size_t own_vertices(std::uint32_t line) const { return end_of(at(line)) - at(line).first.index(); }
     /// Returns the number of vertices on no line, which have the lowest ids.

@@ -43,4 +43,15 @@ std::vector<Segment> sorted_ends(std::span<const BoundaryEdge> edges) {
     return ends;
 }
 
+bool is_closed(std::span<const Segment> edges) {
+    std::vector<VertexId> begins, ends;
+    for (const Segment& edge : edges) {
+        begins.push_back(edge.a);
+        ends.push_back(edge.b);
+    }
+    std::sort(begins.begin(), begins.end());
+    std::sort(ends.begin(), ends.end());
+    return begins == ends;
+}
+
 }  // namespace lamina::mesh

@@ -24,4 +24,7 @@ std::vector<BoundaryEdge> find_boundary_edges(const MeshView& mesh, std::span<co
 /// Returns their ends, sorted.
 std::vector<Segment> sorted_ends(std::span<const BoundaryEdge> edges);
 
+/// Returns whether as many of these edges begin at each vertex as end there.
+bool is_closed(std::span<const Segment> edges);
+
 }  // namespace lamina::mesh

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "mesh/boundary.hpp"
 #include "mesh/check_markers.hpp"
 #include "mesh/walls.hpp"
 
@@ -34,14 +33,19 @@ void check_totals(const MeshCheck& check, const BoundarySummary& boundary, Defec
         });
 }
 
+void measure_boundary(std::span<const Point> points, std::span<const Marker> markers,
+                      std::span<const BoundaryEdge> boundary, const MeshCheckOptions& options, MeshCheck& check) {
+    check.walls = measure_walls(points, markers, boundary, options);
+    check.edges_without_first_layer = static_cast<std::size_t>(std::count_if(
+        boundary.begin(), boundary.end(), [](const BoundaryEdge& edge) { return edge.beyond_first_layer; }));
+}
+
 }  // namespace
 
 void check_whole_boundary(std::span<const Point> points, std::span<const Marker> markers,
                           std::span<const BoundaryEdge> boundary, bool conforming, const MeshCheckOptions& options,
                           MeshCheck& check, DefectList& defects) {
-    check.walls = measure_walls(points, markers, boundary, options);
-    check.edges_without_first_layer = static_cast<std::size_t>(std::count_if(
-        boundary.begin(), boundary.end(), [](const BoundaryEdge& edge) { return edge.beyond_first_layer; }));
+    measure_boundary(points, markers, boundary, options, check);
     const std::vector<Segment> edges = sorted_ends(boundary);
     check_markers(points, markers, edges, defects);
     if (!conforming) return;
@@ -49,6 +53,14 @@ void check_whole_boundary(std::span<const Point> points, std::span<const Marker>
     check.boundary_loops = summary.loops;
     defects.append(std::move(summary.defects));
     if (defects.empty()) check_totals(check, summary, defects);
+}
+
+void check_known_boundary(std::span<const Point> points, std::span<const Marker> markers,
+                          std::span<const BoundaryEdge> boundary, const BoundarySummary& known,
+                          const MeshCheckOptions& options, MeshCheck& check, DefectList& defects) {
+    measure_boundary(points, markers, boundary, options, check);
+    check.boundary_loops = known.loops;
+    if (defects.empty()) check_totals(check, known, defects);
 }
 
 }  // namespace lamina::mesh

@@ -6,6 +6,7 @@
 
 #include <lamina/mesh.hpp>
 
+#include "mesh/boundary.hpp"
 #include "mesh/boundary_edges.hpp"
 #include "mesh/defects.hpp"
 
@@ -17,5 +18,11 @@ namespace lamina::mesh {
 void check_whole_boundary(std::span<const Point> points, std::span<const Marker> markers,
                           std::span<const BoundaryEdge> boundary, bool conforming, const MeshCheckOptions& options,
                           MeshCheck& check, DefectList& defects);
+
+/// Does so for a conforming mesh whose boundary and markers were checked before, without defects. `boundary` holds the
+/// edges of its walls and perhaps others.
+void check_known_boundary(std::span<const Point> points, std::span<const Marker> markers,
+                          std::span<const BoundaryEdge> boundary, const BoundarySummary& known,
+                          const MeshCheckOptions& options, MeshCheck& check, DefectList& defects);
 
 }  // namespace lamina::mesh

@@ -23,18 +23,6 @@ std::span<const Segment>::iterator find_constraint(std::span<const Segment> cons
     return at != constraints.end() && *at == Segment{a, b} ? at : constraints.end();
 }
 
-/// Returns whether as many of these edges begin at each vertex as end there.
-bool is_closed(std::span<const BoundaryEdge> edges) {
-    std::vector<VertexId> begins, ends;
-    for (const BoundaryEdge& edge : edges) {
-        begins.push_back(edge.ends.a);
-        ends.push_back(edge.ends.b);
-    }
-    std::sort(begins.begin(), begins.end());
-    std::sort(ends.begin(), ends.end());
-    return begins == ends;
-}
-
 /// Calls f(v) for the vertices of all cells.
 template <class F>
 void for_vertices_of_cells(const Mesh& mesh, F&& f) {
@@ -91,6 +79,11 @@ void PiecewiseCheck::add_piece(PieceFindings findings) {
     findings.cells.narrow.clear();
     if (findings.widest.badness > widest_.badness) widest_ = findings.widest;
     if (findings.narrowest.badness > narrowest_.badness) narrowest_ = findings.narrowest;
+    const QualityTotals& shapes = findings.cells.isotropic.totals();
+    area_.add(findings.cells.area);
+    min_angles_.add(shapes.min_angle_sum);
+    max_angles_.add(shapes.max_angle_sum);
+    mean_ratios_.add(shapes.mean_ratio_sum);
     pieces_.append(std::move(findings.cells));
 }
 
@@ -112,6 +105,8 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
     seams_.match();
     report_overused(defects);
     const std::size_t orphans = report_orphans(defects);
+    pieces_.area = area_.value();
+    pieces_.isotropic.set_sums(min_angles_.value(), max_angles_.value(), mean_ratios_.value());
     check.area = layer_.area + pieces_.area;
     check.euler_characteristic = static_cast<long>(shared_points_.size() - orphans + vertices_) -
                                  static_cast<long>(inner_edges_ + seams_.pairs().edges + elsewhere_.edges) +
@@ -128,17 +123,36 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
         check.unexcused_cells.push_back(static_cast<std::uint32_t>(narrow.cell));
     check.isotropic.exempt = check.isotropic.angles_below_bound - unexcused_.size();
 
+    check_boundary_of_all(markers, check, defects);
+    forget_borders();
+    return finished();
+}
+
+void PiecewiseCheck::check_boundary_of_all(std::span<const Marker> markers, MeshCheck& check,
+                                           DefectList& defects) const {
     std::vector<BoundaryEdge> boundary;
     for (const std::uint32_t e : seams_.pairs().boundary)
         boundary.push_back(e < layer_edges_.size() ? layer_edges_[e] : BoundaryEdge{seams_.edges()[e]});
     for (const Segment& edge : elsewhere_.one_sided) boundary.push_back({edge});
+    const bool unique = seams_.pairs().overused.empty() && elsewhere_.overused.empty();
+    if (expected_) {
+        const std::vector<Segment>& outer = expected_->outer();
+        const bool complete = elsewhere_.outer_edges == outer.size();
+        const BoundarySummary* known = expected_->summary_with(sorted_ends(boundary));
+        if (complete && unique && known != nullptr)
+            return check_known_boundary(shared_points_, markers, boundary, *known, options_, check, defects);
+        if (!complete)
+            defects.add([&] {
+                return MeshDefect{fmt::format("of {} outer edges, {} are edges of one piece alone", outer.size(),
+                                              elsewhere_.outer_edges),
+                                  {}};
+            });
+        for (const Segment& edge : outer) boundary.push_back({edge});
+    }
     // The borders of pieces are closed. Those that other processes have told are so only if nothing was lost.
-    const bool closed = is_closed(boundary);
+    const bool closed = is_closed(sorted_ends(boundary));
     if (!closed) defects.add([] { return MeshDefect{"the edges of one cell alone do not form loops", {}}; });
-    const bool conforming = closed && seams_.pairs().overused.empty() && elsewhere_.overused.empty();
-    check_whole_boundary(shared_points_, markers, boundary, conforming, options_, check, defects);
-    forget_borders();
-    return finished();
+    check_whole_boundary(shared_points_, markers, boundary, closed && unique, options_, check, defects);
 }
 
 void PiecewiseCheck::forget_borders() {
@@ -146,18 +160,20 @@ void PiecewiseCheck::forget_borders() {
     layer_edges_ = {};
     elsewhere_ = {};
     candidates_ = {};
+    expected_.reset();
+}
+
+void PiecewiseCheck::expect_boundary(std::span<const Marker> markers, std::vector<Segment> outer) {
+    expected_.emplace(shared_points_, markers, std::move(outer));
 }
 
 void PiecewiseCheck::match_elsewhere(VertexId from) { used_.resize(from.index()); }
 
 void PiecewiseCheck::add_seams(const SeamFindings& findings) {
-    elsewhere_.edges += findings.edges;
-    elsewhere_.vertices += findings.vertices;
+    elsewhere_.add(findings);
     pieces_.delaunay.edges += findings.measures.delaunay.edges;
     pieces_.delaunay.violations += findings.measures.delaunay.violations;
     pieces_.isotropic.append(findings.measures.ratios);
-    elsewhere_.one_sided.insert(elsewhere_.one_sided.end(), findings.one_sided.begin(), findings.one_sided.end());
-    elsewhere_.overused.insert(elsewhere_.overused.end(), findings.overused.begin(), findings.overused.end());
 }
 
 QualityCollector PiecewiseCheck::least_ratios() {
@@ -238,6 +254,7 @@ void PiecewiseCheck::find_unexcused(std::span<const std::size_t> first_triangle)
     if (candidates_.empty()) return;
     // The outline of the isotropic region: borders of pieces on the boundary and on the layer.
     std::vector<Segment> outline_edges = elsewhere_.one_sided;
+    if (expected_) outline_edges.insert(outline_edges.end(), expected_->outer().begin(), expected_->outer().end());
     for (std::size_t e = layer_edges_.size(); e < seams_.edges().size(); ++e)
         if (const std::uint32_t twin = seams_.pairs().twin[e]; twin == no_edge || twin < layer_edges_.size())
             outline_edges.push_back(seams_.edges()[e]);

@@ -3,13 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <lamina/export.hpp>
 #include <lamina/mesh.hpp>
 
+#include "core/exact_sum.hpp"
 #include "mesh/boundary_edges.hpp"
+#include "mesh/expected_boundary.hpp"
 #include "mesh/piece_check.hpp"
 #include "mesh/seams.hpp"
 
@@ -26,13 +29,16 @@ public:
     /// Checks the cells of the layer, all of Region::layer, as check_mesh() does. The points of this mesh are the first
     /// of the shared ones. The constraints are those of finish().
     LAMINA_EXPORT void add_layer(const Mesh& layer, std::span<const Segment> constraints);
-    /// Adds the findings of the next piece. Sums depend on the order of the pieces in their last bits.
+    /// Adds the findings of the next piece. No number depends on the order of the pieces.
     LAMINA_EXPORT void add_piece(PieceFindings findings);
 
     /// Says that other processes match the edges that end at shared vertices from this one on. add_seams() takes what
     /// they have found, once for each; the borders of pieces that are added then hold none of these edges and vertices.
     LAMINA_EXPORT void match_elsewhere(VertexId from);
     LAMINA_EXPORT void add_seams(const SeamFindings& findings);
+    /// Says which edges other processes expect on the boundary, and checks the boundary that these markers describe. That
+    /// leaves less to do for finish(), which gets the same markers.
+    LAMINA_EXPORT void expect_boundary(std::span<const Marker> markers, std::vector<Segment> outer);
 
     using Wanted = Seams::Wanted;
     /// Returns what finish() needs beyond findings with unknown_apex, whose pieces other processes hold, in ascending
@@ -67,11 +73,15 @@ private:
     void measure_across(std::span<const Segment> constraints);
     void subtract_constraints(std::span<const Segment> constraints, DefectList& defects);
     void find_unexcused(std::span<const std::size_t> first_triangle);
+    /// Checks the boundary once all else is known.
+    void check_boundary_of_all(std::span<const Marker> markers, MeshCheck& check, DefectList& defects) const;
 
     std::span<const Point> shared_points_;
     MeshCheckOptions options_;
     CellsSummary layer_, pieces_;
     std::size_t cells_ = 0, vertices_ = 0, inner_edges_ = 0;
+    core::ExactSum area_, min_angles_, max_angles_, mean_ratios_;  ///< over all pieces
+    std::optional<ExpectedBoundary> expected_;
     Seams seams_;
     std::vector<BoundaryEdge> layer_edges_;  ///< edges that one cell of the layer alone has
     std::vector<std::uint8_t> used_;         ///< per shared point that is not matched elsewhere: whether a cell has it

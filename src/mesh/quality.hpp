@@ -59,6 +59,12 @@ public:
     std::span<const std::uint32_t> area_ratios() const { return area_ratios_; }
     LAMINA_EXPORT void append(const QualityTotals& totals);
     LAMINA_EXPORT void append_area_ratios(std::span<const std::uint32_t> counts);
+    /// Replaces the sums over the cells, whose last bits depend on the order in which parts were appended.
+    void set_sums(double min_angles, double max_angles, double mean_ratios) {
+        totals_.min_angle_sum = min_angles;
+        totals_.max_angle_sum = max_angles;
+        totals_.mean_ratio_sum = mean_ratios;
+    }
     /// Returns a ratio that at least this share of the ratios of areas reach: the lower end of a bin of the histogram.
     LAMINA_EXPORT double area_ratio_exceeded_by(double share) const;
 

@@ -93,4 +93,15 @@ SeamMeasures Seams::measure(const std::function<bool(Segment)>& is_constraint) c
     return measures;
 }
 
+void SeamFindings::add(const SeamFindings& other) {
+    edges += other.edges;
+    vertices += other.vertices;
+    measures.delaunay.edges += other.measures.delaunay.edges;
+    measures.delaunay.violations += other.measures.delaunay.violations;
+    measures.ratios.append(other.measures.ratios);
+    outer_edges += other.outer_edges;
+    one_sided.insert(one_sided.end(), other.one_sided.begin(), other.one_sided.end());
+    overused.insert(overused.end(), other.overused.begin(), other.overused.end());
+}
+
 }  // namespace lamina::mesh

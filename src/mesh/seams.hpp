@@ -89,8 +89,12 @@ struct SeamFindings {
     std::size_t edges = 0;     ///< each once, whether it has two sides or one
     std::size_t vertices = 0;  ///< those of its vertices that some piece has
     SeamMeasures measures;
-    std::vector<Segment> one_sided;  ///< edges of one piece alone, directed as this piece has them
+    std::size_t outer_edges = 0;     ///< those of one piece alone that are expected to be on the boundary
+    std::vector<Segment> one_sided;  ///< all others of one piece alone, directed as this piece has them
     std::vector<Segment> overused;   ///< edges of more than two pieces, or of two on one side
+
+    /// Adds those of another process.
+    LAMINA_EXPORT void add(const SeamFindings& other);
 };
 
 }  // namespace lamina::mesh

@@ -85,13 +85,12 @@ bool is_good_estimate(double estimated, std::size_t made) {
 
 void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& check) {
     const std::size_t made = facts.findings.triangles;
-    const auto triangles = static_cast<double>(made);
     ++summary.pieces;
     summary.largest = std::max(summary.largest, made);
     summary.good_estimates += is_good_estimate(facts.estimated_triangles, made);
     summary.stats += facts.stats;
-    summary.edge_over_size += triangles * facts.edge_over_size;
-    summary.triangles += triangles;
+    summary.edge_over_size.add(static_cast<double>(made) * facts.edge_over_size);
+    summary.triangles += made;
     if (facts.oversized.badness > summary.oversized.badness) summary.oversized = facts.oversized;
     check.add_piece(std::move(facts.findings));
 }

@@ -9,6 +9,7 @@
 #include <lamina/decoupling.hpp>
 
 #include "core/busy_times.hpp"
+#include "core/exact_sum.hpp"
 #include "mesh/piecewise_check.hpp"
 
 namespace lamina::pipeline {
@@ -18,12 +19,14 @@ struct PiecesSummary {
     std::size_t pieces = 0, largest = 0;  ///< number of pieces, and triangles of the largest
     std::size_t good_estimates = 0;       ///< number of pieces whose estimate was within 15 % of the truth
     RefineStats stats;
-    double edge_over_size = 0;  ///< sum over pieces of mean edge over h, times triangles
-    double triangles = 0;
+    core::ExactSum edge_over_size;  ///< over pieces: mean edge over h, times triangles
+    std::size_t triangles = 0;
     mesh::WorstCell oversized;  ///< by the area over h squared; sought where stats.oversized > 0
 
     /// Returns the mean of the lengths of isotropic edges over h at their middles; 0 where there are none.
-    double mean_edge_over_size() const { return triangles > 0 ? edge_over_size / triangles : 0.0; }
+    double mean_edge_over_size() const {
+        return triangles > 0 ? edge_over_size.value() / static_cast<double>(triangles) : 0.0;
+    }
 };
 
 /// The kinds of work of refine_and_check(), as BusyTimes counts them.

@@ -1,13 +1,15 @@
 #include "pipeline/piece_records.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
 
+#include "core/exact_sum.hpp"
 #include "core/packing.hpp"
 #include "pipeline/parts.hpp"
 
@@ -15,17 +17,20 @@ namespace lamina::pipeline {
 
 namespace {
 
+using core::ExactSum;
 using core::Packer;
 using core::Unpacker;
-
-/// The sums over the triangles of a piece whose last bits depend on the order in which pieces are added.
-struct PieceSums {
-    double area = 0, edge_over_size = 0, min_angle_sum = 0, max_angle_sum = 0, mean_ratio_sum = 0;
-};
 
 /// The extremes over several pieces.
 struct PieceExtremes {
     double min_angle = 180, max_angle = 0, max_aspect = 0, max_area_ratio = 0;
+
+    void add(const PieceExtremes& other) {
+        min_angle = std::min(min_angle, other.min_angle);
+        max_angle = std::max(max_angle, other.max_angle);
+        max_aspect = std::max(max_aspect, other.max_aspect);
+        max_area_ratio = std::max(max_area_ratio, other.max_area_ratio);
+    }
 };
 
 /// The worst cell of several pieces: the first one of those that are equally bad.
@@ -39,57 +44,6 @@ struct WorstOfPieces {
     }
 };
 
-/// What does not depend on the order of the pieces.
-struct UnorderedSums {
-    mesh::PieceFindings findings;  ///< counts alone
-    RefineStats stats;
-    mesh::QualityTotals totals;  ///< counts alone
-    std::size_t good_estimates = 0, largest = 0;
-    PieceExtremes extremes;
-    WorstOfPieces widest, narrowest, oversized;
-
-    void add(const HeldPiece& held);
-};
-
-/// Calls f for all counts, to add, put or get them.
-template <class Sums, class F>
-void for_counts(Sums& sums, F&& f) {
-    f(sums.findings.inner_edges);
-    f(sums.findings.cells.delaunay.edges);
-    f(sums.findings.cells.delaunay.violations);
-    f(sums.findings.cells.defects.count);
-    f(sums.stats.refused);
-    f(sums.stats.below_bound);
-    f(sums.stats.exempt);
-    f(sums.stats.oversized);
-    f(sums.totals.cells);
-    f(sums.totals.below_bound);
-    for (auto& count : sums.totals.angle_histogram) f(count);
-    f(sums.good_estimates);
-}
-
-void UnorderedSums::add(const HeldPiece& held) {
-    const mesh::PieceFindings& of_piece = held.facts.findings;
-    const mesh::QualityTotals& shapes = of_piece.cells.isotropic.totals();
-    findings.inner_edges += of_piece.inner_edges;
-    findings.cells.delaunay.edges += of_piece.cells.delaunay.edges;
-    findings.cells.delaunay.violations += of_piece.cells.delaunay.violations;
-    findings.cells.defects.count += of_piece.cells.defects.count;
-    stats += held.facts.stats;
-    totals.cells += shapes.cells;
-    totals.below_bound += shapes.below_bound;
-    for (std::size_t i = 0; i < shapes.angle_histogram.size(); ++i)
-        totals.angle_histogram[i] += shapes.angle_histogram[i];
-    good_estimates += is_good_estimate(held.facts.estimated_triangles, of_piece.triangles);
-    largest = std::max(largest, of_piece.triangles);
-    extremes = {std::min(extremes.min_angle, shapes.min_angle), std::max(extremes.max_angle, shapes.max_angle),
-                std::max(extremes.max_aspect, shapes.max_aspect),
-                std::max(extremes.max_area_ratio, shapes.max_area_ratio)};
-    widest.add({of_piece.widest, held.piece});
-    narrowest.add({of_piece.narrowest, held.piece});
-    oversized.add({held.facts.oversized, held.piece});
-}
-
 /// A narrow triangle, and a defect, of a piece.
 struct NarrowInPiece {
     std::size_t piece = 0;
@@ -100,183 +54,239 @@ struct DefectInPiece {
     MeshDefect defect;
 };
 
-/// A piece of any process.
-struct ToldPiece {
-    std::uint32_t rank = 0, times_made = 0;
-    std::size_t triangles = 0, inner_vertices = 0;
-    PieceSums sums;
+/// What several pieces come to.
+struct PiecesRecord {
+    mesh::HashOfParts hash;
+    std::size_t triangles = 0, inner_vertices = 0, inner_edges = 0, delaunay_edges = 0, delaunay_violations = 0;
+    std::size_t defect_count = 0, measured = 0, below_bound = 0, good_estimates = 0, pieces = 0;
+    std::array<std::size_t, 18> angle_histogram{};
+    RefineStats stats;
+    std::size_t largest = 0;
+    ExactSum area, min_angles, max_angles, mean_ratios, edge_over_size;
+    PieceExtremes extremes;
+    WorstOfPieces widest, narrowest, oversized;
+    mesh::QualityCollector area_ratios{0};  ///< their histogram alone
+    std::vector<NarrowInPiece> narrow;      ///< by their pieces, as the defects
+    std::vector<DefectInPiece> defects;     ///< the first ones
+
+    void add(const HeldPiece& held);
+    void add(PiecesRecord&& other);
 };
 
-/// What rank 0 adds up.
-class PieceSummation {
-public:
-    PieceSummation(std::size_t pieces, std::size_t ranks, double min_angle_deg)
-        : told_(pieces), pieces_of_(ranks), all_(min_angle_deg), shapes_(min_angle_deg) {}
+/// Calls f for all counts, to add, put or get them.
+template <class Record, class F>
+void for_counts(Record& record, F&& f) {
+    for (auto* count : {&record.triangles, &record.inner_vertices, &record.inner_edges, &record.delaunay_edges,
+                        &record.delaunay_violations, &record.defect_count, &record.measured, &record.below_bound,
+                        &record.good_estimates, &record.pieces, &record.stats.refused, &record.stats.below_bound,
+                        &record.stats.exempt, &record.stats.oversized})
+        f(*count);
+    for (auto& count : record.angle_histogram) f(count);
+}
 
-    /// Takes what pack_pieces() returns on this rank.
-    void take(std::size_t rank, std::string_view record) {
-        Unpacker unpacker(record);
-        all_.hash.add(unpacker.get<mesh::HashOfParts>());
-        UnorderedSums sums;
-        for_counts(sums, [&](std::size_t& count) { count = unpacker.get_short(); });
-        sums.largest = unpacker.get_short();
-        sums.extremes = unpacker.get<PieceExtremes>();
-        for (WorstOfPieces* worst : {&sums.widest, &sums.narrowest, &sums.oversized})
-            *worst = unpacker.get<WorstOfPieces>();
-        add(sums);
-        shapes_.append_area_ratios(unpacker.get_counts());
-        for (std::size_t left = unpacker.get_short(); left > 0; --left) {
-            const std::size_t piece = unpacker.get_short();
-            narrow_.push_back({piece, unpacker.get<mesh::NarrowTriangle>()});
-        }
-        for (std::size_t left = unpacker.get_short(); left > 0; --left) {
-            const std::size_t piece = unpacker.get_short();
-            std::string description = unpacker.get_text();
-            defects_.push_back({piece, {std::move(description), unpacker.get<Point>()}});
-        }
-        while (!unpacker.at_end()) {
-            const std::size_t piece = unpacker.get_short();
-            ToldPiece& told = told_[piece];
-            told.rank = static_cast<std::uint32_t>(rank);
-            ++told.times_made;
-            told.triangles = unpacker.get_short();
-            told.inner_vertices = unpacker.get_short();
-            told.sums = unpacker.get<PieceSums>();
-            pieces_of_[rank].push_back(piece);
-        }
-    }
+/// Calls f for all sums of numbers that are no counts.
+template <class Record, class F>
+void for_sums(Record& record, F&& f) {
+    for (auto* sum :
+         {&record.area, &record.min_angles, &record.max_angles, &record.mean_ratios, &record.edge_over_size})
+        f(*sum);
+}
 
-    AllPieces finish(const MeshCounts& before) {
-        const std::vector<PieceNumbers> numbers = number_pieces(before);
-        for (const std::vector<std::size_t>& pieces : pieces_of_) {
-            std::vector<PieceNumbers>& of_rank = all_.numbers_of.emplace_back();
-            for (const std::size_t piece : pieces) of_rank.push_back(numbers[piece]);
-        }
-        mesh::PieceFindings& findings = all_.findings;
-        shapes_.append(totals_);
-        findings.cells.isotropic = std::move(shapes_);
-        findings.widest = widest_.cell;
-        findings.narrowest = narrowest_.cell;
-        all_.summary.pieces = told_.size();
-        all_.summary.oversized = oversized_.cell;
-        const auto by_piece = [](const auto& a, const auto& b) { return a.piece < b.piece; };
-        std::stable_sort(narrow_.begin(), narrow_.end(), by_piece);
-        for (NarrowInPiece& narrow : narrow_) {
-            narrow.triangle.cell += numbers[narrow.piece].first_triangle;
-            findings.narrow.push_back(narrow.triangle);
-        }
-        std::stable_sort(defects_.begin(), defects_.end(), by_piece);
-        for (DefectInPiece& defect : defects_)
-            if (findings.cells.defects.kept.size() < mesh::DefectList::max_kept)
-                findings.cells.defects.kept.push_back(std::move(defect.defect));
-        return std::move(all_);
-    }
+void PiecesRecord::add(const HeldPiece& held) {
+    const mesh::PieceFindings& of_piece = held.facts.findings;
+    const mesh::QualityTotals& shapes = of_piece.cells.isotropic.totals();
+    ++pieces;
+    triangles += of_piece.triangles;
+    inner_vertices += of_piece.inner_vertices;
+    inner_edges += of_piece.inner_edges;
+    delaunay_edges += of_piece.cells.delaunay.edges;
+    delaunay_violations += of_piece.cells.delaunay.violations;
+    defect_count += of_piece.cells.defects.count;
+    measured += shapes.cells;
+    below_bound += shapes.below_bound;
+    stats += held.facts.stats;
+    for (std::size_t i = 0; i < angle_histogram.size(); ++i) angle_histogram[i] += shapes.angle_histogram[i];
+    good_estimates += is_good_estimate(held.facts.estimated_triangles, of_piece.triangles);
+    largest = std::max(largest, of_piece.triangles);
+    area.add(of_piece.cells.area);
+    min_angles.add(shapes.min_angle_sum);
+    max_angles.add(shapes.max_angle_sum);
+    mean_ratios.add(shapes.mean_ratio_sum);
+    edge_over_size.add(static_cast<double>(of_piece.triangles) * held.facts.edge_over_size);
+    extremes.add({shapes.min_angle, shapes.max_angle, shapes.max_aspect, shapes.max_area_ratio});
+    widest.add({of_piece.widest, held.piece});
+    narrowest.add({of_piece.narrowest, held.piece});
+    oversized.add({held.facts.oversized, held.piece});
+    for (const mesh::NarrowTriangle& triangle : of_piece.narrow) narrow.push_back({held.piece, triangle});
+    for (const MeshDefect& defect : of_piece.cells.defects.kept) defects.push_back({held.piece, defect});
+}
 
-private:
-    std::vector<ToldPiece> told_;
-    std::vector<std::vector<std::size_t>> pieces_of_;  ///< per rank, in its order
-    AllPieces all_;
-    mesh::QualityCollector shapes_;
-    mesh::QualityTotals totals_;
-    WorstOfPieces widest_, narrowest_, oversized_;
-    std::vector<NarrowInPiece> narrow_;
-    std::vector<DefectInPiece> defects_;
+/// Adds those of other pieces, in the order of the pieces.
+template <class InPiece>
+void merge(std::vector<InPiece>& all, std::vector<InPiece>&& others) {
+    const auto middle = static_cast<std::ptrdiff_t>(all.size());
+    std::move(others.begin(), others.end(), std::back_inserter(all));
+    std::inplace_merge(all.begin(), all.begin() + middle, all.end(),
+                       [](const InPiece& a, const InPiece& b) { return a.piece < b.piece; });
+}
 
-    void add(const UnorderedSums& sums) {
-        all_.findings.inner_edges += sums.findings.inner_edges;
-        all_.findings.cells.delaunay.edges += sums.findings.cells.delaunay.edges;
-        all_.findings.cells.delaunay.violations += sums.findings.cells.delaunay.violations;
-        all_.findings.cells.defects.count += sums.findings.cells.defects.count;
-        all_.summary.stats += sums.stats;
-        all_.summary.good_estimates += sums.good_estimates;
-        all_.summary.largest = std::max(all_.summary.largest, sums.largest);
-        totals_.cells += sums.totals.cells;
-        totals_.below_bound += sums.totals.below_bound;
-        for (std::size_t i = 0; i < totals_.angle_histogram.size(); ++i)
-            totals_.angle_histogram[i] += sums.totals.angle_histogram[i];
-        totals_.min_angle = std::min(totals_.min_angle, sums.extremes.min_angle);
-        totals_.max_angle = std::max(totals_.max_angle, sums.extremes.max_angle);
-        totals_.max_aspect = std::max(totals_.max_aspect, sums.extremes.max_aspect);
-        totals_.max_area_ratio = std::max(totals_.max_area_ratio, sums.extremes.max_area_ratio);
-        widest_.add(sums.widest);
-        narrowest_.add(sums.narrowest);
-        oversized_.add(sums.oversized);
-    }
+void PiecesRecord::add(PiecesRecord&& other) {
+    hash.add(other.hash);
+    std::vector<std::size_t> counts;
+    for_counts(other, [&](std::size_t count) { counts.push_back(count); });
+    std::size_t next = 0;
+    for_counts(*this, [&](std::size_t& count) { count += counts[next++]; });
+    largest = std::max(largest, other.largest);
+    area.add(other.area);
+    min_angles.add(other.min_angles);
+    max_angles.add(other.max_angles);
+    mean_ratios.add(other.mean_ratios);
+    edge_over_size.add(other.edge_over_size);
+    extremes.add(other.extremes);
+    widest.add(other.widest);
+    narrowest.add(other.narrowest);
+    oversized.add(other.oversized);
+    area_ratios.append_area_ratios(other.area_ratios.area_ratios());
+    merge(narrow, std::move(other.narrow));
+    merge(defects, std::move(other.defects));
+    if (defects.size() > mesh::DefectList::max_kept) defects.resize(mesh::DefectList::max_kept);
+}
 
-    /// Numbers the pieces and adds up what depends on their order.
-    std::vector<PieceNumbers> number_pieces(const MeshCounts& before) {
-        std::vector<PieceNumbers> numbers;
-        numbers.reserve(told_.size());
-        all_.counts = before;
-        mesh::PieceFindings& findings = all_.findings;
-        for (std::size_t piece = 0; piece < told_.size(); ++piece) {
-            const ToldPiece& told = told_[piece];
-            if (told.times_made != 1)
-                throw MeshError(fmt::format("piece {} was made {} times", piece, told.times_made));
-            numbers.push_back({all_.counts.vertices, all_.counts.triangles});
-            all_.counts.vertices += told.inner_vertices;
-            all_.counts.triangles += told.triangles;
-            findings.triangles += told.triangles;
-            findings.inner_vertices += told.inner_vertices;
-            findings.cells.area += told.sums.area;
-            totals_.min_angle_sum += told.sums.min_angle_sum;
-            totals_.max_angle_sum += told.sums.max_angle_sum;
-            totals_.mean_ratio_sum += told.sums.mean_ratio_sum;
-            all_.summary.edge_over_size += static_cast<double>(told.triangles) * told.sums.edge_over_size;
-            all_.summary.triangles += static_cast<double>(told.triangles);
-        }
-        require_numbered(all_.counts.vertices);
-        return numbers;
-    }
-};
-
-}  // namespace
-
-std::string pack_pieces(const HeldPieces& held) {
-    UnorderedSums sums;
-    std::size_t narrow = 0, defects = 0;
-    for (const HeldPiece& piece : held.pieces) {
-        sums.add(piece);
-        narrow += piece.facts.findings.narrow.size();
-        defects += piece.facts.findings.cells.defects.kept.size();
-    }
+std::string pack(const PiecesRecord& record) {
     Packer packer;
-    packer.put(held.hash);
-    for_counts(sums, [&](std::size_t count) { packer.put_short(count); });
-    packer.put_short(sums.largest);
-    packer.put(sums.extremes);
-    for (const WorstOfPieces& worst : {sums.widest, sums.narrowest, sums.oversized}) packer.put(worst);
-    packer.put_counts(held.area_ratios.area_ratios());
-    packer.put_short(narrow);
-    for (const HeldPiece& piece : held.pieces)
-        for (const mesh::NarrowTriangle& triangle : piece.facts.findings.narrow) {
-            packer.put_short(piece.piece);
-            packer.put(triangle);
-        }
-    packer.put_short(defects);
-    for (const HeldPiece& piece : held.pieces)
-        for (const MeshDefect& defect : piece.facts.findings.cells.defects.kept) {
-            packer.put_short(piece.piece);
-            packer.put_text(defect.description);
-            packer.put(defect.at);
-        }
-    for (const HeldPiece& piece : held.pieces) {
-        const mesh::PieceFindings& findings = piece.facts.findings;
-        const mesh::QualityTotals& totals = findings.cells.isotropic.totals();
-        packer.put_short(piece.piece);
-        packer.put_short(findings.triangles);
-        packer.put_short(findings.inner_vertices);
-        packer.put(PieceSums{findings.cells.area, piece.facts.edge_over_size, totals.min_angle_sum,
-                             totals.max_angle_sum, totals.mean_ratio_sum});
+    packer.put(record.hash);
+    for_counts(record, [&](std::size_t count) { packer.put_short(count); });
+    packer.put_short(record.largest);
+    for_sums(record, [&](const ExactSum& sum) { sum.put(packer); });
+    packer.put(record.extremes);
+    for (const WorstOfPieces& worst : {record.widest, record.narrowest, record.oversized}) packer.put(worst);
+    packer.put_counts(record.area_ratios.area_ratios());
+    packer.put_short(record.narrow.size());
+    for (const auto& [piece, triangle] : record.narrow) {
+        packer.put_short(piece);
+        packer.put(triangle);
+    }
+    packer.put_short(record.defects.size());
+    for (const auto& [piece, defect] : record.defects) {
+        packer.put_short(piece);
+        packer.put_text(defect.description);
+        packer.put(defect.at);
     }
     return packer.take();
 }
 
-AllPieces add_up(const std::vector<std::string>& of_ranks, std::size_t pieces, const MeshCounts& before,
-                 double min_angle_deg) {
-    PieceSummation summation(pieces, of_ranks.size(), min_angle_deg);
-    for (std::size_t rank = 0; rank < of_ranks.size(); ++rank) summation.take(rank, of_ranks[rank]);
-    return summation.finish(before);
+PiecesRecord unpack(std::string_view bytes) {
+    Unpacker unpacker(bytes);
+    PiecesRecord record;
+    record.hash = unpacker.get<mesh::HashOfParts>();
+    for_counts(record, [&](std::size_t& count) { count = unpacker.get_short(); });
+    record.largest = unpacker.get_short();
+    for_sums(record, [&](ExactSum& sum) { sum = ExactSum::get(unpacker); });
+    record.extremes = unpacker.get<PieceExtremes>();
+    for (WorstOfPieces* worst : {&record.widest, &record.narrowest, &record.oversized})
+        *worst = unpacker.get<WorstOfPieces>();
+    record.area_ratios.append_area_ratios(unpacker.get_counts());
+    for (std::size_t left = unpacker.get_short(); left > 0; --left) {
+        const std::size_t piece = unpacker.get_short();
+        record.narrow.push_back({piece, unpacker.get<mesh::NarrowTriangle>()});
+    }
+    for (std::size_t left = unpacker.get_short(); left > 0; --left) {
+        const std::size_t piece = unpacker.get_short();
+        std::string description = unpacker.get_text();
+        record.defects.push_back({piece, {std::move(description), unpacker.get<Point>()}});
+    }
+    return record;
+}
+
+}  // namespace
+
+std::string pack_pieces(const HeldPieces& held) {
+    PiecesRecord record;
+    record.hash = held.hash;
+    for (const HeldPiece& piece : held.pieces) record.add(piece);
+    record.area_ratios.append_area_ratios(held.area_ratios.area_ratios());
+    return pack(record);
+}
+
+std::string join_records(std::string_view one, std::string_view other) {
+    PiecesRecord record = unpack(one);
+    record.add(unpack(other));
+    return pack(record);
+}
+
+std::string pack_sizes(const HeldPieces& held) {
+    Packer packer;
+    for (const HeldPiece& piece : held.pieces) {
+        packer.put_short(piece.piece);
+        packer.put_short(piece.facts.findings.triangles);
+        packer.put_short(piece.facts.findings.inner_vertices);
+    }
+    return packer.take();
+}
+
+NumberedPieces number_pieces(std::span<const std::string> of_ranks, std::size_t pieces, const MeshCounts& before) {
+    NumberedPieces all{std::vector<PieceNumbers>(pieces), {}, before};
+    std::vector<std::uint32_t> times_made(pieces, 0);
+    for (const std::string& told : of_ranks) {
+        std::vector<std::size_t>& of_rank = all.of_ranks.emplace_back();
+        for (Unpacker unpacker(told); !unpacker.at_end();) {
+            const std::size_t piece = unpacker.get_short(), triangles = unpacker.get_short();
+            all.numbers[piece] = {unpacker.get_short(), triangles};  // its size at first
+            ++times_made[piece];
+            of_rank.push_back(piece);
+        }
+    }
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        if (times_made[piece] != 1)
+            throw MeshError(fmt::format("piece {} was made {} times", piece, times_made[piece]));
+        PieceNumbers& numbers = all.numbers[piece];
+        const PieceNumbers size = std::exchange(numbers, {all.counts.vertices, all.counts.triangles});
+        all.counts.vertices += size.first_vertex;
+        all.counts.triangles += size.first_triangle;
+    }
+    require_numbered(all.counts.vertices);
+    return all;
+}
+
+AllPieces add_up(std::string_view bytes, std::span<const PieceNumbers> numbers, double min_angle_deg) {
+    PiecesRecord record = unpack(bytes);
+    AllPieces all(min_angle_deg);
+    all.hash = record.hash;
+    mesh::QualityTotals totals;
+    totals.cells = record.measured;
+    totals.below_bound = record.below_bound;
+    totals.min_angle = record.extremes.min_angle;
+    totals.max_angle = record.extremes.max_angle;
+    totals.max_aspect = record.extremes.max_aspect;
+    totals.max_area_ratio = record.extremes.max_area_ratio;
+    totals.min_angle_sum = record.min_angles.value();
+    totals.max_angle_sum = record.max_angles.value();
+    totals.mean_ratio_sum = record.mean_ratios.value();
+    totals.angle_histogram = record.angle_histogram;
+    mesh::PieceFindings& findings = all.findings;
+    findings.cells.isotropic.append(totals);
+    findings.cells.isotropic.append_area_ratios(record.area_ratios.area_ratios());
+    findings.triangles = record.triangles;
+    findings.inner_vertices = record.inner_vertices;
+    findings.inner_edges = record.inner_edges;
+    findings.cells.area = record.area.value();
+    findings.cells.delaunay = {record.delaunay_edges, record.delaunay_violations};
+    findings.cells.defects.count = record.defect_count;
+    for (DefectInPiece& defect : record.defects) findings.cells.defects.kept.push_back(std::move(defect.defect));
+    findings.widest = record.widest.cell;
+    findings.narrowest = record.narrowest.cell;
+    for (NarrowInPiece& narrow : record.narrow) {
+        narrow.triangle.cell += numbers[narrow.piece].first_triangle;
+        findings.narrow.push_back(narrow.triangle);
+    }
+    all.summary = {.pieces = record.pieces,
+                   .largest = record.largest,
+                   .good_estimates = record.good_estimates,
+                   .stats = record.stats,
+                   .edge_over_size = record.edge_over_size,
+                   .triangles = record.triangles,
+                   .oversized = record.oversized.cell};
+    return all;
 }
 
 }  // namespace lamina::pipeline

@@ -1,9 +1,11 @@
-// The records of pieces that processes send to rank 0, and the sums that rank 0 makes of them.
+// The records of pieces that processes send to rank 0, and what becomes of them.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lamina/mesh_sink.hpp>
@@ -14,24 +16,34 @@
 
 namespace lamina::pipeline {
 
-/// Returns what rank 0 needs to know of the pieces of this process: sums over all of them where their order does not
-/// matter, and a few numbers of each.
+/// Returns what rank 0 needs to know of all pieces of this process together.
 std::string pack_pieces(const HeldPieces& held);
+/// Returns what pack_pieces() would return for the pieces of both records.
+std::string join_records(std::string_view one, std::string_view other);
 
-/// All pieces together. Sums run in the order of the pieces, whoever has made them.
+/// All pieces together. No sum depends on the order in which they were added.
 struct AllPieces {
     mesh::PieceFindings findings;  ///< as if they were one piece, but for its border
     PiecesSummary summary;
-    mesh::HashOfParts hash;                             ///< of their triangles
-    MeshCounts counts;                                  ///< of the mesh, with its layer
-    std::vector<std::vector<PieceNumbers>> numbers_of;  ///< for each rank: of its pieces, in its order
+    mesh::HashOfParts hash;  ///< of their triangles
 
     explicit AllPieces(double min_angle_deg) : findings(min_angle_deg) {}
 };
 
-/// Adds up what pack_pieces() returns on all ranks. The pieces are numbered behind the vertices and triangles of
-/// `before`. Throws MeshError unless each piece was made once.
-AllPieces add_up(const std::vector<std::string>& of_ranks, std::size_t pieces, const MeshCounts& before,
-                 double min_angle_deg);
+/// Where all pieces of a mesh begin, whoever has made them.
+struct NumberedPieces {
+    std::vector<PieceNumbers> numbers;               ///< by the numbers of the pieces
+    std::vector<std::vector<std::size_t>> of_ranks;  ///< for each rank: its pieces, in its order
+    MeshCounts counts;                               ///< of the mesh, with its layer
+};
+
+/// Returns the sizes of the pieces of this process for number_pieces().
+std::string pack_sizes(const HeldPieces& held);
+/// Numbers so many pieces in their order, behind the vertices and triangles of `before`, from what pack_sizes() returns on
+/// all ranks. Throws MeshError unless each piece was made once.
+NumberedPieces number_pieces(std::span<const std::string> of_ranks, std::size_t pieces, const MeshCounts& before);
+
+/// Adds up all pieces, from the joined records of all ranks.
+AllPieces add_up(std::string_view record, std::span<const PieceNumbers> numbers, double min_angle_deg);
 
 }  // namespace lamina::pipeline

@@ -28,6 +28,7 @@
 #include "pipeline/piece_streamer.hpp"
 #include "pipeline/ray_plan.hpp"
 #include "pipeline/shared_pieces.hpp"
+#include "pipeline/shared_seams.hpp"
 #include "pipeline/warnings.hpp"
 
 namespace lamina::pipeline {
@@ -275,11 +276,19 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
     const double min_angle_deg = work.options.refine.min_angle_deg;
     ranks.reset_counter();
     HeldPieces held;
+    mesh::HashOfParts hash;
+    // All that rank 0 can do before the pieces are made keeps the others from waiting for it once they are. It makes fewer
+    // pieces meanwhile.
     const auto fill_layer = [&] {
         if (!destination.checks()) return;
-        shared.place(shared.cut.far_field);  // for the check of the boundary
+        shared.place(shared.cut.far_field);
+        shared.outer_places = sum_of_places(shared.cut.far_field, shared.points());
         made.cells = work.fill_layer();
         check_layer(work, made);
+        work.check.expect_boundary(work.markers, shared.cut.far_field);
+        hash.add(shared.points(), std::span<const Triangle>(made.cells.triangles));
+        hash.add(shared.points(), std::span<const Quad>(made.cells.quads));
+        hash.add(shared.points(), work.markers);
     };
     core::parallel_invoke(fill_layer, [&] {
         held =
@@ -291,14 +300,11 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
     for (const HeldPiece& piece : held.pieces) made.held.pieces.push_back(piece.piece);
     made.held.numbers = std::move(counted.numbers);
     made.held.layer_pieces = counted.layer_pieces;
-    made.summary = counted.summary;
+    made.summary = std::move(counted.summary);
     made.first_triangle = {0};
     mesh.counts = counted.counts;
     if (!destination.checks()) return made;
-    mesh::HashOfParts hash = counted.hash;
-    hash.add(shared.points(), std::span<const Triangle>(made.cells.triangles));
-    hash.add(shared.points(), std::span<const Quad>(made.cells.quads));
-    hash.add(shared.points(), work.markers);
+    hash.add(counted.hash);
     mesh.hash = hash.text();
     return made;
 }

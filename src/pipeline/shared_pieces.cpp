@@ -40,11 +40,68 @@ HeldPiece describe_border(const SharedDecoupling& shared, std::size_t number, me
     return held;
 }
 
+std::string pack_ratios(const mesh::QualityCollector& ratios) {
+    Packer packer;
+    packer.put_counts(ratios.area_ratios());
+    return packer.take();
+}
+
+std::string join_ratios(std::string_view one, std::string_view other) {
+    mesh::QualityCollector ratios(0);
+    for (const std::string_view told : {one, other}) ratios.append_area_ratios(Unpacker(told).get_counts());
+    return pack_ratios(ratios);
+}
+
+/// What rank 0 gets from all ranks.
+struct GatheredRecords {
+    std::string least_ratios, pieces;  ///< of all ranks together
+    std::vector<std::string> sizes;    ///< per rank, of its pieces
+};
+
+/// What rank 0 knows of the mesh, and what it tells each rank.
+struct RankZeroCount {
+    CountedMesh mesh;
+    std::vector<std::string> to_ranks{};
+};
+
+/// Numbers the pieces, and adds them to the check. Called on rank 0 with what it has got from all ranks.
+RankZeroCount count_all(const SharedDecoupling& shared, const SharedSeams& seams, const LayerCells& layer,
+                        double min_angle_deg, const GatheredRecords& told, mesh::PiecewiseCheck& check) {
+    const NumberedPieces numbered = number_pieces(
+        told.sizes, shared.pieces(),
+        {shared.cut.lines.vertices(), layer.triangles.size(), layer.quads.size(), layer.triangles.size()});
+    AllPieces all = add_up(told.pieces, numbered.numbers, min_angle_deg);
+    RankZeroCount count{{.counts = numbered.counts,
+                         .layer_pieces = layer.pieces(),
+                         .summary = std::move(all.summary),
+                         .hash = all.hash}};
+    all.findings.border = seams.along_layer();
+    all.findings.border_vertices = seams.vertices_in_layer();
+    check.match_elsewhere(seams.first_elsewhere());
+    check.add_piece(std::move(all.findings));
+    mesh::QualityCollector ratios = check.least_ratios();
+    ratios.append_area_ratios(Unpacker(told.least_ratios).get_counts());
+    const double even_ratio = mesh::even_ratio(ratios);
+    for (const std::vector<std::size_t>& of_rank : numbered.of_ranks) {
+        std::vector<PieceNumbers> numbers;
+        numbers.reserve(of_rank.size());
+        for (const std::size_t piece : of_rank) numbers.push_back(numbered.numbers[piece]);
+        Packer packer;
+        packer.put(count.mesh.counts);
+        packer.put_short(count.mesh.layer_pieces);
+        packer.put(even_ratio);
+        packer.put_all<PieceNumbers>(numbers);
+        count.to_ranks.push_back(packer.take());
+    }
+    return count;
+}
+
 /// Throws MeshError where the edges of two sides do not lie at the same places on both of them.
-void require_same_places(SharedDecoupling& shared, std::uint64_t places, std::span<const Segment> one_sided) {
-    shared.place(one_sided);
-    for (const Segment& edge : one_sided) places -= hash_of_places(edge, shared.points());
-    if (places != 0)
+void require_same_places(SharedDecoupling& shared, const SharedFindings& found) {
+    // Where edges of the far field are missing, the check tells so.
+    if (found.seams.outer_edges != shared.cut.far_field.size()) return;
+    shared.place(found.seams.one_sided);
+    if (found.places != shared.outer_places + sum_of_places(found.seams.one_sided, shared.points()))
         throw MeshError(
             "processes have divided a line between pieces in different ways: all must run the same program on "
             "the same kind of machine");
@@ -122,58 +179,27 @@ CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const La
                             Ranks& ranks, mesh::PiecewiseCheck* check) {
     SharedSeams seams(shared, held, ranks);
     seams.collect();
-    Packer record;
-    record.put_counts(seams.least_ratios());
-    const std::vector<std::string> least_ratios = ranks.gather(record.take());
-    const std::vector<std::string> records = ranks.gather(pack_pieces(held));
+    GatheredRecords told;
+    told.least_ratios = ranks.reduce(pack_ratios(seams.least_ratios()), join_ratios);
+    told.pieces = ranks.reduce(pack_pieces(held), join_records);
+    told.sizes = ranks.gather(pack_sizes(held));
     for (HeldPiece& piece : held.pieces) piece.facts = PieceFacts();
 
-    CountedMesh of_mesh;
-    std::vector<std::string> to_ranks;
-    if (check) {
-        AllPieces all =
-            add_up(records, shared.pieces(),
-                   {shared.cut.lines.vertices(), layer.triangles.size(), layer.quads.size(), layer.triangles.size()},
-                   min_angle_deg);
-        of_mesh = {.counts = all.counts, .layer_pieces = layer.pieces(), .summary = all.summary, .hash = all.hash};
-        all.findings.border = seams.along_layer();
-        all.findings.border_vertices = seams.vertices_in_layer();
-        check->match_elsewhere(seams.first_elsewhere());
-        check->add_piece(std::move(all.findings));
-        mesh::QualityCollector ratios = check->least_ratios();
-        for (const std::string& of_rank : least_ratios) ratios.append_area_ratios(Unpacker(of_rank).get_counts());
-        for (const std::vector<PieceNumbers>& numbers : all.numbers_of) {
-            Packer packer;
-            packer.put(of_mesh.counts);
-            packer.put_short(of_mesh.layer_pieces);
-            packer.put(mesh::even_ratio(ratios));
-            packer.put_all<PieceNumbers>(numbers);
-            to_ranks.push_back(packer.take());
-        }
-    }
-    const std::string answer = ranks.scatter(to_ranks);
+    RankZeroCount count;
+    if (check) count = count_all(shared, seams, layer, min_angle_deg, told, *check);
+    const std::string answer = ranks.scatter(count.to_ranks);
     Unpacker unpacker(answer);
-    CountedMesh counted = std::move(of_mesh);
+    CountedMesh counted = std::move(count.mesh);
     counted.counts = unpacker.get<MeshCounts>();
     counted.layer_pieces = unpacker.get_short();
     const auto even_ratio = unpacker.get<double>();
     counted.numbers = unpacker.get_all<PieceNumbers>();
     seams.ask(even_ratio, check);
-    Packer findings;
-    findings.put(seams.places());
-    pack_findings(seams.findings(), findings);
-    const std::vector<std::string> of_ranks = ranks.gather(findings.take());
+    const std::string findings = ranks.reduce(pack_findings({seams.findings(), seams.places()}), join_findings);
     if (!check) return counted;
-    std::uint64_t places = 0;
-    std::vector<Segment> one_sided;
-    for (const std::string& of_rank : of_ranks) {
-        Unpacker told(of_rank);
-        places += told.get<std::uint64_t>();
-        const mesh::SeamFindings found = unpack_findings(told);
-        one_sided.insert(one_sided.end(), found.one_sided.begin(), found.one_sided.end());
-        check->add_seams(found);
-    }
-    require_same_places(shared, places, one_sided);
+    const SharedFindings found = unpack_findings(findings);
+    check->add_seams(found.seams);
+    require_same_places(shared, found);
     return counted;
 }
 

@@ -29,6 +29,7 @@ struct SharedDecoupling {
     RefineOptions refine;
     std::vector<std::unique_ptr<Subdomain>> subdomains;  ///< null until they are made
     PieceDeal deal{};
+    std::uint64_t outer_places = 0;  ///< on rank 0: sum of hash_of_places() over the far field
 
     SharedDecoupling(decoupling::CutRegion cut, const SizeField& size, SeparatorRule rule, const RefineOptions& refine);
 

@@ -106,13 +106,22 @@ std::uint64_t hash_of_places(Segment edge, std::span<const Point> points) {
     return edge.a < edge.b ? hash.value() : -hash.value();
 }
 
+std::uint64_t sum_of_places(std::span<const Segment> edges, std::span<const Point> points) {
+    std::uint64_t sum = 0;
+    for (const Segment& edge : edges) sum += hash_of_places(edge, points);
+    return sum;
+}
+
 SharedSeams::SharedSeams(SharedDecoupling& shared, const HeldPieces& held, Ranks& ranks)
     : shared_(shared),
       held_(held),
       ranks_(ranks),
       owners_(shared.cut, shared.layer_vertices(), ranks.rank()),
       used_(owners_.own_vertices(), 0),
-      seams_(shared.points()) {}
+      is_far_field_(shared.cut.lines.size(), false),
+      seams_(shared.points()) {
+    for (const std::uint32_t line : shared.cut.far_field_lines) is_far_field_[line] = true;
+}
 
 const HeldPiece& SharedSeams::held(std::size_t piece) const {
     return *std::lower_bound(held_.pieces.begin(), held_.pieces.end(), piece,
@@ -173,7 +182,7 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
         for_owned_vertices(border, shared_.cut.lines, owners_, self, [&](const LineVertex& v) { take_vertex(v); });
         const HeldPiece* here = rank == self ? &held(piece) : nullptr;
         std::size_t next = 0;
-        const auto take_edge = [&](std::uint32_t i, Segment edge, std::uint32_t) {
+        const auto take_edge = [&](std::uint32_t i, Segment edge, std::uint32_t line) {
             const auto both = static_cast<unsigned char>(classes[next / 2]);
             const auto its_class = static_cast<std::uint8_t>(next % 2 == 0 ? both & 15 : both >> 4);
             ++next;
@@ -181,7 +190,8 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
             CollectedEdges& collected = in_layer ? along_layer_ : between_;
             const Point apex = here != nullptr && i < here->apexes.size() ? here->apexes[i] : mesh::unknown_apex;
             collected.edges.push_back({edge.a, edge.b, apex, its_class});
-            collected.sources.push_back({rank, piece, i});
+            const bool outer = is_far_field_[line] && shared_.cut.lines.runs_along(line, edge);
+            collected.sources.push_back({rank, piece, i, outer});
         };
         for_edges(
             border, shared_.cut.lines, [&](std::uint32_t line) { return owners_.owner(line) == self; }, take_edge);
@@ -195,10 +205,10 @@ void SharedSeams::collect() {
     seams_.match();
 }
 
-std::vector<std::uint32_t> SharedSeams::least_ratios() const {
+mesh::QualityCollector SharedSeams::least_ratios() const {
     mesh::QualityCollector ratios(0);
     ratios.add_area_ratios(seams_.least_ratios());
-    return {ratios.area_ratios().begin(), ratios.area_ratios().end()};
+    return ratios;
 }
 
 std::string SharedSeams::answer(const std::string& questions) const {
@@ -275,7 +285,11 @@ mesh::SeamFindings SharedSeams::findings() const {
     findings.edges = pairs.edges;
     findings.vertices = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), std::uint8_t{1}));
     findings.measures = seams_.measure([](Segment) { return false; });
-    for (const std::uint32_t e : pairs.boundary) findings.one_sided.push_back(seams_.edges()[e]);
+    for (const std::uint32_t e : pairs.boundary)
+        if (between_.sources[e].outer)
+            ++findings.outer_edges;
+        else
+            findings.one_sided.push_back(seams_.edges()[e]);
     for (const std::uint32_t e : pairs.overused) findings.overused.push_back(seams_.edges()[e]);
     return findings;
 }
@@ -288,19 +302,27 @@ std::uint64_t SharedSeams::places() const {
     return sum;
 }
 
-void pack_findings(const mesh::SeamFindings& findings, Packer& packer) {
+std::string pack_findings(const SharedFindings& shared) {
+    const mesh::SeamFindings& findings = shared.seams;
+    Packer packer;
+    packer.put(shared.places);
     packer.put_short(findings.edges);
     packer.put_short(findings.vertices);
     packer.put_short(findings.measures.delaunay.edges);
     packer.put_short(findings.measures.delaunay.violations);
     packer.put(findings.measures.ratios.totals().max_area_ratio);
     packer.put_counts(findings.measures.ratios.area_ratios());
+    packer.put_short(findings.outer_edges);
     packer.put_all<Segment>(findings.one_sided);
     packer.put_all<Segment>(findings.overused);
+    return packer.take();
 }
 
-mesh::SeamFindings unpack_findings(Unpacker& unpacker) {
-    mesh::SeamFindings findings;
+SharedFindings unpack_findings(std::string_view bytes) {
+    Unpacker unpacker(bytes);
+    SharedFindings shared;
+    shared.places = unpacker.get<std::uint64_t>();
+    mesh::SeamFindings& findings = shared.seams;
     findings.edges = unpacker.get_short();
     findings.vertices = unpacker.get_short();
     findings.measures.delaunay.edges = unpacker.get_short();
@@ -309,9 +331,18 @@ mesh::SeamFindings unpack_findings(Unpacker& unpacker) {
     totals.max_area_ratio = unpacker.get<double>();
     findings.measures.ratios.append(totals);
     findings.measures.ratios.append_area_ratios(unpacker.get_counts());
+    findings.outer_edges = unpacker.get_short();
     findings.one_sided = unpacker.get_all<Segment>();
     findings.overused = unpacker.get_all<Segment>();
-    return findings;
+    return shared;
+}
+
+std::string join_findings(std::string_view one, std::string_view other) {
+    SharedFindings all = unpack_findings(one);
+    const SharedFindings more = unpack_findings(other);
+    all.places += more.places;
+    all.seams.add(more.seams);
+    return pack_findings(all);
 }
 
 }  // namespace lamina::pipeline

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lamina/ranks.hpp>
@@ -20,6 +21,8 @@ namespace lamina::pipeline {
 /// sum over all borders is the sum over the edges of one side: the others have the same places on both sides, whoever
 /// has divided their lines.
 std::uint64_t hash_of_places(Segment edge, std::span<const Point> points);
+/// Returns the sum of these hashes.
+std::uint64_t sum_of_places(std::span<const Segment> edges, std::span<const Point> points);
 
 /// The edges that this process matches, on all ranks from one call to the next:
 /// collect(), then ask() with a ratio that rank 0 knows, then findings().
@@ -35,8 +38,8 @@ public:
     /// of pieces in the layer.
     const std::vector<mesh::PieceBorderEdge>& along_layer() const { return along_layer_.edges; }
     const std::vector<VertexId>& vertices_in_layer() const { return vertices_in_layer_; }
-    /// Returns the histogram of the least ratios of areas that are possible, as QualityCollector::area_ratios().
-    std::vector<std::uint32_t> least_ratios() const;
+    /// Returns the least ratios of areas that are possible.
+    mesh::QualityCollector least_ratios() const;
     /// Collective: learns from those who hold the pieces what lies behind edges, where ratios of areas up to this one
     /// need not be known. `check` is that of rank 0, which asks for edges along the layer; null elsewhere.
     void ask(double even_ratio, mesh::PiecewiseCheck* check);
@@ -50,6 +53,7 @@ private:
     /// The process and the piece that an edge comes from, and the number of the edge there.
     struct Source {
         std::uint32_t rank = 0, piece = 0, edge = 0;  ///< the edge is numbered in border_chain()
+        bool outer = false;                           ///< whether it is expected to be on the boundary
     };
     struct CollectedEdges {
         std::vector<mesh::PieceBorderEdge> edges;
@@ -69,10 +73,18 @@ private:
     CollectedEdges along_layer_, between_;
     std::vector<VertexId> vertices_in_layer_;
     std::vector<std::uint8_t> used_;  ///< per vertex of this process beyond the layer
+    std::vector<bool> is_far_field_;  ///< per line
     mesh::Seams seams_;
 };
 
-void pack_findings(const mesh::SeamFindings& findings, core::Packer& packer);
-mesh::SeamFindings unpack_findings(core::Unpacker& unpacker);
+/// What processes have found out about seams, with the sum of SharedSeams::places().
+struct SharedFindings {
+    mesh::SeamFindings seams;
+    std::uint64_t places = 0;
+};
+std::string pack_findings(const SharedFindings& findings);
+SharedFindings unpack_findings(std::string_view bytes);
+/// Returns the findings of both.
+std::string join_findings(std::string_view one, std::string_view other);
 
 }  // namespace lamina::pipeline

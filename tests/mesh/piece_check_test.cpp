@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <random>
 #include <set>
 #include <string>
@@ -182,11 +184,13 @@ TEST(PieceCheck, NeedsFewTrianglesBehindBorders) {
 }
 
 /// Checks the pieces where edges that end at vertices from `from` on are matched by themselves, as by another process.
-/// `damage` may change what that process gets.
-MeshCheck check_pieces_with_seams_elsewhere(
-    const CutMesh& cut, VertexId from, const std::function<void(std::vector<mesh::PieceBorderEdge>&)>& damage = {}) {
+/// `damage` may change what that process gets. It looks for the outer edges, if they are given.
+MeshCheck check_pieces_with_seams_elsewhere(const CutMesh& cut, VertexId from,
+                                            const std::function<void(std::vector<mesh::PieceBorderEdge>&)>& damage = {},
+                                            const std::optional<std::vector<Segment>>& outer = {}) {
     PiecewiseCheck check(cut.shared, {});
     check.match_elsewhere(from);
+    if (outer) check.expect_boundary(cut.markers, *outer);
     std::vector<mesh::PieceBorderEdge> elsewhere;
     std::set<VertexId> vertices;
     std::vector<std::size_t> first;
@@ -213,7 +217,13 @@ MeshCheck check_pieces_with_seams_elsewhere(
     found.edges = seams.pairs().edges;
     found.vertices = vertices.size();
     found.measures = seams.measure([](Segment) { return false; });
-    for (const std::uint32_t e : seams.pairs().boundary) found.one_sided.push_back(seams.edges()[e]);
+    for (const std::uint32_t e : seams.pairs().boundary) {
+        const Segment edge = seams.edges()[e];
+        if (outer && std::find(outer->begin(), outer->end(), edge) != outer->end())
+            ++found.outer_edges;
+        else
+            found.one_sided.push_back(edge);
+    }
     for (const std::uint32_t e : seams.pairs().overused) found.overused.push_back(seams.edges()[e]);
     check.add_seams(found);
     return check.finish(cut.markers, cut.constraints, first);
@@ -244,6 +254,69 @@ TEST(PieceCheck, TakesSeamsThatWereMatchedElsewhere) {
                          std::swap(edges.front().a, edges.front().b);
                      }).valid());
     }
+}
+
+/// Returns the edges of all markers that end at vertices from this one on.
+std::vector<Segment> marked_edges_from(VertexId from, const std::vector<Marker>& markers) {
+    std::vector<Segment> edges;
+    for (const Marker& marker : markers)
+        for (const Segment& edge : marker.edges)
+            if (!(std::max(edge.a, edge.b) < from)) edges.push_back(edge);
+    return edges;
+}
+
+TEST(PieceCheck, FindsTheBoundaryThatWasExpected) {
+    const CutMesh with_walls = cut_mesh(uneven_box(), 10.5);
+    const MeshCheck expected = check_pieces(with_walls);
+    ASSERT_TRUE(expected.valid());
+    ASSERT_GT(expected.walls.edges, 0u);
+    CutMesh without = with_walls;
+    for (Marker& marker : without.markers) marker.kind = MarkerKind::far_field;
+    for (const std::size_t from : {std::size_t{0}, with_walls.shared.size() / 2}) {
+        SCOPED_TRACE(from);
+        const VertexId first{from};
+        std::vector<Segment> outer = marked_edges_from(first, with_walls.markers);
+        // With walls among the outer edges, all is done at the end. Edges that are not looked for may be there.
+        for (const bool all : {true, false})
+            for (const CutMesh* pieces : std::initializer_list<const CutMesh*>{&with_walls, &without}) {
+                if (!all) outer.resize(std::max<std::size_t>(1, outer.size() / 2));
+                const MeshCheck check = check_pieces_with_seams_elsewhere(*pieces, first, {}, outer);
+                ASSERT_TRUE(check.valid()) << check.defects.front().description;
+                EXPECT_EQ(check.boundary_loops, expected.boundary_loops);
+                EXPECT_EQ(check.area, expected.area);
+                EXPECT_EQ(check.walls.edges, pieces == &with_walls ? expected.walls.edges : 0u);
+            }
+    }
+}
+
+TEST(PieceCheck, FindsDamageToABoundaryThatWasExpected) {
+    CutMesh pieces = cut_mesh(uneven_box(), 10.5);
+    for (Marker& marker : pieces.markers) marker.kind = MarkerKind::far_field;
+    const VertexId first{pieces.shared.size() / 2};
+    const std::vector<Segment> outer = marked_edges_from(first, pieces.markers);
+    using Edges = std::vector<mesh::PieceBorderEdge>;
+    const auto is_outer = [&](const mesh::PieceBorderEdge& edge) {
+        return std::find(outer.begin(), outer.end(), Segment{edge.a, edge.b}) != outer.end();
+    };
+    const auto find_outer = [&](Edges& edges) { return std::find_if(edges.begin(), edges.end(), is_outer); };
+    const std::pair<const char*, std::function<void(Edges&)>> damages[] = {
+        {"lost", [&](Edges& edges) { edges.erase(find_outer(edges)); }},
+        {"twice", [&](Edges& edges) { edges.push_back(*find_outer(edges)); }},
+        {"turned", [&](Edges& edges) { std::swap(find_outer(edges)->a, find_outer(edges)->b); }},
+        {"inner edge lost", [&](Edges& edges) { edges.erase(std::find_if_not(edges.begin(), edges.end(), is_outer)); }},
+    };
+    for (const auto& [what, damage] : damages)
+        EXPECT_FALSE(check_pieces_with_seams_elsewhere(pieces, first, damage, outer).valid()) << what;
+    const auto check_with = [&](const std::function<void(std::vector<Segment>&)>& change) {
+        CutMesh damaged = pieces;
+        for (Marker& marker : damaged.markers)
+            if (marker.edges.size() > 1) change(marker.edges);
+        return check_pieces_with_seams_elsewhere(damaged, first, {}, outer);
+    };
+    EXPECT_TRUE(check_with([](std::vector<Segment>&) {}).valid());
+    EXPECT_FALSE(check_with([](std::vector<Segment>& edges) { edges.pop_back(); }).valid());
+    EXPECT_FALSE(check_with([](std::vector<Segment>& edges) { edges.push_back(edges.front()); }).valid());
+    EXPECT_FALSE(check_with([](std::vector<Segment>& edges) { std::swap(edges[0].a, edges[0].b); }).valid());
 }
 
 TEST(PieceCheck, CallsNoPairEvenThatIsNotDelaunay) {

@@ -23,7 +23,7 @@
 namespace lamina::test {
 namespace {
 
-/// Expects the same numbers, to the last bit: sums run over the pieces in the same order.
+/// Expects the same numbers, to the last bit: sums do not depend on the order of the pieces.
 void expect_equal_checks(const MeshCheck& one, const MeshCheck& other) {
     EXPECT_TRUE(one.valid());
     EXPECT_EQ(one.area, other.area);
