@@ -8,7 +8,9 @@ namespace lamina::layers {
 /// The form of a cell of the grid that has four corners.
 enum class GridCells {
     split,  ///< two triangles
-    whole,  ///< a quadrilateral, where it is strictly convex and the border does not divide its top
+    /// A quadrilateral, where it is strictly convex and the border does not divide its top; else triangles, and a
+    /// quadrilateral on its lower edge where faces are more orthogonal with it.
+    whole,
 };
 
 /// Returns the cells of the grid of rays and layers. Between two neighbouring rays stands a column of as many cells as
