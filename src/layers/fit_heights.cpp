@@ -132,24 +132,34 @@ Stretch stretch_of_layers(double height, std::span<const double> heights, std::u
     return {max_factor_below(height, heights, n), last_unstretched(n)};
 }
 
+double stretched_last_spacing(double height, std::span<const double> heights, std::uint32_t n) {
+    if (n == 0) return 0;
+    const Stretch stretch = stretch_of_layers(height, heights, n);
+    double spacing = heights[n] - heights[n - 1];
+    for (std::uint32_t k = stretch.above; stretch.factor != 1 && k < n; ++k) spacing *= stretch.factor;
+    return spacing;
+}
+
 namespace {
 
-/// The end of a column under its limit, and the number of layers that is wanted there.
-struct FoundEnd {
-    ColumnEnd end;
-    std::uint32_t layers;
-};
-
-/// Returns the end of the column of a ray. unstretched: its heights without its stretch, where its limit cuts it short;
-/// else empty.
-FoundEnd end_of_column(const LayerHeights& heights, std::size_t ray, double limit,
-                       std::span<const double> unstretched) {
-    const bool cut = !unstretched.empty();
-    const std::span<const double> column = cut ? unstretched : heights.of(ray);
-    const std::uint32_t n = cut ? layers_up_to(limit, column).layers : heights.column(ray).layers;
+/// Returns the end of the column of a ray under its limit. Columns up to least heights, whose number of layers the
+/// distance to their neighbours decides, may have fewer layers though nothing cuts them short.
+ColumnEnd end_of_column(const LayerHeights& heights, std::size_t ray, double limit) {
+    const HeightColumn& own = heights.column(ray);
+    const std::vector<double> column = unstretched(heights, ray);
+    const double full = heights.full_height(ray);
+    const bool cut = limit < full, up_to_least = own.max_spacing < HUGE_VAL;
+    const double height = cut ? limit : full;
+    const std::uint32_t n = cut ? layers_up_to(limit, column).layers : own.layers;
+    const LayerRange range = cut || up_to_least ? layer_range(height, column, n) : LayerRange{n, n};
     const double last_spacing = n > 0 ? column[n] - column[n - 1] : 0;
-    const LayerRange range = cut ? layer_range(limit, column, n) : LayerRange{n, n};
-    return {{cut ? limit : column[n], last_spacing, range, cut}, n};
+    return {height,
+            last_spacing,
+            n,
+            range,
+            range.least < n ? stretched_last_spacing(height, column, range.least) : last_spacing,
+            range.most > n ? stretched_last_spacing(height, column, range.most) : last_spacing,
+            cut};
 }
 
 /// Stretches heights so that layer n ends at this height. `stretch` was that of the heights and becomes the new one.
@@ -173,10 +183,8 @@ LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::sp
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             columns[i] = heights.column(i);
-            if (limits[i] < heights.full_height(i)) refitted[i] = unstretched(heights, i);
-            const FoundEnd found = end_of_column(heights, i, limits[i], refitted[i]);
-            layers[i] = found.layers;
-            ends[i] = found.end;
+            ends[i] = end_of_column(heights, i, limits[i]);
+            layers[i] = ends[i].wanted;
         }
     });
     limit_count_differences(set, layers);
@@ -185,8 +193,9 @@ LayerHeights fit_heights(const RaySet& set, const LayerHeights& heights, std::sp
     core::parallel_for(limits.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             // A whole column that has fewer layers for the sake of its neighbours still ends where it did.
-            if (!ends[i].cut && layers[i] < columns[i].layers) refitted[i] = unstretched(heights, i);
-            if (!refitted[i].empty()) stretch_to(ends[i].height, layers[i], columns[i].stretch, refitted[i]);
+            if (!ends[i].cut && layers[i] == columns[i].layers) continue;
+            refitted[i] = unstretched(heights, i);
+            stretch_to(ends[i].height, layers[i], columns[i].stretch, refitted[i]);
         }
     });
     std::vector<double> table = heights.table();

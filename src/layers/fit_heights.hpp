@@ -34,6 +34,9 @@ LayerRange layer_range(double height, std::span<const double> heights, std::uint
 /// there is none, and none for one layer, whose height no stretch changes.
 Stretch stretch_of_layers(double height, std::span<const double> heights, std::uint32_t n);
 
+/// Returns the height of the topmost of n layers with that stretch.
+double stretched_last_spacing(double height, std::span<const double> heights, std::uint32_t n);
+
 /// Returns the heights, where the columns of rays that are cut short are stretched. A ray is cut short if its limit is
 /// below the height of all its layers. Its stretch makes a layer end at the limit, or, where that would take more than
 /// max_stretch, brings the last layer below the limit next to it. limits: one height per ray.

@@ -42,6 +42,34 @@ std::vector<double> heights_up_to(double front, double opening, double max_spaci
     return heights;
 }
 
+/// Returns, for each ray, the factor from heights above the wall's edges beside it to heights along it. Rays out of a
+/// corner would otherwise make the cells beside it too low:
+///
+///       |   /           h / cos(45) along the ray is h above both walls
+///     h |..o
+///       | /:
+///       |/_:____
+std::vector<double> slants(const RaySet& set) {
+    constexpr double negligible = 1e-3;  // rays share their heights where it makes no difference
+    const RayNeighbours neighbours(set);
+    std::vector<double> result(set.lines.size(), 1.0);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const RayLine& ray = set.lines[i];
+        const Point before = set.lines[neighbours.previous[i]].origin, after = set.lines[neighbours.next[i]].origin;
+        double sum = 0, edges = 0;
+        const auto add_edge = [&](Point a, Point b) {
+            if (a == b) return;
+            sum += dot(ray.direction, -perpendicular(unit(b - a)));
+            ++edges;
+        };
+        add_edge(before, ray.origin);
+        add_edge(ray.origin, after);
+        if (edges * (1 - negligible) > sum) result[i] = edges / std::max(sum, edges / max_slant);
+    }
+    fill_fans(set, result);
+    return result;
+}
+
 /// Returns columns that end where their ray reaches isotropy, or, where there are any, at the least heights. Whole
 /// layers would make the front a staircase, so columns are stretched to end at its height.
 LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const std::vector<double>& unstretched,
@@ -67,10 +95,13 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
     if (!least.empty()) {
         std::vector<ColumnEnd> ends;
         ends.reserve(front.size());
+        const std::vector<double> along = slants(set);
         for (std::size_t i = 0; i < front.size(); ++i) {
             const std::uint32_t n = layers[i];
-            ends.push_back({front[i], n > 0 ? heights[i][n] - heights[i][n - 1] : 0.0,
-                            layer_range(front[i], heights[i], n), false});
+            const LayerRange range = layer_range(front[i], heights[i], n);
+            ends.push_back({along[i] * front[i], n > 0 ? along[i] * (heights[i][n] - heights[i][n - 1]) : 0.0, n, range,
+                            along[i] * stretched_last_spacing(front[i], heights[i], range.least),
+                            along[i] * stretched_last_spacing(front[i], heights[i], range.most), false});
         }
         keep_counts_on_narrow_columns(set, ends, layers);
         limit_count_differences(set, layers);
@@ -100,34 +131,6 @@ LayerHeights heights_by_spacing(const RaySet& set, const LayerGrowth& growth, co
         table.insert(table.end(), heights.begin(), heights.end());
     }
     return LayerHeights(std::move(table), std::move(columns));
-}
-
-/// Returns, for each ray, the factor from heights above the wall's edges beside it to heights along it. Rays out of a
-/// corner would otherwise make the cells beside it too low:
-///
-///       |   /           h / cos(45) along the ray is h above both walls
-///     h |..o
-///       | /:
-///       |/_:____
-std::vector<double> slants(const RaySet& set) {
-    constexpr double negligible = 1e-3;  // rays share their heights where it makes no difference
-    const RayNeighbours neighbours(set);
-    std::vector<double> result(set.lines.size(), 1.0);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const RayLine& ray = set.lines[i];
-        const Point before = set.lines[neighbours.previous[i]].origin, after = set.lines[neighbours.next[i]].origin;
-        double sum = 0, edges = 0;
-        const auto add_edge = [&](Point a, Point b) {
-            if (a == b) return;
-            sum += dot(ray.direction, -perpendicular(unit(b - a)));
-            ++edges;
-        };
-        add_edge(before, ray.origin);
-        add_edge(ray.origin, after);
-        if (edges * (1 - negligible) > sum) result[i] = edges / std::max(sum, edges / max_slant);
-    }
-    fill_fans(set, result);
-    return result;
 }
 
 /// Makes heights above the wall's edges heights along the rays.

@@ -18,10 +18,17 @@
 //       / /_/ /             / / /_/
 //      / / / /_            / / / /
 //
+// A change costs as much, too, where rows turn at one of its rays so that the middles of the cells on both sides lie far
+// below the middle of the face between them (docs/decisions/0060):
+//
+//        __|__
+//       /  |  \      rows that fall away from
+//      /  _|_  \     a ray on both sides
+//        / | \     .
+//
 #include "layers/narrow_columns.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "layers/neighbours.hpp"
@@ -39,6 +46,10 @@ constexpr double narrow_share_of_cut = 1.5;
 constexpr double least_cost = 0.05;
 /// The tangent counts as this much at most, so that sums of costs are exact enough for small ones.
 constexpr double most_tangent = 8;
+/// A change of numbers that are wanted is moved, by up to so many columns, where it costs more than this: where a row
+/// is off a right angle by 53 degrees, or a skewness is 1.3.
+constexpr double most_wanted_cost = 3;
+constexpr std::size_t columns_to_move = 4;
 /// Changes by several layers at a time are undone later (limit_count_differences()); they cost this many times as much.
 constexpr double several_at_once = 100;
 /// A number costs this much times the square of its distance from the one that is wanted.
@@ -47,12 +58,66 @@ constexpr double cost_of_distance = 0.01;
 /// with fewer layers is taken.
 constexpr double cost_of_layer = 1e-6;
 
-/// What a ray may have, and what changes cost on the column before it.
+/// A row between two neighbouring rays.
+struct ColumnRow {
+    double width;  ///< across the rays
+    double rise;   ///< along the rays, from the first to the second
+};
+
+/// Returns the row between the fronts of two rays.
+ColumnRow row_of_front(const RayLine& a, double height_a, const RayLine& b, double height_b) {
+    const Point row = b.origin + height_b * b.direction - (a.origin + height_a * a.direction);
+    const Point along = unit(a.direction + b.direction);
+    return {std::abs(cross(row, along)), dot(row, along)};
+}
+
+/// Returns the tangent by which a row is off a right angle with its rays.
+double tangent_of(const ColumnRow& row) {
+    const double shift = std::abs(row.rise);
+    return shift < most_tangent * row.width ? shift / row.width : most_tangent;
+}
+
+/// Returns the skewness of the face, `height` long, that lies on the ray between two columns: the distance from the
+/// middle of the face to the line between the middles of the cells on both sides, over half of its length.
+double skewness_between(const ColumnRow& before, const ColumnRow& after, double height) {
+    const double off = std::abs(before.rise * after.width - after.rise * before.width);
+    const double whole = (before.width + after.width) * height;
+    return off < most_tangent * whole ? off / whole : most_tangent;
+}
+
+/// What a ray may have.
 struct RayChoices {
     LayerRange range;
     std::uint32_t wanted;
-    double increase = 0, decrease = 0;
+    const ColumnEnd* end;
+    ColumnRow row;  ///< of the front, from the ray before to this one
 };
+
+/// Returns the height of the last of n layers, which are stretched to end at the front: between those of the number that
+/// is wanted and of the least or the most.
+double last_spacing(const ColumnEnd& end, std::uint32_t n) {
+    const auto between = [&](std::uint32_t other, double spacing) {
+        const double share = (double(n) - double(end.wanted)) / (double(other) - double(end.wanted));
+        return end.last_spacing + std::min(share, 1.0) * (spacing - end.last_spacing);
+    };
+    if (n < end.wanted && end.layers.least < end.wanted) return between(end.layers.least, end.spacing_of_least);
+    if (n > end.wanted && end.layers.most > end.wanted) return between(end.layers.most, end.spacing_of_most);
+    return end.last_spacing;
+}
+
+/// Returns what it costs that the number of layers changes from `before` to `n` on the column before ray k. The topmost
+/// row that both rays share is one layer below the front on one of them. At both rays it meets rows of the front, which
+/// makes faces skewed; a skewness costs as much as a tangent of that size.
+double cost_of_change(std::span<const RayChoices> rays, std::size_t k, std::uint32_t before, std::uint32_t n) {
+    const RayChoices &ray = rays[k], &ray_before = rays[k - 1], &ray_after = rays[k + 1 < rays.size() ? k + 1 : 1];
+    const double spacing = last_spacing(*ray.end, n), spacing_before = last_spacing(*ray_before.end, before);
+    ColumnRow row = ray.row;
+    row.rise += n > before ? -spacing : spacing_before;
+    const double skewness =
+        std::max(skewness_between(ray_before.row, row, spacing_before), skewness_between(row, ray_after.row, spacing));
+    const double tangent = std::max(tangent_of(row), skewness), square = tangent * tangent;
+    return std::max(square * square, least_cost);
+}
 
 /// The cheapest way to a number of layers.
 struct Way {
@@ -60,16 +125,16 @@ struct Way {
     std::uint32_t before;  ///< the number on the ray before
 };
 
-Way cheapest_way(std::uint32_t n, const RayChoices& ray, const LayerRange& range_before,
-                 std::span<const Way> ways_before) {
-    const double off = double(n) - double(ray.wanted);
+Way cheapest_way(std::span<const RayChoices> rays, std::size_t k, std::uint32_t n, std::span<const Way> ways_before) {
+    const LayerRange& range_before = rays[k - 1].range;
+    const double off = double(n) - double(rays[k].wanted);
     const double own = cost_of_distance * off * off + cost_of_layer * n;
     Way best{HUGE_VAL, 0};
     for (const std::uint32_t m : {n, n - std::min(n, 1u), n + 1}) {
         const std::uint32_t before = std::clamp(m, range_before.least, range_before.most);
-        const double change = double(n) - double(before);
-        const double several = std::abs(change) > 1 ? several_at_once : 1;
-        const double step = (change > 0 ? ray.increase : ray.decrease) * change * change * several;
+        const double change = std::abs(double(n) - double(before));
+        const double several = change > 1 ? several_at_once : 1;
+        const double step = change > 0 ? cost_of_change(rays, k, before, n) * change * change * several : 0;
         const double cost = ways_before[before - range_before.least].cost + step + own;
         if (cost < best.cost) best = {cost, before};
     }
@@ -82,7 +147,7 @@ std::vector<std::uint32_t> cheapest_numbers(std::span<const RayChoices> rays) {
     for (std::size_t k = 1; k < rays.size(); ++k) {
         std::vector<Way>& here = ways.emplace_back();
         for (std::uint32_t n = rays[k].range.least; n <= rays[k].range.most; ++n)
-            here.push_back(cheapest_way(n, rays[k], rays[k - 1].range, ways[k - 1]));
+            here.push_back(cheapest_way(rays, k, n, ways[k - 1]));
     }
     std::vector<std::uint32_t> numbers(rays.size());
     numbers.back() = rays.back().wanted;
@@ -90,57 +155,73 @@ std::vector<std::uint32_t> cheapest_numbers(std::span<const RayChoices> rays) {
     return numbers;
 }
 
-/// Returns what it costs that the topmost row that two neighbouring rays share is one layer below the front on one of
-/// them: `below[0]` of the first, or `below[1]` of the second.
-double cost_of_change(const std::array<const RayLine*, 2>& rays, const std::array<double, 2>& heights,
-                      const std::array<double, 2>& below) {
-    const auto end = [&](std::size_t k) { return rays[k]->origin + (heights[k] - below[k]) * rays[k]->direction; };
-    const Point row = end(1) - end(0), along = rays[0]->direction + rays[1]->direction;
-    const double across = std::abs(cross(row, along)), shift = std::abs(dot(row, along));
-    const double tangent = shift < most_tangent * across ? shift / across : most_tangent;
-    const double square = tangent * tangent;
-    return std::max(square * square, least_cost);
+/// Returns the numbers that are wanted on the rays of an element, and at the end those of the first ray again.
+std::vector<RayChoices> wanted_numbers(const RaySet& set, std::span<const ColumnEnd> ends,
+                                       std::span<const std::uint32_t> counts, std::size_t element) {
+    const std::size_t begin = set.begin[element], end = set.begin[element + 1];
+    std::vector<RayChoices> choices;
+    choices.reserve(end - begin + 1);
+    for (std::size_t i = begin, before = end - 1; i < end; before = i++)
+        choices.push_back({{counts[i], counts[i]},
+                           counts[i],
+                           &ends[i],
+                           row_of_front(set.lines[before], ends[before].height, set.lines[i], ends[i].height)});
+    choices.push_back(choices.front());
+    return choices;
+}
+
+/// Returns whether the column between two rays of an element, of which one is cut short or not, is narrow.
+bool is_narrow(const RayLine& a, const ColumnEnd& end_a, const RayLine& b, const ColumnEnd& end_b, bool cut) {
+    const double height = std::min(end_a.height, end_b.height);
+    const double width = length(b.origin - a.origin + height * (b.direction - a.direction));
+    const double spacing = std::max(end_a.last_spacing, end_b.last_spacing);
+    const double seen = cut ? max_row_slope(std::abs(tangent_of_lean(a, b))) : 1;
+    return seen * width < (cut ? narrow_share_of_cut : narrow_share) * spacing;
+}
+
+/// Returns, for each ray of an element, whether its number may become another one than is wanted: beside narrow columns
+/// and near changes that cost much. Rows of one ray that has a layer more than both of its neighbours would turn twice as
+/// much as at a change, so its number is free, too.
+std::vector<char> free_rays(std::span<const RayLine> lines, std::span<const RayChoices> choices) {
+    const std::size_t n = lines.size();
+    std::vector<char> free(n, 0);
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
+        const std::uint32_t own = choices[k].wanted, beside = choices[after].wanted;
+        const auto is_narrow_up_to = [&](std::size_t other) {
+            return is_narrow(lines[other], *choices[other].end, lines[k], *choices[k].end, choices[k].end->cut);
+        };
+        const bool is_alone = own != beside && choices[before].wanted == beside;
+        if (is_alone || is_narrow_up_to(before) || is_narrow_up_to(after)) free[k] = 1;
+    }
+    for (std::size_t k = 1; k <= n; ++k) {
+        const std::uint32_t before = choices[k - 1].wanted, wanted = choices[k].wanted;
+        if (before == wanted || before == 0 || wanted == 0) continue;
+        if (!(cost_of_change(choices, k, before, wanted) > most_wanted_cost)) continue;
+        for (std::size_t step = 0; step < std::min(columns_to_move, n); ++step)
+            free[(k + step) % n] = free[(k - 1 + n - step) % n] = 1;
+    }
+    return free;
 }
 
 }  // namespace
 
 void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
                                    std::vector<std::uint32_t>& counts) {
-    const RayNeighbours rays(set);
-    const auto is_narrow = [&](std::size_t i, std::size_t j, bool cut) {
-        const RayLine &a = set.lines[i], &b = set.lines[j];
-        const double height = std::min(ends[i].height, ends[j].height);
-        const double width = length(b.origin - a.origin + height * (b.direction - a.direction));
-        const double spacing = std::max(ends[i].last_spacing, ends[j].last_spacing);
-        const double seen = cut ? max_row_slope(std::abs(tangent_of_lean(a, b))) : 1;
-        return seen * width < (cut ? narrow_share_of_cut : narrow_share) * spacing;
-    };
-    // Rows of one ray that has a layer more than both of its neighbours would turn twice as much as at a change.
-    const auto is_alone = [&](std::size_t i) {
-        const std::uint32_t beside = counts[rays.next[i]];
-        return counts[i] != beside && counts[rays.previous[i]] == beside;
-    };
-    const auto is_free = [&](std::size_t i) {
-        return is_alone(i) || is_narrow(rays.previous[i], i, ends[i].cut) || is_narrow(i, rays.next[i], ends[i].cut);
-    };
-    const auto cost_between = [&](std::size_t i, std::size_t j, double below_i, double below_j) {
-        return cost_of_change({&set.lines[i], &set.lines[j]}, {ends[i].height, ends[j].height}, {below_i, below_j});
-    };
     for (std::size_t e = 0; e < set.elements(); ++e) {
-        std::size_t first = set.begin[e];
-        while (first + 1 < set.begin[e + 1] && is_free(first)) ++first;
-        std::vector<RayChoices> choices{{{counts[first], counts[first]}, counts[first]}};
-        for (std::size_t i = first; choices.size() == 1 || i != first;) {
-            const std::size_t before = i;
-            i = rays.next[i];
-            const bool held = i == first || !is_free(i);
-            choices.push_back({held ? LayerRange{counts[i], counts[i]} : ends[i].layers, counts[i],
-                               cost_between(before, i, 0, ends[i].last_spacing),
-                               cost_between(before, i, ends[before].last_spacing, 0)});
-        }
+        const std::size_t begin = set.begin[e], n = set.begin[e + 1] - begin;
+        std::vector<RayChoices> choices = wanted_numbers(set, ends, counts, e);
+        const std::vector<char> free = free_rays(std::span(set.lines).subspan(begin, n), choices);
+        const auto held = std::find(free.begin(), free.end(), 0);
+        // Where all are free, one must be held.
+        const std::size_t first = held == free.end() ? n - 1 : static_cast<std::size_t>(held - free.begin());
+        choices.pop_back();
+        for (std::size_t k = 0; k < n; ++k)
+            if (free[k] && k != first) choices[k].range = choices[k].end->layers;
+        std::rotate(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(first), choices.end());
+        choices.push_back(choices.front());
         const std::vector<std::uint32_t> numbers = cheapest_numbers(choices);
-        std::size_t i = first;
-        for (std::size_t k = 0; k + 1 < numbers.size(); ++k, i = rays.next[i]) counts[i] = numbers[k];
+        for (std::size_t k = 0; k < n; ++k) counts[begin + (first + k) % n] = numbers[k];
     }
 }
 

@@ -33,6 +33,9 @@ constexpr double max_limit_slope = 0.25;
 /// from a rounded lip are parallel at the height of the layer, while the wall below turns away from them and heights
 /// along them grow with their slant. Rows would lie across them at 45 degrees (docs/decisions/0057).
 constexpr double max_end_slope = 0.6;
+/// Largest tangent by which the row between the ends of two rays is off a right angle with them, where rays are cut
+/// short: 53 degrees. Where rays lean, a row that rises as above can be far steeper than that.
+constexpr double max_end_tangent = 1.35;
 /// Up to this number of rays, one scale does for all heights.
 constexpr std::size_t max_single_scale_rays = 600;
 /// Distance of the rays of a sample, as a share of the largest height of the scale.
@@ -214,6 +217,14 @@ void lower_to_sample(const RaySet& set, const RaySample& sample, std::span<const
     }
 }
 
+/// Returns the height at which a ray may end beside one that ends at `height`, so that the row between the two is off a
+/// right angle with them by max_end_tangent.
+double height_of_steepest_row(const RayLine& ray, double height, const RayLine& beside) {
+    const Point along = unit(ray.direction + beside.direction),
+                row = at_height(beside, height) - at_height(ray, height);
+    return height + (max_end_tangent * std::abs(cross(row, along)) - dot(row, along)) / dot(beside.direction, along);
+}
+
 }  // namespace
 
 void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<double>& limits) {
@@ -227,7 +238,8 @@ void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<d
     std::vector<double> ends(limits.size());
     for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = std::min(limits[i], heights.full_height(i));
     lower_to_neighbours(set, ends, [&](std::size_t from, std::size_t to) {
-        return ends[from] + max_end_slope * apart(from, to, ends[from]);
+        const double steepest = height_of_steepest_row(set.lines[from], ends[from], set.lines[to]);
+        return std::clamp(steepest, ends[from], ends[from] + max_end_slope * apart(from, to, ends[from]));
     });
     for (std::size_t i = 0; i < ends.size(); ++i)
         if (ends[i] < heights.full_height(i)) limits[i] = ends[i];

@@ -181,6 +181,9 @@ RaySet parallel_rays(std::size_t count, double apart) {
     return set;
 }
 
+/// Returns the end of a column 1 high, whose last layer is 0.1 high with any of these numbers of layers.
+layers::ColumnEnd end_with(layers::LayerRange range, bool cut) { return {1, 0.1, range.least, range, 0.1, 0.1, cut}; }
+
 /// Returns the numbers on rays so far apart, which stand between two others with 40 layers and wide columns.
 /// All rays lean by so many degrees.
 std::vector<std::uint32_t> kept_counts(std::vector<std::uint32_t> counts, double apart, double lean_deg = 0,
@@ -193,7 +196,7 @@ std::vector<std::uint32_t> kept_counts(std::vector<std::uint32_t> counts, double
     counts.insert(counts.begin(), 2, 40);
     counts.insert(counts.end(), 2, 40);
     std::vector<layers::ColumnEnd> ends;
-    for (const std::uint32_t n : counts) ends.push_back({1.0, 0.1, {n - 4, n + 4}, cut});
+    for (const std::uint32_t n : counts) ends.push_back(end_with({n - 4, n + 4}, cut));
     for (RayLine& ray : set.lines) ray.direction = core::rotated(ray.direction, core::radians(lean_deg));
     layers::keep_counts_on_narrow_columns(set, ends, counts);
     return {counts.begin() + 2, counts.end() - 2};
@@ -228,7 +231,8 @@ TEST(NarrowColumns, ColumnsThatLeanCountAsNarrower) {
     EXPECT_EQ(kept_counts(wanted, apart, 0, true), wanted);
     for (const double lean : {-35.0, 35.0}) {
         SCOPED_TRACE(lean);
-        EXPECT_EQ(kept_counts(wanted, apart, lean), wanted) << "nothing is in the way";
+        const std::vector<std::uint32_t> whole = kept_counts(wanted, apart, lean);
+        EXPECT_EQ(*std::max_element(whole.begin(), whole.end()), 42u) << "changes that cost much are moved";
         const std::vector<std::uint32_t> cut = kept_counts(wanted, apart, lean, true);
         const auto [least, most] = std::minmax_element(cut.begin(), cut.end());
         EXPECT_LE(*most - *least, 2u);
@@ -245,7 +249,7 @@ TEST(NarrowColumns, ChangeWhereRowsFallTheWayThatRaysLean) {
             set.lines[i].direction = core::rotated(set.lines[i].direction, core::radians(lean));
         }
         std::vector<std::uint32_t> counts(rays, 30);
-        std::vector<layers::ColumnEnd> ends(rays, {1, 0.1, {20, 40}, true});
+        std::vector<layers::ColumnEnd> ends(rays, end_with({20, 40}, true));
         for (std::size_t i = 0; i < rays; ++i) {
             const bool last = i == 0 || i + 1 >= rays - 1;
             counts[i] = (i == 0) == rises ? 30 : 31;
@@ -260,6 +264,42 @@ TEST(NarrowColumns, ChangeWhereRowsFallTheWayThatRaysLean) {
     }
 }
 
+/// Rows turn where a front has a kink. A change beside it would make them turn twice as much at one ray.
+TEST(NarrowColumns, ChangesKeepAwayFromKinksOfTheFront) {
+    const std::size_t rays = 41, kink = 20;
+    for (const bool rises : {false, true}) {
+        std::vector<std::uint32_t> counts(rays);
+        std::vector<layers::ColumnEnd> ends;
+        for (std::size_t i = 0; i < rays; ++i) {
+            counts[i] = (rises ? i > kink : i < kink) ? 31 : 30;
+            const double height = 5 - 0.1 * std::abs(double(i) - double(kink));
+            ends.push_back({height, 0.1, 30, {29, 32}, 0.1, 0.1, true});
+        }
+        layers::keep_counts_on_narrow_columns(parallel_rays(rays, 0.16), ends, counts);
+        EXPECT_EQ(counts[kink], 31u) << "the change is on the other side, where rows rise";
+        EXPECT_EQ(counts[rises ? kink - 5 : kink + 5], 30u);
+        EXPECT_EQ(counts[rises ? kink + 5 : kink - 5], 31u);
+    }
+}
+
+/// Layers that are stretched are higher than those of the growth law, and rows are shifted by that.
+TEST(NarrowColumns, ChangeWhereTheLastLayerIsLowAfterwards) {
+    const std::size_t rays = 41, middle = 20;
+    for (const bool low_first : {false, true}) {
+        std::vector<std::uint32_t> counts(rays, 30);
+        std::vector<layers::ColumnEnd> ends;
+        for (std::size_t i = 0; i < rays; ++i) {
+            const double spacing = (i < middle) == low_first ? 0.08 : 0.3;
+            ends.push_back({1, 0.1, 30, {30, 31}, 0.1, spacing, true});
+        }
+        for (const std::size_t i : {0, 1}) ends[i].layers = {30, 30};
+        for (const std::size_t i : {39, 40}) ends[i].layers = {31, 31};
+        counts[39] = counts[40] = 31;
+        layers::keep_counts_on_narrow_columns(parallel_rays(rays, 0.12), ends, counts);
+        EXPECT_EQ(counts[middle], low_first ? 31u : 30u);
+    }
+}
+
 TEST(NarrowColumns, KeepTheRangesOfTheirRays) {
     std::mt19937 random(3);
     std::uniform_int_distribution<std::uint32_t> wanted(20, 40), below(0, 4), above(0, 4);
@@ -268,7 +308,7 @@ TEST(NarrowColumns, KeepTheRangesOfTheirRays) {
         std::vector<layers::ColumnEnd> ends;
         for (std::uint32_t& n : counts) {
             n = wanted(random);
-            ends.push_back({1, 0.1, {n - below(random), n + above(random)}, false});
+            ends.push_back(end_with({n - below(random), n + above(random)}, false));
         }
         layers::keep_counts_on_narrow_columns(parallel_rays(counts.size(), 0.01), ends, counts);
         for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -282,10 +322,10 @@ TEST(NarrowColumns, MayStandBesideRaysWithoutLayers) {
     const std::size_t rays = 40;
     for (const double apart : {0.0, 0.01, 2.0}) {
         std::vector<std::uint32_t> counts(rays, 3);
-        std::vector<layers::ColumnEnd> ends(rays, {1, 0.1, {1, 5}, false});
+        std::vector<layers::ColumnEnd> ends(rays, end_with({1, 5}, false));
         for (std::size_t i = 10; i < 30; ++i) {
             counts[i] = 0;
-            ends[i] = {0, 0, {0, 0}, false};
+            ends[i] = {};
         }
         const std::vector<std::uint32_t> wanted = counts;
         layers::keep_counts_on_narrow_columns(parallel_rays(rays, apart), ends, counts);
@@ -301,7 +341,7 @@ TEST(NarrowColumns, MayStandBesideRaysWithoutLayers) {
 
 TEST(NarrowColumns, ChangeByOneWhereTheyMustChange) {
     std::vector<std::uint32_t> counts(41, 30);
-    std::vector<layers::ColumnEnd> ends(41, {1, 0.1, {20, 40}, false});
+    std::vector<layers::ColumnEnd> ends(41, end_with({20, 40}, false));
     for (const std::size_t held : {0, 1, 39, 40}) ends[held].layers = {30, 30};
     ends[20].layers = {34, 40};
     layers::keep_counts_on_narrow_columns(parallel_rays(counts.size(), 0.01), ends, counts);

@@ -5,6 +5,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "core/angles.hpp"
 #include "layers/checked_layer.hpp"
 #include "layers/fit_heights.hpp"
 #include "layers/growth_laws.hpp"
@@ -50,6 +51,30 @@ TEST(FitHeights, NothingChangesWithoutALimitOrBelowTheFirstLayer) {
         const LayerHeights fitted = layers::fit_heights(one_ray(), heights, std::vector{limit});
         EXPECT_EQ(fitted.column(0).stretch.factor, 1);
         EXPECT_EQ(fitted.table(), heights.table());
+    }
+}
+
+/// Rows that rise towards the side to which rays lean are sheared by both.
+TEST(FitHeights, EndsOfRaysThatLeanMakeNoSteepRows) {
+    const std::size_t count = 60;
+    for (const double lean_deg : {-45.0, -30.0, 0.0, 30.0, 45.0}) {
+        SCOPED_TRACE(lean_deg);
+        RaySet set;
+        for (std::size_t i = 0; i < count; ++i)
+            set.lines.push_back({{0.02 * double(i), 0}, core::rotated(Point{0, 1}, core::radians(lean_deg))});
+        set.begin.push_back(count);
+        const LayerHeights heights(one_column().table(), std::vector<HeightColumn>(count, {0, requested, 1.2}));
+        std::vector<double> limits(count, HUGE_VAL);
+        for (std::size_t i = 25; i < 35; ++i) limits[i] = 0.1;
+        layers::smooth_limits(set, heights, limits);
+        for (std::size_t i = 0; i + 1 < count; ++i) {
+            const auto tip = [&](std::size_t ray) {
+                const double height = std::min(limits[ray], heights.full_height(ray));
+                return set.lines[ray].origin + height * set.lines[ray].direction;
+            };
+            const Point row = tip(i + 1) - tip(i), along = set.lines[i].direction;
+            EXPECT_LT(std::abs(dot(row, along)), 1.351 * std::abs(cross(row, along))) << i;
+        }
     }
 }
 
