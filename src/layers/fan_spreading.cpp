@@ -162,8 +162,17 @@ void spread(const FanSide& side, double max_ray_angle, std::vector<WallVertex>& 
 /// Columns that are narrower than this share of their height, though the fan has given its angle, are widened at the
 /// expense of wider ones, which lose up to the second share of their width.
 constexpr double wanted_share = 1.0 / 25, most_lost = 0.25;
-/// No ray leans by more than this for it, nor by more than max_tilt_between_edges().
-constexpr double max_lean_deg = 25;
+/// No ray leans by more than the first angle for it, nor by more than max_tilt_between_edges(). Together with what it
+/// leans by already, it is no farther than the second angle from the normals of the edges on both sides: cells in all rows
+/// at the wall are as skewed as that.
+constexpr double max_lean_deg = 25, max_lean_from_normals_deg = 57;
+
+/// Returns the largest angle by which the ray of a vertex may lean to either side so that columns widen.
+double largest_lean(const WallVertex& vertex) {
+    const double from_normals = std::abs(vertex.tilt[0]) + 0.5 * std::abs(vertex.turning);
+    const double left = core::radians(max_lean_from_normals_deg) - from_normals;
+    return std::max(std::min({core::radians(max_lean_deg), max_tilt_between_edges(vertex.turning), left}), 0.0);
+}
 
 /// Returns the angles by which rays must lean away from a corner, one for each vertex from it to the end of the columns,
 /// so that the narrowest columns are as wide as this share of what is wanted: at the expense of those farther
@@ -220,8 +229,7 @@ void widen_narrow(const FanSide& side, std::vector<WallVertex>& vertices) {
     });
     columns.erase(widest, columns.end());
     std::vector<double> max_leans(columns.size() + 1, 0.0);
-    for (std::size_t k = 1; k < columns.size(); ++k)
-        max_leans[k] = std::min(core::radians(max_lean_deg), max_tilt_between_edges(side.vertices[side.at(k)].turning));
+    for (std::size_t k = 1; k < columns.size(); ++k) max_leans[k] = largest_lean(side.vertices[side.at(k)]);
     const Leans both = highest_leans(true, columns, max_leans), away = highest_leans(false, columns, max_leans);
     const Leans& leans = away.level > both.level ? away : both;
     for (std::size_t k = 1; k + 1 < leans.angles.size(); ++k)
