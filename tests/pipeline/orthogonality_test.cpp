@@ -1,7 +1,9 @@
 // Faces between cells are nearly orthogonal to the lines between the cells' centroids, as cell-centred solvers want it.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -86,6 +88,24 @@ TEST(Orthogonality, QuadrilateralsOfLayersUpToIsotropy) {
         expect_sound(result, options);
         EXPECT_LT(face_quality(result.mesh).max_non_orthogonality_deg, 55) << "alpha " << alpha;
     }
+}
+
+/// Where a cove or another element cuts layers short, numbers of layers change on narrow columns beside rays that lean,
+/// and the border divides the tops of high cells: faces were up to 63 degrees from orthogonal there.
+TEST(Orthogonality, QuadrilateralsOfThreeElements) {
+    const std::filesystem::path folder = LAMINA_SOURCE_DIR "/examples/geometry";
+    std::vector<std::string> files;
+    for (const char* name : {"slat", "main", "flap"})
+        files.push_back((folder / (std::string("crmhl2d_") + name + ".dat")).string());
+    CaseOptions options = quads_for_flow(16);
+    options.conditions.chord = 1;
+    options.conditions.reynolds = 5e6;
+    options.surface.max_spacing = 0.01;
+    const MeshResult result = generate_mesh(files, options);
+    expect_sound(result, options);
+    const FaceQuality quality = face_quality(result.mesh);
+    EXPECT_LT(quality.max_non_orthogonality_deg, 55);
+    EXPECT_LT(quality.max_skewness, 0.8);
 }
 
 /// At the corners of bases rows turn by 90 degrees. Where they did so at one ray, skewness was 2.2.
