@@ -2,6 +2,7 @@
 // turn towards each other by no more than 1 in (clearance x height of the layers) along the wall, which counts less the
 // more they lean (upright_distance()). The turning beyond that is spread over the rays on both sides, which are tilted
 // out of the corner (docs/decisions/0011). On outlines with a wake, narrow columns are spread in the same way (0037).
+// Convex corners of one ray give their angle to the rays on short edges beside them, which else would be divided (0061).
 #include "layers/normal_smoothing.hpp"
 
 #include <algorithm>
@@ -30,6 +31,12 @@ constexpr double max_angle_from_normal_deg = 50;
 /// Vertices that turn by more than this are corners. They are few, and the rays beside them need their rays to tilt.
 constexpr double max_smooth_turning_deg = 6;
 
+/// Rays lean towards the one ray of a corner where edges are shorter than this share of the height to keep clear: there
+/// the columns beside it begin like a fan.
+constexpr double short_edge_share = 0.2;
+/// Largest tilt for the sake of such corners, in degrees.
+constexpr double max_corner_tilt_deg = 25;
+
 /// Returns the height below which the rays of an outline should not meet.
 double height_to_keep_clear(std::span<const RayVertex> outline, const LayerGrowth& growth) {
     double perimeter = 0, edges = 0;
@@ -45,13 +52,15 @@ double height_to_keep_clear(std::span<const RayVertex> outline, const LayerGrowt
 
 /// The ray of a vertex, or the first or last one of a fan.
 struct TiltableRay {
-    double* tilt;       ///< the entry of WallVertex::tilt that is to be set
-    double max_tilt;    ///< to either side, in radians
-    double turning;     ///< angle to the next ray, in radians
-    double distance;    ///< to the origin of the next ray, along the wall
-    double clear;       ///< height below which it should not meet the next ray
-    double least;       ///< least height of the column up to the next ray, where it is to spread; 0 elsewhere
-    double to_normals;  ///< angle from the ray, not tilted, to the normals of the edges on both sides, in radians
+    double* tilt;         ///< the entry of WallVertex::tilt that is to be set
+    double max_tilt;      ///< to either side, in radians
+    double max_spread;    ///< what spread_corners() may add to the tilt, in radians
+    double turning;       ///< angle to the next ray, in radians
+    double distance;      ///< to the origin of the next ray, along the wall
+    double clear;         ///< height below which it should not meet the next ray
+    double least;         ///< least height of the column up to the next ray, where it is to spread; 0 elsewhere
+    double to_normals;    ///< angle from the ray, not tilted, to the normals of the edges on both sides, in radians
+    bool shares_corners;  ///< whether the edge up to the next ray is so short that corners are spread over it
 };
 
 /// Returns the largest tilt of the one ray of a vertex.
@@ -73,13 +82,17 @@ std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, doubl
         WallVertex &vertex = vertices[i], &after = vertices[next];
         const double max_tilt = vertex.fan ? std::clamp(0.25 * vertex.turning, 0.0, core::radians(max_tilt_deg))
                                            : max_tilt_of_bisector(vertex);
-        if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, vertex.turning, 0, clear, 0, 0});
+        const double max_spread = std::min(core::radians(max_corner_tilt_deg),
+                                           vertex.fan ? max_tilt : max_tilt_between_edges(vertex.turning));
+        if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, max_spread, vertex.turning, 0, clear, 0, 0, false});
         const double to_normals = vertex.fan ? 0 : 0.5 * vertex.turning;
         const double turning = to_normals + (after.fan ? 0 : 0.5 * after.turning);
         const RayVertex &a = outline[i], &b = outline[next];
         const double least = has_wake ? std::max(a.least_height, b.least_height) : 0;
-        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, turning, distance(a.at, b.at),
-                        std::max(clear, wide_clearance * least), least, to_normals});
+        const double apart = distance(a.at, b.at);
+        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, max_spread, turning, apart,
+                        std::max(clear, wide_clearance * least), least, to_normals,
+                        !has_wake && apart < short_edge_share * clear});
     }
     return rays;
 }
@@ -118,6 +131,41 @@ void tilt(std::span<const TiltableRay> rays) {
         *rays[i].tilt = std::clamp(0.5 * (upper_offset[i] - lower_offset[i]), -rays[i].max_tilt, rays[i].max_tilt);
 }
 
+/// Tilts the rays so that from one to the next on a short edge none rises by more than max_angle. As in tilt(), the angle
+/// becomes the mean of the least function above it and the greatest one below it that rise no faster:
+///
+///        __ normals              __ spread
+///       |                      _/
+///     __|                   __/
+///       corner                corner
+///
+/// Where a falls no faster than is allowed, neither function does.
+void spread_corners(std::span<const TiltableRay> rays, double max_angle) {
+    constexpr int rounds = 3;  // what one ray may not take is left to others
+    const std::size_t n = rays.size();
+    std::vector<double> spread(n, 0.0), rise(n), upper_offset(n), lower_offset(n);
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t next = (i + 1) % n;
+            const double turning = rays[i].turning + *rays[next].tilt + spread[next] - *rays[i].tilt - spread[i];
+            rise[i] = rays[i].shares_corners ? turning - max_angle : -core::pi;
+        }
+        std::fill(upper_offset.begin(), upper_offset.end(), 0.0);
+        std::fill(lower_offset.begin(), lower_offset.end(), 0.0);
+        // Each loop goes round twice, since the first round must carry its end over to its start.
+        for (std::size_t k = 0; k < 2 * n; ++k) {
+            const std::size_t i = k % n, j = n - 1 - i;
+            upper_offset[j] = std::max(0.0, upper_offset[(j + 1) % n] + rise[j]);
+            lower_offset[(i + 1) % n] = std::max(0.0, lower_offset[i] + rise[i]);
+        }
+        for (std::size_t i = 0; i < n; ++i)
+            spread[i] = std::clamp(spread[i] + 0.5 * (upper_offset[i] - lower_offset[i]), -rays[i].max_spread,
+                                   rays[i].max_spread);
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        *rays[i].tilt = std::clamp(*rays[i].tilt + spread[i], -rays[i].max_tilt, rays[i].max_tilt);
+}
+
 }  // namespace
 
 // A ray that is tilted by t where the wall turns by 2 b is cos(t + b) / (cos t cos b) = 1 - tan t tan b times the mean of
@@ -128,13 +176,15 @@ double max_tilt_between_edges(double turning) {
     return core::atan2_reproducible(max_height_difference * core::cos_reproducible(b), core::sin_reproducible(b));
 }
 
-void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
+void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle,
+                    std::vector<WallVertex>& vertices) {
     constexpr int rounds = 3;  // the tilts of one decide the distances of the next
     const bool concave =
         std::any_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; });
     if (!concave && growth.least_heights.empty()) return;
     const std::vector<TiltableRay> rays = tiltable_rays(outline, height_to_keep_clear(outline, growth), vertices);
     for (int round = 0; round < rounds; ++round) tilt(rays);
+    spread_corners(rays, max_angle);
     for (WallVertex& vertex : vertices)
         if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];
 }

@@ -24,7 +24,9 @@ struct WallVertex {
 /// origin than above the other by no more than twice 0.009 of their mean. `turning` is that of the vertex, in radians.
 double max_tilt_between_edges(double turning);
 
-/// Sets the tilts of the vertices. Convex and gently turning walls get none.
-void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, std::vector<WallVertex>& vertices);
+/// Sets the tilts of the vertices. Convex and gently turning walls get none. On short edges corners of one ray are spread
+/// until neighbouring rays differ by no more than max_angle, in radians; not at all where it is pi.
+void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle,
+                    std::vector<WallVertex>& vertices);
 
 }  // namespace lamina::layers

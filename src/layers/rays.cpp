@@ -87,8 +87,10 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, 
     const double min_fan_turning_deg =
         smooth && !options.fan_rays ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
-    smooth_normals(outline, growth, vertices);
     const double max_angle = core::radians(options.max_ray_angle_deg);
+    // Smooth outlines have fans at their corners.
+    const bool has_plain_corners = !smooth && options.corners == CornerRays::fan && !options.fan_rays;
+    smooth_normals(outline, growth, has_plain_corners ? max_angle : core::pi, vertices);
     if (!heights.empty() && !options.fan_rays) spread_fans(outline, heights, max_angle, vertices);
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());

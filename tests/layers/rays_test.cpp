@@ -77,6 +77,27 @@ TEST(Rays, TiltAcrossNoise) {
     }
 }
 
+TEST(Rays, OnShortEdgesShareTheAngleOfBluntCorners) {
+    const LayerOptions options = layers_as_high_as(0.05);
+    Outline jagged = shapes::circle(1, 10);
+    jagged.insert(jagged.begin() + 1, 0.985 * midpoint(jagged[0], jagged[1]));
+    const auto count_off_vertices = [](const Outline& outline, const std::vector<RayLine>& rays) {
+        return std::count_if(rays.begin(), rays.end(), [&](const RayLine& ray) {
+            return std::find(outline.begin(), outline.end(), ray.origin) == outline.end();
+        });
+    };
+    const Outline fine = shapes::refined(jagged, 100), coarse = shapes::refined(jagged, 8);
+    const std::vector<RayLine> rays = rays_of(fine, options);
+    EXPECT_EQ(count_off_vertices(fine, rays), 0);
+    EXPECT_GT(count_off_vertices(coarse, rays_of(coarse, options)), 0);
+    const double max_angle = core::radians(options.max_ray_angle_deg);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const double angle = core::angle_between(rays[i].direction, rays[(i + 1) % rays.size()].direction);
+        EXPECT_LE(angle, max_angle * (1 + 1e-9));
+    }
+    EXPECT_GT(made_share(fine, options), 0.99);
+}
+
 TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
     const double min_cosine = std::cos(core::radians(51));
     for (const Outline& outline :
