@@ -52,13 +52,13 @@ double height_to_keep_clear(std::span<const RayVertex> outline, const LayerGrowt
 
 /// The ray of a vertex, or the first or last one of a fan.
 struct TiltableRay {
-    double* tilt;         ///< the entry of WallVertex::tilt that is to be set
-    double max_tilt;      ///< to either side, in radians
-    double max_spread;    ///< what spread_corners() may add to the tilt, in radians
-    double turning;       ///< angle to the next ray, in radians
-    double distance;      ///< to the origin of the next ray, along the wall
-    double clear;         ///< height below which it should not meet the next ray
-    double least;         ///< least height of the column up to the next ray, where it is to spread; 0 elsewhere
+    double* tilt;                 ///< the entry of WallVertex::tilt that is to be set
+    double max_tilt;              ///< to either side, in radians
+    double max_share_of_corners;  ///< what spread_corners() may add to the tilt, in radians
+    double turning;               ///< angle to the next ray, in radians
+    double distance;              ///< to the origin of the next ray, along the wall
+    double clear;                 ///< height below which it should not meet the next ray
+    double least;                 ///< least height of the column up to the next ray, where it is to spread; 0 elsewhere
     double to_normals;    ///< angle from the ray, not tilted, to the normals of the edges on both sides, in radians
     bool shares_corners;  ///< whether the edge up to the next ray is so short that corners are spread over it
 };
@@ -82,15 +82,16 @@ std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, doubl
         WallVertex &vertex = vertices[i], &after = vertices[next];
         const double max_tilt = vertex.fan ? std::clamp(0.25 * vertex.turning, 0.0, core::radians(max_tilt_deg))
                                            : max_tilt_of_bisector(vertex);
-        const double max_spread = std::min(core::radians(max_corner_tilt_deg),
-                                           vertex.fan ? max_tilt : max_tilt_between_edges(vertex.turning));
-        if (vertex.fan) rays.push_back({&vertex.tilt[0], max_tilt, max_spread, vertex.turning, 0, clear, 0, 0, false});
+        const double max_share_of_corners = std::min(core::radians(max_corner_tilt_deg),
+                                                     vertex.fan ? max_tilt : max_tilt_between_edges(vertex.turning));
+        if (vertex.fan)
+            rays.push_back({&vertex.tilt[0], max_tilt, max_share_of_corners, vertex.turning, 0, clear, 0, 0, false});
         const double to_normals = vertex.fan ? 0 : 0.5 * vertex.turning;
         const double turning = to_normals + (after.fan ? 0 : 0.5 * after.turning);
         const RayVertex &a = outline[i], &b = outline[next];
         const double least = has_wake ? std::max(a.least_height, b.least_height) : 0;
         const double apart = distance(a.at, b.at);
-        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, max_spread, turning, apart,
+        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, max_share_of_corners, turning, apart,
                         std::max(clear, wide_clearance * least), least, to_normals,
                         !has_wake && apart < short_edge_share * clear});
     }
@@ -159,8 +160,8 @@ void spread_corners(std::span<const TiltableRay> rays, double max_angle) {
             lower_offset[(i + 1) % n] = std::max(0.0, lower_offset[i] + rise[i]);
         }
         for (std::size_t i = 0; i < n; ++i)
-            spread[i] = std::clamp(spread[i] + 0.5 * (upper_offset[i] - lower_offset[i]), -rays[i].max_spread,
-                                   rays[i].max_spread);
+            spread[i] = std::clamp(spread[i] + 0.5 * (upper_offset[i] - lower_offset[i]), -rays[i].max_share_of_corners,
+                                   rays[i].max_share_of_corners);
     }
     for (std::size_t i = 0; i < n; ++i)
         *rays[i].tilt = std::clamp(*rays[i].tilt + spread[i], -rays[i].max_tilt, rays[i].max_tilt);
