@@ -83,7 +83,8 @@ MeshCheck check_mesh(const MeshView& mesh, const MeshCheckOptions& options) {
     const std::size_t narrow = cells.narrow.size();
     check.unexcused_cells = find_unexcused(mesh, std::move(checked), constraints);
     check.isotropic.exempt = narrow - check.unexcused_cells.size();
-    check_whole_boundary(mesh.points, mesh.markers, boundary, conforming, options, check, defects);
+    measure_boundary(mesh.points, mesh.markers, boundary, options, check);
+    check_whole_boundary(mesh.points, mesh.markers, boundary, conforming, check, defects);
     return finish();
 }
 

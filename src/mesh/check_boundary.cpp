@@ -33,6 +33,8 @@ void check_totals(const MeshCheck& check, const BoundarySummary& boundary, Defec
         });
 }
 
+}  // namespace
+
 void measure_boundary(std::span<const Point> points, std::span<const Marker> markers,
                       std::span<const BoundaryEdge> boundary, const MeshCheckOptions& options, MeshCheck& check) {
     check.walls = measure_walls(points, markers, boundary, options);
@@ -40,12 +42,9 @@ void measure_boundary(std::span<const Point> points, std::span<const Marker> mar
         boundary.begin(), boundary.end(), [](const BoundaryEdge& edge) { return edge.beyond_first_layer; }));
 }
 
-}  // namespace
-
 void check_whole_boundary(std::span<const Point> points, std::span<const Marker> markers,
-                          std::span<const BoundaryEdge> boundary, bool conforming, const MeshCheckOptions& options,
-                          MeshCheck& check, DefectList& defects) {
-    measure_boundary(points, markers, boundary, options, check);
+                          std::span<const BoundaryEdge> boundary, bool conforming, MeshCheck& check,
+                          DefectList& defects) {
     const std::vector<Segment> edges = sorted_ends(boundary);
     check_markers(points, markers, edges, defects);
     if (!conforming) return;
@@ -55,12 +54,9 @@ void check_whole_boundary(std::span<const Point> points, std::span<const Marker>
     if (defects.empty()) check_totals(check, summary, defects);
 }
 
-void check_known_boundary(std::span<const Point> points, std::span<const Marker> markers,
-                          std::span<const BoundaryEdge> boundary, const BoundarySummary& known,
-                          const MeshCheckOptions& options, MeshCheck& check, DefectList& defects) {
-    measure_boundary(points, markers, boundary, options, check);
-    check.boundary_loops = known.loops;
-    if (defects.empty()) check_totals(check, known, defects);
+void take_checked_boundary(const BoundarySummary& boundary, MeshCheck& check, DefectList& defects) {
+    check.boundary_loops = boundary.loops;
+    if (defects.empty()) check_totals(check, boundary, defects);
 }
 
 }  // namespace lamina::mesh

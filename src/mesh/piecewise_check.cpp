@@ -139,8 +139,10 @@ void PiecewiseCheck::check_boundary_of_all(std::span<const Marker> markers, Mesh
         const std::vector<Segment>& outer = expected_->outer();
         const bool complete = elsewhere_.outer_edges == outer.size();
         const BoundarySummary* known = expected_->summary_with(sorted_ends(boundary));
-        if (complete && unique && known != nullptr)
-            return check_known_boundary(shared_points_, markers, boundary, *known, options_, check, defects);
+        if (complete && unique && known != nullptr) {
+            measure_boundary(shared_points_, markers, boundary, options_, check);
+            return take_checked_boundary(*known, check, defects);
+        }
         if (!complete)
             defects.add([&] {
                 return MeshDefect{fmt::format("of {} outer edges, {} are edges of one piece alone", outer.size(),
@@ -152,7 +154,8 @@ void PiecewiseCheck::check_boundary_of_all(std::span<const Marker> markers, Mesh
     // The borders of pieces are closed. Those that other processes have told are so only if nothing was lost.
     const bool closed = is_closed(sorted_ends(boundary));
     if (!closed) defects.add([] { return MeshDefect{"the edges of one cell alone do not form loops", {}}; });
-    check_whole_boundary(shared_points_, markers, boundary, closed && unique, options_, check, defects);
+    measure_boundary(shared_points_, markers, boundary, options_, check);
+    check_whole_boundary(shared_points_, markers, boundary, closed && unique, check, defects);
 }
 
 void PiecewiseCheck::forget_borders() {

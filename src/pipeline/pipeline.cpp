@@ -300,7 +300,7 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
     for (const HeldPiece& piece : held.pieces) made.held.pieces.push_back(piece.piece);
     made.held.numbers = std::move(counted.numbers);
     made.held.layer_pieces = counted.layer_pieces;
-    made.summary = std::move(counted.summary);
+    made.summary = counted.summary;
     made.first_triangle = {0};
     mesh.counts = counted.counts;
     if (!destination.checks()) return made;

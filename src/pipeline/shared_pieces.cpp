@@ -73,7 +73,7 @@ RankZeroCount count_all(const SharedDecoupling& shared, const SharedSeams& seams
     AllPieces all = add_up(told.pieces, numbered.numbers, min_angle_deg);
     RankZeroCount count{{.counts = numbered.counts,
                          .layer_pieces = layer.pieces(),
-                         .summary = std::move(all.summary),
+                         .summary = all.summary,
                          .hash = all.hash}};
     all.findings.border = seams.along_layer();
     all.findings.border_vertices = seams.vertices_in_layer();
