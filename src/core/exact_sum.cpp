@@ -7,7 +7,7 @@ namespace lamina::core {
 
 namespace {
 
-constexpr unsigned bits_per_digit = 32, mantissa_bits = 52;
+constexpr unsigned bits_per_digit = 32, bits_of_mantissa = 52;
 constexpr int lowest_exponent = -1074;
 constexpr std::uint64_t digit_mask = (std::uint64_t{1} << bits_per_digit) - 1;
 
@@ -19,9 +19,9 @@ void ExactSum::add(double number) {
         return;
     }
     const auto bits = std::bit_cast<std::uint64_t>(number);
-    const auto biased = static_cast<unsigned>(bits >> mantissa_bits & 0x7ff);
-    std::uint64_t mantissa = bits & ((std::uint64_t{1} << mantissa_bits) - 1);
-    if (biased > 0) mantissa |= std::uint64_t{1} << mantissa_bits;
+    const auto biased = static_cast<unsigned>(bits >> bits_of_mantissa & 0x7ff);
+    std::uint64_t mantissa = bits & ((std::uint64_t{1} << bits_of_mantissa) - 1);
+    if (biased > 0) mantissa |= std::uint64_t{1} << bits_of_mantissa;
     // The lowest bit of the mantissa counts 2^(place - 1074).
     const unsigned place = biased > 0 ? biased - 1 : 0, shift = place % bits_per_digit;
     std::int64_t* digit = &digits_[place / bits_per_digit];

@@ -71,10 +71,8 @@ RankZeroCount count_all(const SharedDecoupling& shared, const SharedSeams& seams
         told.sizes, shared.pieces(),
         {shared.cut.lines.vertices(), layer.triangles.size(), layer.quads.size(), layer.triangles.size()});
     AllPieces all = add_up(told.pieces, numbered.numbers, min_angle_deg);
-    RankZeroCount count{{.counts = numbered.counts,
-                         .layer_pieces = layer.pieces(),
-                         .summary = all.summary,
-                         .hash = all.hash}};
+    RankZeroCount count{
+        {.counts = numbered.counts, .layer_pieces = layer.pieces(), .summary = all.summary, .hash = all.hash}};
     all.findings.border = seams.along_layer();
     all.findings.border_vertices = seams.vertices_in_layer();
     check.match_elsewhere(seams.first_elsewhere());

@@ -29,13 +29,7 @@ std::vector<Point> section() {
     return points;
 }
 
-std::string as_file(const std::vector<Point>& points) {
-    std::string text = "section\n";
-    for (const Point p : points) text += fmt::format("{} {}\n", p.x, p.y);
-    return text;
-}
-
-Element read_points(const std::vector<Point>& points) { return fixtures::read(as_file(points)).elements[0]; }
+Element read_points(const std::vector<Point>& points) { return fixtures::read(fixtures::as_file(points)).elements[0]; }
 
 void expect_warning(const Element& e, Point at, double share) {
     ASSERT_EQ(e.warnings.size(), 1u);

@@ -26,12 +26,6 @@ bool has_repair(const Element& e, const std::string& part) {
                        [&](const std::string& r) { return r.find(part) != std::string::npos; });
 }
 
-std::string as_file(const std::vector<Point>& points) {
-    std::string text = "title\n";
-    for (Point p : points) text += fmt::format("{} {}\n", p.x, p.y);
-    return text;
-}
-
 TEST(Reader, EveryFormatGivesTheSameLoop) {
     for (const std::string& content : fixtures::same_loop) {
         SCOPED_TRACE(content);
@@ -240,7 +234,7 @@ TEST(Reader, ClosesAPlateAlongItsLongSide) {
 TEST(Reader, NeverScalesOrMoves) {
     std::vector<Point> points;
     for (Point p : fixtures::loop) points.push_back({100 * p.x - 30, 100 * p.y + 7});
-    const Element e = read(as_file(points)).elements[0];
+    const Element e = read(fixtures::as_file(points)).elements[0];
     for (Point p : points) EXPECT_EQ(std::count(e.points.begin(), e.points.end(), p), 1);
 }
 
@@ -261,15 +255,15 @@ TEST(Reader, MappedInputGivesTheMappedLoop) {
                 shapes::Outline image = shapes::moved(shape, angle, scale, {scale * 3, -scale});
                 shapes::Outline closed = image;
                 closed.push_back(image[0]);
-                EXPECT_EQ(read(as_file(closed)).elements[0].points, image);
+                EXPECT_EQ(read(fixtures::as_file(closed)).elements[0].points, image);
                 std::reverse(closed.begin(), closed.end());
-                EXPECT_EQ(read(as_file(closed)).elements[0].points, image);
+                EXPECT_EQ(read(fixtures::as_file(closed)).elements[0].points, image);
                 const shapes::Outline mirror = shapes::mirrored(image);
-                EXPECT_EQ(read(as_file(mirror)).elements[0].points.front(), mirror[0]);
+                EXPECT_EQ(read(fixtures::as_file(mirror)).elements[0].points.front(), mirror[0]);
                 const shapes::Outline shifted = shapes::started_at(image, image.size() / 3);
                 shapes::Outline shifted_closed = shifted;
                 shifted_closed.push_back(shifted[0]);
-                EXPECT_EQ(read(as_file(shifted_closed)).elements[0].points, shifted);
+                EXPECT_EQ(read(fixtures::as_file(shifted_closed)).elements[0].points, shifted);
             }
         }
     }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <lamina/geometry.hpp>
 
 #include "support/temporary_folder.hpp"
@@ -143,6 +145,13 @@ inline const std::string two_lednicer = lednicer +
 /// An outline that is open at its blunt trailing edge.
 inline const std::string open_base =
     "BLUNT\n1 0.01\n0.99 0.012\n.75 .04\n.5 .07\n.2 .06\n0 0\n.2 -.04\n.5 -.05\n.75 -.03\n0.99 -.011\n1 -0.01\n";
+
+/// Returns a coordinate file with a title and these points.
+inline std::string as_file(const std::vector<Point>& points) {
+    std::string text = "title\n";
+    for (const Point p : points) text += fmt::format("{} {}\n", p.x, p.y);
+    return text;
+}
 
 /// Writes `content` to a temporary file of this name and reads it.
 inline Geometry read(const std::string& content, const std::string& name = "sample.dat") {
