@@ -84,7 +84,8 @@ FoldMend mend_between(SourcePoints& points, std::size_t i, bool closed, std::siz
     for (std::size_t k = 0; k < stretch.size(); ++k) stretch[k] = loop[loop.before(i, 2) + k].at;
     FoldRepairs repairs = possible_repairs(stretch);
     const auto is_end = [&](std::size_t k) { return !closed && (k == 0 || k == n - 1); };
-    if (is_end(i) || is_end(next)) repairs.exchanged.reset();
+    const bool repeats = stretch[1] == stretch[3] || stretch[2] == stretch[4];
+    if (is_end(i) || is_end(next) || repeats) repairs.exchanged.reset();
     if (is_end(i)) repairs.without_first.reset();
     if (is_end(next)) repairs.without_second.reset();
     if (!repairs.without_first && !repairs.without_second) return FoldMend::none;
@@ -98,6 +99,14 @@ FoldMend mend_between(SourcePoints& points, std::size_t i, bool closed, std::siz
     }
     left_out = first <= second ? i : next;
     return FoldMend::left_out;
+}
+
+/// Leaves out a point, and the next one, too, where it is the same as the one before.
+void leave_out(SourcePoints& points, std::size_t i) {
+    const auto erase = [&](std::size_t k) { points.erase(points.begin() + static_cast<std::ptrdiff_t>(k)); };
+    erase(i);
+    const std::size_t next = i % points.size(), before = (i + points.size() - 1) % points.size();
+    if (points[next].at == points[before].at) erase(next);
 }
 
 }  // namespace
@@ -119,7 +128,7 @@ std::optional<Fold> mend_fold(SourcePoints& points, bool closed) {
         if (fold.mend == FoldMend::none) continue;
         if (fold.mend == FoldMend::left_out) {
             if (left_out != i) std::swap(fold.first, fold.second);
-            points.erase(points.begin() + static_cast<std::ptrdiff_t>(left_out));
+            leave_out(points, left_out);
         }
         return fold;
     }

@@ -62,6 +62,18 @@ TEST(Folds, APointWithAWrongDigitIsLeftOut) {
         }
 }
 
+TEST(Folds, APointBetweenTwoEqualOnesIsLeftOutWithOneOfThem) {
+    // A nose whose third point has the wrong sign: (0, 0.00095), (0, 0), (0, 0.00095), as in EH 3012.
+    std::vector<Point> points = section();
+    const std::size_t nose = 30;
+    points[nose] = {0, 0.00095};
+    std::vector<Point> right = points;
+    points.insert(points.begin() + nose + 1, {{0, 0}, {0, 0.00095}});
+    const Element e = read_points(points);
+    EXPECT_EQ(e.points, read_points(right).points);
+    expect_warning(e, {0, 0}, 0.00095);
+}
+
 TEST(Folds, PointsOutOfOrderAreExchanged) {
     for (const std::size_t i : {2u, 10u, 20u, 45u, 57u}) {
         std::vector<Point> points = section();
