@@ -75,9 +75,12 @@ std::vector<LengthFact> first_heights(const MeshCase& mesh_case, const MeshResul
     for (std::size_t e = 0; e < result.first_heights.size(); ++e) {
         const ElementFlow& element = result.flow->elements[e];
         const double friction = largest_skin_friction(element);
-        facts.push_back({key, label, input_units(result.first_heights[e]),
-                         fmt::format("from y+ and the largest skin friction, {:.4g}: Thwaites, Head", friction),
-                         element.name});
+        const bool at_corners = friction > largest_on_walls(element, &FlowPoint::skin_friction);
+        facts.push_back(
+            {key, label, input_units(result.first_heights[e]),
+             fmt::format("from y+ and the largest skin friction, {:.4g}: {}", friction,
+                         at_corners ? "of the flow that turns round the corners of the base" : "Thwaites, Head"),
+             element.name});
     }
     if (facts.size() == 1) facts.front().element.clear();
     return facts;

@@ -9,7 +9,7 @@
 
 namespace lamina::geometry {
 
-/// What became of a fold.
+/// A FoldMend says what became of a fold.
 enum class FoldMend {
     left_out,   ///< one point was left out
     exchanged,  ///< two neighbours were exchanged

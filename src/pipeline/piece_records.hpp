@@ -30,7 +30,7 @@ struct AllPieces {
     explicit AllPieces(double min_angle_deg) : findings(min_angle_deg) {}
 };
 
-/// Where all pieces of a mesh begin, whoever has made them.
+/// These numbers say where all pieces of a mesh begin, whoever has made them.
 struct NumberedPieces {
     std::vector<PieceNumbers> numbers;               ///< by the numbers of the pieces
     std::vector<std::vector<std::size_t>> of_ranks;  ///< for each rank: its pieces, in its order

@@ -77,7 +77,7 @@ private:
     mesh::Seams seams_;
 };
 
-/// What processes have found out about seams, with the sum of SharedSeams::places().
+/// SharedFindings hold what processes have found out about seams, with the sum of SharedSeams::places().
 struct SharedFindings {
     mesh::SeamFindings seams;
     std::uint64_t places = 0;
