@@ -107,29 +107,38 @@ double upright_distance(const TiltableRay& ray, const TiltableRay& next) {
     return c * c * ray.distance;
 }
 
+/// Returns, for each ray, half of what the excesses before it add up to, less half of those behind it. The excess at i is
+/// that of the angle from ray i to the next one; carried on, it shrinks where there is room and never falls below 0.
+std::vector<double> carried_excess(std::span<const double> excess) {
+    const std::size_t n = excess.size();
+    std::vector<double> before(n, 0.0), behind(n, 0.0);
+    // Each loop goes round twice, since the first round must carry its end over to its start.
+    for (std::size_t k = 0; k < 2 * n; ++k) {
+        const std::size_t i = k % n, j = n - 1 - i;
+        before[(i + 1) % n] = std::max(0.0, before[i] + excess[i]);
+        behind[j] = std::max(0.0, behind[(j + 1) % n] + excess[j]);
+    }
+    for (std::size_t i = 0; i < n; ++i) before[i] = 0.5 * (before[i] - behind[i]);
+    return before;
+}
+
 /// Tilts the rays so that from one to the next none falls by more than is allowed, or rises by less than makes their
 /// column wide enough. Let a(s) be the angle of the
-/// bisectors along the wall. `upper_offset` is how far the least function above a that falls no faster than allowed
-/// lies above a, `lower_offset` how far the greatest such function below a lies below it. The mean of the two functions
+/// bisectors along the wall. What is carried from before is how far the least function above a that falls no faster than allowed
+/// lies above a, what is carried from behind how far the greatest such function below a lies below it. The mean of the two functions
 /// falls no faster either, equals a where a itself is admissible, and treats both directions of the wall alike. The
 /// tilt is the difference between this mean and a.
 void tilt(std::span<const TiltableRay> rays) {
     const std::size_t n = rays.size();
-    std::vector<double> rise(n), upper_offset(n, 0.0), lower_offset(n, 0.0);
+    std::vector<double> excess(n);
     for (std::size_t i = 0; i < n; ++i) {
         const double apart = upright_distance(rays[i], rays[(i + 1) % n]);
         double min_rise = -(1 / (clearance * rays[i].clear)) * apart;
         if (rays[i].least > 0 && apart > 0) min_rise = std::max(min_rise, min_width - apart / rays[i].least);
-        rise[i] = rays[i].turning - min_rise;
+        excess[i] = min_rise - rays[i].turning;
     }
-    // Each loop goes round twice, since the first round must carry its end over to its start.
-    for (std::size_t k = 0; k < 2 * n; ++k) {
-        const std::size_t i = k % n, j = n - 1 - i;
-        upper_offset[(i + 1) % n] = std::max(0.0, upper_offset[i] - rise[i]);
-        lower_offset[j] = std::max(0.0, lower_offset[(j + 1) % n] - rise[j]);
-    }
-    for (std::size_t i = 0; i < n; ++i)
-        *rays[i].tilt = std::clamp(0.5 * (upper_offset[i] - lower_offset[i]), -rays[i].max_tilt, rays[i].max_tilt);
+    const std::vector<double> offsets = carried_excess(excess);
+    for (std::size_t i = 0; i < n; ++i) *rays[i].tilt = std::clamp(offsets[i], -rays[i].max_tilt, rays[i].max_tilt);
 }
 
 /// Tilts the rays so that from one to the next on a short edge none rises by more than max_angle. As in tilt(), the angle
@@ -144,24 +153,16 @@ void tilt(std::span<const TiltableRay> rays) {
 void spread_corners(std::span<const TiltableRay> rays, double max_angle) {
     constexpr int rounds = 3;  // what one ray may not take is left to others
     const std::size_t n = rays.size();
-    std::vector<double> spread(n, 0.0), rise(n), upper_offset(n), lower_offset(n);
+    std::vector<double> spread(n, 0.0), excess(n);
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t i = 0; i < n; ++i) {
             const std::size_t next = (i + 1) % n;
             const double turning = rays[i].turning + *rays[next].tilt + spread[next] - *rays[i].tilt - spread[i];
-            rise[i] = rays[i].shares_corners ? turning - max_angle : -core::pi;
+            excess[i] = rays[i].shares_corners ? turning - max_angle : -core::pi;
         }
-        std::fill(upper_offset.begin(), upper_offset.end(), 0.0);
-        std::fill(lower_offset.begin(), lower_offset.end(), 0.0);
-        // Each loop goes round twice, since the first round must carry its end over to its start.
-        for (std::size_t k = 0; k < 2 * n; ++k) {
-            const std::size_t i = k % n, j = n - 1 - i;
-            upper_offset[j] = std::max(0.0, upper_offset[(j + 1) % n] + rise[j]);
-            lower_offset[(i + 1) % n] = std::max(0.0, lower_offset[i] + rise[i]);
-        }
+        const std::vector<double> offsets = carried_excess(excess);
         for (std::size_t i = 0; i < n; ++i)
-            spread[i] = std::clamp(spread[i] + 0.5 * (upper_offset[i] - lower_offset[i]), -rays[i].max_share_of_corners,
-                                   rays[i].max_share_of_corners);
+            spread[i] = std::clamp(spread[i] - offsets[i], -rays[i].max_share_of_corners, rays[i].max_share_of_corners);
     }
     for (std::size_t i = 0; i < n; ++i)
         *rays[i].tilt = std::clamp(*rays[i].tilt + spread[i], -rays[i].max_tilt, rays[i].max_tilt);
