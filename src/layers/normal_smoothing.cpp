@@ -123,11 +123,10 @@ std::vector<double> carried_excess(std::span<const double> excess) {
 }
 
 /// Tilts the rays so that from one to the next none falls by more than is allowed, or rises by less than makes their
-/// column wide enough. Let a(s) be the angle of the
-/// bisectors along the wall. What is carried from before is how far the least function above a that falls no faster than allowed
-/// lies above a, what is carried from behind how far the greatest such function below a lies below it. The mean of the two functions
-/// falls no faster either, equals a where a itself is admissible, and treats both directions of the wall alike. The
-/// tilt is the difference between this mean and a.
+/// column wide enough. Let a(s) be the angle of the bisectors along the wall. What is carried from before is how far the
+/// least function above a that falls no faster than allowed lies above a, what is carried from behind how far the greatest
+/// such function below a lies below it. The mean of the two functions falls no faster either, equals a where a itself is
+/// admissible, and treats both directions of the wall alike. The tilt is the difference between this mean and a.
 void tilt(std::span<const TiltableRay> rays) {
     const std::size_t n = rays.size();
     std::vector<double> excess(n);
