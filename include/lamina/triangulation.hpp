@@ -112,6 +112,9 @@ struct ConstrainedTriangulation {
     std::size_t zero_length_segments = 0;  ///< number of segments from a point to itself, which are left out
     /// Number of segments that change nothing because they lie on earlier ones, as repeated ones do.
     std::size_t repeated_segments = 0;
+    /// Indices of the holes that take no triangle away: outside of the hull, outside of ConstrainedOptions::keep, or where
+    /// an earlier hole has taken all triangles.
+    std::vector<std::size_t> idle_holes{};
     /// For each point of the input the point that stands for it in triangles and segments, which is itself if it was
     /// not merged. Empty without ConstrainedOptions::merge_distance.
     std::vector<std::uint32_t> merged_into{};

@@ -220,15 +220,23 @@ Warning unused_seed_warning(const std::string& kind, std::size_t i, Point at, co
             .message = fmt::format("{} {} at ({:.6g}, {:.6g}) {}", kind, i + 1, at.x, at.y, reason)};
 }
 
-/// Returns warnings of holes beyond all points, as where they have other units, and of regions that no triangle is in.
-std::vector<Warning> find_unused_seeds(const TriangleInput& input, const ConstrainedRefinement& mesh) {
+/// Returns warnings of holes that take nothing away, as where they have other units.
+std::vector<Warning> find_unused_holes(const TriangleInput& input, const std::vector<std::size_t>& idle_holes) {
     std::vector<Warning> warnings;
     Box box;
     for (const Point p : input.points) box.include(p);
-    for (std::size_t i = 0; i < input.holes.size(); ++i)
-        if (!box.contains(input.holes[i]))
-            warnings.push_back(
-                unused_seed_warning("hole", i, input.holes[i], "lies beyond all points and takes nothing away"));
+    for (const std::size_t i : idle_holes)
+        warnings.push_back(unused_seed_warning("hole", i, input.holes[i],
+                                               box.contains(input.holes[i])
+                                                   ? "takes nothing away: it lies outside of the segments, or where an "
+                                                     "earlier hole does"
+                                                   : "lies beyond all points and takes nothing away"));
+    return warnings;
+}
+
+/// Returns warnings of regions that no triangle is in.
+std::vector<Warning> find_unused_regions(const TriangleInput& input, const ConstrainedRefinement& mesh) {
+    std::vector<Warning> warnings;
     std::vector<bool> used(input.regions.size());
     for (const std::uint32_t region : mesh.regions)
         if (region != ConstrainedRefinement::no_region) used[region] = true;
@@ -295,6 +303,7 @@ DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& setting
     result.triangulation_seconds = watch.lap();
     result.zero_length_segments = triangulation.zero_length_segments;
     result.repeated_segments = triangulation.repeated_segments;
+    result.warnings = find_unused_holes(input, triangulation.idle_holes);
 
     ConstrainedRefinement mesh;
     if (needs_refinement(input, settings))
@@ -303,7 +312,7 @@ DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& setting
         mesh = unrefined(std::move(triangulation));
     result.refinement_seconds = watch.lap();
     result.refinement = mesh.stats;
-    result.warnings = find_unused_seeds(input, mesh);
+    for (Warning& warning : find_unused_regions(input, mesh)) result.warnings.push_back(std::move(warning));
     result.output = make_output(std::move(input), std::move(mesh));
     require_made_within(settings.limits, static_cast<double>(result.output.triangles.size()), refinement_cost,
                         thread_count());

@@ -286,7 +286,7 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
         points = all;
     }
     TriangleSelection selection = select_kept(triangulated, options.keep, points.size());
-    deselect_holes(points, options.holes, triangulated.tris, selection);
+    result.idle_holes = deselect_holes(points, options.holes, triangulated.tris, selection);
     result.triangles = selected_triangles(triangulated.tris, selection);
     list_segments(triangulated, selection, options.keep == KeptRegion::convex_hull && options.holes.empty(), result);
     result.decomposition = triangulated.stats;

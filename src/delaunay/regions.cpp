@@ -110,19 +110,24 @@ TriangleSelection select_region(OrderedTriangulation& triangulation, std::span<c
     return selection;
 }
 
-void deselect_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris,
-                    TriangleSelection& selection) {
+std::vector<std::size_t> deselect_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris,
+                                        TriangleSelection& selection) {
+    std::vector<std::size_t> idle;
     Index t = 0;
     while (t < tris.size() && tris[t].is_ghost()) ++t;
-    if (t == tris.size()) return;
     std::vector<Index> front;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-        const Index found = locate(points, tris, t, seeds[i]);
-        if (tris[found].is_ghost()) continue;
+        const Index found = t == tris.size() ? no_index : locate(points, tris, t, seeds[i]);
+        if (found == no_index || tris[found].is_ghost()) {
+            idle.push_back(i);
+            continue;
+        }
         t = found;
         check_seed(points, tris[t], seeds[i], i);
+        if (!selection[t]) idle.push_back(i);
         flood<Ghosts::avoid>(tris, t, char{0}, selection, front);
     }
+    return idle;
 }
 
 std::vector<std::uint32_t> spread_values(const Tris& tris, std::span<const ValueSeed> seeds) {

@@ -31,10 +31,11 @@ TriangleSelection select_left_of_segments(std::span<const Segment> segments, con
 /// border bounds the region all round. Its vertices have the numbers of the ordered triangulation.
 TriangleSelection select_region(OrderedTriangulation& triangulation, std::span<const Segment> border);
 
-/// Takes the triangles out of the selection that can be reached from a seed without crossing a constrained edge. Seeds
-/// outside the hull have no effect. Throws InputError for seeds on vertices or constrained edges.
-void deselect_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris,
-                    TriangleSelection& selection);
+/// Takes the triangles out of the selection that can be reached from a seed without crossing a constrained edge.
+/// Returns the indices of the seeds that take none: those outside of the hull or in a triangle that is not selected.
+/// Throws InputError for seeds on vertices or constrained edges.
+std::vector<std::size_t> deselect_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris,
+                                        TriangleSelection& selection);
 
 /// A triangle from which spread_values() starts, and its value.
 struct ValueSeed {

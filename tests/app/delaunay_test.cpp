@@ -110,6 +110,29 @@ TEST(DelaunayCommand, Refusals) {
     EXPECT_EQ(read_triangle_files(folder / "cross.1.poly").points.size(), 5u);
 }
 
+TEST(DelaunayCommand, HolesAndRegionsThatChangeNothingGiveAWarning) {
+    const TemporaryFolder folder;
+    // A square of side 2 with a hole, beside a triangle. Holes: the true one, twice; outside of the segments; beyond all
+    // points. Regions: one in the square, one in the hole.
+    folder.write("seeds.poly",
+                 "11 2\n1 0 0\n2 2 0\n3 2 2\n4 0 2\n5 0.5 0.5\n6 1 0.5\n7 1 1\n8 0.5 1\n9 4 0\n10 5 0\n11 4 1\n"
+                 "11 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n5 5 6\n6 6 7\n7 7 8\n8 8 5\n9 9 10\n10 10 11\n11 11 9\n"
+                 "4\n1 0.7 0.7\n2 0.8 0.8\n3 3 1\n4 70 80\n2\n1 1.5 1.5 1 0.1\n2 0.75 0.75 2 0.1\n");
+    const ProgramRun run = run_lamina(folder, {"delaunay", "seeds.poly", "-o", "out", "--report", "r.json", "--quiet"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto warnings = nlohmann::json::parse(folder.read("r.json"))["warnings"];
+    ASSERT_EQ(warnings.size(), 4u) << warnings;
+    const std::vector<std::tuple<std::string, double, Point>> expected = {
+        {"hole", 2, {0.8, 0.8}}, {"hole", 3, {3, 1}}, {"hole", 4, {70, 80}}, {"region", 2, {0.75, 0.75}}};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(warnings[i]["code"], "unused_seed");
+        EXPECT_EQ(warnings[i]["unit"], std::get<0>(expected[i]));
+        EXPECT_EQ(warnings[i]["number"], std::get<1>(expected[i]));
+        EXPECT_EQ(warnings[i]["at"][0], std::get<2>(expected[i]).x);
+        EXPECT_EQ(warnings[i]["at"][1], std::get<2>(expected[i]).y);
+    }
+}
+
 TEST(DelaunayCommand, EmptyTriangulationsGiveAWarning) {
     const TemporaryFolder folder;
     folder.write("line.node", "4 2\n1 0 0\n2 1 1\n3 2 2\n4 5 5\n");

@@ -357,11 +357,19 @@ TEST(Constraints, HolesBySeedByLoopAndFromOutside) {
         triangulate(plate.points, plate.segments, {.keep = KeptRegion::inside_segments, .holes = {{4, 4}, {50, 50}}});
     EXPECT_NEAR(covered_area(plate.points, by_loop.triangles), plate.area, 1e-12);
     EXPECT_EQ(by_loop.triangles, by_seed.triangles);
+    EXPECT_EQ(by_seed.idle_holes, (std::vector<std::size_t>{1}));
     EXPECT_EQ(by_loop.segments, plate.segments);
     EXPECT_EQ(by_seed.segments, plate.segments);
     expect_valid(plate.points, by_seed.triangles, by_seed.segments);
     const auto inside = triangulate(plate.points, plate.segments, {.keep = KeptRegion::inside_segments});
     EXPECT_NEAR(covered_area(plate.points, inside.triangles), plate.area + 4, 1e-12);
+    // The second seed lies in the pocket, the third where the first one does.
+    const auto idle = triangulate(plate.points, plate.segments,
+                                  {.keep = KeptRegion::inside_segments, .holes = {{4, 4}, {5, 9}, {4.5, 4.5}}});
+    EXPECT_EQ(idle.triangles, by_seed.triangles);
+    EXPECT_EQ(idle.idle_holes, (std::vector<std::size_t>{1, 2}));
+    const std::vector<Point> line{{0, 0}, {1, 1}, {2, 2}};
+    EXPECT_EQ(triangulate(line, {}, {.holes = {{5, 5}, {1, 0}}}).idle_holes, (std::vector<std::size_t>{0, 1}));
     const auto hull = triangulate(plate.points, plate.segments);
     EXPECT_NEAR(covered_area(plate.points, hull.triangles), 100, 1e-12);
     // An open polygon encloses nothing. A seed in the region removes all of it and leaves only the hole.
