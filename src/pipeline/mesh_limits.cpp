@@ -1,6 +1,7 @@
 #include "pipeline/mesh_limits.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,9 @@
 namespace lamina::pipeline {
 
 namespace {
+
+// Measured: the processor time and the memory that the sizes and the decoupling take for each edge of the layer's border.
+constexpr double seconds_per_border_edge = 100e-6, bytes_per_border_edge = 8e3;
 
 /// Returns the number of triangles in the layer, as many as rows of cells between neighbouring rays have halves.
 double layer_triangles(const Layer& layer) {
@@ -19,10 +23,8 @@ double layer_triangles(const Layer& layer) {
 
 RunEstimate estimate_mesh(const RefineOptions& refine, const Layer& layer, const SizeField& size,
                           const FarField& far_field, const WorkCost& cost) {
-    // Measured: the processor time and the memory that the sizes and the decoupling take for each edge of the border,
-    // how much more time a triangle of the layer takes than another one, and how much regularization takes.
-    constexpr double seconds_per_border_edge = 100e-6, bytes_per_border_edge = 8e3,
-                     more_seconds_per_layer_triangle = 0.3e-6, seconds_per_regularized_triangle = 12e-6;
+    // Measured: how much more time a triangle of the layer takes than another one, and how much regularization takes.
+    constexpr double more_seconds_per_layer_triangle = 0.3e-6, seconds_per_regularized_triangle = 12e-6;
     const double in_layer = layer_triangles(layer);
     double border_edges = 0;
     for (const auto& border : layer.borders) border_edges += static_cast<double>(border.size());
@@ -36,6 +38,14 @@ RunEstimate estimate_mesh(const RefineOptions& refine, const Layer& layer, const
 }
 
 }  // namespace
+
+void require_surface_points_within(const CaseOptions& options, std::size_t elements, const WorkCost& cost) {
+    if (!options.surface.points) return;
+    const auto edges = static_cast<double>(elements) * static_cast<double>(*options.surface.points);
+    RunEstimate estimate = estimate_run(edges, cost, thread_count(), seconds_per_border_edge * edges);
+    estimate.memory_bytes += bytes_per_border_edge * edges;
+    require_within(options.limits, estimate, "surface_points", std::to_string(*options.surface.points));
+}
 
 void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
                             const Box& domain, const WorkCost& cost) {

@@ -13,6 +13,10 @@ constexpr WorkCost shared_cost(unsigned processes, bool in_memory) {
     return {40e6, 2.5 + (in_memory ? 24.0 : 0.0) / processes, 0.35e-6 / processes};
 }
 
+/// Throws LimitError where the number of edges that walls are to have asks for more than the limits allow: a triangle, and
+/// an edge of the layer's border, for each. It takes no time.
+void require_surface_points_within(const CaseOptions& options, std::size_t elements, const WorkCost& cost);
+
 /// Throws LimitError where a single option asks for far more triangles than the limits allow. It takes no time.
 void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
                             const Box& domain, const WorkCost& cost);

@@ -504,6 +504,7 @@ MadeMesh run(const Geometry& given, const CaseOptions& given_options, const Dest
 
     const ReferenceConditions conditions = reference_conditions(given_options.conditions, bounding_box(given));
     const CaseOptions options = with_tunnel_sizes(given_options, conditions.chord);
+    require_surface_points_within(options, given.elements.size(), destination.cost());
     LayerGrowth growth = layer_growth(options.layer, conditions);
     growth.fineness = options.fineness;
     std::optional<Flow> flow;

@@ -182,6 +182,9 @@ TEST(Limits, SingleOptionsAreRefusedByName) {
     options.sizing.far_size = 1e-3;
     EXPECT_EQ(refused_option(), "far_size");
     options.sizing.far_size.reset();
+    options.surface.points = 10'000'000;
+    EXPECT_EQ(refused_option(), "surface_points");
+    options.surface.points.reset();
     options.limits = {};
     options.limits.max_triangles = 1000;
     EXPECT_EQ(refused_option(), "layers");
