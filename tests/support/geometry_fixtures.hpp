@@ -67,8 +67,7 @@ inline const std::string z_column =
     "SAMPLE\n1 0 0\n.75 .04 0\n.5 .07 0\n.2 .06 0\n0 0 0\n.2 -.04 0\n.5 -.05 0\n.75 -.03 0\n1 0 0\n";
 inline const std::string clockwise = "SAMPLE\n1 0\n.75 -.03\n.5 -.05\n.2 -.04\n0 0\n.2 .06\n.5 .07\n.75 .04\n1 0\n";
 
-/// All files that hold the outline `loop`.
-/// Numbers as programs print lists of points, and with signs that only look like those of ASCII.
+// Numbers as programs print lists of points, and with signs that only look like those of ASCII.
 inline const std::string python_list =
     "[[1.0, 0.0],\n [0.75, 0.04],\n [0.5, 0.07],\n [0.2, 0.06],\n [0.0, 0.0],\n [0.2, -0.04],\n [0.5, -0.05],\n"
     " [0.75, -0.03],\n [1.0, 0.0]]\n";
@@ -102,6 +101,7 @@ inline const std::string latin1_spaces =
     "0.0\n.2\xA0\x96.04\n.5\xA0-.05\n.75\xA0-.03\n1.0\xA0"
     "0.0\n";
 
+/// All files that hold the outline `loop`.
 inline const std::vector<std::string> same_loop = {selig,
                                                    crlf,
                                                    old_mac,
