@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 #include <lamina/export.hpp>
@@ -22,10 +23,13 @@ LAMINA_EXPORT void parallel_for(std::size_t n, std::size_t grain,
                                 const std::function<void(std::size_t, std::size_t)>& f);
 
 /// Calls f(begin, end) for the blocks of parallel_for() and returns the results in the order of the blocks, in which
-/// callers combine them. Precondition: the result type is default-constructible.
+/// callers combine them. Precondition: the result type is default-constructible. It is not bool, whose vectors have many
+/// elements in one byte, which threads cannot write at the same time.
 template <class F>
 auto parallel_blocks(std::size_t n, std::size_t grain, F&& f) {
-    std::vector<decltype(f(n, n))> results((n + grain - 1) / grain);
+    using Result = decltype(f(n, n));
+    static_assert(!std::is_same_v<Result, bool>);
+    std::vector<Result> results((n + grain - 1) / grain);
     parallel_for(n, grain, [&](std::size_t begin, std::size_t end) { results[begin / grain] = f(begin, end); });
     return results;
 }

@@ -197,7 +197,7 @@ void order_triangles(const Tris& tris, std::size_t inside, const std::vector<Ind
 }
 
 bool is_delaunay_triangulation(const QueryIndex& index) {
-    const auto bad = core::parallel_blocks(index.tris.size(), query_grain, [&](std::size_t begin, std::size_t end) {
+    const auto is_bad = [&](std::size_t begin, std::size_t end) -> char {
         for (Index t = static_cast<Index>(begin); t < end; ++t) {
             const Tri& tri = index.tris[t];
             if (!index.is_inside(t) && !is_growing_ghost(tri)) return true;
@@ -210,8 +210,9 @@ bool is_delaunay_triangulation(const QueryIndex& index) {
             }
         }
         return false;
-    });
-    return std::find(bad.begin(), bad.end(), true) == bad.end();
+    };
+    const auto bad = core::parallel_blocks(index.tris.size(), query_grain, is_bad);
+    return std::find(bad.begin(), bad.end(), 1) == bad.end();
 }
 
 }  // namespace
