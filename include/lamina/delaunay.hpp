@@ -75,12 +75,14 @@ LAMINA_EXPORT void validate(const RefineOptions& options);
 /// The numbers of triangles that could not be refined as requested.
 struct RefineStats {
     /// Points that were not placed because a border would be too near that cannot be split; 0 if that left no triangle
-    /// beyond the bounds.
+    /// beyond the bounds but exempt ones.
     std::size_t refused = 0;
     std::size_t below_bound = 0;  ///< triangles that stayed below the angle bound
-    std::size_t exempt = 0;       ///< those of them at a corner below 60 degrees between two border edges
-    std::size_t oversized = 0;    ///< triangles that stayed above the size bound
-    bool stopped = false;         ///< whether refinement ended because max_points did not suffice
+    /// Those of them at a corner below 60 degrees between two border edges, or, where segments may be split, within
+    /// rounding of a segment.
+    std::size_t exempt = 0;
+    std::size_t oversized = 0;  ///< triangles that stayed above the size bound
+    bool stopped = false;       ///< whether refinement ended because max_points did not suffice
 
     /// Adds the numbers of another region.
     LAMINA_EXPORT RefineStats& operator+=(const RefineStats& other);
@@ -143,7 +145,8 @@ struct ConstrainedRefinement {
 /// degrees less twice the angle bound, and where they keep a triangle beyond the bounds. Segments that meet at less
 /// than 90 degrees are split on common circles round their vertex, whose radii are powers of two. Triangles in a corner
 /// where segments meet at less than 60 degrees, and those whose shortest edge joins two such segments, are exempt from
-/// the angle bound (stats.exempt). Without rounding, no other angle stays below it: stats.refused counts the triangles
+/// the angle bound (stats.exempt). So are those of a vertex closer to a segment than 1e-13 of its coordinates, and of two
+/// vertices closer to each other than 1e-15: nothing is split for their sake. Without rounding, no other angle stays below it: stats.refused counts the triangles
 /// that rounding, or split_segments = false, kept from being mended. Throws as the other refine() does. Source: J.
 /// Ruppert, J. Algorithms 18 (1995), section 3 and "corner lopping"; lenses: J. R. Shewchuk, Comput. Geom. 22 (2002);
 /// exempt triangles: G. Miller, S. Pav, N. Walkington, Int. J. Comput. Geom. Appl. 15 (2005).

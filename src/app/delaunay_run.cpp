@@ -90,6 +90,13 @@ void require_triangulation_within(const TriangleInput& input, const DelaunaySett
     if (progress) progress({"triangulation", result.estimate});
 }
 
+/// Returns whether the areas of triangles have a bound anywhere.
+bool bounds_areas(const TriangleInput& input, const DelaunaySettings& settings) {
+    return std::isfinite(settings.max_area) ||
+           std::any_of(input.regions.begin(), input.regions.end(),
+                       [](const TriangleRegion& region) { return region.max_area > 0; });
+}
+
 /// Throws LimitError where the refinement would exceed the limits, and records its size. Returns its cost.
 WorkCost require_refinement_within(const TriangleInput& input, const ConstrainedTriangulation& triangulation,
                                    const DelaunaySettings& settings, const SizeField& size,
@@ -128,7 +135,10 @@ ConstrainedRefinement refine_input(const TriangleInput& input, const Constrained
     const WorkCost cost = require_refinement_within(input, triangulation, settings, size, options, result);
     options.refine.max_points = allowed_points(settings.limits, cost, options.refine.max_points);
     if (progress) progress({"refinement", result.estimate});
-    return refine(input.points, triangulation, size, options);
+    ConstrainedRefinement mesh = refine(input.points, triangulation, size, options);
+    // The sizes that stand for no bound are finite, and flat triangles have circles that are larger.
+    if (!bounds_areas(input, settings)) mesh.stats.oversized = 0;
+    return mesh;
 }
 
 /// Returns whether refinement is needed. Regions without bounds need it as well, since it finds their triangles.

@@ -26,6 +26,8 @@ BorderLines::BorderLines(std::span<const Point> points, std::span<const Segment>
     for (auto i = static_cast<Index>(segments.size()); i < lines_.size(); ++i)
         by_ends_.emplace_back(undirected_key(lines_[i].a.value, lines_[i].b.value), i);
     std::sort(by_ends_.begin(), by_ends_.end());
+    for (const Segment& line : lines_)
+        unresolved_distances_.push_back(delaunay::unresolved_distance(points[line.a.index()], points[line.b.index()]));
     find_corners(points, tris);
 }
 

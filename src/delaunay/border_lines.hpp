@@ -11,6 +11,7 @@
 #include <lamina/delaunay.hpp>
 #include <lamina/point.hpp>
 
+#include "core/predicates.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -23,6 +24,16 @@ inline double magnitude(Point p) { return std::max(std::abs(p.x), std::abs(p.y))
 inline double shortest_edge(double magnitude, double extent) {
     constexpr double share_of_magnitude = 0x1p-40, share_of_extent = 0x1p-120;
     return std::max(share_of_magnitude * magnitude, share_of_extent * extent);
+}
+
+/// Returns the distance from the line a-b below which vertices on both sides cannot be told apart: a triangle between them
+/// that keeps an angle bound would have an edge on the line that is shorter than shortest_edge(), except near the origin.
+///
+///       .------v----------.       where segments cross within rounding, or by mistake: v lies 1e-17 above a-b
+///     a ------------------- b
+inline double unresolved_distance(Point a, Point b) {
+    constexpr double roundings = 1000;
+    return roundings * core::epsilon * std::max(magnitude(a), magnitude(b));
 }
 
 /// Two lines, u-v and u-w, that meet at less than 60 degrees. The triangles between them lie counter-clockwise from v
@@ -47,6 +58,8 @@ public:
         const Segment p = lines_[l], q = lines_[m];
         return p.a == q.a || p.a == q.b || p.b == q.a || p.b == q.b;
     }
+    /// Returns the unresolved_distance() from a line.
+    double unresolved_distance(Index line) const { return unresolved_distances_[line]; }
     /// Notes that the new vertex v splits a line.
     void add_vertex(Index v, Index line);
     /// Returns the number of vertices that split lines.
@@ -77,6 +90,7 @@ private:
     Index sharp_apex(std::span<const Point> points, Index a, Index b) const;
 
     std::vector<Segment> lines_;                            ///< the ends of each line
+    std::vector<double> unresolved_distances_;              ///< from each line
     std::vector<std::pair<std::uint64_t, Index>> by_ends_;  ///< undirected_key() of the ends and the line, sorted
     std::vector<Index> line_of_vertex_;                     ///< for each vertex; vertices behind the end split none
     std::size_t splits_ = 0;

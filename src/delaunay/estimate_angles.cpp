@@ -105,7 +105,7 @@ double ChannelSurvey::between(Place from, Place to, int depth) {
 }
 
 /// Returns the distance from a place on the edge to what lies opposite, but no less than the length to which refinement
-/// splits edges; infinite if the budget is spent.
+/// splits edges; infinite if the budget is spent, and where rounding hides the distance, since nothing is split there.
 double ChannelSurvey::distance_from(Point p) {
     double nearest = HUGE_VAL;
     entrances_ = {};
@@ -126,17 +126,15 @@ double ChannelSurvey::distance_from(Point p) {
                     {core::distance_to_segment(p, point(a), point(b)), tri.n[e].triangle(), tri.n[e].edge()});
         }
     }
+    if (nearest < unresolved_distance(point(ends_[0]), point(ends_[1]))) return HUGE_VAL;
     return std::max(nearest, shortest_edge(magnitude(p), length_));
 }
 
-/// Returns the distance from p to a constrained edge; infinite if that does not count. In a corner it does not count
-/// where it is so small that vertices on both sides cannot be told apart: refinement soon stops there.
+/// Returns the distance from p to a constrained edge; infinite if that is another side of a corner, and does not count.
 double ChannelSurvey::distance_to_border(Point p, Index a, Index b) const {
-    constexpr double min_roundings = 1000;
     const double d = core::distance_to_segment(p, point(a), point(b));
     if (!is_end(a) && !is_end(b)) return d;
-    const bool counts = is_end(a) ? faces_in_corner(p, a, b) : faces_in_corner(p, b, a);
-    return counts && d > min_roundings * core::epsilon * magnitude(p) ? d : HUGE_VAL;
+    return (is_end(a) ? faces_in_corner(p, a, b) : faces_in_corner(p, b, a)) ? d : HUGE_VAL;
 }
 
 /// Returns whether the edge from `corner`, an end of this edge, to `far` counts as opposite to the place p. In sharp

@@ -121,7 +121,7 @@ protected:
     /// Sets the number of refused points: those whose refusal left a triangle beyond the bounds. Smoothing may have
     /// mended what the others left.
     void count_refused(RefineStats& stats) const {
-        stats.refused = stats.below_bound == 0 && stats.oversized == 0 ? 0 : refused_;
+        stats.refused = stats.below_bound == stats.exempt && stats.oversized == 0 ? 0 : refused_;
     }
 
     bool is_narrow(double ab, double bc, double ca, double shortest, double area2) const {

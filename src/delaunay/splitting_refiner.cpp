@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/bounding_box.hpp"
+#include "core/segments.hpp"
 
 namespace lamina::delaunay {
 
@@ -94,8 +95,34 @@ bool SplittingRefiner::is_blocked(const CavityEdge& a, const CavityEdge& b) cons
     return encroaches({a.ax, a.ay}, {b.ax, b.ay}, a.aa, b.aa);
 }
 
+/// Returns the distance from a line below which no split helps; 0 where there is no line.
+double SplittingRefiner::unresolved_distance(Index line) const {
+    return line == no_index ? 0 : scale_ * lines_.unresolved_distance(line);
+}
+
+/// Returns whether a vertex is so near to the edge a-b of a line that no split helps.
+bool SplittingRefiner::is_within_rounding(Index a, Index b, Point p) const {
+    return core::distance_to_segment(p, points_[a], points_[b]) < unresolved_distance(lines_.line_of_edge(a, b));
+}
+
+/// Returns whether a triangle is so flat beside the lines that its edges are part of, and that its vertices split, that
+/// no split makes its angles larger.
+bool SplittingRefiner::is_within_rounding(const Tri& tri) const {
+    double unresolved = 0;
+    for (unsigned e = 0; e < 3; ++e) {
+        unresolved = std::max(unresolved, unresolved_distance(lines_.line_of_vertex(tri.v[e])));
+        if (tri.n[e].is_constrained())
+            unresolved =
+                std::max(unresolved, unresolved_distance(lines_.line_of_edge(tri.v[next(e)], tri.v[previous(e)])));
+    }
+    const TriangleShape s = shape_of(tri);
+    const double longest = std::max({s.squared[0], s.squared[1], s.squared[2]});
+    return s.area2 * s.area2 < unresolved * unresolved * longest;
+}
+
 bool SplittingRefiner::must_mend(Index t) const {
     const Tri& tri = tris_[t];
+    if (is_within_rounding(tri)) return false;
     const unsigned e = shape_of(tri).shortest();
     return !lines_.join_shells(points_, tri.v[next(e)], tri.v[previous(e)]);
 }
@@ -169,8 +196,9 @@ void SplittingRefiner::queue_edges(Index t) {
         const Index a = tri.v[next(e)], b = tri.v[previous(e)];
         if (is_frozen(a, b)) continue;
         const Point u = points_[a] - points_[tri.v[e]], v = points_[b] - points_[tri.v[e]];
-        if (encroaches(u, v, squared_length(u), squared_length(v)) || is_too_long(t, a, b))
-            long_or_encroached_.push_back({t, a, b});
+        const bool is_encroached =
+            encroaches(u, v, squared_length(u), squared_length(v)) && !is_within_rounding(a, b, points_[tri.v[e]]);
+        if (is_encroached || is_too_long(t, a, b)) long_or_encroached_.push_back({t, a, b});
     }
 }
 
@@ -263,6 +291,7 @@ Point SplittingRefiner::clip(Point inside, Point p) const {
 
 /// Splits the edges that keep the circumcentre p from mending triangle t, and queues t again if it is still there.
 void SplittingRefiner::give_up(Index t, Point p) {
+    if (is_within_rounding(tris_[t])) return;
     const QueuedTriangle entry{t, tris_[t].v[0]};
     p = clip(points_[tris_[t].v[0]], p);
     if (!(squared_length(p) < HUGE_VAL)) {
@@ -399,14 +428,16 @@ RefineStats SplittingRefiner::count_leftovers(double min_angle_deg) const {
     for (const Tri& tri : tris_) {
         const TriangleShape s = shape_of(tri);
         const unsigned e = s.shortest();
-        stats.oversized += is_oversized(tri, s);
+        const bool within_rounding = is_within_rounding(tri);
+        stats.oversized += !within_rounding && is_oversized(tri, s);
         const double shortest = s.squared[e] * (1 + rounding);
         if (!is_angle_below(sine * sine, s.squared[0], s.squared[1], s.squared[2], shortest, s.area2)) continue;
         ++stats.below_bound;
         const Point middle = (1.0 / 3) * (points_[tri.v[0]] + points_[tri.v[1]] + points_[tri.v[2]]);
+        const Index v = tri.v[next(e)], w = tri.v[previous(e)];
         stats.exempt +=
-            lines_.join_sharp_lines(points_, tri.v[next(e)], tri.v[previous(e)]) ||
-            std::any_of(tri.v, tri.v + 3, [&](Index v) { return lines_.in_sharp_corner(points_, v, middle); });
+            within_rounding || is_unresolved(points_[v], points_[w]) || lines_.join_sharp_lines(points_, v, w) ||
+            std::any_of(tri.v, tri.v + 3, [&](Index u) { return lines_.in_sharp_corner(points_, u, middle); });
     }
     count_refused(stats);
     stats.stopped = stopped();

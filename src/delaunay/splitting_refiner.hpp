@@ -89,6 +89,9 @@ private:
     bool is_frozen(Index v) const { return v >= frozen_begin_ && v < frozen_end_; }
     bool is_frozen(Index a, Index b) const { return !may_split_ || (is_frozen(a) && is_frozen(b)); }
     bool encroaches(Point a, Point b, double aa, double bb) const;
+    double unresolved_distance(Index line) const;
+    bool is_within_rounding(Index a, Index b, Point p) const;
+    bool is_within_rounding(const Tri& tri) const;
     bool is_too_long(Index t, Index a, Index b) const;
     Point division_point(Index t, Index a, Index b) const;
     double share_at_split(Index t, unsigned e) const;

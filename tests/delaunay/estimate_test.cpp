@@ -89,17 +89,25 @@ TEST(EstimateForAngles, IsFiniteWhereTheNumberIsHuge) {
     EXPECT_EQ(estimate(0, true).triangles(), 2);
 }
 
-TEST(EstimateForAngles, ChannelsAsNarrowAsRoundingAskForBillions) {
-    // Refinement goes on until edges are as short as it may split them, so such a run must not be let pass.
-    for (const double width : {1e-13, 1e-15, 1e-20, 1e-60}) {
+TEST(EstimateForAngles, NarrowChannelsAskForBillionsUntilRoundingHidesThem) {
+    // Refinement goes on until edges are as short as it may split them, so such a run must not be let pass. It splits
+    // nothing where vertices on both sides cannot be told apart.
+    for (const double width : {1e-12, 2e-13, 5e-14, 1e-15, 1e-20, 1e-60}) {
         for (const double slope : {0.0, 0.3, 1.0}) {
             const double w = slope > 0 ? std::max(width, 1e-15) : width;
             const PlanarGraph strip = loop({{0, 0}, {1, slope}, {1, slope + w}, {0, w}});
             const ConstrainedTriangulation coarse = triangulate(strip.points, strip.segments);
-            const RefinementEstimate estimate =
-                estimate_triangles(strip.points, coarse, SizeField(10), {.refine = {.min_angle_deg = 20}});
-            EXPECT_GT(estimate.least_by_angles, 1e9) << width << " " << slope;
+            const ConstrainedRefineOptions options{.refine = {.min_angle_deg = 20}};
+            const RefinementEstimate estimate = estimate_triangles(strip.points, coarse, SizeField(10), options);
             EXPECT_TRUE(std::isfinite(estimate.by_angles));
+            if (width > 1e-13) {
+                EXPECT_GT(estimate.least_by_angles, 1e9) << width << " " << slope;
+                continue;
+            }
+            EXPECT_LT(estimate.triangles(), 5000) << width << " " << slope;
+            const ConstrainedRefinement fine = refine(strip.points, coarse, SizeField(10), options);
+            EXPECT_LT(fine.triangles.size(), 1000u) << width << " " << slope;
+            EXPECT_EQ(fine.stats.exempt, fine.stats.below_bound);
         }
     }
     // In a corner of 1e-28 radians it ends at once.
