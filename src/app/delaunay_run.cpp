@@ -235,6 +235,7 @@ std::vector<Warning> find_unused_holes(const TriangleInput& input, const std::ve
     std::vector<Warning> warnings;
     Box box;
     for (const Point p : input.points) box.include(p);
+    warnings.reserve(idle_holes.size());
     for (const std::size_t i : idle_holes)
         warnings.push_back(unused_seed_warning("hole", i, input.holes[i],
                                                box.contains(input.holes[i])

@@ -213,7 +213,8 @@ std::string settled(const TemporaryFolder& folder, const std::vector<std::array<
     for (const auto& block : blocks) text += fmt::format("{:.8g}\n", fmt::join(block, " "));
     std::ofstream(folder / "blocks") << text;
     const std::string path = folder.path().string();
-    const std::string command = "cd '" + path + "' && sed -n '/^first=/p; /^settled() {/,/^}/p' c/Allrun > rule.sh && " +
+    const std::string command = "cd '" + path +
+                                "' && sed -n '/^first=/p; /^settled() {/,/^}/p' c/Allrun > rule.sh && " +
                                 "sh -c '. ./rule.sh; settled < blocks > said' 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0);
     return folder.read("said");
