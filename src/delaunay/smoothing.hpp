@@ -424,8 +424,11 @@ private:
         return false;
     }
 
-    /// Finds the triangles round a vertex, counter-clockwise. Returns false if the vertex may not move.
+    /// Finds the triangles round a vertex, counter-clockwise. Returns false if the vertex may not move, or has so many that
+    /// its moves would take a time that grows with their square: opposite narrow channels there are 1e5 round one vertex,
+    /// each of which asks for a move.
     bool find_star(Index t, unsigned corner) {
+        constexpr std::size_t most_triangles = 256;
         const Index first = t, v = tris_[t].v[corner];
         if (v < first_movable_) return false;
         star_.clear();
@@ -437,6 +440,7 @@ private:
             if (across.is_constrained()) return false;
             t = across.triangle();
             corner = next(across.edge());
+            if (star_.size() > most_triangles) return false;
         } while (t != first);
         return true;
     }
