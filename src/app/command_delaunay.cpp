@@ -148,9 +148,8 @@ std::string delaunay_summary(const DelaunayResult& result, const DelaunayRunFact
                                    result.output.triangles.size(), facts.smallest_angle_deg);
     if (stats.below_bound > 0)
         text += fmt::format(
-            "  {} triangles have an angle below the bound ({} of them in sharp corners of the input, or within "
-            "rounding "
-            "of a segment, where no triangulation can keep it)\n",
+            "  {} triangles have an angle below the bound ({} of them in sharp corners of the input, or "
+            "within rounding of a segment, where no triangulation can keep it)\n",
             stats.below_bound, stats.exempt);
     if (result.zero_length_segments > 0)
         text += fmt::format("  {} segments from a vertex to itself were left out\n", result.zero_length_segments);

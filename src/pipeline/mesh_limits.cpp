@@ -40,7 +40,7 @@ RunEstimate estimate_mesh(const RefineOptions& refine, const Layer& layer, const
 }  // namespace
 
 void require_surface_points_within(const CaseOptions& options, std::size_t elements, const WorkCost& cost) {
-    if (!options.surface.points) return;
+    if (!options.surface.points || options.surface.treatment == SurfaceTreatment::keep) return;
     const auto edges = static_cast<double>(elements) * static_cast<double>(*options.surface.points);
     RunEstimate estimate = estimate_run(edges, cost, thread_count(), seconds_per_border_edge * edges);
     estimate.memory_bytes += bytes_per_border_edge * edges;
