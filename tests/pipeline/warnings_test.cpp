@@ -183,8 +183,13 @@ TEST(Limits, SingleOptionsAreRefusedByName) {
     EXPECT_EQ(refused_option(), "far_size");
     options.sizing.far_size.reset();
     options.surface.points = 10'000'000;
-    EXPECT_EQ(refused_option(), "surface_points");
-    options.surface.points.reset();
+    for (const auto& [treatment, option] : {std::pair{SurfaceTreatment::keep, ""},  // has no use for the number
+                                            std::pair{SurfaceTreatment::resample, "surface_points"},
+                                            std::pair{SurfaceTreatment::automatic, "surface_points"}}) {
+        options.surface.treatment = treatment;
+        EXPECT_EQ(refused_option(), option);
+    }
+    options.surface = quick_options(20).surface;
     options.limits = {};
     options.limits.max_triangles = 1000;
     EXPECT_EQ(refused_option(), "layers");
