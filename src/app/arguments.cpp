@@ -1,6 +1,7 @@
 #include "app/arguments.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include <lamina/error.hpp>
@@ -78,6 +79,38 @@ void require_known_arguments(const CLI::App& app) {
     throw UsageError("unknown option " + extra + unknown_option_hint(app, extra) + help_hint(app));
 }
 
+/// Returns what an option takes, for messages: "no or yes" where it has choices, else what stands for it in the help.
+std::string values_of(const CLI::Option& option) {
+    std::string text = option.get_type_name();
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += std::strlen(" or "))
+        text.replace(at, 1, " or ");
+    return text;
+}
+
+/// Throws UsageError where an option that wants a value is followed by the name of an option of the same command, or by
+/// nothing. CLI11 would take that name for the value, and the next value for an input. Numbers such as -5, and - for
+/// standard streams, are no names. Arguments behind -- are not looked at.
+void require_values(const CLI::App& app, const std::vector<std::string>& arguments) {
+    const CLI::App* command = nullptr;
+    for (const CLI::App* each : app.get_subcommands({}))
+        if (each->get_name() == arguments.front()) command = each;
+    if (command == nullptr) return;
+    const auto option_named = [&](const std::string& word) -> const CLI::Option* {
+        return word.size() > 1 && word.starts_with("-") ? command->get_option_no_throw(word) : nullptr;
+    };
+    for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
+        const CLI::Option* option = option_named(arguments[i]);
+        if (option == nullptr || option->get_items_expected_min() == 0) continue;
+        const std::string following = i + 1 < arguments.size() ? arguments[i + 1] : "";
+        if (i + 1 < arguments.size() && option_named(following.substr(0, following.find('='))) == nullptr) {
+            ++i;  // the value
+            continue;
+        }
+        throw UsageError(arguments[i] + " wants a value: " + values_of(*option) + " (see " + app.get_name() + " " +
+                         command->get_name() + " --help)");
+    }
+}
+
 /// Makes empty values errors, such as those of shell variables that are not set: no option has an empty value.
 void refuse_empty_values(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({}))
@@ -101,6 +134,7 @@ void run_arguments(CLI::App& app, std::vector<std::string> arguments) {
     arguments = with_options_for_words(std::move(arguments));
     refuse_empty_values(app);
     require_known_command(app, arguments.front());
+    require_values(app, arguments);
     std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes
     try {
         app.parse(std::move(arguments));

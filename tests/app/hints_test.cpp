@@ -68,6 +68,36 @@ TEST(Hints, ValuesThatAreNoCounts) {
     expect_refused(folder, {"wing.dat", "-o", "a.su2"}, usage, "did you mean lamina mesh wing.dat?");
 }
 
+TEST(Hints, ValuesThatWereForgotten) {
+    const TemporaryFolder folder;
+    expect_refused(folder, {"mesh", "naca:0012", "--wake-layers", "-o", "w.vtu"}, usage,
+                   "--wake-layers wants a value: no or yes (see lamina mesh --help)");
+    expect_refused(folder, {"mesh", "naca:0012", "--growth", "--first-height=1e-5", "-o", "w.vtu"}, usage,
+                   "--growth wants a value: R");
+    expect_refused(folder, {"mesh", "naca:0012", "--layers", "--growth", "1.2", "-o", "w.vtu"}, usage,
+                   "--layers wants a value: N or auto");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "--quiet"}, usage, "-o wants a value: FILE");
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "w.vtu", "--alpha"}, usage, "--alpha wants a value");
+    expect_refused(folder, {"delaunay", "a.poly", "--min-angle", "--insert-crossings"}, usage,
+                   "--min-angle wants a value: DEG (see lamina delaunay --help)");
+    expect_refused(folder, {"batch", "naca:0012", "--jobs", "--output", "{name}.su2"}, usage,
+                   "--jobs wants a value: N");
+    expect_refused(folder, {"check", "a.su2", "--far", "--json"}, usage, "--far wants a value: NAME");
+    expect_refused(folder, {"plot", "a.su2", "-o", "--axes"}, usage, "-o wants a value");
+}
+
+TEST(Hints, ValuesThatBeginWithAHyphen) {
+    const TemporaryFolder folder;
+    const ProgramRun flow = run_lamina(folder, {"flow", "naca:0012", "--alpha", "-5"});
+    EXPECT_EQ(flow.exit_code, 0) << flow.err;
+    const ProgramRun mesh = run_lamina(
+        folder, {"mesh", "naca:0012:40", "--far-field", "3", "--alpha", "-5", "-o", "-", "--format", "su2", "--quiet"});
+    EXPECT_EQ(mesh.exit_code, 0) << mesh.err;
+    EXPECT_TRUE(mesh.out.starts_with("NDIME")) << mesh.out.substr(0, 80);
+    // A word that names no option is a value.
+    expect_refused(folder, {"mesh", "naca:0012", "--growth", "--zzzzz", "-o", "w.vtu"}, usage, "'--zzzzz'");
+}
+
 TEST(Hints, NumbersWithCommas) {
     const TemporaryFolder folder;
     expect_refused(folder, {"mesh", "naca:0012", "--alpha", "2,5", "-o", "a.su2"}, usage, "have a decimal point");
