@@ -218,8 +218,10 @@ void add_delaunay_command(CLI::App& app) {
     command->add_flag("--keep-border", arguments->settings.keep_border, "split no segment and no edge of the boundary");
     command->add_flag("--keep-hull", arguments->settings.keep_hull,
                       "keep the triangles of the convex hull that lie outside the segments");
-    command->add_flag("--insert-crossings", arguments->settings.insert_crossings,
-                      "add a vertex where segments cross; else this is an error");
+    command->add_flag(
+        "--insert-crossings", arguments->settings.insert_crossings,
+        "add a vertex where segments cross, which is an error otherwise, and lead segments through vertices "
+        "that they miss by rounding alone");
     add_table_option(*command, case_option_table(), "threads", arguments->threads);
     add_table_option(*command, case_option_table(), "max-triangles", arguments->max_triangles);
     add_table_option(*command, case_option_table(), "max-memory", arguments->max_memory);

@@ -8,6 +8,7 @@
 
 #include "core/arguments.hpp"
 #include "core/parallel.hpp"
+#include "delaunay/beside_edges.hpp"
 #include "delaunay/constrained_pieces.hpp"
 #include "delaunay/insert_segments.hpp"
 #include "delaunay/planarize.hpp"
@@ -142,7 +143,8 @@ PlanarSegments planarize_merged(const MergedInput& input) {
 /// Triangulates points and segments that may cross. `steiner_points` receives the crossing points.
 TriangulatedPieces triangulate_crossing(const MergedInput& input, std::vector<Point>& steiner_points) {
     // Most segments do not cross after all, and the insertion of those is quicker than the search for crossings.
-    if (auto planar = try_planar(input)) return std::move(*planar);
+    if (auto planar = try_planar(input); planar && !may_pass_beside_vertex(input.points, input.segments, *planar))
+        return std::move(*planar);
     PlanarSegments planar = planarize_merged(input);
     steiner_points = std::move(planar.steiner_points);
     std::vector<Point> all(input.points.begin(), input.points.end());

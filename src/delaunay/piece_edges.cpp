@@ -60,11 +60,14 @@ PieceEdges edges_of(std::span<const Point> points, std::span<const SegmentPiece>
     return result;
 }
 
-std::vector<Box> PieceEdgeTree::sorted_boxes(std::span<const Point> points, const std::vector<PieceEdge>& edges) {
+std::vector<Box> PieceEdgeTree::sorted_boxes(std::span<const Point> points, const std::vector<PieceEdge>& edges,
+                                             std::span<const double> margins) {
     std::vector<Point> centers;
     centers.reserve(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         boxes_[i] = core::bounding_box(points[edges[i].a], points[edges[i].b]);
+        const Point margin{margins[i], margins[i]};
+        boxes_[i] = {boxes_[i].lower - margin, boxes_[i].upper + margin};
         centers.push_back(boxes_[i].center());
     }
     std::iota(order_.begin(), order_.end(), std::size_t{0});

@@ -36,11 +36,12 @@ struct PieceEdges {
 };
 PieceEdges edges_of(std::span<const Point> points, std::span<const SegmentPiece> pieces);
 
-/// Finds edges by their bounding boxes.
+/// Finds edges by their bounding boxes, each of which is wider than its edge by a margin on all sides.
 class PieceEdgeTree {
 public:
-    PieceEdgeTree(std::span<const Point> points, const std::vector<PieceEdge>& edges)
-        : boxes_(edges.size()), order_(edges.size()), tree_(sorted_boxes(points, edges)) {}
+    /// Precondition: there is a margin for each edge.
+    PieceEdgeTree(std::span<const Point> points, const std::vector<PieceEdge>& edges, std::span<const double> margins)
+        : boxes_(edges.size()), order_(edges.size()), tree_(sorted_boxes(points, edges, margins)) {}
 
     const Box& box(std::size_t edge) const { return boxes_[edge]; }
     /// Calls visit(edge) for each edge whose box overlaps this one.
@@ -50,7 +51,8 @@ public:
     }
 
 private:
-    std::vector<Box> sorted_boxes(std::span<const Point> points, const std::vector<PieceEdge>& edges);
+    std::vector<Box> sorted_boxes(std::span<const Point> points, const std::vector<PieceEdge>& edges,
+                                  std::span<const double> margins);
 
     std::vector<Box> boxes_;
     std::vector<std::size_t> order_;  ///< the edges in the order of the tree's items

@@ -13,6 +13,10 @@
 //       /   \         cb is at least ab; say ac >= ab. If d does not serve either, then ad >= ab (for bd >= ab would
 //      a     d        give ac + bd >= 2 ab). Then bd < cd and cb < cd, so that b serves c-d.
 //
+// Where nothing crosses any more, pieces are led through vertices that they pass within rounding. What lies between is a
+// sliver that no refinement can mend, and its vertex is a crossing that was rounded, or lies on the segment but for
+// rounding. Pieces bend by less than the tolerance, and where they cross others because of that the rounds go on.
+//
 // Why this ends: vertices are added only at a distance from all others, so there are finitely many. Between two
 // additions each round replaces pieces by strictly shorter ones, whose lengths come from a finite set.
 // Sources: J. D. Hobby, Practical segment intersection with finite precision output, Comput. Geom. 13 (1999); D.
@@ -30,6 +34,7 @@
 #include <lamina/predicates.hpp>
 
 #include "core/arguments.hpp"
+#include "core/bounding_box.hpp"
 #include "core/predicates.hpp"
 #include "core/segments.hpp"
 #include "core/text.hpp"
@@ -47,6 +52,13 @@ constexpr int max_planarize_rounds = 1000;
 constexpr double tolerance_roundings = 8;
 constexpr double max_bend_roundings = 32;
 
+/// Edges are led through vertices beside them that stand further from both ends than this many tolerances, so that they
+/// turn by less than 30 degrees there: nearer to an end, it is two vertices that rounding hardly tells apart.
+constexpr double end_tolerances = 4;
+/// Such vertices stand within this many tolerances of the whole segment. Edges that are bent already may so bend a
+/// little more, and max_bend() leaves room.
+constexpr double beside_tolerances = 2;
+
 struct Lexicographic {
     bool operator()(Point a, Point b) const { return lexicographically_less(a, b); }
 };
@@ -56,6 +68,12 @@ struct EdgeCut {
     std::size_t edge;
     Index vertex;
     friend bool operator==(const EdgeCut&, const EdgeCut&) = default;
+};
+
+/// The vertices that divide edges.
+struct EdgeVertices {
+    std::vector<EdgeCut> inside;  ///< those exactly on them
+    std::vector<EdgeCut> beside;  ///< those that they pass within rounding
 };
 
 /// Two edges p-q and r-s that cross, and their rounded crossing. p is lexicographically smaller than q, r than s, and
@@ -86,14 +104,21 @@ public:
     PlanarSegments run() {
         for (int round = 0; round < max_planarize_rounds; ++round) {
             edges_ = edges_of(points_, pieces_);
-            const PieceEdgeTree tree(points_, edges_.edges);
-            std::vector<EdgeCut> cuts = vertices_on_edges(tree);
+            set_tolerances();
+            const PieceEdgeTree tree(points_, edges_.edges, tolerances_);
+            EdgeVertices vertices = vertices_of_edges(tree);
+            std::vector<EdgeCut> cuts = std::move(vertices.inside);
             if (cuts.empty()) {
                 const std::vector<EdgeCrossing> crossings = find_crossings(tree);
-                if (crossings.empty()) return result();
-                cuts = cuts_at_crossings(crossings);
-                if (cuts.empty()) fail(crossings.front());
-                last_ = crossings.front();
+                if (!crossings.empty()) {
+                    cuts = cuts_at_crossings(crossings);
+                    if (cuts.empty()) fail(crossings.front());
+                    last_ = crossings.front();
+                } else if (vertices.beside.empty() || round + 1 == max_planarize_rounds) {
+                    return result();
+                } else {
+                    cuts = std::move(vertices.beside);
+                }
             }
             split_pieces(std::move(cuts));
         }
@@ -101,7 +126,9 @@ public:
     }
 
 private:
-    std::vector<EdgeCut> vertices_on_edges(const PieceEdgeTree& tree) const;
+    void set_tolerances();
+    bool passes_beside(std::size_t edge, Index v) const;
+    EdgeVertices vertices_of_edges(const PieceEdgeTree& tree) const;
     std::vector<EdgeCrossing> find_crossings(const PieceEdgeTree& tree) const;
     std::vector<EdgeCut> cuts_at_crossings(const std::vector<EdgeCrossing>& crossings);
     Index meeting_vertex(const EdgeCrossing& crossing);
@@ -128,12 +155,7 @@ private:
         const auto [a, b] = ends_of(segment);
         return core::distance_to_segment(p, a, b);
     }
-    /// Returns the smallest tolerance of the segments along an edge.
-    double edge_tolerance(std::size_t edge) const {
-        double smallest = HUGE_VAL;
-        for (const Index parent : edges_.parents_of(edge)) smallest = std::min(smallest, tolerance(parent));
-        return smallest;
-    }
+    double edge_tolerance(std::size_t edge) const { return tolerances_[edge]; }
     bool is_end(std::size_t edge, Index v) const { return v == edges_.edges[edge].a || v == edges_.edges[edge].b; }
     /// Returns whether an edge ends at v or may be led through it.
     bool fits(std::size_t edge, Index v) const {
@@ -167,22 +189,52 @@ private:
     std::vector<Point> points_;  ///< of the input, then the crossings
     std::vector<SegmentPiece> pieces_;
     PieceEdges edges_;                                 ///< of the pieces of this round
+    std::vector<double> tolerances_;                   ///< for each edge the smallest of the segments along it
     std::map<Point, Index, Lexicographic> vertex_at_;  ///< all points, from the first crossing on
     EdgeCrossing last_{};
 };
 
-/// Returns the vertices that lie inside edges, exactly.
-std::vector<EdgeCut> Planarizer::vertices_on_edges(const PieceEdgeTree& tree) const {
-    std::vector<EdgeCut> cuts;
+void Planarizer::set_tolerances() {
+    tolerances_.clear();
+    tolerances_.reserve(edges_.edges.size());
+    for (std::size_t e = 0; e < edges_.edges.size(); ++e) {
+        double smallest = HUGE_VAL;
+        for (const Index parent : edges_.parents_of(e)) smallest = std::min(smallest, tolerance(parent));
+        tolerances_.push_back(smallest);
+    }
+}
+
+/// Returns whether an edge is to be led through v, which does not lie on it, because it passes v within rounding.
+bool Planarizer::passes_beside(std::size_t edge, Index v) const {
+    const auto [a, b] = edges_.edges[edge];
+    const Point along = points_[b] - points_[a], to_v = points_[v] - points_[a];
+    const double reach = tolerances_[edge], length = std::sqrt(squared_length(along));
+    if (!(std::abs(cross(along, to_v)) <= reach * length)) return false;
+    const double at = dot(to_v, along) / length;
+    if (!(at > end_tolerances * reach) || !(length - at > end_tolerances * reach)) return false;
+    if (!shortens(points_[a], points_[b], points_[v])) return false;
+    const auto parents = edges_.parents_of(edge);
+    return std::all_of(parents.begin(), parents.end(),
+                       [&](Index i) { return distance_from(i, points_[v]) <= beside_tolerances * tolerance(i); });
+}
+
+/// Returns the vertices that lie inside edges, exactly, and those that edges pass within rounding.
+EdgeVertices Planarizer::vertices_of_edges(const PieceEdgeTree& tree) const {
+    EdgeVertices found;
     for (Index v = 0; v < points_.size(); ++v) {
         const Point p = points_[v];
-        // A vertex on the line and in the box lies on the edge.
         tree.overlaps({p, p}, [&](std::size_t e) {
+            if (is_end(e, v)) return;
             const auto [a, b] = edges_.edges[e];
-            if (v != a && v != b && core::inline_orient2d(points_[a], points_[b], p) == 0) cuts.push_back({e, v});
+            if (core::inline_orient2d(points_[a], points_[b], p) != 0) {
+                if (passes_beside(e, v)) found.beside.push_back({e, v});
+            } else if (core::bounding_box(points_[a], points_[b]).overlaps({p, p})) {
+                // A vertex on the line and in the box lies on the edge.
+                found.inside.push_back({e, v});
+            }
         });
     }
-    return cuts;
+    return found;
 }
 
 /// Returns all crossings of edges, sorted by their points and then by the ends of the edges.
@@ -404,5 +456,10 @@ PlanarSegments planarize(std::span<const Point> points, std::span<const Segment>
 }
 
 double max_bend(Point a, Point b) { return roundings_of(a, b, max_bend_roundings); }
+
+PassingDistances passing_distances(Point a, Point b) {
+    const double tolerance = roundings_of(a, b, tolerance_roundings);
+    return {tolerance, end_tolerances * tolerance};
+}
 
 }  // namespace lamina::delaunay

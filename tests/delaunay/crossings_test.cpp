@@ -194,6 +194,23 @@ void expect_resolved(const CrossingCase& c, std::uint64_t seed) {
     expect_valid(with_crossings(c, t.steiner_points), t.triangles, t.segments);
 }
 
+/// Returns the number of vertices that pieces pass within half the distance at which they are led through vertices.
+std::size_t passed_vertices(const CrossingCase& c, const PlanarSegments& planar) {
+    const std::vector<Point> all = with_crossings(c, planar.steiner_points);
+    std::size_t passed = 0;
+    for (const SegmentPiece& piece : planar.pieces) {
+        const Segment whole = c.segments[piece.parent];
+        const auto [from_edge, from_ends] =
+            delaunay::passing_distances(c.points[whole.a.index()], c.points[whole.b.index()]);
+        const Point a = all[piece.segment.a.index()], b = all[piece.segment.b.index()];
+        for (const Point p : all)
+            passed += p != a && p != b && core::distance_to_segment(p, a, b) < 0.5 * from_edge &&
+                      dot(p - a, b - a) > 2 * from_ends * distance(a, b) &&
+                      dot(p - b, a - b) > 2 * from_ends * distance(a, b);
+    }
+    return passed;
+}
+
 TEST(Crossings, RandomInputsBecomePlanar) {
     // The environment may ask for more inputs.
     const char* asked = std::getenv("LAMINA_CROSSING_INPUTS");
@@ -221,6 +238,61 @@ TEST(Crossings, StarsNearlyThroughOnePointBecomePlanar) {
                 const PlanarSegments planar = delaunay::planarize(c.points, c.segments);
                 expect_planar(c, planar);
             }
+}
+
+/// Returns n segments between the points of a lattice whose coordinates are rounded multiples of a step.
+CrossingCase between_lattice_points(int n, double step, double offset, Random& random) {
+    CrossingCase c;
+    while (static_cast<int>(c.segments.size()) < n) {
+        const auto coordinate = [&] { return offset + static_cast<double>(random.below(20)) * step; };
+        const double ax = coordinate(), ay = coordinate(), bx = coordinate(), by = coordinate();
+        if (ax != bx || ay != by) c.add({ax, ay}, {bx, by});
+    }
+    return c;
+}
+
+// Points of a lattice lie within rounding of many lines between others, and so do crossings.
+TEST(Crossings, SegmentsPassNoVertexWithinRounding) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const double steps[] = {0.1, 0.01, 1.0 / 7, 0.3};
+        const double offset = seed % 3 == 0 ? 1000 : 0;
+        const CrossingCase c = between_lattice_points(3 + static_cast<int>(seed), steps[seed % 4], offset, random);
+        const PlanarSegments planar = delaunay::planarize(c.points, c.segments);
+        EXPECT_EQ(passed_vertices(c, planar), 0u);
+        expect_resolved(c, seed);
+    }
+}
+
+// Nothing crosses here, so no search for crossings is needed before the vertex is found.
+TEST(Crossings, ASegmentIsLedThroughAVertexThatItPassesWithoutCrossing) {
+    CrossingCase c;
+    c.add({0, 0}, {0.9, 0.3});
+    c.add({0.9, 0.3}, {0.5, 1});
+    c.add({0.5, 1}, {0, 0});
+    c.add({0.3, 0.1}, {0.5, 1});  // begins 1e-17 above the first one
+    ASSERT_GT(orient2d(c.points[0], c.points[1], c.points[3]), 0);
+    const ConstrainedTriangulation t =
+        triangulate(c.points, c.segments, {.keep = KeptRegion::inside_segments, .crossings = Crossings::insert});
+    EXPECT_EQ(t.segments.size(), 5u);
+    EXPECT_EQ(t.triangles.size(), 2u);
+    EXPECT_TRUE(t.steiner_points.empty());
+    EXPECT_EQ(triangulate(c.points, c.segments).segments.size(), 4u) << "nobody asked for it";
+
+    // Further away than rounding explains nothing changes.
+    c.points[3].y += 1e-14;
+    EXPECT_EQ(triangulate(c.points, c.segments, {.crossings = Crossings::insert}).segments.size(), 4u);
+}
+
+// The triangle at the segment a-b has the corner (0.5, 3e-15), which is far enough from it, and hides v: (0.05, 8e-16).
+TEST(Crossings, AVertexBehindANeedleIsFound) {
+    CrossingCase c;
+    c.add({0, 0}, {1, 0});
+    c.add({0.05, 8e-16}, {0.05, 1});
+    c.add({0.5, 3e-15}, {0.5, 1});
+    const ConstrainedTriangulation t = triangulate(c.points, c.segments, {.crossings = Crossings::insert});
+    EXPECT_EQ(t.segments.size(), 4u);
 }
 
 }  // namespace

@@ -157,6 +157,26 @@ TEST(RefineConstrained, RandomSegmentsTerminate) {
     }
 }
 
+// Crossings and points of the lattice lie within rounding of other segments. Slivers between kept angles below the bound.
+TEST(RefineConstrained, AnglesHoldBesideVerticesThatSegmentsMissByRounding) {
+    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        PlanarGraph graph;
+        graph.add_loop({{-3, -3}, {6, -3}, {6, 6}, {-3, 6}});
+        for (int i = 0; i < 400; ++i) graph.points.push_back({(i % 20) / 7.0, (i / 20) / (seed % 2 == 0 ? 7.0 : 10.0)});
+        for (int i = 0; i < 25; ++i) {
+            const std::size_t a = 4 + random.below(400), b = 4 + random.below(400);
+            if (a != b) graph.segments.push_back({VertexId{a}, VertexId{b}});
+        }
+        const ConstrainedTriangulation t = triangulate(
+            graph.points, graph.segments, {.keep = KeptRegion::inside_segments, .crossings = Crossings::insert});
+        const ConstrainedRefinement mesh = refine(graph.points, t, SizeField(100), {.refine = {.min_angle_deg = 20}});
+        EXPECT_EQ(mesh.stats.below_bound, mesh.stats.exempt);
+        EXPECT_EQ(mesh.stats.refused, 0u);
+    }
+}
+
 TEST(RefineConstrained, LatticesLeaveRoomForIsolatedVertices) {
     // Lattices used to ignore vertices that lie on no segment: one of them left an angle of 3.96 degrees, a hundred
     // left 0.47.
