@@ -1,5 +1,7 @@
 // Stage "close the border": the fronts are divided, and all points of the layer placed. Source: J. K. Pardue, thesis
 // (2015), chapter 3.
+#include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include <lamina/layers.hpp>
@@ -17,9 +19,14 @@ namespace {
 
 using FrontCorners = std::vector<std::vector<FrontCorner>>;
 
-/// Divides the fronts through these corners. least_requests: as for divide_borders().
+/// The top of a cell that leans by more than it is wide stays whole up to this many times its target: up to where its
+/// halves would be as much too short as it is too long.
+constexpr double whole_top_of_leaning_cell = std::numbers::sqrt2;
+
+/// Divides the fronts through these corners. least_requests, whole_up_to: as for divide_borders().
 BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corners, const BorderOptions& options,
-                             std::span<const std::vector<double>> least_requests = {}) {
+                             std::span<const std::vector<double>> least_requests,
+                             std::span<const std::vector<double>> whole_up_to) {
     std::vector<std::vector<Point>> fronts(corners.size()), walls(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e) {
         for (const FrontCorner& corner : corners[e]) fronts[e].push_back(rays.tip(corner.ray));
@@ -27,7 +34,29 @@ BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corner
             if (const Point origin = rays.set.lines[i].origin; walls[e].empty() || walls[e].back() != origin)
                 walls[e].push_back(origin);
     }
-    return divide_borders(fronts, walls, options, least_requests);
+    return divide_borders(fronts, walls, options, least_requests, whole_up_to);
+}
+
+/// Returns whether the cell below the edge between two corners leans by more than it is wide: seen along its normals,
+/// the edge and that between its lower corners do not overlap. Triangles below parts of the edge would have their
+/// middles farther to the side than the parts are long, which makes skewed faces (docs/decisions/0060).
+bool leans_by_its_width(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b) {
+    if (a.layers == 0 || b.layers == 0) return false;
+    const Point tip_a = rays.tip(a.ray), tip_b = rays.tip(b.ray), edge = tip_b - tip_a;
+    const double along_a = dot(tip_a - rays.point(a.ray, a.layers - 1), edge);
+    const double along_b = dot(tip_b - rays.point(b.ray, b.layers - 1), edge);
+    return std::min(along_a, along_b) > squared_length(edge) || std::max(along_a, along_b) < -squared_length(edge);
+}
+
+/// Returns what divide_borders() needs to leave the tops of leaning cells whole.
+std::vector<std::vector<double>> whole_tops(const LayeredRays& rays, const FrontCorners& corners) {
+    std::vector<std::vector<double>> whole_up_to(corners.size());
+    for (std::size_t e = 0; e < corners.size(); ++e)
+        for (std::size_t k = 0; k < corners[e].size(); ++k) {
+            const bool leans = leans_by_its_width(rays, corners[e][k], corners[e][(k + 1) % corners[e].size()]);
+            whole_up_to[e].push_back(leans ? whole_top_of_leaning_cell : target_slack);
+        }
+    return whole_up_to;
 }
 
 /// Returns the edge of the wall below an edge of a front: that between the origins of the rays at its ends.
@@ -62,7 +91,7 @@ std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& op
             const auto [a, b] = wall_below(rays, corners[e], k);
             least_requests[e].push_back(distance(a, b));
         }
-    const BorderDivision division = divide_fronts(layered, corners, options, least_requests);
+    const BorderDivision division = divide_fronts(layered, corners, options, least_requests, {});
     std::vector<WallSpacing> spacings;
     for (std::size_t e = 0; e < corners.size(); ++e) {
         if (!rays.resampled[e]) continue;
@@ -80,7 +109,8 @@ Layer close_border(const Rays& rays, const BorderOptions& options) {
     validate(options);
     const LayeredRays layered = layered_rays(rays);
     const FrontCorners corners = front_corners(layered);
-    Layer layer = build_layer(rays, corners, divide_fronts(layered, corners, options));
+    const std::vector<std::vector<double>> whole_up_to = whole_tops(layered, corners);
+    Layer layer = build_layer(rays, corners, divide_fronts(layered, corners, options, {}, whole_up_to));
     if (rays.enabled) layer.coverage = layer_coverage(rays.set, rays.heights, rays.counts);
     layer.growth = rays.growth;
     layer.edges = layer_edges(layer);

@@ -144,13 +144,16 @@ private:
         }
     }
 
-    /// Adds the cells between two chains. Where they may be whole, and the top is divided, the triangle on this edge of
-    /// the lower chain may be joined with one beside it to a cell of layer n.
+    /// Adds the cells between two chains. Where they may be whole, and the top is divided, the triangle on this edge
+    /// of the lower chain may be joined with one beside it to a cell of layer n. `side`: where the lower chain goes up
+    /// along a ray, that edge of it, if the cell beyond is known.
     void add_divided_cell(std::span<const VertexId> lower, std::span<const VertexId> top,
-                          const std::array<VertexId, 2>& edge, std::uint32_t n) {
+                          const std::array<VertexId, 2>& edge, std::uint32_t n,
+                          const std::optional<CellSide>& side = {}) {
         const std::size_t begin = cells_.triangles.size();
         const bool is_strip = add_strip(lower, top);
         if (!is_strip || form_ != GridCells::whole || top.size() == 2 || edge[0] == edge[1]) return;
+        if (side) turn_from_side(layer_.points, lower, edge, *side, first_leads_, begin, cells_.triangles);
         const std::optional<Quad> quad =
             join_on_lower_edge(layer_.points, edge[0], edge[1], first_leads_, begin, cells_.triangles);
         if (!quad) return;
@@ -186,7 +189,20 @@ private:
         if (second.vertex(common - 1) != corners_.back()) corners_.push_back(second.vertex(common - 1));
         if (second.layers > common) corners_.push_back(second.vertex(common));
         const std::vector<VertexId> lower = corners_;
-        add_divided_cell(lower, column.top, {first.vertex(common - 1), second.vertex(common - 1)}, common);
+        const bool first_is_higher = first.layers > common;
+        const std::optional<CellSide> side =
+            first_is_higher ? side_towards(first, column.before, common) : side_towards(second, column.after, common);
+        add_divided_cell(lower, column.top, {first.vertex(common - 1), second.vertex(common - 1)}, common, side);
+    }
+
+    /// Returns the side along layer n of a ray, if the cell of that layer towards the ray `beyond` has no divided top:
+    /// if both rays have a layer more.
+    std::optional<CellSide> side_towards(const Ray& ray, const Ray& beyond, std::uint32_t n) const {
+        if (std::min(ray.layers, beyond.layers) <= n) return std::nullopt;
+        const VertexId a = ray.vertex(n - 1), b = ray.vertex(n), c = beyond.vertex(n), d = beyond.vertex(n - 1);
+        const double abc = cross(at(b) - at(a), at(c) - at(a)), acd = cross(at(c) - at(a), at(d) - at(a));
+        const Point sum = abc * (at(a) + at(b) + at(c)) + acd * (at(a) + at(c) + at(d));
+        return CellSide{a, b, 1 / (3 * (abc + acd)) * sum};
     }
 
     /// Adds the lowest cell of a column beside an empty one. The border divides its sides, too.

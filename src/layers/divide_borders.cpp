@@ -15,11 +15,15 @@ namespace lamina::layers {
 
 namespace {
 
-std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges, const BorderOptions& options) {
+std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges, const BorderOptions& options,
+                                             std::span<const std::vector<double>> whole_up_to) {
     const TargetLength target(edges, options);
+    std::vector<double> slacks;
+    for (const std::vector<double>& front : whole_up_to) slacks.insert(slacks.end(), front.begin(), front.end());
+    slacks.resize(edges.size(), target_slack);
     std::vector<EdgeDivision> divisions;
     divisions.reserve(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) divisions.emplace_back(edges[i].length, target.along(i));
+    for (std::size_t i = 0; i < edges.size(); ++i) divisions.emplace_back(edges[i].length, target.along(i), slacks[i]);
     balance_divisions(edges, options.max_ratio, divisions);
     return divisions;
 }
@@ -40,9 +44,10 @@ std::vector<Point> division_points(const PolygonEdge& edge, const EdgeDivision& 
 }  // namespace
 
 BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::span<const std::vector<Point>> walls,
-                              const BorderOptions& options, std::span<const std::vector<double>> least_requests) {
+                              const BorderOptions& options, std::span<const std::vector<double>> least_requests,
+                              std::span<const std::vector<double>> whole_up_to) {
     const std::vector<PolygonEdge> edges = polygon_edges(fronts, least_requests);
-    const std::vector<EdgeDivision> divisions = balanced_divisions(edges, options);
+    const std::vector<EdgeDivision> divisions = balanced_divisions(edges, options, whole_up_to);
     std::vector<std::vector<Point>> points(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) points[i] = division_points(edges[i], divisions[i]);
     undo_crossings(edges, polygon_edges(walls), points);

@@ -13,11 +13,12 @@ constexpr std::size_t max_refinement = 6;
 
 }  // namespace
 
-EdgeDivision::EdgeDivision(double length, std::vector<TargetInterval> target)
+EdgeDivision::EdgeDivision(double length, std::vector<TargetInterval> target, double whole_up_to)
     : length_(length), target_(std::move(target)) {
     scale_targets(1, 1);
     excess_ = total_;
-    min_parts_ = static_cast<std::size_t>(std::max(1.0, std::ceil(total_ / target_slack)));
+    const bool whole = total_ <= std::max(whole_up_to, target_slack);
+    min_parts_ = whole ? 1 : static_cast<std::size_t>(std::ceil(total_ / target_slack));
     parts_ = min_parts_;
 }
 

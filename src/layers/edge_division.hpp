@@ -16,8 +16,9 @@ namespace lamina::layers {
 class EdgeDivision {
 public:
     EdgeDivision() = default;
-    /// target: TargetLength::along() of the edge.
-    EdgeDivision(double length, std::vector<TargetInterval> target);
+    /// target: TargetLength::along() of the edge. whole_up_to: the edge may be this many times as long as its target
+    /// and still stay whole.
+    EdgeDivision(double length, std::vector<TargetInterval> target, double whole_up_to = target_slack);
 
     /// Returns the length of the edge over the target length along it.
     double excess() const { return excess_; }

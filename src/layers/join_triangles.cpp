@@ -7,10 +7,14 @@
 //     |/   \|            |/    |
 //     d-----a            d-----a
 //
+// At a step of the front, a side of the cell has two edges. By its angles the best triangle on the lower one may have
+// its middle far below that of the edge, as the long cell beyond the side has, which makes a skewed face. Then one
+// diagonal is turned (docs/decisions/0060).
 #include "layers/join_triangles.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/predicates.hpp"
 
@@ -20,8 +24,23 @@ namespace {
 
 /// Costs closer than this, relatively, count as equal.
 constexpr double rounding = 1e-6;
+/// A side may be skewed by this before a diagonal is turned. It costs as much as a face inside the cell that is off a
+/// right angle by 45 degrees then.
+constexpr double most_skewness = 0.7;
 
 bool has_corner(const Triangle& t, VertexId v) { return t.v[0] == v || t.v[1] == v || t.v[2] == v; }
+
+/// Returns whether a triangle of a strip stands on an edge of the lower chain. Its second corner is on the upper one.
+bool stands_on_lower(const Triangle& t, std::span<const VertexId> lower) {
+    return std::find(lower.begin(), lower.end(), t.v[2]) != lower.end();
+}
+
+/// Returns the two triangles, successive ones of a strip that stand on edges of different chains, with the other
+/// diagonal between them.
+std::array<Triangle, 2> turned(const Triangle& t, const Triangle& next, bool first_stands_on_lower) {
+    if (first_stands_on_lower) return {{{{t.v[0], t.v[1], next.v[2]}}, {{t.v[0], next.v[2], t.v[2]}}}};
+    return {{{{t.v[0], t.v[1], next.v[2]}}, {{next.v[2], t.v[1], t.v[2]}}}};
+}
 
 /// Returns the quadrilateral of two triangles that share an edge, counter-clockwise from `a` on.
 Quad joined(const Triangle& t, const Triangle& other, VertexId a) {
@@ -45,6 +64,18 @@ public:
             if (!(core::inline_orient2d(at(quad.v[k]), at(quad.v[(k + 1) % 4]), at(quad.v[(k + 2) % 4])) > 0))
                 return false;
         return true;
+    }
+
+    /// Returns the squared skewness of a side of the cell: of the distance from its middle to the line between the
+    /// centroids of both cells, along the side and over half of its length. `first` as in worst_face().
+    double skewness(const CellSide& side, std::size_t first) const {
+        std::size_t t = 0;
+        while (!has_corner(triangles_[t], side.lower) || !has_corner(triangles_[t], side.upper)) ++t;
+        const Point along = at(side.upper) - at(side.lower), middle = midpoint(at(side.lower), at(side.upper));
+        const Point own = centroid(t, first) - middle, beyond = side.beyond - middle;
+        const double across = std::abs(cross(along, own)), across_beyond = std::abs(cross(along, beyond));
+        const double off = (across * dot(beyond, along) + across_beyond * dot(own, along)) / (across + across_beyond);
+        return 4 * off * off / (squared_length(along) * squared_length(along));
     }
 
     /// Returns the largest squared cosine of the angle between a face inside the cell and the line between the
@@ -90,33 +121,74 @@ private:
     }
 };
 
-}  // namespace
+/// Which triangle of a cell is joined with the next one, and the cost of the worst face inside the cell then.
+struct Joint {
+    std::size_t first;  ///< as many as there are triangles: none is
+    double cost;
+    Quad quad;  ///< if any
+};
 
-std::optional<Quad> join_on_lower_edge(std::span<const Point> points, VertexId a, VertexId d, bool first_leads,
-                                       std::size_t begin, std::vector<Triangle>& triangles) {
-    const auto from = triangles.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto on_edge =
-        std::find_if(from, triangles.end(), [&](const Triangle& t) { return has_corner(t, a) && has_corner(t, d); });
-    const auto k = static_cast<std::size_t>(on_edge - from);
-    const CellCut cut(points, std::span(triangles).subspan(begin));
-    const std::size_t n = triangles.size() - begin;
-    std::optional<Quad> best;
-    double best_cost = cut.worst_face(n) * (1 + rounding);
-    std::size_t best_first = 0;
+/// Returns the best way to join the triangle on the edge between `a` and `d` with one beside it, or not to.
+Joint best_joint(std::span<const Point> points, std::span<const Triangle> triangles, VertexId a, VertexId d,
+                 bool first_leads) {
+    const auto on_edge = std::find_if(triangles.begin(), triangles.end(),
+                                      [&](const Triangle& t) { return has_corner(t, a) && has_corner(t, d); });
+    const auto k = static_cast<std::size_t>(on_edge - triangles.begin());
+    const CellCut cut(points, triangles);
+    const std::size_t n = triangles.size();
+    Joint best{n, cut.worst_face(n) * (1 + rounding), {}};
     for (const bool before : {first_leads, !first_leads}) {
         if (before ? k == 0 : k + 1 == n) continue;
         const std::size_t first = before ? k - 1 : k;
-        const Quad quad = joined(triangles[begin + first], triangles[begin + first + 1], a);
+        const Quad quad = joined(triangles[first], triangles[first + 1], a);
         const double cost = cut.worst_face(first);
-        if (!(cost < best_cost) || !cut.is_convex(quad)) continue;
-        best = quad;
-        best_first = first;
+        if (cost < best.cost && cut.is_convex(quad)) best = {first, cost * (1 - rounding), quad};
+    }
+    return best;
+}
+
+}  // namespace
+
+void turn_from_side(std::span<const Point> points, std::span<const VertexId> lower, const std::array<VertexId, 2>& edge,
+                    const CellSide& side, bool first_leads, std::size_t begin, std::vector<Triangle>& triangles) {
+    const std::span<Triangle> strip = std::span(triangles).subspan(begin);
+    const CellCut cut(points, strip);
+    const auto is_positive = [&](const Triangle& t) {
+        return core::inline_orient2d(points[t.v[0].index()], points[t.v[1].index()], points[t.v[2].index()]) > 0;
+    };
+    const Joint own = best_joint(points, strip, edge[0], edge[1], first_leads);
+    const double skewness = cut.skewness(side, own.first);
+    if (!(skewness > most_skewness * most_skewness)) return;
+    double best_cost = std::max(skewness, own.cost) * (1 - rounding);
+    std::size_t best = strip.size();
+    std::array<Triangle, 2> best_pair;
+    for (std::size_t i = 0; i + 1 < strip.size(); ++i) {
+        const std::size_t t = first_leads ? i : strip.size() - 2 - i;
+        const std::array<Triangle, 2> pair{strip[t], strip[t + 1]};
+        const bool on_lower = stands_on_lower(pair[0], lower);
+        if (on_lower == stands_on_lower(pair[1], lower)) continue;
+        const std::array<Triangle, 2> other = turned(pair[0], pair[1], on_lower);
+        if (!is_positive(other[0]) || !is_positive(other[1])) continue;
+        std::copy(other.begin(), other.end(), strip.begin() + static_cast<std::ptrdiff_t>(t));
+        const Joint joint = best_joint(points, strip, edge[0], edge[1], first_leads);
+        const double cost = std::max(cut.skewness(side, joint.first), joint.cost);
+        std::copy(pair.begin(), pair.end(), strip.begin() + static_cast<std::ptrdiff_t>(t));
+        if (!(cost < best_cost)) continue;
+        best = t;
+        best_pair = other;
         best_cost = cost * (1 - rounding);
     }
-    if (best)
-        triangles.erase(from + static_cast<std::ptrdiff_t>(best_first),
-                        from + static_cast<std::ptrdiff_t>(best_first) + 2);
-    return best;
+    if (best < strip.size())
+        std::copy(best_pair.begin(), best_pair.end(), strip.begin() + static_cast<std::ptrdiff_t>(best));
+}
+
+std::optional<Quad> join_on_lower_edge(std::span<const Point> points, VertexId a, VertexId d, bool first_leads,
+                                       std::size_t begin, std::vector<Triangle>& triangles) {
+    const Joint joint = best_joint(points, std::span(triangles).subspan(begin), a, d, first_leads);
+    if (begin + joint.first == triangles.size()) return std::nullopt;
+    const auto first = triangles.begin() + static_cast<std::ptrdiff_t>(begin + joint.first);
+    triangles.erase(first, first + 2);
+    return joint.quad;
 }
 
 }  // namespace lamina::layers

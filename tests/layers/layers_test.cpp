@@ -12,6 +12,7 @@
 #include <lamina/layers.hpp>
 #include <lamina/predicates.hpp>
 
+#include "core/angles.hpp"
 #include "layers/checked_layer.hpp"
 #include "layers/compare_points.hpp"
 #include "support/layers.hpp"
@@ -333,6 +334,28 @@ TEST(Layer, BorderIsGradedBesideAFineFan) {
         }
         EXPECT_LE(longest, 1.4 * (shortest + 0.5 * gradation));
         EXPECT_GE(longest, 0.3 * (shortest + 0.5 * gradation));
+    }
+}
+
+/// Halves of the top of a cell that leans by more than it is wide would have cells below them that are far to the side.
+TEST(Layer, TopsOfCellsThatLeanByTheirWidthStayWhole) {
+    const std::size_t edges = 160;
+    LayerOptions options = test::thesis_layer();
+    options.first_height = 0.02;
+    options.layers = 7;
+    options.max_ray_angle_deg = 10;
+    for (const double lean_deg : {-60.0, -40.0, 0.0, 40.0, 60.0}) {
+        Rays rays = grow_rays(shapes::geometry({shapes::circle(0.5, edges)}), options, test::growth_of(options));
+        for (RayLine& ray : rays.set.lines) ray.direction = core::rotated(ray.direction, core::radians(lean_deg));
+        const std::vector<Point> front = fronts(rays)[0];
+        ASSERT_EQ(front.size(), edges);
+        for (const double excess : {1.05, 1.2, 1.35, 1.5}) {
+            BorderOptions border;
+            border.max_edge = 1.1 * distance(front[0], front[1]) / excess;
+            const bool whole = excess < 1.1 || (excess < 1.4 && std::abs(lean_deg) > 50);
+            EXPECT_EQ(close_border(rays, border).borders[0].size(), whole ? edges : 2 * edges)
+                << lean_deg << " degrees, excess " << excess;
+        }
     }
 }
 
