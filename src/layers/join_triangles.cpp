@@ -27,6 +27,8 @@ constexpr double rounding = 1e-6;
 /// A side may be skewed by this before a diagonal is turned. It costs as much as a face inside the cell that is off a
 /// right angle by 45 degrees then.
 constexpr double most_skewness = 0.7;
+/// Turned diagonals make no angles above 135 degrees.
+constexpr double least_cosine_of_turned = -0.7071;
 
 bool has_corner(const Triangle& t, VertexId v) { return t.v[0] == v || t.v[1] == v || t.v[2] == v; }
 
@@ -63,6 +65,17 @@ public:
         for (int k = 0; k < 4; ++k)
             if (!(core::inline_orient2d(at(quad.v[k]), at(quad.v[(k + 1) % 4]), at(quad.v[(k + 2) % 4])) > 0))
                 return false;
+        return true;
+    }
+
+    /// Returns whether a triangle is counter-clockwise (exact) and has no angle that is too large for a turned one.
+    bool is_sound(const Triangle& t) const {
+        const Point p[] = {at(t.v[0]), at(t.v[1]), at(t.v[2])};
+        if (!(core::inline_orient2d(p[0], p[1], p[2]) > 0)) return false;
+        for (int k = 0; k < 3; ++k) {
+            const Point u = p[(k + 1) % 3] - p[k], v = p[(k + 2) % 3] - p[k];
+            if (dot(u, v) < least_cosine_of_turned * length(u) * length(v)) return false;
+        }
         return true;
     }
 
@@ -153,9 +166,6 @@ void turn_from_side(std::span<const Point> points, std::span<const VertexId> low
                     const CellSide& side, bool first_leads, std::size_t begin, std::vector<Triangle>& triangles) {
     const std::span<Triangle> strip = std::span(triangles).subspan(begin);
     const CellCut cut(points, strip);
-    const auto is_positive = [&](const Triangle& t) {
-        return core::inline_orient2d(points[t.v[0].index()], points[t.v[1].index()], points[t.v[2].index()]) > 0;
-    };
     const Joint own = best_joint(points, strip, edge[0], edge[1], first_leads);
     const double skewness = cut.skewness(side, own.first);
     if (!(skewness > most_skewness * most_skewness)) return;
@@ -168,7 +178,7 @@ void turn_from_side(std::span<const Point> points, std::span<const VertexId> low
         const bool on_lower = stands_on_lower(pair[0], lower);
         if (on_lower == stands_on_lower(pair[1], lower)) continue;
         const std::array<Triangle, 2> other = turned(pair[0], pair[1], on_lower);
-        if (!is_positive(other[0]) || !is_positive(other[1])) continue;
+        if (!cut.is_sound(other[0]) || !cut.is_sound(other[1])) continue;
         std::copy(other.begin(), other.end(), strip.begin() + static_cast<std::ptrdiff_t>(t));
         const Joint joint = best_joint(points, strip, edge[0], edge[1], first_leads);
         const double cost = std::max(cut.skewness(side, joint.first), joint.cost);
