@@ -7,19 +7,26 @@
 #include <utility>
 
 #include "core/reproducible_math.hpp"
+#include "core/rounding.hpp"
 
 namespace lamina::decoupling {
 
 namespace {
 
+/// Returns an arc length of a curve rounded to about a thousandth of a segment.
+double rounded_arc_length(double s, double segment, double total) {
+    return total * core::rounded_place(s / total, segment / total);
+}
+
 /// Divides a curve of length `total` into segments with equal shares of the integral of ds / h, and returns the points
 /// between them. curve(s) is the point at arc length s. The integral is the trapezoidal sum over steps of about h / 8.
 template <class Curve>
 std::vector<Point> equidistribute(const Curve& curve, double total, const SizeField& size, std::size_t min_segments) {
+    constexpr double steps_in_h = 8;
     std::vector<double> arc_length{0}, integral{0};  // the integral up to each arc length
     double h = size(curve(0)), inverse = 1 / h;
     while (arc_length.back() < total) {
-        const double step = std::min(h / 8, total - arc_length.back());
+        const double step = std::min(h / steps_in_h, total - arc_length.back());
         // Rounding might otherwise keep the last step from reaching the end.
         const double s = arc_length.back() + step < total * (1 - 1e-12) ? arc_length.back() + step : total;
         h = size(curve(s));
@@ -34,8 +41,9 @@ std::vector<Point> equidistribute(const Curve& curve, double total, const SizeFi
     for (std::size_t k = 1; k < n; ++k) {
         const double target = integral.back() * (static_cast<double>(k) / static_cast<double>(n));
         while (integral[i + 1] < target) ++i;
+        const double step = arc_length[i + 1] - arc_length[i];
         const double share = (target - integral[i]) / (integral[i + 1] - integral[i]);
-        points.push_back(curve(arc_length[i] + share * (arc_length[i + 1] - arc_length[i])));
+        points.push_back(curve(rounded_arc_length(arc_length[i] + share * step, steps_in_h * step, total)));
     }
     return points;
 }
@@ -70,7 +78,8 @@ std::vector<Point> divide_by_k_rule(Point u, Point v, const SizeField& size, std
             n = 1;
         }
         if (from == 0 && stretch == total) n = std::max(n, static_cast<double>(min_segments));
-        for (double i = 1; i <= n; ++i) points.push_back(at(from + stretch * (i / n)));
+        for (double i = 1; i <= n; ++i)
+            points.push_back(at(rounded_arc_length(from + stretch * (i / n), stretch / n, total)));
         from += stretch;
         // A remainder far below one segment is joined to the last one.
         if (total - from < k_u / 4) break;
@@ -87,10 +96,11 @@ std::vector<Point> divide_separator(Point u, Point v, const SeparatorSpacing& sp
     box.include(v);
     const SizeField size = spacing.size.restricted_to(box);
     const SeparatorRule rule = spacing.rule;
-    // Lines begin at the finer end, or at the smaller point where both are equally fine, so that both directions give
-    // the same points.
+    // Lines begin at the finer end, so that both directions give the same points. Ends of symmetric lines are equally
+    // fine but for rounding, which must not decide.
+    constexpr double rounding = 1e-6;
     const double h_u = size(u), h_v = size(v);
-    const bool forward = h_u != h_v ? h_u < h_v : lexicographically_less(u, v);
+    const bool forward = std::abs(h_u - h_v) > rounding * h_u ? h_u < h_v : core::is_forward(v - u);
     const Point from = forward ? u : v, to = forward ? v : u;
     const double total = distance(from, to);
     std::vector<Point> points =

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/bounding_box.hpp"
+#include "core/rounding.hpp"
 #include "delaunay/triangles.hpp"
 
 namespace lamina::delaunay {
@@ -18,6 +20,21 @@ struct NumberedPoint {
 
 bool is_before(const NumberedPoint& a, const NumberedPoint& b) {
     return a.at.x != b.at.x ? a.at.x < b.at.x : a.at.y < b.at.y;
+}
+
+/// Returns the points with coordinates rounded to whole multiples of a length that is small beside the region and its
+/// distance from the origin: of points one above the other, rounding must not decide which is on the left.
+std::vector<NumberedPoint> rounded(std::span<const Point> points) {
+    std::vector<NumberedPoint> result;
+    if (points.empty()) return result;
+    Box box = core::bounding_box(points);
+    box.include({});
+    const double length = 0x1p-38 * core::longer_side(box);
+    result.reserve(points.size());
+    for (const Point p : points)
+        result.push_back({{core::rounded_to_multiple(p.x / length, 1), core::rounded_to_multiple(p.y / length, 1)},
+                          static_cast<Index>(result.size())});
+    return result;
 }
 
 /// Makes runs that ascend of those that do already and of those that descend, and returns where they end.
@@ -39,9 +56,7 @@ std::vector<std::size_t> make_runs(std::span<NumberedPoint> points) {
 /// so they are long runs, which are merged. Source: D. E. Knuth, The Art of Computer Programming 3 (1998), 5.2.4, natural
 /// merging.
 std::vector<Index> ranks_of(std::span<const Point> points) {
-    std::vector<NumberedPoint> sorted, merged(points.size());
-    sorted.reserve(points.size());
-    for (const Point p : points) sorted.push_back({p, static_cast<Index>(sorted.size())});
+    std::vector<NumberedPoint> sorted = rounded(points), merged(points.size());
     for (std::vector<std::size_t> ends = make_runs(sorted); ends.size() > 1;) {
         std::vector<std::size_t> merged_ends;
         std::size_t begin = 0;
@@ -61,23 +76,31 @@ std::vector<Index> ranks_of(std::span<const Point> points) {
 
 }  // namespace
 
-// Points are distinct, and a directed edge has one triangle on its left: the first two vertices of a triangle, the first
-// being the lowest of the three, decide its place.
+// Points are distinct, and a directed edge has one triangle on its left: the first two vertices of a triangle decide its
+// place. They are those of an edge of the border where it has one: of four points on a circle, and two edges of the
+// border between them, rounding decides which diagonal the triangles share, but not which edges they stand on.
 Tris in_order_of_place(std::span<const Point> points, const Tris& tris) {
     const std::vector<Index> rank = ranks_of(points);
-    std::vector<std::uint8_t> first(tris.size(), 0);  // the corner of each triangle that becomes its first
-    std::vector<Index> start(points.size() + 1, 0);   // for each rank, where the triangles begin whose lowest it is
+    const auto starts_border = [&](Index t, unsigned corner) { return tris[t].n[previous(corner)].is_constrained(); };
+    std::vector<std::uint8_t> first(tris.size());  // the corner of each triangle that becomes its first
+    std::vector<Index> key(tris.size());           // triangles at the border before others, by the rank of this corner
+    std::vector<Index> start(2 * points.size() + 1, 0);  // for each key, where its triangles begin
     for (Index t = 0; t < tris.size(); ++t) {
-        for (std::uint8_t i = 1; i < 3; ++i)
-            if (rank[tris[t].v[i]] < rank[tris[t].v[first[t]]]) first[t] = i;
-        ++start[rank[tris[t].v[first[t]]] + 1];
+        key[t] = no_index;
+        for (std::uint8_t i = 0; i < 3; ++i) {
+            const Index place = rank[tris[t].v[i]] + (starts_border(t, i) ? 0 : static_cast<Index>(points.size()));
+            if (place >= key[t]) continue;
+            key[t] = place;
+            first[t] = i;
+        }
+        ++start[key[t] + 1];
     }
     std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<Index> order(tris.size()), next(start.begin(), start.end() - 1);
-    for (Index t = 0; t < tris.size(); ++t) order[next[rank[tris[t].v[first[t]]]]++] = t;
-    const auto second = [&](Index t) { return rank[tris[t].v[(first[t] + 1) % 3]]; };
-    for (std::size_t r = 0; r < points.size(); ++r)
-        std::sort(order.begin() + start[r], order.begin() + start[r + 1],
+    std::vector<Index> order(tris.size()), next_place(start.begin(), start.end() - 1);
+    for (Index t = 0; t < tris.size(); ++t) order[next_place[key[t]]++] = t;
+    const auto second = [&](Index t) { return rank[tris[t].v[next(first[t])]]; };
+    for (std::size_t k = 0; k + 1 < start.size(); ++k)
+        std::sort(order.begin() + start[k], order.begin() + start[k + 1],
                   [&](Index s, Index t) { return second(s) < second(t); });
     std::vector<Index> place(tris.size());
     for (Index i = 0; i < order.size(); ++i) place[order[i]] = i;

@@ -18,6 +18,7 @@
 #include "delaunay/insert_segments.hpp"
 #include "delaunay/refiner.hpp"
 #include "delaunay/regions.hpp"
+#include "delaunay/settled_point.hpp"
 #include "delaunay/triangulate_points.hpp"
 
 namespace lamina::delaunay {
@@ -70,6 +71,11 @@ private:
     static constexpr bool must_mend(Index) { return true; }
     // Sizes are graded, so a cavity has few triangles.
     static constexpr bool is_in_sight(Index, Point) { return true; }
+    Point settled(Point p, Index t) const {
+        const auto& v = tris_[t].v;
+        const float h = std::min({sizes_[v[0]], sizes_[v[1]], sizes_[v[2]]});
+        return unit() * settled_point((1 / unit()) * p, h);
+    }
     // Frozen borders are graded, so all edges are about as long as the borders nearby.
     static constexpr bool is_unresolved(Point, Point) { return false; }
     static void vertex_inserted(Index, std::size_t) {}

@@ -52,6 +52,7 @@ double unit_scale(double extent);
 ///                                             refused
 ///     bool must_mend(Index t)                 whether a triangle that is narrow has to be mended
 ///     bool is_in_sight(Index t, Point p)      false if a border is known to lie between t and p, which would block p
+///     Point settled(Point p, Index t)         where a point for the size of triangle t is placed that should be at p
 ///     bool is_unresolved(Point a, Point b)    whether coordinates do not resolve vertices at the distance of these
 ///     void vertex_inserted(Index t, std::size_t old_count)
 ///                                             is called after a new vertex was inserted into the cavity round t
@@ -132,7 +133,7 @@ protected:
     void classify(Index t) {
         const TriangleShape s = shape_of(tris_[t]);
         if (is_large(s.squared[0] * s.squared[1] * s.squared[2], s.area2, size_sum(tris_[t]))) {
-            front_.set_large(t, s.shortest());
+            front_.set_large(t, s.base());
         } else {
             front_.set_done(t);
             queue_if_narrow(t, s);
@@ -216,6 +217,7 @@ protected:
         unit_ = unit;
         squared_unit_ = unit * unit;
     }
+    double unit() const { return unit_; }
     /// Returns a size as sizes_ holds it.
     float stored(double size) const { return static_cast<float>(size / unit_); }
     /// Returns h at a point of the triangulation.
@@ -405,6 +407,12 @@ private:
         return {middle + shift * base + height * up, share * edge};
     }
 
+    FrontPoint settled_front_point(Index t) const {
+        FrontPoint p = front_point(t);
+        p.at = derived().settled(p.at, t);
+        return p;
+    }
+
     /// Returns whether the apex of the triangle or of a neighbour across another edge than the base is nearer to p than
     /// this. Other vertices need no look: they stand behind the front, or have not been nearer in any trial.
     bool is_near_other_front(Index t, const FrontPoint& p) const {
@@ -423,16 +431,16 @@ private:
     void advance(QueuedTriangle entry) {
         const Index t = entry.triangle;
         if (!is_on_front(t)) return;
-        const FrontPoint p = front_point(t);
+        const FrontPoint p = settled_front_point(t);
         if (is_near_other_front(t, p) || !insert_in_sight(t, p.at)) front_.met.push(entry);
     }
 
     /// Places the circumcentre of a large triangle where fronts meet or, if that is blocked, a point over the base. If
     /// that is blocked, too, the triangle counts as done.
     void mend_large(Index t) {
-        const Point centre = on_bisector(tris_[t], front_.base(t), HUGE_VAL);
+        const Point centre = derived().settled(on_bisector(tris_[t], front_.base(t), HUGE_VAL), t);
         if (insert_in_sight(t, centre)) return;
-        if (const Point p = front_point(t).at; p != centre && insert_in_sight(t, p)) return;
+        if (const Point p = settled_front_point(t).at; p != centre && insert_in_sight(t, p)) return;
         front_.set_done(t);
         queue_front(t);
         derived().give_up(t, centre);
@@ -455,7 +463,7 @@ private:
 
     /// Places the off-centre of the shortest edge.
     void mend_angle(Index t) {
-        const unsigned e = shape_of(tris_[t]).shortest();
+        const unsigned e = shape_of(tris_[t]).base();
         // A new vertex would be about as far from its neighbours as the shortest edge is long.
         if (derived().is_unresolved(points_[tris_[t].v[next(e)]], points_[tris_[t].v[previous(e)]]))
             ++refused_;

@@ -81,6 +81,8 @@ private:
     static constexpr bool may_renumber = false;
     bool must_mend(Index t) const;
     bool is_in_sight(Index t, Point p) const;
+    // Lines may be shorter than sizes by far.
+    static Point settled(Point p, Index) { return p; }
     void vertex_inserted(Index t, std::size_t old_count);
     void give_up(Index t, Point p);
     bool split_next();

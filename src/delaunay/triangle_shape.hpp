@@ -20,6 +20,12 @@ struct TriangleShape {
         const unsigned m = squared[1] < squared[0] ? 1 : 0;
         return squared[2] < squared[m] ? 2 : m;
     }
+    /// Returns the shortest edge or, of edges that are equally long but for rounding, the first.
+    unsigned base() const {
+        constexpr double clearly_shorter = 1 - 1e-6;
+        const unsigned m = squared[1] < clearly_shorter * squared[0] ? 1 : 0;
+        return squared[2] < clearly_shorter * squared[m] ? 2 : m;
+    }
     /// Returns the longest edge.
     unsigned longest() const {
         const unsigned m = squared[1] > squared[0] ? 1 : 0;

@@ -7,6 +7,7 @@
 
 #include "core/angles.hpp"
 #include "core/bounding_box.hpp"
+#include "core/rounding.hpp"
 #include "surface/clearance.hpp"
 #include "surface/corners.hpp"
 #include "surface/spline.hpp"
@@ -276,7 +277,9 @@ std::vector<Point> place_nodes(const OutlineCurve& curve, std::span<const double
         for (double i = 1; i < count; ++i) {
             const double target = from + all * (i / count);
             while (part + 1 < last && panels[part + 1] <= target) ++part;
-            nodes.push_back(curve.at(part, (target - panels[part]) / (panels[part + 1] - panels[part])));
+            const double in_part = panels[part + 1] - panels[part];
+            nodes.push_back(
+                curve.at(part, core::rounded_place((target - panels[part]) / in_part, 1 / (scale * in_part))));
         }
         nodes.push_back(curve.ends[last]);
     }

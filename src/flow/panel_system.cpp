@@ -11,6 +11,7 @@
 
 #include "core/angles.hpp"
 #include "core/parallel.hpp"
+#include "core/rounding.hpp"
 #include "flow/dense_solve.hpp"
 #include "flow/panel_kernel.hpp"
 #include "flow/sides.hpp"
@@ -189,6 +190,15 @@ std::vector<PanelSheet> make_sheets(std::span<const Contour> contours, std::span
     return sheets;
 }
 
+/// Returns the sheets with strengths rounded to 1e-6 of the speed of the free stream: rounding errors of the system, which
+/// are smaller by far, have no part in what is made of the flow.
+std::vector<PanelSheet> rounded(std::vector<PanelSheet> sheets) {
+    constexpr double step = 0x1p-20;
+    for (PanelSheet& sheet : sheets)
+        for (double& strength : sheet.strengths) strength = core::rounded_to_multiple(strength, step);
+    return sheets;
+}
+
 void add_multiple(double factor, std::span<const double> of, std::vector<double>& to) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];
 }
@@ -223,7 +233,8 @@ PanelSolution solve_panels(std::span<const Contour> contours, double alpha_deg) 
     const std::vector<double> turning = solve_dense(std::move(matrix), circulations).front();
     for (std::size_t turned = 0; turned < n; ++turned)
         add_multiple(turning[turned], strengths[1 + turned], strengths.front());
-    solution.without_lift = make_sheets(contours, bodies, strengths.front());
+    solution.without_lift = rounded(make_sheets(contours, bodies, strengths.front()));
+    solution.sheets = rounded(std::move(solution.sheets));
     return solution;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/box_tree.hpp"
+#include "core/rounding.hpp"
 #include "core/segments.hpp"
 #include "flow/panel_system.hpp"
 
@@ -83,6 +84,13 @@ std::optional<Step> try_step(const SheetVelocity& velocity, const FlowingPoint& 
     return Step{p, h * length(error)};
 }
 
+/// Returns a point of a streamline rounded to 1e-9 chords. Where streamlines part, such as before a body, rounding errors
+/// would grow along them.
+Point rounded(Point p, double chord) {
+    constexpr double step = 0x1p-30;
+    return chord * Point{core::rounded_to_multiple(p.x / chord, step), core::rounded_to_multiple(p.y / chord, step)};
+}
+
 /// Returns the first point behind a trailing edge, one panel downstream of it, if that is where a streamline begins.
 std::optional<Point> leave_trailing_edge(std::span<const PanelSheet> sheets, Point from) {
     constexpr double same_place = 1e-6;  // as a share of the panel
@@ -121,13 +129,16 @@ std::vector<Point> streamline(const Flow& flow, Point from, double length, const
         const bool is_shortest = h <= shortest;
         if (step && (is_shortest || step->error <= options.tolerance * flow.chord) &&
             !walls.meet(last.at, step->to.at)) {
-            last = step->to;
+            last = {rounded(step->to.at, flow.chord), step->to.velocity};
             points.push_back(last.at);
             done += h;
             // The error grows with the fifth power of the step. Two square roots come close enough to the fifth root.
             const double room = options.tolerance * flow.chord / std::max(step->error, 1e-300);
             h = std::clamp(0.9 * std::sqrt(std::sqrt(room)), 0.2, 2.0) * h;
             h = std::clamp(h, shortest, longest);
+            // Much of a small error is rounding, which must not decide where points are.
+            h = flow.chord *
+                core::rounded_to_multiple(h / flow.chord, 0.125 * core::power_of_two_below(h / flow.chord));
         } else {
             if (is_shortest) {
                 // What is left of the way may be less than the shortest step.

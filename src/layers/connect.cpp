@@ -23,6 +23,7 @@
 
 #include "core/parallel.hpp"
 #include "core/predicates.hpp"
+#include "core/rounding.hpp"
 #include "layers/cell_columns.hpp"
 #include "layers/join_triangles.hpp"
 #include "layers/strip.hpp"
@@ -42,8 +43,7 @@ public:
     void add(const CellColumn& column) {
         const Ray &first = column.first, &second = column.second;
         const Point from = at(first.origin), to = at(second.origin);
-        first_leads_ =
-            from == to ? lexicographically_less(first.direction, second.direction) : lexicographically_less(from, to);
+        first_leads_ = core::is_forward(from == to ? second.direction - first.direction : to - from);
         const std::uint32_t common = std::min(first.layers, second.layers);
         const std::uint32_t highest = std::max(first.layers, second.layers);
         if (common == 0 && from == to) return;  // the border runs along the ray

@@ -84,12 +84,14 @@ std::vector<FanColumn> columns_to_corner(const FanSide& side) {
 /// Returns the columns up to the middle between the fan and the next corner.
 std::vector<FanColumn> columns_beside(const FanSide& side) {
     std::vector<FanColumn> columns = columns_to_corner(side);
+    // Where columns are symmetric, one of them ends in the middle but for rounding.
+    constexpr double rounding = 1e-9;
     double length = 0, passed = 0;
     for (const FanColumn& column : columns) length += column.edge;
     std::size_t k = 0;
-    for (; k < columns.size() && passed < 0.5 * length; ++k) {
+    for (; k < columns.size() && passed < (0.5 - rounding) * length; ++k) {
         passed += columns[k].edge;
-        if (passed > 0.5 * length) columns[k].share = 0.5;
+        if (passed > (0.5 + rounding) * length) columns[k].share = 0.5;
     }
     columns.resize(k);
     return columns;

@@ -25,7 +25,8 @@ constexpr double outer_share = 0.15;
 constexpr double smallest_size = 5e-5;
 /// A wake is a chain of segments of one size each. This is the largest ratio of successive sizes, and the longest
 /// segment, in sizes.
-constexpr double size_ratio = 1.1, max_segment = 20;
+constexpr double size_ratio = 1.1;
+constexpr int max_segment = 20;
 /// The inner wake, where the fluid from next to the wall gains speed, has this width at the trailing edge, in momentum
 /// thicknesses of both sides. The growth per length is that of a mixing layer beside fluid at rest, 0.11 (S. B. Pope,
 /// Turbulent Flows (2000), section 5.4.2), where much of the fluid is at rest. Where it is not at rest for long, behind
@@ -100,9 +101,9 @@ std::vector<WakeSource> make_chain(const MeasuredLine& line, const std::function
     const double end = line.s.back();
     for (double s = 0; s < end && goes_on(s);) {
         const double size = size_at(s);
-        double next = s + size;
-        while (next < end && next - s < max_segment * size && size_at(next) < size_ratio * size) next += size;
-        next = std::min(next, end);
+        int sizes = 1;
+        while (sizes < max_segment && s + sizes * size < end && size_at(s + sizes * size) < size_ratio * size) ++sizes;
+        const double next = std::min(s + sizes * size, end);
         chain.push_back({s, {.a = line.at(s), .b = line.at(next), .size = size, .radius = radius_at(s)}});
         s = next;
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/reproducible_math.hpp"
+#include "core/rounding.hpp"
 
 namespace lamina::surface {
 
@@ -148,13 +149,6 @@ double distance_to_chord(Point p, Point a, Point b) {
     return chord > 0 ? std::abs(cross(b - a, p - a)) / chord : distance(p, a);
 }
 
-/// Returns the end of a piece that a share is near but for rounding, else the share: what falls on a given point is that
-/// point exactly, such as the nose of a symmetric section.
-double on_knot(double share) {
-    constexpr double rounding = 1e-9;
-    return share < rounding ? 0 : share > 1 - rounding ? 1 : share;
-}
-
 /// Appends the first point of a curve and those between its edges, but not its last one.
 void place_points(const SplineCurve& curve, const CurveSamples& samples, const EdgeCount& count,
                   DividedCurves& result) {
@@ -173,7 +167,10 @@ void place_points(const SplineCurve& curve, const CurveSamples& samples, const E
             const double share = a + (b - a) * ((next * edge - sum) / part);
             const CurveSample &from = samples[i], &to = samples[i + 1];
             const double start = from.piece == to.piece ? from.share : 0;
-            const double on_piece = on_knot(start + share * (to.share - start));
+            const double length = to.share - start;
+            // Rounding errors of the integrals move no point, and what falls on a given point is that point exactly, such
+            // as the nose of a symmetric section.
+            const double on_piece = core::rounded_place(start + share * length, length * (b - a) * edge / part);
             const Point at = curve.at(to.piece, on_piece);
             finish_edge(at, i);
             first_sample = i + 1;

@@ -249,7 +249,7 @@ TEST(Flow, SidesCarryTheirBoundaryLayers) {
     }
 }
 
-/// A flow with less lift keeps to the same walls.
+/// A flow with less lift keeps to the same walls. Strengths are rounded to 1e-6.
 TEST(Flow, AShareOfTheLiftIsAsGoodAFlow) {
     for (const Geometry& given : {geometry({naca_airfoil("4412", 100).points}),
                                   geometry({naca_airfoil("2412", 100, TrailingEdge::blunt).points,
@@ -259,11 +259,11 @@ TEST(Flow, AShareOfTheLiftIsAsGoodAFlow) {
         ASSERT_FALSE(flow.estimated);
         ASSERT_EQ(flow.sheets_without_lift.size(), flow.sheets.size());
         for (std::size_t e = 0; e < flow.sheets.size(); ++e)
-            EXPECT_NEAR(flow::circulation(flow.sheets_without_lift[e]), 0, 1e-9);
+            EXPECT_NEAR(flow::circulation(flow.sheets_without_lift[e]), 0, 2e-6);
         const Flow weaker = with_share_of_lift(flow, 0.6), same = with_share_of_lift(flow, 1);
         for (std::size_t e = 0; e < flow.sheets.size(); ++e) {
             const double with = flow::circulation(flow.sheets[e]);
-            EXPECT_NEAR(flow::circulation(weaker.sheets[e]), 0.6 * with, 1e-9);
+            EXPECT_NEAR(flow::circulation(weaker.sheets[e]), 0.6 * with, 2e-6);
             std::size_t leaks = 0;
             const std::vector<Point>& nodes = weaker.sheets[e].nodes;
             for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
