@@ -83,9 +83,9 @@ enum class KeptRegion {
 enum class Crossings {
     refuse,  ///< throws an InputError that names both segments
     insert,  ///< inserts a Steiner point at each crossing, rounded to doubles, or leads both segments through a point
-             ///< that stands within rounding of it. Segments are led through points that they pass within rounding, too:
-             ///< 4 units in the last place of their largest coordinate. They stay planar and bend by at most 16 such
-             ///< units; coordinates of crossings below 1e-60 become 0 or 1e-60
+             ///< that stands within rounding of it. Leads segments through points that they pass within rounding, too:
+             ///< 4 units in the last place of their largest coordinate. They stay planar and bend by at most 16 of
+             ///< these units; coordinates of crossings below 1e-60 become 0 or 1e-60
 };
 
 /// Options of constrained triangulation.
