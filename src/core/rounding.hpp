@@ -22,6 +22,11 @@ inline double rounded_to_multiple(double value, double step) {
     return std::copysign((std::abs(value) + beyond_middle * step + whole) - whole, value);
 }
 
+/// Returns a point with both coordinates rounded to multiples of a step, as rounded_to_multiple() does.
+inline Point rounded_to_multiples(Point p, double step) {
+    return {rounded_to_multiple(p.x, step), rounded_to_multiple(p.y, step)};
+}
+
 /// Returns the largest power of two that is not above a value. Precondition: the value is positive and normal.
 inline double power_of_two_below(double value) {
     constexpr std::uint64_t exponent_bits = 0x7ff0'0000'0000'0000;

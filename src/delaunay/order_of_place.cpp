@@ -29,11 +29,10 @@ std::vector<NumberedPoint> rounded(std::span<const Point> points) {
     if (points.empty()) return result;
     Box box = core::bounding_box(points);
     box.include({});
-    const double length = 0x1p-38 * core::longer_side(box);
+    const double per_length = 0x1p38 / core::longer_side(box);
     result.reserve(points.size());
     for (const Point p : points)
-        result.push_back({{core::rounded_to_multiple(p.x / length, 1), core::rounded_to_multiple(p.y / length, 1)},
-                          static_cast<Index>(result.size())});
+        result.push_back({core::rounded_to_multiples(per_length * p, 1), static_cast<Index>(result.size())});
     return result;
 }
 

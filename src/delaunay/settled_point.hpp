@@ -23,7 +23,7 @@ namespace lamina::delaunay {
 /// farther than 1e12 h from the origin.
 inline Point settled_point(Point p, double h) {
     const double step = 0x1p-12 * core::power_of_two_below(h);
-    const Point q{core::rounded_to_multiple(p.x, step), core::rounded_to_multiple(p.y, step)};
+    const Point q = core::rounded_to_multiples(p, step);
     const auto steps = [&](double coordinate) { return std::bit_cast<std::uint64_t>(coordinate / step); };
     const std::uint64_t bits = core::splitmix64(core::splitmix64(steps(q.x)) + steps(q.y));
     const auto steps_aside = [](std::uint64_t four_bits) { return static_cast<double>(four_bits) - 7.5; };

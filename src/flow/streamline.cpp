@@ -88,7 +88,7 @@ std::optional<Step> try_step(const SheetVelocity& velocity, const FlowingPoint& 
 /// would grow along them.
 Point rounded(Point p, double chord) {
     constexpr double step = 0x1p-30;
-    return chord * Point{core::rounded_to_multiple(p.x / chord, step), core::rounded_to_multiple(p.y / chord, step)};
+    return chord * core::rounded_to_multiples((1 / chord) * p, step);
 }
 
 /// Returns the first point behind a trailing edge, one panel downstream of it, if that is where a streamline begins.
