@@ -186,6 +186,7 @@ struct HeightColumn {
     double slant = 1;               ///< as Ray::slant
     double max_spacing = HUGE_VAL;  ///< as Ray::max_spacing
     double opening = 1;             ///< as Ray::opening
+    double taper = 1;               ///< as Ray::taper
 };
 
 /// The heights of the requested layers, ray by ray. Rays with the same heights share a part of the table.
@@ -325,6 +326,9 @@ struct Ray {
     RayPlace place = RayPlace::wall;  ///< RayLine::place
     /// The first height on this ray over that on the wall, and that of each layer above: they open along wakes.
     double opening = 1;
+    /// The height of the last layer over that which it would have otherwise. Those below move so that the ray keeps its
+    /// end (docs/decisions/0063). 1 where columns are wide, and where a number of layers is requested.
+    double taper = 1;
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
     VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }

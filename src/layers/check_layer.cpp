@@ -14,6 +14,7 @@
 #include "layers/fit_heights.hpp"
 #include "layers/growth_laws.hpp"
 #include "layers/least_heights.hpp"
+#include "layers/taper.hpp"
 
 namespace lamina::layers {
 
@@ -196,12 +197,15 @@ private:
         limit_spacings(ray.max_spacing, heights);
         stretch_heights(ray.stretch, heights);
         for (double& height : heights) height *= ray.slant;
+        taper_heights(ray.taper, heights);
         if (!(ray.slant >= 1 && ray.slant <= max_slant))
             report(fmt::format("ray has a slant of {}", ray.slant), origin);
         if (ray.stretch.factor != 1 && std::isinf(ray.height_limit) && growth.layers)
             report("ray is stretched without a limit", origin);
         if (!(ray.stretch.factor <= max_stretch && ray.stretch.factor * max_stretch >= 1 - 1e-12))
             report(fmt::format("ray is stretched by {}", ray.stretch.factor), origin);
+        if (!(ray.taper >= least_taper && ray.taper <= 1) || (ray.taper != 1 && growth.layers))
+            report(fmt::format("ray is tapered by {}", ray.taper), origin);
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {
             const VertexId v = ray.vertex(n);
             if (distance(at(v), origin + heights[n] * ray.direction) > 1e-11 * heights[n] + rounding)

@@ -210,7 +210,8 @@ private:
                                           .slant = column.slant,
                                           .max_spacing = column.max_spacing,
                                           .place = set_.lines[i].place,
-                                          .opening = column.opening});
+                                          .opening = column.opening,
+                                          .taper = column.taper});
             }
         }
     }

@@ -32,6 +32,7 @@
 #include <cmath>
 
 #include "layers/neighbours.hpp"
+#include "layers/rows.hpp"
 
 namespace lamina::layers {
 
@@ -44,8 +45,6 @@ constexpr double narrow_share = 0.8;
 constexpr double narrow_share_of_cut = 1.5;
 /// A change costs this much at least, so that there are few of them.
 constexpr double least_cost = 0.05;
-/// The tangent counts as this much at most, so that sums of costs are exact enough for small ones.
-constexpr double most_tangent = 8;
 /// A change of numbers that are wanted is moved, by up to so many columns, where it costs more than this: where a row
 /// is off a right angle by 53 degrees, or a skewness is 1.3.
 constexpr double most_wanted_cost = 3;
@@ -60,33 +59,6 @@ constexpr double cost_of_distance = 0.01;
 /// It costs this much for each layer. So of two sequences that cost the same otherwise, as in mirrored input, the one
 /// with fewer layers is taken.
 constexpr double cost_of_layer = 1e-6;
-
-/// A row between two neighbouring rays.
-struct ColumnRow {
-    double width;  ///< across the rays
-    double rise;   ///< along the rays, from the first to the second
-};
-
-/// Returns the row between the fronts of two rays.
-ColumnRow row_of_front(const RayLine& a, double height_a, const RayLine& b, double height_b) {
-    const Point row = b.origin + height_b * b.direction - (a.origin + height_a * a.direction);
-    const Point along = unit(a.direction + b.direction);
-    return {std::abs(cross(row, along)), dot(row, along)};
-}
-
-/// Returns the tangent by which a row is off a right angle with its rays.
-double tangent_of(const ColumnRow& row) {
-    const double shift = std::abs(row.rise);
-    return shift < most_tangent * row.width ? shift / row.width : most_tangent;
-}
-
-/// Returns the skewness of the face, `height` long, that lies on the ray between two columns: the distance from the
-/// middle of the face to the line between the middles of the cells on both sides, over half of its length.
-double skewness_between(const ColumnRow& before, const ColumnRow& after, double height) {
-    const double off = std::abs(before.rise * after.width - after.rise * before.width);
-    const double whole = (before.width + after.width) * height;
-    return off < most_tangent * whole ? off / whole : most_tangent;
-}
 
 /// What a ray may have.
 struct RayChoices {
@@ -168,7 +140,7 @@ std::vector<RayChoices> wanted_numbers(const RaySet& set, std::span<const Column
         choices.push_back({{counts[i], counts[i]},
                            counts[i],
                            &ends[i],
-                           row_of_front(set.lines[before], ends[before].height, set.lines[i], ends[i].height)});
+                           row_between(set.lines[before], ends[before].height, set.lines[i], ends[i].height)});
     choices.push_back(choices.front());
     return choices;
 }
@@ -233,7 +205,7 @@ void lower_ends_beside_changes(const RaySet& set, std::span<const std::uint32_t>
     const auto lower = [&](std::size_t fewer, std::size_t more, std::size_t beyond) {
         if (counts[more] != counts[fewer] + 1 || counts[fewer] == 0 || !ends[fewer].cut) return;
         if (counts[beyond] < counts[fewer]) return;  // the change on its other side would cost more
-        const ColumnRow row = row_of_front(set.lines[fewer], ends[fewer].height, set.lines[more], ends[more].height);
+        const ColumnRow row = row_between(set.lines[fewer], ends[fewer].height, set.lines[more], ends[more].height);
         const double excess = last_spacing(ends[more], counts[more]) - row.rise - most_tangent_of_change * row.width;
         if (excess > 0 && excess <= most_tangent_given * row.width) ends[fewer].height -= excess;
     };

@@ -9,6 +9,7 @@
 #include <lamina/error.hpp>
 
 #include "decoupling/far_field.hpp"
+#include "pipeline/wake_sizes.hpp"
 
 namespace lamina::pipeline {
 
@@ -60,10 +61,13 @@ bool same_points(const Geometry& a, const Geometry& b) {
 SizeRequests request_sizes(SizingOptions options, const SizedBodies& bodies, const Rays& rays,
                            std::span<const ElementWake> wakes, const Box& domain) {
     std::vector<SizeSource> along_wakes;
-    for (std::size_t e = 0; e < wakes.size(); ++e)
+    for (std::size_t e = 0; e < wakes.size(); ++e) {
+        const std::size_t first = along_wakes.size();
         for (const auto* sources : {&wakes[e].outer, &wakes[e].inner, &wakes[e].mixing})
             for (const WakeSource& wake : *sources)
                 if (wake.begins >= rays.wake_lengths[e]) along_wakes.push_back(wake.source);
+        fit_wake_to_layer(rays, e, border_gradation(field_gradation(options)), std::span(along_wakes).subspan(first));
+    }
     const bool decided = decides_on_sizes(options);
     if (!decided) options.sources.insert(options.sources.end(), along_wakes.begin(), along_wakes.end());
     SizeRequests requests = gather_size_requests(options, bodies, fronts(rays), domain);

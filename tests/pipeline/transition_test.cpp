@@ -116,6 +116,34 @@ TEST(Transition, NarrowColumnsAtABaseLeaveTheOthersIsotropic) {
     }
 }
 
+/// Columns at the corners of wide bases remain narrow, though their rays lean. Half of their last cells had 2.7 times the
+/// area of the triangles beyond.
+TEST(Transition, NarrowColumnsEndInLowCells) {
+    CaseOptions options = automatic(1.2);
+    options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
+    options.layer.first_height = YPlus{1};
+    options.use_flow = true;
+    const MeshResult result = mesh_of({shapes::polygon({{1, 0.5}, {0, 0}, {1, -0.5}})}, options);
+    expect_sound(result, options);
+    EXPECT_GT(result.check.transition.p01_area_ratio, 0.5);
+    EXPECT_LT(result.check.transition.p99_area_ratio, 1.8);
+}
+
+/// A wake leaves the layer between columns that are wider than its triangles. It divided tops of cells twice as high as wide,
+/// and half of these cells had nine times the area of the triangles beyond.
+TEST(Transition, WakesLeaveTheirLayersWithoutDividingHighCells) {
+    CaseOptions options = automatic(1.2);
+    options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
+    options.layer.first_height = YPlus{1};
+    options.use_flow = true;
+    shapes::Outline outline;
+    for (const Point p : shapes::circle(0.5, 100)) outline.push_back(p + Point{0.5, 0});
+    const MeshResult result = mesh_of({outline}, options);
+    expect_sound(result, options);
+    EXPECT_GT(result.check.transition.p01_area_ratio, 0.5);
+    EXPECT_LT(result.check.transition.p99_area_ratio, 2);
+}
+
 /// Cells of a fan are as wide as its rays are apart, at any height. With a growth of 1.2 they would be 1.9 times as high.
 TEST(Transition, FansEndInLowCells) {
     CaseOptions options = automatic(1.2);

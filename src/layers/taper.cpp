@@ -1,0 +1,127 @@
+// Columns at sharp edges and bases are narrow up to the front, where triangles begin that are as small as columns are
+// wide. Numbers of layers may not change there (narrow_columns.cpp), so that last layers are higher than columns are
+// wide. They are made lower at the expense of those in the middle of the column:
+//
+//      |___|        |___|  <- front, as before
+//      |   |        |___|
+//      |   |        |   |
+//      |___|        |___|      Left: layers of equal heights. Right: the last one has half of its height, and those
+//      |   |        |   |      in the middle are a sixth higher. The number of layers is the same, and so is the front.
+//      |   |        |   |
+//      |___|        |   |
+//      |   |        |___|
+//
+// A point at the distance x below the front, in lengths of the part that changes, comes to the distance
+// t x + 2 (1 - t) x^2 - (1 - t) x^3, whose slope is t at the front and 1 at the end of the part, so that nothing jumps
+// there. docs/decisions/0063.
+#include "layers/taper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "layers/layered_rays.hpp"
+#include "layers/neighbours.hpp"
+#include "layers/rows.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has 1.3
+/// times the area of the triangle beyond. They never become lower than the second number times that for the sake of
+/// others: 0.7 times the area.
+constexpr double wanted_tallness = 1.1, least_tallness = 0.6;
+/// Faces between columns become shorter, and as much more skewed where rows turn at a ray, up to this.
+constexpr double most_skewness = 0.6;
+/// The heights of so many last layers change.
+constexpr double tapered_layers = 18;
+/// Where neighbours are not tapered alike, rows rise by this much per unit of distance at most. Points move by up to 4 / 27
+/// of the part that changes, if the last layer vanishes.
+constexpr double most_rise = 0.1, most_moved = 4.0 / 27;
+
+/// Returns the first layer from which on heights change.
+std::size_t first_tapered(std::span<const double> heights) {
+    const std::size_t n = heights.size() - 1, half = std::max<std::size_t>(n / 2, 1);
+    const double begin = heights[n] - tapered_layers * (heights[n] - heights[n - 1]);
+    const auto above = std::upper_bound(heights.begin() + static_cast<std::ptrdiff_t>(half), heights.end(), begin);
+    return std::max(half, static_cast<std::size_t>(above - heights.begin()) - 1);
+}
+
+/// How far the column of a ray should be tapered, and how far it may be.
+struct TaperBounds {
+    double part = 0;    ///< length of the part of the column that changes
+    double wanted = 1;  ///< taper with which the last layer is as high as wanted
+    double least = 0;   ///< taper below which it would be too low, or faces too skewed
+};
+
+TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after) {
+    const std::uint32_t n = rays.counts[ray], common = std::min({rays.counts[before], n, rays.counts[after]});
+    if (n < 2 || common == 0) return {};
+    const std::span<const double> heights = rays.heights.of(ray).first(n + std::size_t{1});
+    const double last = heights[n] - heights[n - 1];
+    const Point tip = rays.tip(ray);
+    const double width = std::sqrt(distance(tip, rays.tip(before)) * distance(tip, rays.tip(after)));
+    const auto row = [&](std::size_t from, std::size_t to) {
+        return row_between(rays.set.lines[from], rays.heights.of(from)[common], rays.set.lines[to],
+                           rays.heights.of(to)[common]);
+    };
+    const double skewness = skewness_between(row(before, ray), row(ray, after), last);
+    return {heights[n] - heights[first_tapered(heights)], std::clamp(wanted_tallness * width / last, least_taper, 1.0),
+            std::min(std::max(least_tallness * width / last, skewness / most_skewness), 1.0)};
+}
+
+/// Returns the taper of each ray.
+std::vector<double> tapers(const LayeredRays& rays) {
+    const RayNeighbours neighbours(rays.set);
+    std::vector<TaperBounds> bounds;
+    std::vector<double> wanted, least;  // the latter negative, so that lowering them raises the bound
+    for (std::size_t i = 0; i < rays.counts.size(); ++i) {
+        bounds.push_back(taper_bounds(rays, neighbours.previous[i], i, neighbours.next[i]));
+        wanted.push_back(bounds.back().wanted);
+        least.push_back(-bounds.back().least);
+    }
+    // Both lead over to the neighbours, so that no taper jumps where one of them gives way to the other.
+    for (std::vector<double>* values : {&wanted, &least})
+        lower_to_neighbours(rays.set, *values, [&](std::size_t from, std::size_t to) {
+            const double part = std::max(bounds[from].part, bounds[to].part);
+            if (!(part > 0)) return HUGE_VAL;
+            return (*values)[from] + most_rise * distance(rays.tip(from), rays.tip(to)) / (most_moved * part);
+        });
+    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = std::max(wanted[i], -least[i]);
+    return wanted;
+}
+
+}  // namespace
+
+void taper_heights(double taper, std::span<double> heights) {
+    if (taper == 1 || heights.size() < 3) return;
+    const std::size_t first = first_tapered(heights);
+    const double end = heights.back(), part = end - heights[first];
+    for (std::size_t k = first + 1; k + 1 < heights.size(); ++k) {
+        const double x = (end - heights[k]) / part;
+        heights[k] = end - part * x * (taper + (1 - taper) * x * (2 - x));
+    }
+}
+
+void taper_tall_columns(Rays& rays) {
+    if (rays.growth.layers) return;
+    const std::vector<double> wanted = tapers(layered_rays(rays));
+    std::vector<double> table = rays.fitted.table();
+    std::vector<HeightColumn> columns;
+    columns.reserve(wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        HeightColumn& column = columns.emplace_back(rays.fitted.column(i));
+        if (wanted[i] == 1) continue;
+        const std::span<const double> heights = rays.fitted.of(i);
+        column.taper = wanted[i];
+        column.first = table.size();
+        table.insert(table.end(), heights.begin(), heights.end());
+        taper_heights(column.taper, std::span(table).subspan(column.first, rays.counts[i] + std::size_t{1}));
+    }
+    rays.fitted = LayerHeights(std::move(table), std::move(columns));
+}
+
+}  // namespace lamina::layers

@@ -1,0 +1,122 @@
+// The last layers of narrow columns are lowered towards the triangles beyond, where the front and the numbers of layers
+// stay as they are.
+#include "layers/taper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+namespace lamina {
+namespace {
+
+/// Returns heights that grow by a fifth up to this spacing, and go on with it.
+std::vector<double> heights_with(double max_spacing, std::size_t layers) {
+    std::vector<double> heights{0};
+    double spacing = 1e-5;
+    for (std::size_t n = 0; n < layers; ++n, spacing = std::min(1.2 * spacing, max_spacing))
+        heights.push_back(heights.back() + spacing);
+    return heights;
+}
+
+double last_spacing(const std::vector<double>& heights) { return heights.back() - heights[heights.size() - 2]; }
+
+TEST(Taper, LowersTheLastLayersAndKeepsTheRest) {
+    for (const std::size_t layers : {3, 8, 30, 60}) {
+        for (const double taper : {1.0, 0.8, 0.6, layers::least_taper}) {
+            SCOPED_TRACE(testing::Message() << layers << " layers, " << taper);
+            const std::vector<double> before = heights_with(1e-3, layers);
+            std::vector<double> after = before;
+            layers::taper_heights(taper, after);
+            EXPECT_EQ(after.back(), before.back());
+            for (std::size_t n = 0; n <= std::max<std::size_t>(layers / 2, 1); ++n) EXPECT_EQ(after[n], before[n]) << n;
+            for (std::size_t n = 1; n <= layers; ++n) {
+                EXPECT_GE(after[n], before[n]);
+                const double ratio = (after[n] - after[n - 1]) / (before[n] - before[n - 1]);
+                EXPECT_GT(ratio, taper - 1e-9) << n;
+                EXPECT_LT(ratio, 1 + 0.34 * (1 - taper) + 1e-9) << n;
+            }
+            if (layers < 30) continue;
+            EXPECT_NEAR(last_spacing(after) / last_spacing(before), taper, 0.13);
+        }
+    }
+}
+
+TEST(Taper, LeavesColumnsWithoutRoomAlone) {
+    for (const std::size_t layers : {0, 1}) {
+        std::vector<double> heights = heights_with(1e-3, layers);
+        layers::taper_heights(0.5, heights);
+        EXPECT_EQ(heights, heights_with(1e-3, layers));
+    }
+}
+
+/// Returns rays in a row, so far apart, with columns of 60 layers whose last ones are 0.001 high.
+Rays columns_apart(const std::vector<double>& widths) {
+    Rays rays;
+    double x = 0;
+    for (const double width : widths) {
+        rays.set.lines.push_back({{x, 0}, {0, 1}});
+        x += width;
+    }
+    rays.set.begin.push_back(widths.size());
+    const std::vector<double> table = heights_with(1e-3, 60);
+    rays.fitted = LayerHeights(table, std::vector<HeightColumn>(widths.size(), {.layers = 60}));
+    rays.counts.assign(widths.size(), 60);
+    return rays;
+}
+
+/// Returns widths of columns that begin wide, are 4e-4 in the middle, and become wide again.
+std::vector<double> widths_with_narrow_middle() {
+    std::vector<double> widths;
+    for (double width = 2e-3; width > 4e-4; width *= 0.95) widths.push_back(width);
+    widths.insert(widths.end(), 20, 4e-4);
+    for (double width = 4e-4; width < 2e-3; width /= 0.95) widths.push_back(width);
+    return widths;
+}
+
+TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
+    const std::vector<double> widths = widths_with_narrow_middle();
+    Rays rays = columns_apart(widths);
+    const LayerHeights before = rays.fitted;
+    layers::taper_tall_columns(rays);
+    for (std::size_t i = 2; i + 2 < widths.size(); ++i) {
+        SCOPED_TRACE(testing::Message() << "column " << i << ", " << widths[i] << " wide");
+        const std::vector<double> heights(rays.fitted.of(i).begin(), rays.fitted.of(i).end());
+        EXPECT_EQ(heights.back(), before.full_height(i));
+        EXPECT_TRUE(std::is_sorted(heights.begin(), heights.end()));
+        const double width = std::sqrt(widths[i - 1] * widths[i]);
+        EXPECT_LT(last_spacing(heights), 1.3 * width) << "half of the cell has 1.5 times the area beyond";
+        EXPECT_GT(last_spacing(heights), std::min(1e-3, 0.58 * width)) << "two thirds";
+        // Rows rise by a tenth of the width of a column at most.
+        for (std::size_t n = 0; n < heights.size(); ++n)
+            EXPECT_LE(std::abs(heights[n] - rays.fitted.of(i - 1)[n]), 0.1001 * widths[i - 1]) << n;
+    }
+}
+
+TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
+    Rays rays = columns_apart(widths_with_narrow_middle());
+    const std::vector<double> table = rays.fitted.table();
+    rays.growth.layers = 60;
+    layers::taper_tall_columns(rays);
+    EXPECT_EQ(rays.fitted.table(), table);
+}
+
+/// Where rows turn at a ray, faces that become shorter become more skewed.
+TEST(Taper, FacesBesideTurningRowsStayLong) {
+    const std::vector<double> widths(201, 4e-4);
+    Rays rays = columns_apart(widths);
+    Rays turning = rays;
+    for (std::size_t i = 0; i < widths.size(); ++i)
+        turning.set.lines[i].origin.y = -std::abs(turning.set.lines[i].origin.x - turning.set.lines[100].origin.x);
+    layers::taper_tall_columns(rays);
+    layers::taper_tall_columns(turning);
+    EXPECT_NEAR(rays.fitted.column(100).taper, 1.1 * 0.4, 1e-9);
+    EXPECT_NEAR(turning.fitted.column(40).taper, 1.1 * 0.4 * std::sqrt(2.0), 1e-9) << "edges of the front are longer";
+    EXPECT_NEAR(turning.fitted.column(100).taper, 0.4 / 0.6, 1e-9) << "a skewness of 0.4, made 0.6";
+}
+
+}  // namespace
+}  // namespace lamina
