@@ -15,16 +15,14 @@ namespace lamina::surface {
 
 namespace {
 
-/// Beyond these bounds, samples of a smooth curve are too coarse for a mesh. Ratios up to 2 may be a user's choice.
-constexpr double max_given_ratio = 2, max_given_spacing = 0.05;
+/// Beyond these bounds, samples of a smooth curve are too coarse or too uneven for a mesh.
+constexpr double max_given_ratio = 1.25, max_given_spacing = 0.05;
 /// So many points are kept, even where they are spaced as a generator of meshes would not ...
 constexpr std::size_t min_dense_points = 1000;
 /// ... unless neighbouring spacings differ by more than this, as where points are random.
 constexpr double max_dense_ratio = 10;
 /// Points that are nearer to each other, as a share of the element's length, make cells that are far higher than wide.
 constexpr double min_given_spacing = 5e-7;
-/// The largest ratio of neighbouring spacings in a stretch that is kept beside one that is replaced.
-constexpr double max_kept_ratio = 1.25;
 
 /// An outline that turns by less at each vertex is straight.
 constexpr double min_curve_turning = core::radians(0.01);
@@ -180,11 +178,11 @@ bool is_fine(const Sampling& s, EdgeRange range, const MeasuredOutline& outline,
              const ResamplingRequest& request) {
     const auto fits_corner = [&](std::size_t vertex, double spacing) {
         const std::size_t corner = vertex % outline.n;
-        return spacing <= max_kept_ratio * request.corner_spacing(index, outline.turning[corner], outline.extent,
-                                                                  is_given_corner(e, corner));
+        return spacing <= max_given_ratio * request.corner_spacing(index, outline.turning[corner], outline.extent,
+                                                                   is_given_corner(e, corner));
     };
     return s.max_turning > min_curve_turning && core::degrees(s.max_turning) <= request.max_turning_deg() &&
-           s.max_spacing <= request.options.max_spacing * outline.extent && s.max_ratio <= max_kept_ratio &&
+           s.max_spacing <= request.options.max_spacing * outline.extent && s.max_ratio <= max_given_ratio &&
            fits_corner(range.first, s.first_spacing) && fits_corner(range.first + range.count, s.last_spacing);
 }
 

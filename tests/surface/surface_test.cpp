@@ -13,6 +13,7 @@
 #include <lamina/error.hpp>
 #include <lamina/surface.hpp>
 
+#include "core/angles.hpp"
 #include "support/geometry_fixtures.hpp"
 #include "support/outline_measures.hpp"
 #include "support/shapes.hpp"
@@ -371,6 +372,23 @@ TEST(AutomaticSurface, ResamplesCoarseCurvesAndSaysWhy) {
     EXPECT_GT(e.points.size(), 36u);
     EXPECT_NE(e.surface_notes.back().find("20 points resampled to"), std::string::npos) << e.surface_notes.back();
     EXPECT_NE(e.surface_notes.back().find("turn by up to 18.0 degrees"), std::string::npos) << e.surface_notes.back();
+}
+
+/// Spacings that jump by 1.6 are no wall for a layer, however small they are.
+TEST(AutomaticSurface, ResamplesFineCurvesOfUnevenSpacing) {
+    Outline outline;
+    for (int k = 0; k < 180; ++k) {
+        const double angle = core::radians(2 * k + (k % 10 == 5 ? 0.45 : 0));
+        outline.push_back({std::cos(angle), std::sin(angle)});
+    }
+    const Element e = prepared(outline, {});
+    EXPECT_NE(e.surface_notes.back().find("neighbouring spacings differ by up to 1.6"), std::string::npos)
+        << e.surface_notes.back();
+    const Outline& points = e.points;
+    for (std::size_t i = 0, n = points.size(); i < n; ++i) {
+        const double a = distance(points[(i + n - 1) % n], points[i]), b = distance(points[i], points[(i + 1) % n]);
+        EXPECT_LT(std::max(a, b) / std::min(a, b), 1.25);
+    }
 }
 
 TEST(KeptSurface, IsUntouched) {
