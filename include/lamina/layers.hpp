@@ -326,8 +326,8 @@ struct Ray {
     RayPlace place = RayPlace::wall;  ///< RayLine::place
     /// The first height on this ray over that on the wall, and that of each layer above: they open along wakes.
     double opening = 1;
-    /// The height of the last layer over that which it would have otherwise. Those below move so that the ray keeps its
-    /// end (docs/decisions/0063). 1 where columns are wide, and where a number of layers is requested.
+    /// The height of the last layer over that which it would have otherwise, 0.4 to 1.5. Those below move so that the ray
+    /// keeps its end (docs/decisions/0063). 1 where a number of layers is requested.
     double taper = 1;
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.

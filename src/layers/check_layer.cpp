@@ -204,7 +204,7 @@ private:
             report("ray is stretched without a limit", origin);
         if (!(ray.stretch.factor <= max_stretch && ray.stretch.factor * max_stretch >= 1 - 1e-12))
             report(fmt::format("ray is stretched by {}", ray.stretch.factor), origin);
-        if (!(ray.taper >= least_taper && ray.taper <= 1) || (ray.taper != 1 && growth.layers))
+        if (!(ray.taper >= least_taper && ray.taper <= most_taper) || (ray.taper != 1 && growth.layers))
             report(fmt::format("ray is tapered by {}", ray.taper), origin);
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {
             const VertexId v = ray.vertex(n);

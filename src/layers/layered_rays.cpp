@@ -64,7 +64,7 @@ void fit_and_count_layers(Rays& rays) {
         rays.counts = layer_counts(rays.set, rays.limits, rays.fitted);
         if (round == max_rounds || !lower_limits_of_lowered_rays(rays)) break;
     }
-    taper_tall_columns(rays);
+    taper_columns(rays);
 }
 
 }  // namespace lamina::layers

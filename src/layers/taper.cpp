@@ -13,7 +13,7 @@
 //
 // A point at the distance x below the front, in lengths of the part that changes, comes to the distance
 // t x + 2 (1 - t) x^2 - (1 - t) x^3, whose slope is t at the front and 1 at the end of the part, so that nothing jumps
-// there. docs/decisions/0063.
+// there. Where columns are far wider than their last layers are high, t is above 1. docs/decisions/0063.
 #include "layers/taper.hpp"
 
 #include <algorithm>
@@ -31,8 +31,7 @@ namespace lamina::layers {
 namespace {
 
 /// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has 1.3
-/// times the area of the triangle beyond. They never become lower than the second number times that for the sake of
-/// others: 0.7 times the area.
+/// times the area of the triangle beyond. They become the second number times as high at least, for 0.7 times the area.
 constexpr double wanted_tallness = 1.1, least_tallness = 0.6;
 /// Faces between columns become shorter, and as much more skewed where rows turn at a ray, up to this.
 constexpr double most_skewness = 0.6;
@@ -70,7 +69,7 @@ TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_
     };
     const double skewness = skewness_between(row(before, ray), row(ray, after), last);
     return {heights[n] - heights[first_tapered(heights)], std::clamp(wanted_tallness * width / last, least_taper, 1.0),
-            std::min(std::max(least_tallness * width / last, skewness / most_skewness), 1.0)};
+            std::max(std::min(least_tallness * width / last, most_taper), std::min(skewness / most_skewness, 1.0))};
 }
 
 /// Returns the taper of each ray.
@@ -106,7 +105,7 @@ void taper_heights(double taper, std::span<double> heights) {
     }
 }
 
-void taper_tall_columns(Rays& rays) {
+void taper_columns(Rays& rays) {
     if (rays.growth.layers) return;
     const std::vector<double> wanted = tapers(layered_rays(rays));
     std::vector<double> table = rays.fitted.table();

@@ -1,4 +1,4 @@
-// Last layers of narrow columns, lowered towards the triangles beyond.
+// Last layers, made as high as the triangles beyond are wide.
 #pragma once
 
 #include <span>
@@ -7,15 +7,15 @@
 
 namespace lamina::layers {
 
-/// No last layer becomes lower than this share of its height.
-inline constexpr double least_taper = 0.4;
+/// Last layers become so many times as high, at the least and at the most.
+inline constexpr double least_taper = 0.4, most_taper = 1.5;
 
-/// Lowers the last layer of a column to this share of its height, those below by less and less, and moves them up so that
-/// the column keeps its end. The layers of its lower half stay. heights[0] = 0 is the wall, heights.back() the end.
+/// Makes the last layer of a column so many times as high, those below by less and less, and others give way so that the
+/// column keeps its end. The layers of its lower half stay. heights[0] = 0 is the wall, heights.back() the end.
 void taper_heights(double taper, std::span<double> heights);
 
-/// Tapers the columns of rays whose last layers are far higher than the front's edges beside them are long, and those
-/// beside them a little. Rays with a requested number of layers keep their heights.
-void taper_tall_columns(Rays& rays);
+/// Tapers the columns of rays whose last layers are far higher or lower than the front's edges beside them are long, and
+/// those beside them a little. Rays with a requested number of layers keep their heights.
+void taper_columns(Rays& rays);
 
 }  // namespace lamina::layers

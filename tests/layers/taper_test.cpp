@@ -24,9 +24,9 @@ std::vector<double> heights_with(double max_spacing, std::size_t layers) {
 
 double last_spacing(const std::vector<double>& heights) { return heights.back() - heights[heights.size() - 2]; }
 
-TEST(Taper, LowersTheLastLayersAndKeepsTheRest) {
+TEST(Taper, ChangesTheLastLayersAndKeepsTheRest) {
     for (const std::size_t layers : {3, 8, 30, 60}) {
-        for (const double taper : {1.0, 0.8, 0.6, layers::least_taper}) {
+        for (const double taper : {layers::most_taper, 1.2, 1.0, 0.8, 0.6, layers::least_taper}) {
             SCOPED_TRACE(testing::Message() << layers << " layers, " << taper);
             const std::vector<double> before = heights_with(1e-3, layers);
             std::vector<double> after = before;
@@ -34,10 +34,11 @@ TEST(Taper, LowersTheLastLayersAndKeepsTheRest) {
             EXPECT_EQ(after.back(), before.back());
             for (std::size_t n = 0; n <= std::max<std::size_t>(layers / 2, 1); ++n) EXPECT_EQ(after[n], before[n]) << n;
             for (std::size_t n = 1; n <= layers; ++n) {
-                EXPECT_GE(after[n], before[n]);
+                EXPECT_TRUE(taper > 1 ? after[n] <= before[n] : after[n] >= before[n]) << n;
                 const double ratio = (after[n] - after[n - 1]) / (before[n] - before[n - 1]);
-                EXPECT_GT(ratio, taper - 1e-9) << n;
-                EXPECT_LT(ratio, 1 + 0.34 * (1 - taper) + 1e-9) << n;
+                const double in_the_middle = 1 + (1 - taper) / 3;
+                EXPECT_GT(ratio, std::min(taper, in_the_middle) - 1e-9) << n;
+                EXPECT_LT(ratio, std::max(taper, in_the_middle) + 1e-9) << n;
             }
             if (layers < 30) continue;
             EXPECT_NEAR(last_spacing(after) / last_spacing(before), taper, 0.13);
@@ -81,7 +82,7 @@ TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
     const std::vector<double> widths = widths_with_narrow_middle();
     Rays rays = columns_apart(widths);
     const LayerHeights before = rays.fitted;
-    layers::taper_tall_columns(rays);
+    layers::taper_columns(rays);
     for (std::size_t i = 2; i + 2 < widths.size(); ++i) {
         SCOPED_TRACE(testing::Message() << "column " << i << ", " << widths[i] << " wide");
         const std::vector<double> heights(rays.fitted.of(i).begin(), rays.fitted.of(i).end());
@@ -96,26 +97,34 @@ TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
     }
 }
 
+TEST(Taper, LowLayersOfWideColumnsBecomeHigher) {
+    Rays rays = columns_apart(std::vector<double>(100, 2e-3)), wider = columns_apart(std::vector<double>(100, 4e-3));
+    layers::taper_columns(rays);
+    layers::taper_columns(wider);
+    EXPECT_NEAR(rays.fitted.column(50).taper, 1.2, 1e-9) << "0.6 times as high as wide";
+    EXPECT_EQ(wider.fitted.column(50).taper, layers::most_taper);
+}
+
 TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
     Rays rays = columns_apart(widths_with_narrow_middle());
     const std::vector<double> table = rays.fitted.table();
     rays.growth.layers = 60;
-    layers::taper_tall_columns(rays);
+    layers::taper_columns(rays);
     EXPECT_EQ(rays.fitted.table(), table);
 }
 
 /// Where rows turn at a ray, faces that become shorter become more skewed.
 TEST(Taper, FacesBesideTurningRowsStayLong) {
-    const std::vector<double> widths(201, 4e-4);
+    const std::vector<double> widths(401, 4e-4);
     Rays rays = columns_apart(widths);
     Rays turning = rays;
     for (std::size_t i = 0; i < widths.size(); ++i)
-        turning.set.lines[i].origin.y = -std::abs(turning.set.lines[i].origin.x - turning.set.lines[100].origin.x);
-    layers::taper_tall_columns(rays);
-    layers::taper_tall_columns(turning);
-    EXPECT_NEAR(rays.fitted.column(100).taper, 1.1 * 0.4, 1e-9);
-    EXPECT_NEAR(turning.fitted.column(40).taper, 1.1 * 0.4 * std::sqrt(2.0), 1e-9) << "edges of the front are longer";
-    EXPECT_NEAR(turning.fitted.column(100).taper, 0.4 / 0.6, 1e-9) << "a skewness of 0.4, made 0.6";
+        turning.set.lines[i].origin.y = -std::abs(turning.set.lines[i].origin.x - turning.set.lines[200].origin.x);
+    layers::taper_columns(rays);
+    layers::taper_columns(turning);
+    EXPECT_NEAR(rays.fitted.column(200).taper, 1.1 * 0.4, 1e-9);
+    EXPECT_NEAR(turning.fitted.column(100).taper, 1.1 * 0.4 * std::sqrt(2.0), 1e-9) << "edges of the front are longer";
+    EXPECT_NEAR(turning.fitted.column(200).taper, 0.4 / 0.6, 1e-9) << "a skewness of 0.4, made 0.6";
 }
 
 }  // namespace
