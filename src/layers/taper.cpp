@@ -34,7 +34,7 @@ namespace {
 /// times the area of the triangle beyond. They become the second number times as high at least, for 0.7 times the area.
 constexpr double wanted_tallness = 1.1, least_tallness = 0.6;
 /// Faces between columns become shorter, and as much more skewed where rows turn at a ray, up to this.
-constexpr double most_skewness = 0.6;
+constexpr double largest_skewness = 0.6;
 /// The heights of so many last layers change.
 constexpr double tapered_layers = 18;
 /// Where neighbours are not tapered alike, rows rise by this much per unit of distance at most. Points move by up to 4 / 27
@@ -69,7 +69,7 @@ TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_
     };
     const double skewness = skewness_between(row(before, ray), row(ray, after), last);
     return {heights[n] - heights[first_tapered(heights)], std::clamp(wanted_tallness * width / last, least_taper, 1.0),
-            std::max(std::min(least_tallness * width / last, most_taper), std::min(skewness / most_skewness, 1.0))};
+            std::max(std::min(least_tallness * width / last, most_taper), std::min(skewness / largest_skewness, 1.0))};
 }
 
 /// Returns the taper of each ray.
