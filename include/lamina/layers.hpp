@@ -55,6 +55,9 @@ struct YPlus {
     double y_plus = 1;  ///< height of the first layer in units of the viscous length
 };
 
+/// Neighbouring rays of jagged walls diverge by up to this angle (LayerOptions::max_ray_angle_deg), in degrees.
+inline constexpr double max_jagged_ray_angle_deg = 20;
+
 /// Options of the layer.
 struct LayerOptions {
     bool enabled = true;  ///< false: the outer region begins at the walls
@@ -67,7 +70,9 @@ struct LayerOptions {
     /// to the neighbouring rays.
     std::optional<std::uint32_t> layers = 30;
     std::optional<Length> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
-    double max_ray_angle_deg = 5;       ///< largest angle between neighbouring rays
+    /// Largest angle between neighbouring rays. On jagged walls (Rays::jagged) it may be max_jagged_ray_angle_deg, and
+    /// more where rays converge.
+    double max_ray_angle_deg = 5;
     CornerRays corners = CornerRays::fan;  ///< the rays at sharp convex corners
     /// Number of rays of each fan. Every other vertex then has one ray, whatever the angle to its neighbours, so that
     /// walls with equal numbers of vertices and fans have equal numbers of rays. Empty: as max_ray_angle_deg asks.
@@ -244,8 +249,11 @@ struct WakeCore {
 /// The rays and the number of layers on each. If the layer is disabled, each wall vertex has one ray without a
 /// direction and without layers.
 struct Rays {
-    RaySet set;                         ///< origins and directions
-    std::vector<char> resampled;        ///< one per element: Element::resampled
+    RaySet set;                   ///< origins and directions
+    std::vector<char> resampled;  ///< one per element: Element::resampled
+    /// One per element: whether it is resampled between so many corners that it is not smooth, as iced ones are. Rays
+    /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/decisions/0064).
+    std::vector<char> jagged;
     bool enabled = true;                ///< LayerOptions::enabled
     LayerGrowth growth;                 ///< the growth that was requested
     LayerHeights heights;               ///< as the growth law makes them, along the rays (Ray::slant)
@@ -400,6 +408,7 @@ struct Layer {
     LayerGrowth growth;                     ///< the growth that was requested
     std::vector<LayerCore> cores;           ///< the spaces behind bases, parts of the layer
     LayerEdges edges;                       ///< layer_edges() of this layer
+    std::vector<char> jagged{};             ///< Rays::jagged
 };
 
 /// Returns the edges of the walls and borders of a layer: Layer::edges.

@@ -149,15 +149,18 @@ private:
         }
     }
 
-    /// Returns the largest angle that neighbouring rays may differ by.
-    double max_ray_angle() const {
-        return options_.fan_rays ? core::pi : core::radians(options_.max_ray_angle_deg) + 1e-9;
+    /// Returns whether the angle from a ray of an element to the next one is small enough.
+    bool is_ray_angle_allowed(double angle, std::size_t element) const {
+        constexpr double rounding = 1e-9;
+        if (options_.fan_rays) return true;
+        const bool jagged = element < layer_.jagged.size() && layer_.jagged[element];
+        if (!jagged) return std::abs(angle) <= core::radians(options_.max_ray_angle_deg) + rounding;
+        return angle <= core::radians(std::max(options_.max_ray_angle_deg, max_jagged_ray_angle_deg)) + rounding;
     }
 
     /// Checks that rays stand in the order of the wall, and that neighbours differ by one layer and the largest ray
     /// angle at most.
     void check_rays() {
-        const double max_angle = max_ray_angle();
         for (std::size_t e = 0; e < layer_.rays.size(); ++e) {
             const std::vector<Ray>& rays = layer_.rays[e];
             const LayerGrowth growth = growth_on_element(layer_.growth, e);
@@ -176,7 +179,7 @@ private:
                     report("neighbouring rays differ by more than one layer", origin);
                 const double angle = core::angle_between(ray.direction, next.direction);
                 const bool ends_wake = ray.place == RayPlace::wake_end || next.place == RayPlace::wake_end;
-                if (std::abs(angle) > max_angle && !ends_wake)
+                if (!is_ray_angle_allowed(angle, e) && !ends_wake)
                     report(fmt::format("{} degrees between rays", core::degrees(angle)), origin);
                 check_heights(ray, growth);
             }

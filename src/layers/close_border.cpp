@@ -113,6 +113,7 @@ Layer close_border(const Rays& rays, const BorderOptions& options) {
     Layer layer = build_layer(rays, corners, divide_fronts(layered, corners, options, {}, whole_up_to));
     if (rays.enabled) layer.coverage = layer_coverage(rays.set, rays.heights, rays.counts);
     layer.growth = rays.growth;
+    layer.jagged = rays.jagged;
     layer.edges = layer_edges(layer);
     return layer;
 }

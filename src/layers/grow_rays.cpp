@@ -70,11 +70,12 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         const auto wake =
             std::find_if(wakes.begin(), wakes.end(), [&](const DividedWake& w) { return w.element == e; });
         std::vector<RayVertex> outline = outline_with_wake(element.points, wake == wakes.end() ? nullptr : &*wake);
+        const OutlineKind kind = outline_kind(element);
         const LayerGrowth own = growth_on_element(growth, e);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
-        std::vector<RayLine> rays = make_rays(outline, element.smooth, options, own);
-        if (element.smooth && !own.least_heights.empty())
-            rays = make_rays(outline, element.smooth, options, own, front_heights(outline, rays, own));
+        std::vector<RayLine> rays = make_rays(outline, kind, options, own);
+        if (kind == OutlineKind::smooth && !own.least_heights.empty())
+            rays = make_rays(outline, kind, options, own, front_heights(outline, rays, own));
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
     }
@@ -88,7 +89,8 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
     require_sensible_scale(bounding_box(geometry), rays.growth, rays.heights);
     rays.limits = height_limits(rays.set, rays.heights);
     for (int insertion = 0; insertion < max_insertions && !options.fan_rays; ++insertion)
-        if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.heights, rays.limits), rays)) break;
+        if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.jagged, rays.heights, rays.limits), rays))
+            break;
     fit_and_count_layers(rays);
 }
 
@@ -143,7 +145,10 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     rays.enabled = options.enabled;
     rays.wake_lengths.assign(geometry.elements.size(), 0.0);
     rays.resampled.reserve(geometry.elements.size());
-    for (const Element& element : geometry.elements) rays.resampled.push_back(element.resampled);
+    for (const Element& element : geometry.elements) {
+        rays.resampled.push_back(element.resampled);
+        rays.jagged.push_back(outline_kind(element) == OutlineKind::jagged);
+    }
     if (!options.enabled) {
         rays.set = bare_walls(geometry);
         rays.counts.assign(rays.set.lines.size(), 0);

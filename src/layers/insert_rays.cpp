@@ -56,7 +56,8 @@ RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& sh
 
 }  // namespace
 
-RaySet insert_rays_where_counts_change(const RaySet& set, const LayerHeights& heights, std::span<const double> limits) {
+RaySet insert_rays_where_counts_change(const RaySet& set, std::span<const char> jagged, const LayerHeights& heights,
+                                       std::span<const double> limits) {
     const std::vector<std::size_t> next = set.following();
     const auto end_of = [&](std::size_t i) {
         const std::span<const double> column = heights.of(i);
@@ -70,7 +71,10 @@ RaySet insert_rays_where_counts_change(const RaySet& set, const LayerHeights& he
         return width < least_width * last_spacing;
     };
     std::vector<std::vector<double>> shares(set.lines.size());
+    std::size_t element = 0;
     for (std::size_t i = 0; i < set.lines.size(); ++i) {
+        while (i == set.begin[element + 1]) ++element;
+        if (jagged[element]) continue;
         const RayEnd end = end_of(i), next_end = end_of(next[i]);
         const bool rises = end.layers < next_end.layers;
         const RayEnd &low = rises ? end : next_end, &high = rises ? next_end : end;

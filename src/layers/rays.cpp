@@ -73,17 +73,28 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     add(last_direction(vertex));
 }
 
-/// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the edge.
-void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, std::vector<RayLine>& rays) {
+/// Adds the rays between two others that differ by more than the largest angle, evenly spaced on the edge. Corners of
+/// jagged outlines are so many, and their edges so short, that neighbouring edges would differ by whole factors
+/// (docs/decisions/0064). Rays are added there only where a column opens widely, none where rays converge.
+void add_refining_rays(const RayLine& first, const RayLine& last, double max_angle, bool jagged,
+                       std::vector<RayLine>& rays) {
     const IntermediateRays between(first, last);
+    if (jagged && between.angle() <= 0) return;
+    if (jagged) max_angle = std::max(max_angle, core::radians(max_jagged_ray_angle_deg));
     const std::size_t parts = angle_parts(between.angle(), max_angle);
     for (std::size_t k = 1; k < parts; ++k) between.add(static_cast<double>(k), static_cast<double>(parts), rays);
 }
 
 }  // namespace
 
-std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, const LayerOptions& options,
+OutlineKind outline_kind(const Element& element) {
+    if (!element.resampled) return OutlineKind::given;
+    return element.smooth ? OutlineKind::smooth : OutlineKind::jagged;
+}
+
+std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,
                                const LayerGrowth& growth, std::span<const double> heights) {
+    const bool smooth = kind == OutlineKind::smooth, jagged = kind == OutlineKind::jagged;
     const double min_fan_turning_deg =
         smooth && !options.fan_rays ? std::min(sharp_corner_deg, 2 * options.max_ray_angle_deg) : sharp_corner_deg;
     std::vector<WallVertex> vertices = wall_vertices(outline, options, min_fan_turning_deg);
@@ -101,7 +112,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, bool smooth, 
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),
                             .least_height = outline[next].least_height};
-        add_refining_rays(RayLine(rays.back()), after, max_angle, rays);
+        add_refining_rays(RayLine(rays.back()), after, max_angle, jagged, rays);
     }
     return rays;
 }

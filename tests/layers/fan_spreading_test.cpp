@@ -35,7 +35,8 @@ Outline finely_divided_section(double base) {
 std::vector<RayLine> spread_rays(const Outline& outline, bool spread) {
     const LayerOptions options;
     const std::vector<double> heights(spread ? outline.size() : 0, front_height);
-    return layers::make_rays(layers::outline_with_wake(outline), true, options, test::growth_of(options), heights);
+    return layers::make_rays(layers::outline_with_wake(outline), layers::OutlineKind::smooth, options,
+                             test::growth_of(options), heights);
 }
 
 /// Returns the shortest edge of the front within 0.03 chords of the trailing edge.

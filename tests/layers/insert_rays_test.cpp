@@ -29,13 +29,13 @@ LayerHeights growing_heights(std::size_t rays) {
 }
 
 /// Returns how many rays are inserted between rays so many last spacings apart, of which one has `fewer` layers less.
-std::size_t inserted_rays(double last_spacings, std::uint32_t fewer) {
+std::size_t inserted_rays(double last_spacings, std::uint32_t fewer, bool jagged = false) {
     const LayerHeights heights = growing_heights(2);
     const std::span<const double> column = heights.of(0);
     const double last = column[ring_layers] - column[ring_layers - 1];
     const RaySet set = rays_on_a_line(2, last_spacings * last);
     const std::vector<double> limits{HUGE_VAL, column[ring_layers - fewer]};
-    const RaySet larger = layers::insert_rays_where_counts_change(set, heights, limits);
+    const RaySet larger = layers::insert_rays_where_counts_change(set, std::vector<char>{jagged}, heights, limits);
     return larger.lines.size() - set.lines.size();
 }
 
@@ -50,6 +50,12 @@ TEST(InsertedRays, DoNotDivideNarrowColumns) {
         EXPECT_EQ(inserted_rays(1.9 * fewer, fewer), 0u);
         EXPECT_GT(inserted_rays(2.1 * fewer, fewer), 0u);
     }
+}
+
+/// The surface has made edges of jagged walls as short as they may be. Divided ones would be shorter than their
+/// neighbours by whole factors.
+TEST(InsertedRays, LeaveTheEdgesOfJaggedWallsWhole) {
+    for (const std::uint32_t fewer : {2u, 3u, 5u}) EXPECT_EQ(inserted_rays(100, fewer, true), 0u);
 }
 
 }  // namespace

@@ -41,8 +41,9 @@ Outline noisy(Outline outline, double noise) {
     return outline;
 }
 
-std::vector<RayLine> rays_of(const Outline& outline, const LayerOptions& options) {
-    return layers::make_rays(layers::outline_with_wake(outline), false, options, test::growth_of(options));
+std::vector<RayLine> rays_of(const Outline& outline, const LayerOptions& options,
+                             layers::OutlineKind kind = layers::OutlineKind::given) {
+    return layers::make_rays(layers::outline_with_wake(outline), kind, options, test::growth_of(options));
 }
 
 TEST(Rays, AreBisectorsWhereTheWallIsConvexOrTurnsGently) {
@@ -96,6 +97,27 @@ TEST(Rays, OnShortEdgesShareTheAngleOfBluntCorners) {
         EXPECT_LE(angle, max_angle * (1 + 1e-9));
     }
     EXPECT_GT(made_share(fine, options), 0.99);
+}
+
+/// The corners of a star with edges of equal length, which are as short as a surface may make them.
+TEST(Rays, StandAtTheVerticesOfJaggedWallsAlone) {
+    Outline star = shapes::circle(1, 40);
+    for (std::size_t i = 0; i < star.size(); i += 2) star[i] = 0.99 * star[i];
+    star = shapes::refined(star, 3);
+    const LayerOptions options = layers_as_high_as(0.05);
+    EXPECT_GT(rays_of(star, options).size(), star.size());
+    EXPECT_EQ(rays_of(star, options, layers::OutlineKind::jagged).size(), star.size());
+
+    Geometry geometry = shapes::geometry({star});
+    geometry.elements[0].resampled = true;
+    const Layer layer = test::checked_layer(geometry, options);
+    EXPECT_EQ(layer.walls[0].size(), star.size());
+    EXPECT_GT(layer.coverage[0].all.made_cells, 0.95 * static_cast<double>(layer.coverage[0].all.requested_cells));
+
+    // Columns that would open widely are divided.
+    const Outline coarse = shapes::circle(1, 8);
+    const std::vector<RayLine> rays = rays_of(coarse, options, layers::OutlineKind::jagged);
+    EXPECT_EQ(rays.size(), 3 * coarse.size());
 }
 
 TEST(Rays, StayWellInsideTheHalfPlanesOfBothEdges) {
@@ -216,15 +238,15 @@ TEST(Rays, AskForFinerResampledWallsBelowBordersThatWouldBeDivided) {
 TEST(Rays, LeaveBluntCornersOfSmoothOutlinesInFans) {
     const Outline hexagon = shapes::refined(shapes::polygon({{0, 0}, {2, -0.5}, {4, 0}, {4, 2}, {2, 2.5}, {0, 2}}), 20);
     const LayerOptions options = layers_as_high_as(0.05);
-    const auto origins = [&](bool smooth) {
+    const auto origins = [&](layers::OutlineKind kind) {
         const std::vector<RayLine> rays =
-            layers::make_rays(layers::outline_with_wake(hexagon), smooth, options, test::growth_of(options));
+            layers::make_rays(layers::outline_with_wake(hexagon), kind, options, test::growth_of(options));
         std::set<std::pair<double, double>> points;
         for (const RayLine& ray : rays) points.emplace(ray.origin.x, ray.origin.y);
         return points.size();
     };
-    EXPECT_EQ(origins(true), hexagon.size());
-    EXPECT_GT(origins(false), hexagon.size());
+    EXPECT_EQ(origins(layers::OutlineKind::smooth), hexagon.size());
+    EXPECT_GT(origins(layers::OutlineKind::given), hexagon.size());
 }
 
 /// Rows over both walls of a cove corner keep their heights above the walls, up to the layer's end.
