@@ -173,6 +173,9 @@ struct RayLine {
     RayPlace place = RayPlace::wall;  ///< where it stands
     double opening = 1;               ///< its first height over that on the wall
     double least_height = 0;          ///< that of its column: LayerGrowth::least_heights or WakePoint
+    /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
+    /// edges at a corner out of which the ray leans; zero elsewhere (docs/decisions/0064).
+    Point shift{};
 };
 
 /// A stretch makes a column of layers end at a given height: layer n > above is `factor` to the power of n - above
@@ -337,6 +340,7 @@ struct Ray {
     /// The height of the last layer over that which it would have otherwise, 0.4 to 1.5. Those below move so that the ray
     /// keeps its end (docs/decisions/0063). 1 where a number of layers is requested.
     double taper = 1;
+    Point shift{};  ///< RayLine::shift
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
     VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }

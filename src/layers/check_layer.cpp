@@ -211,7 +211,7 @@ private:
             report(fmt::format("ray is tapered by {}", ray.taper), origin);
         for (std::uint32_t n = 1; n <= ray.layers; ++n) {
             const VertexId v = ray.vertex(n);
-            if (distance(at(v), origin + heights[n] * ray.direction) > 1e-11 * heights[n] + rounding)
+            if (distance(at(v), origin + (heights[n] * ray.direction + ray.shift)) > 1e-11 * heights[n] + rounding)
                 report(fmt::format("layer {} is not at its height", n), at(v));
             if (layer_.layer_of_point[v.index()] != n) report("layer_of_point is wrong", at(v));
         }

@@ -9,6 +9,7 @@
 #include <lamina/layers.hpp>
 
 #include "core/bounding_box.hpp"
+#include "layers/corner_shifts.hpp"
 #include "layers/heights.hpp"
 #include "layers/insert_rays.hpp"
 #include "layers/layered_rays.hpp"
@@ -91,6 +92,7 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
     for (int insertion = 0; insertion < max_insertions && !options.fan_rays; ++insertion)
         if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.jagged, rays.heights, rays.limits), rays))
             break;
+    shift_rays_of_corners(rays.heights, rays.set);
     fit_and_count_layers(rays);
 }
 

@@ -164,7 +164,7 @@ private:
                 const RayLine& line = set_.lines[i];
                 const std::span<const double> heights = rays_.fitted.of(i);
                 for (std::uint32_t n = 1; n <= rays_.counts[i]; ++n) {
-                    layer_.points[first_point_[i] + n - 1] = line.origin + heights[n] * line.direction;
+                    layer_.points[first_point_[i] + n - 1] = line.origin + (heights[n] * line.direction + line.shift);
                     layer_.layer_of_point[first_point_[i] + n - 1] = static_cast<std::uint16_t>(n);
                 }
             }
@@ -211,7 +211,8 @@ private:
                                           .max_spacing = column.max_spacing,
                                           .place = set_.lines[i].place,
                                           .opening = column.opening,
-                                          .taper = column.taper});
+                                          .taper = column.taper,
+                                          .shift = set_.lines[i].shift});
             }
         }
     }

@@ -18,7 +18,7 @@ struct LayeredRays {
     /// Returns the point at the top of a layer, with all heights multiplied by `scale`; the ray's origin for layer 0.
     Point point(std::size_t ray, std::uint32_t layer, double scale = 1) const {
         const RayLine& line = set.lines[ray];
-        return layer == 0 ? line.origin : line.origin + scale * heights.of(ray)[layer] * line.direction;
+        return layer == 0 ? line.origin : line.origin + scale * (heights.of(ray)[layer] * line.direction + line.shift);
     }
     /// Returns the end of a ray.
     Point tip(std::size_t ray, double scale = 1) const { return point(ray, counts[ray], scale); }

@@ -38,8 +38,8 @@ void expect_heights(const Layer& layer, const LayerOptions& options) {
         for (const Ray& ray : rays) {
             double spacing_below = 0;
             for (std::uint32_t n = 1; n <= ray.layers; ++n) {
-                const double spacing =
-                    distance(layer.points[ray.vertex(n - 1).index()], layer.points[ray.vertex(n).index()]);
+                const Point below = layer.points[ray.vertex(n - 1).index()] + (n == 1 ? ray.shift : Point{});
+                const double spacing = distance(below, layer.points[ray.vertex(n).index()]);
                 const double rounding = 1e-15 * scale / test::first_height(options);
                 if (n == 1) {
                     ASSERT_NEAR(spacing / (ray.slant * test::first_height(options)), 1, 1e-9 + rounding);

@@ -266,6 +266,31 @@ TEST(Rays, OutOfCoveCornersKeepTheHeightsAboveBothWalls) {
     EXPECT_GT(slanted, 2u);
 }
 
+/// A kink beside a cove corner tilts the rays of both. Their first layers have the same height above both edges, though
+/// rays lean; rows above have not.
+TEST(Rays, ThatLeanOutOfCornersKeepFirstHeightsAboveBothEdges) {
+    const Outline cove =
+        shapes::refined(shapes::polygon({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 2.2}, {1.9, 2}, {0, 2}}), 12);
+    const LayerOptions options = layers_as_high_as(0.1);
+    const Layer layer = test::checked_layer(cove, options);
+    const double height = layer_height(layer.growth, 1);
+    std::size_t shifted = 0;
+    for (std::size_t i = 0; i < layer.rays[0].size(); ++i) {
+        const std::vector<Ray>& rays = layer.rays[0];
+        const Ray &ray = rays[i], &before = rays[(i + rays.size() - 1) % rays.size()],
+                  &after = rays[(i + 1) % rays.size()];
+        if (ray.shift == Point{}) continue;
+        ++shifted;
+        const Point origin = layer.points[ray.origin.index()], top = layer.points[ray.vertex(1).index()];
+        const auto height_above = [&](Point edge) { return dot(top - origin, -perpendicular(unit(edge))) / height; };
+        EXPECT_NEAR(height_above(origin - layer.points[before.origin.index()]), 1, 1e-9);
+        EXPECT_NEAR(height_above(layer.points[after.origin.index()] - origin), 1, 1e-9);
+        EXPECT_GT(distance(top, origin + ray.slant * height * ray.direction), 0.009 * height);
+    }
+    EXPECT_GT(shifted, 0u);
+    EXPECT_LT(shifted, 4u);
+}
+
 TEST(Rays, AreShortenedInCirclesAndLeadOverToThoseBeside) {
     const Outline outline = shapes::circle(1, 200);
     const LayerOptions options = layers_as_high_as(0.2);

@@ -1,0 +1,57 @@
+// The ray of a corner that is tilted, so that it meets its neighbours higher up (normal_smoothing.cpp), is too high above
+// one of the edges beside it and too low above the other. It leaves the corner along the bisector instead, up to the top
+// of the first layer, and leans from there on (docs/decisions/0064):
+//
+//     \      /           \      /
+//      \    /             \    /      o: top of the first layer. Left: on a ray that leans to the right, too low above
+//       \  o               \  o       the wall on the right. Right: as high above that wall as above the other one.
+//        \/______           \|______
+//
+// Rows above are shifted as much, a part of the height of the first layer.
+#include "layers/corner_shifts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "layers/neighbours.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// First heights that differ by less from the one wanted stay as they are: tilts where walls are smooth may cost 0.009
+/// (max_tilt_between_edges()).
+constexpr double kept_difference = 0.0095;
+/// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
+constexpr double most_shift = 0.2;
+
+/// Returns the shift of a ray of its own at a corner. along: first height along the ray; height: above the edges.
+Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height) {
+    const Point edge_before = ray.origin - before.origin, edge_after = after.origin - ray.origin;
+    const Point a = -perpendicular(unit(edge_before)), b = -perpendicular(unit(edge_after));
+    const auto is_kept = [&](Point normal) {
+        return std::abs(dot(normal, ray.direction) * along - height) <= kept_difference * height;
+    };
+    if (is_kept(a) && is_kept(b)) return {};
+    // Both edges, moved outwards by the height, meet there.
+    const Point shift = height / (1 + dot(a, b)) * (a + b) - along * ray.direction;
+    const double shorter = std::min(length(edge_before), length(edge_after));
+    return length(shift) <= most_shift * shorter ? shift : Point{};
+}
+
+}  // namespace
+
+void shift_rays_of_corners(const LayerHeights& heights, RaySet& set) {
+    const RayNeighbours neighbours(set);
+    for (std::size_t i = 0; i < set.lines.size(); ++i) {
+        RayLine& ray = set.lines[i];
+        const RayLine &before = set.lines[neighbours.previous[i]], &after = set.lines[neighbours.next[i]];
+        const auto on_wall = [](const RayLine& line) { return line.place == RayPlace::wall; };
+        if (!on_wall(before) || !on_wall(ray) || !on_wall(after) || heights.of(i).size() < 2) continue;
+        if (before.origin == ray.origin || after.origin == ray.origin) continue;  // a ray of a fan
+        const double along = heights.of(i)[1];
+        ray.shift = shift_at_corner(before, ray, after, along, along / heights.column(i).slant);
+    }
+}
+
+}  // namespace lamina::layers
