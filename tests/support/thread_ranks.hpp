@@ -139,12 +139,12 @@ protected:
         wait();
         return std::make_unique<ThreadFile>(file, hub_);
     }
+    /// Returns once all threads have called it.
+    virtual void wait() { hub_.barrier.arrive_and_wait(); }
 
 private:
     unsigned rank_;
     RankHub& hub_;
-
-    void wait() { hub_.barrier.arrive_and_wait(); }
 };
 
 /// Calls work(ranks) as each of `n` ranks at once. What it throws goes through Ranks::fail(), as in the program, and the
