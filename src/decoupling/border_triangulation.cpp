@@ -40,13 +40,20 @@ delaunay::Tris triangulate_inside(std::span<const Point> points, std::span<const
     return delaunay::keep_left_of_segments(segments, tris, points.size());
 }
 
+Box box_of_border(std::span<const Point> points) {
+    Box box;
+    for (const Point p : points) box.include(p);
+    return box;
+}
+
 }  // namespace
 
 double estimate_undivided(const LocalBorder& local, const SizeField& size) {
     return delaunay::estimate_undivided(local.points, triangulate_inside(local.points, local.segments), size);
 }
 
-BorderTriangulation::BorderTriangulation(LocalBorder local, const SizeField& size) {
+BorderTriangulation::BorderTriangulation(LocalBorder local, const SizeField& size)
+    : size_(size.restricted_to(box_of_border(local.points))) {
     points_ = std::move(local.points);
     auto edge = local.segments.begin();
     for (const std::size_t n : local.loops) {
@@ -55,11 +62,24 @@ BorderTriangulation::BorderTriangulation(LocalBorder local, const SizeField& siz
         for (std::size_t i = 0; i < n; ++i, ++edge) vertices.push_back(edge->a.value);
     }
     tris_ = triangulate_inside(points_, local.segments);
-    Box box;
-    for (const Point p : points_) box.include(p);
-    loads_ = delaunay::estimate_loads(points_, tris_, size.restricted_to(box));
     collect_loop_edges();
-    if (loops_.size() == 1) sum_up_subtrees();
+    if (loops_.size() > 1) return;
+    estimate_loads();
+    sum_up_subtrees();
+}
+
+void BorderTriangulation::estimate_loads() {
+    if (loads_.loads.empty()) loads_ = delaunay::estimate_loads(points_, tris_, size_);
+}
+
+bool BorderTriangulation::has_more_than(double triangles) {
+    if (loads_.loads.empty() && delaunay::has_clearly_more_than(points_, tris_, size_, triangles)) return true;
+    return estimate().triangles > triangles;
+}
+
+WorkEstimate BorderTriangulation::estimate() {
+    estimate_loads();
+    return {loads_.total, loads_.lattice};
 }
 
 void BorderTriangulation::collect_loop_edges() {
@@ -161,6 +181,7 @@ std::optional<BorderTriangulation::RayHit> BorderTriangulation::shoot(LoopVertex
     if (first == delaunay::no_index) return std::nullopt;
     double left = 0;
     const auto add_left_part_of = [&](Index crossed) {
+        if (subtree_.empty()) return;
         for (std::size_t i = loads_.begin[crossed]; i < loads_.begin[crossed + 1]; ++i)
             if (cross(direction, loads_.loads[i].at - p) > 0) left += loads_.loads[i].triangles;
     };

@@ -26,7 +26,12 @@ class BorderTriangulation {
 public:
     BorderTriangulation(LocalBorder border, const SizeField& size);
 
-    WorkEstimate estimate() const { return {loads_.total, loads_.lattice}; }
+    /// Returns whether the estimate is more than so many triangles. Where it clearly is, and there are several loops,
+    /// only a part of it is made.
+    bool has_more_than(double triangles);
+    WorkEstimate estimate();
+    /// Returns the triangles of the estimate for a border of one loop.
+    double triangles() const { return loads_.total; }
 
     Point point(LoopVertex v) const { return points_[local_index(v)]; }
     LoopVertex next(LoopVertex v) const { return {v.loop, v.index + 1 < loops_[v.loop].size() ? v.index + 1 : 0}; }
@@ -59,6 +64,7 @@ private:
 
     delaunay::Index local_index(LoopVertex v) const { return loops_[v.loop][v.index]; }
     void collect_loop_edges();
+    void estimate_loads();
     void sum_up_subtrees();
     double triangles_in(delaunay::Index t) const;
     double triangles_beyond(delaunay::Index t, unsigned edge) const;
@@ -70,7 +76,8 @@ private:
     std::vector<std::vector<delaunay::Index>> loops_;  ///< indices into points_
     std::vector<Point> points_;
     delaunay::Tris tris_;
-    delaunay::LoadEstimate loads_;
+    SizeField size_;
+    delaunay::LoadEstimate loads_;             ///< empty until they are needed, where there are several loops
     std::vector<LoopEdge> loop_edges_;         ///< by the vertices that they begin at
     std::vector<delaunay::Index> first_edge_;  ///< for each vertex the first of its loop edges, and the number of all
     // The triangles inside a border of one loop form a tree, whose root is triangle 0. Without it both arrays are

@@ -69,20 +69,28 @@ public:
         : border_(std::move(border), spacing.size), spacing_(spacing), size_(spacing.size) {}
 
     SearchResult run(double pieces_target) {
-        SearchResult result{border_.estimate(), border_.estimate().triangles};
-        if (result.work <= max_whole * pieces_target) return result;
-        std::vector<CandidateLine> lines = candidates();
-        const std::size_t tried = std::min(lines.size(), max_tried);
-        std::partial_sort(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(tried), lines.end(), is_better);
-        if (tried == 0) return result;
-        collect_border_edges();
-        for (std::size_t i = 0; i < tried && !result.separator; ++i)
-            if (auto interior = divide(lines[i]))
-                result.separator = {lines[i].from, lines[i].to, interior->size(), *std::move(interior)};
+        SearchResult result;
+        if (!border_.has_more_than(max_whole * pieces_target) || !find(result)) {
+            result.estimate = border_.estimate();
+            result.work = result.estimate->triangles;
+        }
         return result;
     }
 
 private:
+    /// Looks for a separator. Returns whether there is one.
+    bool find(SearchResult& result) {
+        std::vector<CandidateLine> lines = candidates();
+        const std::size_t tried = std::min(lines.size(), max_tried);
+        std::partial_sort(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(tried), lines.end(), is_better);
+        if (tried == 0) return false;
+        collect_border_edges();
+        for (std::size_t i = 0; i < tried && !result.separator; ++i)
+            if (auto interior = divide(lines[i]))
+                result.separator = {lines[i].from, lines[i].to, interior->size(), *std::move(interior)};
+        return result.separator.has_value();
+    }
+
     /// Returns all lines that may become separators.
     std::vector<CandidateLine> candidates() const {
         std::size_t vertices = 0;
@@ -137,8 +145,7 @@ private:
     std::optional<CandidateLine> rate(LoopVertex from, LoopVertex to, double triangles_left) const {
         const bool joins = from.loop != to.loop;
         if (!joins && border_.loops() > 1) return std::nullopt;
-        const double triangles = border_.estimate().triangles;
-        const double share = triangles_left / triangles;
+        const double triangles = border_.triangles(), share = joins ? 0.5 : triangles_left / triangles;
         if (!joins && (share < min_share || share > 1 - min_share)) return std::nullopt;
         const Point p = border_.point(from), q = border_.point(to);
         const double cosine = std::max(cosine_with_edges(from, q - p), cosine_with_edges(to, p - q));

@@ -90,6 +90,9 @@ DivisionLimits division_limits(const SizeField& size, std::size_t border_points)
             std::clamp(3e-5 * border * border, 4.0, 64.0)};
 }
 
+/// Largest depth of division: only a guard, since an edge that is 1e9 sizes long needs some 70 halvings.
+constexpr int max_division_depth = 200;
+
 /// Divides triangles into parts.
 class TriangleDivider {
 public:
@@ -119,11 +122,11 @@ public:
         divide(between, b, c, depth - 1);
     }
 
-private:
     /// Beyond this number parts are left as they are: the triangles cannot all be made, and only their order of
     /// magnitude counts.
     static constexpr std::size_t max_parts = std::size_t{1} << 20;
 
+private:
     const SizeField& size_;
     const DivisionLimits limits_;
     std::vector<TrianglePart>& parts_;
@@ -137,7 +140,6 @@ struct DividedTriangles {
 };
 
 DividedTriangles divide_triangles(std::span<const Point> points, const Tris& tris, const SizeField& size) {
-    constexpr int max_depth = 200;      // only a guard: an edge that is 1e9 sizes long needs some 70 halvings
     constexpr std::size_t grain = 256;  // triangles in a block
     const DivisionLimits limits = division_limits(size, points.size());
     std::vector<double> sizes(points.size());
@@ -149,7 +151,7 @@ DividedTriangles divide_triangles(std::span<const Point> points, const Tris& tri
         block.ends.reserve(end - begin);
         for (std::size_t i = begin; i < end; ++i) {
             const Tri& t = tris[i];
-            divider.divide(corner(t.v[0]), corner(t.v[1]), corner(t.v[2]), max_depth);
+            divider.divide(corner(t.v[0]), corner(t.v[1]), corner(t.v[2]), max_division_depth);
             block.ends.push_back(block.parts.size());
             block.border_edges +=
                 static_cast<std::size_t>(std::count_if(t.n, t.n + 3, [](Link n) { return n.is_constrained(); }));
@@ -272,6 +274,24 @@ void add_angles(const ConstrainedInput& input, const ConstrainedRefineOptions& o
 
 double estimated_triangles(double area, double mean_inverse_square_size, double gradient) {
     return made_for_each_of_min_triangles(gradient) * (area * mean_inverse_square_size / equilateral_area);
+}
+
+bool has_clearly_more_than(std::span<const Point> points, const Tris& tris, const SizeField& size, double triangles) {
+    // No triangle of a lattice has more than the largest area allowed, but for rounding, nor has any other on average.
+    constexpr double least_made_for_each_of_min_triangles = 0.5;
+    const DivisionLimits limits = division_limits(size, points.size());
+    std::vector<TrianglePart> parts;
+    TriangleDivider divider(size, limits, parts);
+    const auto corner = [&](Index v) { return SizedPoint{points[v], size(points[v])}; };
+    double made = 0;
+    for (Index t = 0; t < tris.size() && made <= triangles; ++t) {
+        const std::size_t first = parts.size();
+        divider.divide(corner(tris[t].v[0]), corner(tris[t].v[1]), corner(tris[t].v[2]), max_division_depth);
+        if (parts.size() >= TriangleDivider::max_parts) return false;  // here other parts are left as they are
+        for (std::size_t i = first; i < parts.size(); ++i)
+            made += least_made_for_each_of_min_triangles * parts[i].min_triangles;
+    }
+    return made > triangles;
 }
 
 LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size) {

@@ -37,6 +37,11 @@ struct LoadEstimate {
 /// Estimates the triangles in a region from a triangulation of its border. All constrained edges are frozen.
 LAMINA_EXPORT LoadEstimate estimate_loads(std::span<const Point> points, const Tris& tris, const SizeField& size);
 
+/// Returns true only where estimate_loads() finds more than so many triangles, and does not look at all of the
+/// region then. Where it returns false there may be more as well.
+LAMINA_EXPORT bool has_clearly_more_than(std::span<const Point> points, const Tris& tris, const SizeField& size,
+                                         double triangles);
+
 /// Estimates the triangles in a region that will be cut into subdomains. They are judged place by place: what is even
 /// round a place decides whether a lattice is made there.
 LAMINA_EXPORT double estimate_undivided(std::span<const Point> points, const Tris& tris, const SizeField& size);
