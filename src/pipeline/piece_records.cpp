@@ -137,11 +137,10 @@ void PiecesRecord::add(PiecesRecord&& other) {
     std::size_t next = 0;
     for_counts(*this, [&](std::size_t& count) { count += counts[next++]; });
     largest = std::max(largest, other.largest);
-    area.add(other.area);
-    min_angles.add(other.min_angles);
-    max_angles.add(other.max_angles);
-    mean_ratios.add(other.mean_ratios);
-    edge_over_size.add(other.edge_over_size);
+    std::vector<const ExactSum*> sums;
+    for_sums(other, [&](const ExactSum& sum) { sums.push_back(&sum); });
+    next = 0;
+    for_sums(*this, [&](ExactSum& sum) { sum.add(*sums[next++]); });
     extremes.add(other.extremes);
     widest.add(other.widest);
     narrowest.add(other.narrowest);
