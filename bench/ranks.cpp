@@ -32,6 +32,7 @@
 
 #include <lamina/shared_mesh.hpp>
 
+#include "core/packing.hpp"
 #include "support/thread_ranks.hpp"
 #include "thesis_case.hpp"
 
@@ -48,7 +49,7 @@ double processor_seconds() {
 /// What the ranks of a simulation share: whose turn it is, and the clocks that they tell each other.
 class Turns {
 public:
-    explicit Turns(unsigned ranks) : told_{std::vector<double>(ranks), std::vector<double>(ranks)}, sent(ranks) {
+    explicit Turns(unsigned ranks) : told_{std::vector<double>(ranks), std::vector<double>(ranks)} {
         for (unsigned rank = 0; rank < ranks; ++rank) may_go_.emplace_back(0);
     }
 
@@ -83,16 +84,16 @@ private:
         may_go_[waiting_.begin()->second].release();
         waiting_.erase(waiting_.begin());
     }
-
-public:
-    std::vector<double> sent;  ///< per rank: its clock when it has sent its last message
 };
 
 /// A part of the work of a rank: from the begin of a stage, or from a meeting of all ranks, to the next one.
 struct Phase {
     std::size_t stage = 0;
-    double seconds = 0;  ///< of work
-    double end = 0;      ///< the clock then
+    double begin = 0;     ///< the clock then
+    double seconds = 0;   ///< of work
+    double pieces = 0;    ///< of this, from when the rank may make its first piece
+    double end = 0;       ///< the clock then
+    double told_end = 0;  ///< the clock when it has told others that make pieces to end
 };
 
 /// A rank of a simulation.
@@ -112,6 +113,7 @@ public:
         advance();
         if (phases.empty()) return;
         phases.back().seconds = worked_ - worked_before_phase_;
+        phases.back().pieces = makes_pieces_ ? worked_ - worked_before_pieces_ : 0;
         phases.back().end = clock_;
     }
     std::vector<std::string> stages;
@@ -135,26 +137,30 @@ protected:
     }
     void do_send(unsigned to, std::string_view bytes) override {
         advance();
-        turns->sent[rank()] = clock_;
-        ThreadRanks::do_send(to, bytes);
+        core::Packer packer;
+        packer.put(clock_);
+        packer.put_text(bytes);
+        ThreadRanks::do_send(to, packer.take());
     }
     std::string do_receive(unsigned from) override {
         end_turn();
-        std::string bytes = ThreadRanks::do_receive(from);
-        clock_ = std::max(clock_, turns->sent[from]);
+        const std::string packed = ThreadRanks::do_receive(from);
+        core::Unpacker unpacker(packed);
+        clock_ = std::max(clock_, unpacker.get<double>());
         begin_turn();
-        return bytes;
+        return unpacker.get_text();
     }
     std::uint64_t do_add_to_counter(std::uint64_t number) override {
-        if (number > 0) {
-            end_turn();
-            begin_turn();
-        }
+        end_turn();
+        if (!phases.empty() && number == 0 && !std::exchange(makes_pieces_, true)) worked_before_pieces_ = worked_;
+        if (!phases.empty() && number > 0) phases.back().told_end = clock_;
+        begin_turn();
         return ThreadRanks::do_add_to_counter(number);
     }
 
 private:
-    double clock_ = 0, worked_ = 0, worked_before_phase_ = 0;
+    double clock_ = 0, worked_ = 0, worked_before_phase_ = 0, worked_before_pieces_ = 0;
+    bool makes_pieces_ = false;
     double since_ = 0;  ///< processor time when worked_ was counted
     std::size_t meetings_ = 0;
 
@@ -175,8 +181,9 @@ private:
     }
     void begin_phase() {
         end();
-        phases.push_back({stages.size() - 1});
+        phases.push_back({stages.size() - 1, clock_});
         worked_before_phase_ = worked_;
+        makes_pieces_ = false;
     }
 };
 
@@ -196,9 +203,22 @@ std::string by_stage(const MeasuredRun& run, const std::vector<double>& seconds)
     return fmt::format("[{}]", fmt::join(entries, ", "));
 }
 
+/// Returns the phase in which the regions round the bodies are cut, as it is on rank 0, with the pieces that all ranks
+/// make meanwhile.
+Phase cuts_of(const MeasuredRun& run) {
+    for (std::size_t i = 0; i < run.of_ranks.front().size(); ++i) {
+        Phase cuts = run.of_ranks.front()[i];
+        if (run.stages[cuts.stage] != "decoupling" || cuts.told_end == 0) continue;
+        for (const std::vector<Phase>& of_rank : run.of_ranks) cuts.pieces += of_rank.at(i).pieces;
+        return cuts;
+    }
+    return {};
+}
+
 /// Returns the work of each stage: of each rank; then the time of the stages with the waiting, from when the last rank
 /// has begun with it to when the last one has ended; then of each phase its stage, the mean work, the most work, whose
-/// that is, and this time.
+/// that is, and this time; then the pieces that all ranks make during the cuts round the bodies, and for how long these
+/// last.
 std::string stages_json(const MeasuredRun& run) {
     std::vector<std::string> rows, phases;
     for (const std::vector<Phase>& of_rank : run.of_ranks) {
@@ -225,8 +245,12 @@ std::string stages_json(const MeasuredRun& run) {
                                      sum / static_cast<double>(run.of_ranks.size()), most, busiest, end - last_end));
         last_end = end;
     }
-    return fmt::format("\"stages\": [{}],\n  \"with_waiting\": {},\n  \"phases\": [{}]",
-                       fmt::join(rows, ",\n             "), by_stage(run, with_waiting), fmt::join(phases, ", "));
+    const Phase cuts = cuts_of(run);
+    return fmt::format(
+        "\"stages\": [{}],\n  \"with_waiting\": {},\n  \"phases\": [{}],\n  "
+        "\"pieces_during_cuts\": {:.6f}, \"cuts\": {:.6f}",
+        fmt::join(rows, ",\n             "), by_stage(run, with_waiting), fmt::join(phases, ", "), cuts.pieces,
+        cuts.told_end - cuts.begin);
 }
 
 /// Thrown where a run is not to be finished.
@@ -299,7 +323,8 @@ int main(int argc, char** argv) {
     // The first run asks the system for its memory, which counts where one rank is to be compared with.
     if (!until_pieces && std::atoi(argv[first + 1]) == 1) lamina::bench::measured(1, options, false, forget);
     for (int i = first + 1; i < argc; ++i)
-        runs.push_back(lamina::bench::measured(static_cast<unsigned>(std::atoi(argv[i])), options, until_pieces, forget));
+        runs.push_back(
+            lamina::bench::measured(static_cast<unsigned>(std::atoi(argv[i])), options, until_pieces, forget));
     std::printf("[%s]\n", fmt::format("{}", fmt::join(runs, ",\n ")).c_str());
     return 0;
 }

@@ -74,6 +74,8 @@ public:
     /// Returns whether a rank has failed since the counter was set to 0. Any thread may call it, and no rank waits for
     /// another.
     bool has_failed();
+    /// Returns whether a rank has taken a number since the counter was set to 0, or has failed. As has_failed().
+    bool has_numbers();
 
     /// Collective: does nothing but ask whether a rank has failed.
     void agree();
@@ -87,6 +89,9 @@ public:
     std::string reduce(std::string bytes, const Join& join);
     /// Collective: returns the bytes of all ranks, in their order, on all of them.
     std::vector<std::string> all_gather(std::string_view bytes);
+    /// Returns the bytes of the first ranks, in their order, on all of these. So many of them call it, and no other
+    /// rank. Nobody asks whether a rank has failed, and one that has must call it still.
+    std::vector<std::string> all_gather_among(unsigned members, std::string_view bytes);
     /// Collective: returns on each rank the bytes that rank 0 has for it. The argument of other ranks does not count.
     std::string scatter(const std::vector<std::string>& bytes);
     /// Collective: sends each rank the bytes that are meant for it, of which there is one string for each rank. Returns
@@ -118,7 +123,7 @@ protected:
     virtual std::vector<std::string> do_exchange(const std::vector<std::string>& bytes) = 0;
     /// Returns the bytes of rank `from`.
     virtual std::string do_broadcast(std::string_view bytes, unsigned from) = 0;
-    /// Sends bytes to one rank, which receives them: once at most between two questions whether a rank has failed.
+    /// Sends bytes to one rank, which receives them in the order in which they were sent.
     virtual void do_send(unsigned to, std::string_view bytes) = 0;
     /// Returns the bytes that one rank sends to this one.
     virtual std::string do_receive(unsigned from) = 0;

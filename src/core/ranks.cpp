@@ -59,6 +59,11 @@ bool Ranks::has_failed() {
     return do_add_to_counter(0) >= beyond_all;
 }
 
+bool Ranks::has_numbers() {
+    count(sizeof(std::uint64_t));
+    return do_add_to_counter(0) > 0;
+}
+
 std::vector<std::string> Ranks::gather(std::string_view bytes) {
     agree();
     count(rank() == 0 ? 0 : bytes.size());
@@ -113,6 +118,29 @@ std::vector<std::string> Ranks::exchange(const std::vector<std::string>& bytes) 
         if (to != rank()) sent += bytes[to].size();
     count(sent);
     return do_exchange(bytes);
+}
+
+// As in reduce(), and then in the other direction.
+std::vector<std::string> Ranks::all_gather_among(unsigned members, std::string_view bytes) {
+    core::Packer packer;
+    packer.put_text(bytes);
+    std::string packed = packer.take();
+    const auto send = [&](unsigned to) {
+        count(packed.size());
+        do_send(to, packed);
+    };
+    unsigned step = 1;
+    for (; step < members && rank() % (2 * step) == 0; step *= 2)
+        if (rank() + step < members) packed += do_receive(rank() + step);
+    if (step < members) {
+        send(rank() - step);
+        packed = do_receive(rank() - step);
+    }
+    while ((step /= 2) > 0)
+        if (rank() + step < members) send(rank() + step);
+    std::vector<std::string> all;
+    for (core::Unpacker unpacker(packed); !unpacker.at_end();) all.push_back(unpacker.get_text());
+    return all;
 }
 
 std::string Ranks::broadcast(std::string_view bytes) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,13 +49,14 @@ struct OuterRegion {
 
 /// Cuts the outer region as decouple() does, and throws what it throws. Collective where `ranks` are given: they divide
 /// the work among themselves, and each divides those lines alone that it needs for its share; throws MeshError on rank 0
-/// where another process would cut another region.
-LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr);
+/// where another process would cut another region. Processes that would wait call `make`, if it is given, which finds
+/// the vertices of trapezoids in Lines::gathered(): these have their ids before anything is cut.
+LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr, const MakeTrapezoid& make = {});
 
-/// Makes a subdomain from its border. Divides its lines, and estimates its work where another process has searched it.
-/// `spacing` holds the size field and the rule of the region.
-LAMINA_EXPORT Subdomain make_subdomain(CutRegion& cut, std::size_t subdomain, const SeparatorSpacing& spacing,
-                                       const RefineOptions& refine);
+/// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known. `spacing` holds
+/// the size field and the rule of the region.
+LAMINA_EXPORT Subdomain make_subdomain(const LineBorder& border, const std::optional<WorkEstimate>& known, Lines& lines,
+                                       const SeparatorSpacing& spacing, const RefineOptions& refine);
 
 /// Collective, as the next one: throws MeshError on rank 0 where another process has other lines. What it tells of its
 /// cuts would mean something else elsewhere.

@@ -3,11 +3,17 @@
 #include "decoupling/cut_to_size.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <deque>
+#include <exception>
 #include <iterator>
 #include <span>
+#include <string>
 #include <utility>
 
+#include <lamina/threads.hpp>
+
+#include "core/packing.hpp"
 #include "core/parallel.hpp"
 #include "decoupling/separator_search.hpp"
 #include "decoupling/shared_search.hpp"
@@ -15,6 +21,9 @@
 namespace lamina::decoupling {
 
 namespace {
+
+using core::Packer;
+using core::Unpacker;
 
 /// The regions without holes, in their order. Most are trapezoids, whose borders are made where they are needed.
 class SimpleRegions {
@@ -35,10 +44,14 @@ public:
     std::size_t vertices(std::size_t i, const Lines& lines) const {
         return i < given_.size() ? given_[i].vertices() : rings_.vertices(i - given_.size(), lines);
     }
+    /// Returns the number of the trapezoid that a region is.
+    std::uint32_t trapezoid(std::size_t i) const {
+        return i < given_.size() ? EstimatedBorder::no_trapezoid : static_cast<std::uint32_t>(i - given_.size());
+    }
     /// Returns the border of a region that stays whole.
     EstimatedBorder whole(std::size_t i) const {
         if (i < given_.size()) return {given_[i]};
-        return {{}, static_cast<std::uint32_t>(i - given_.size())};
+        return {{}, trapezoid(i)};
     }
 
 private:
@@ -109,6 +122,7 @@ private:
         border.work = result.work;
         border.estimate = result.estimate;
         border.process = result.process;
+        border.made = result.made;
         done_.push_back(std::move(border));
     }
     static void cut_in_two(Lines& lines, const LineBorder& border, SearchResult& result, std::vector<Part>& parts) {
@@ -129,64 +143,52 @@ private:
     }
 };
 
-/// The searches that the processes still have to divide among themselves.
-class SharedSearches {
+/// Calls search(parts, processes) for parts and their parts until none is left, with the processes that are to search
+/// them, and cuts them. All processes deal in the same way.
+template <class Search>
+void cut_dealt(Lines& lines, std::vector<Part> parts, unsigned processes, Bisection& bisection, Search&& search) {
+    for (SearchDealer dealer(processes); !parts.empty();) {
+        std::vector<unsigned> dealt;
+        for (const Part& part : parts) dealt.push_back(dealer.deal(part.border.vertices(), part.process));
+        std::vector<SearchResult> results = search(parts, dealt);
+        parts = bisection.cut(lines, std::move(parts), results);
+    }
+}
+
+/// The cuts round the bodies follow one another, and few processes can search at the same time. So the first processes
+/// make them without a word to the others, which search the other regions meanwhile and make pieces of those that stay
+/// whole.
+class CutsAtOnce {
 public:
     /// The others are the regions without holes, in their order.
-    SharedSearches(const SimpleRegions& others, const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks)
+    CutsAtOnce(const SimpleRegions& others, const SeparatorSpacing& spacing, double pieces_target, Ranks& ranks,
+               const MakeTrapezoid& make)
         : others_(others),
           spacing_(spacing),
           pieces_target_(pieces_target),
           ranks_(ranks),
-          of_others_(others.size()),
-          dealer_(ranks.size()) {
-        const std::vector<std::size_t> shares = region_shares(others.size(), ranks.size());
-        next_.assign(shares.begin(), shares.end() - 1);
-        end_.assign(shares.begin() + 1, shares.end());
-    }
+          make_(make),
+          cutters_(cutting_processes(others.size(), ranks.size())),
+          shares_(region_shares(others.size(), ranks.size())),
+          results_(others.size()) {}
 
-    /// Collective: returns the results for these borders. Processes that have nothing to do with them search some of
-    /// their share of the other borders meanwhile.
-    std::vector<SearchResult> search(Lines& lines, std::span<const Part> parts) {
-        dealer_.begin_round();
-        Round round;
-        for (const Part& part : parts)
-            round.dealt.push_back({&part.border, dealer_.deal(part.border.vertices(), part.process)});
-        for (unsigned process = 0; process < ranks_.size(); ++process)
-            for (std::size_t& next = next_[process];
-                 next < end_[process] && dealer_.deal_if_room(process, others_.vertices(next, lines)); ++next)
-                add_other(next, process, lines, round);
-        return search_round(lines, round);
-    }
-
-    /// Collective: returns the results for the other borders. Processes that have had the more to do with the borders
-    /// before leave regions at the end of their shares to those that have had less.
-    std::vector<SearchResult> finish(Lines& lines) {
-        std::vector<std::uint64_t> work;
-        std::uint64_t all = 0;
-        const auto vertices = [&](std::size_t region) { return others_.vertices(region, lines); };
-        for (unsigned process = 0; process < ranks_.size(); ++process) {
-            work.push_back(dealer_.work(process));
-            for (std::size_t i = next_[process]; i < end_[process]; ++i) work.back() += vertices(i);
-            all += work.back();
+    /// Collective: cuts these parts, and returns the results for the other regions.
+    std::vector<SearchResult> cut(Lines& lines, std::vector<Part> parts, Bisection& bisection) {
+        const bool is_cutter = ranks_.rank() < cutters_;
+        Packer packer;
+        if (is_cutter) {
+            cut_among_cutters(lines, parts, bisection, packer);
+        } else {
+            search_share(lines);
+            const std::size_t made = make_pieces(lines);
+            for (std::size_t i = begin(ranks_.rank()); i < end(ranks_.rank()); ++i) pack_result(results_[i], packer);
+            packer.put_short(made);
         }
-        const std::uint64_t mean = all / ranks_.size();
-        std::vector<std::size_t> left;
-        for (unsigned process = 0; process < ranks_.size(); ++process)
-            while (end_[process] > next_[process] && work[process] - vertices(end_[process] - 1) > mean) {
-                work[process] -= vertices(--end_[process]);
-                left.push_back(end_[process]);
-            }
-        Round round;
-        for (unsigned process = 0; process < ranks_.size(); ++process) {
-            for (; next_[process] < end_[process]; ++next_[process]) add_other(next_[process], process, lines, round);
-            for (; !left.empty() && (work[process] < mean || process + 1 == ranks_.size()); left.pop_back()) {
-                work[process] += vertices(left.back());
-                add_other(left.back(), process, lines, round);
-            }
-        }
-        search_round(lines, round);
-        return std::move(of_others_);
+        const std::vector<std::string> told = ranks_.all_gather(packer.take());
+        if (!is_cutter) cut_as_told(lines, std::move(parts), bisection, told.front());
+        for (unsigned process = cutters_; process < ranks_.size(); ++process) take_results(process, told[process]);
+        if (cutters_ == ranks_.size()) search_shares(lines);
+        return std::move(results_);
     }
 
 private:
@@ -194,30 +196,129 @@ private:
     const SeparatorSpacing& spacing_;
     double pieces_target_;
     Ranks& ranks_;
-    std::vector<std::size_t> next_, end_;  ///< per process: its share of the others that is not searched yet
-    std::vector<SearchResult> of_others_;
-    SearchDealer dealer_;
+    const MakeTrapezoid& make_;
+    unsigned cutters_;
+    std::vector<std::size_t> shares_;  ///< the regions that each process searches, from one of these to the next
+    std::vector<SearchResult> results_;
 
-    /// What all processes search until they tell each other what they have found.
-    struct Round {
-        std::vector<DealtBorder> dealt;   ///< borders that are given, then others
-        std::vector<std::size_t> others;  ///< the numbers of these
-        std::deque<LineBorder> own;       ///< the borders of those that this process searches
-    };
+    std::size_t begin(unsigned process) const { return shares_[process]; }
+    std::size_t end(unsigned process) const { return shares_[process + 1]; }
 
-    void add_other(std::size_t region, unsigned process, const Lines& lines, Round& round) const {
-        const bool is_own = process == ranks_.rank();
-        round.dealt.push_back({is_own ? &round.own.emplace_back(others_.border(region, lines)) : nullptr, process});
-        round.others.push_back(region);
+    SearchResult search(const LineBorder& border, Lines& lines) const {
+        SearchResult result = search_separator(localize(border, lines, spacing_), spacing_, pieces_target_);
+        make_as_told(result);
+        result.process = ranks_.rank();
+        return result;
     }
-    /// Returns the results for the borders that are given.
-    std::vector<SearchResult> search_round(Lines& lines, const Round& round) {
-        std::vector<SearchResult> results = search_together(lines, round.dealt, spacing_, pieces_target_, ranks_);
-        const std::size_t given = round.dealt.size() - round.others.size();
-        for (std::size_t i = 0; i < round.others.size(); ++i)
-            of_others_[round.others[i]] = std::move(results[given + i]);
-        results.resize(given);
+
+    /// Cuts the parts on one of the cutters. Rank 0 puts all results, and tells those that make pieces when the last one
+    /// is there.
+    void cut_among_cutters(Lines& lines, std::vector<Part> parts, Bisection& bisection, Packer& packer) {
+        cut_dealt(lines, std::move(parts), cutters_, bisection,
+                  [&](std::span<const Part> round, std::span<const unsigned> dealt) {
+                      std::vector<SearchResult> results = search_round(lines, round, dealt);
+                      if (ranks_.rank() == 0)
+                          for (const SearchResult& result : results) pack_result(result, packer);
+                      return results;
+                  });
+        if (ranks_.rank() == 0 && cutters_ < ranks_.size()) ranks_.next_number();
+    }
+    std::vector<SearchResult> search_round(Lines& lines, std::span<const Part> parts, std::span<const unsigned> dealt) {
+        std::vector<std::size_t> own;
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            if (dealt[i] == ranks_.rank()) own.push_back(i);
+        std::vector<SearchResult> results(parts.size());
+        std::exception_ptr failure;
+        try {
+            core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
+                results[own[i]] = search(parts[own[i]].border, lines);
+            });
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        // The other cutters wait for this one, whatever has happened.
+        Packer packer;
+        packer.put(failure != nullptr);
+        if (!failure)
+            for (const std::size_t i : own) pack_result(results[i], packer);
+        const std::vector<std::string> told = ranks_.all_gather_among(cutters_, packer.take());
+        if (failure) std::rethrow_exception(failure);
+        std::vector<Unpacker> unpackers(told.begin(), told.end());
+        for (Unpacker& unpacker : unpackers)
+            if (unpacker.get<bool>()) ranks_.agree();  // throws what the other one fails with
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            SearchResult result = unpack_result(unpackers[dealt[i]]);
+            if (dealt[i] == ranks_.rank()) continue;
+            results[i] = std::move(result);
+            results[i].process = dealt[i];
+        }
         return results;
+    }
+    /// Makes the cuts that rank 0 has told, as the cutters have made them.
+    void cut_as_told(Lines& lines, std::vector<Part> parts, Bisection& bisection, const std::string& told) const {
+        Unpacker unpacker(told);
+        cut_dealt(lines, std::move(parts), cutters_, bisection,
+                  [&](std::span<const Part> round, std::span<const unsigned> dealt) {
+                      std::vector<SearchResult> results;
+                      for (std::size_t i = 0; i < round.size(); ++i) {
+                          results.push_back(unpack_result(unpacker));
+                          results.back().process = dealt[i];
+                      }
+                      return results;
+                  });
+    }
+
+    void search_share(Lines& lines) {
+        const std::size_t first = begin(ranks_.rank());
+        core::parallel_for(end(ranks_.rank()) - first, 1, [&](std::size_t i, std::size_t) {
+            results_[first + i] = search(others_.border(first + i, lines), lines);
+        });
+    }
+    /// Returns whether a region becomes a piece as it is and need not wait for the ids of vertices of other cuts.
+    bool is_whole_trapezoid(std::size_t region) const {
+        return !results_[region].separator && others_.trapezoid(region) != EstimatedBorder::no_trapezoid;
+    }
+    /// Makes pieces of the share of this process, in its order, until the cuts round the bodies are made. Returns their
+    /// number.
+    std::size_t make_pieces(Lines& lines) const {
+        if (!make_) return 0;
+        std::vector<std::size_t> whole;
+        for (std::size_t i = begin(ranks_.rank()); i < end(ranks_.rank()); ++i)
+            if (is_whole_trapezoid(i)) whole.push_back(i);
+        std::atomic<std::size_t> next = 0;
+        core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {
+            for (std::size_t i; !ranks_.has_numbers() && (i = next++) < whole.size();)
+                make_(others_.trapezoid(whole[i]), others_.border(whole[i], lines), *results_[whole[i]].estimate,
+                      lines);
+        });
+        return std::min(next.load(), whole.size());
+    }
+
+    void take_results(unsigned process, const std::string& told) {
+        Unpacker unpacker(told);
+        for (std::size_t i = begin(process); i < end(process); ++i) {
+            SearchResult result = unpack_result(unpacker);
+            if (process == ranks_.rank()) continue;
+            results_[i] = std::move(result);
+            results_[i].process = process;
+        }
+        std::size_t made = unpacker.get_short();
+        for (std::size_t i = begin(process); made > 0; ++i)
+            if (is_whole_trapezoid(i)) {
+                results_[i].made = true;
+                --made;
+            }
+    }
+    /// Collective: searches the other regions once those round the bodies are cut, each process its share.
+    void search_shares(Lines& lines) {
+        std::deque<LineBorder> own;
+        std::vector<DealtBorder> dealt;
+        for (unsigned process = 0; process < ranks_.size(); ++process)
+            for (std::size_t i = begin(process); i < end(process); ++i) {
+                const bool is_own = process == ranks_.rank();
+                dealt.push_back({is_own ? &own.emplace_back(others_.border(i, lines)) : nullptr, process});
+            }
+        if (!dealt.empty()) results_ = search_together(lines, dealt, spacing_, pieces_target_, ranks_);
     }
 };
 
@@ -245,21 +346,18 @@ std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, con
 }
 
 std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
-                                                  double pieces_target, Ranks& ranks) {
+                                                  double pieces_target, Ranks& ranks, const MakeTrapezoid& make) {
     // The order of all cuts is that of cut_to_size().
-    const SimpleRegions others(regions), none;
+    const SimpleRegions others(regions);
     Bisection bisection(spacing, pieces_target);
-    SharedSearches searches(others, spacing, pieces_target, ranks);
-    const auto cut_all = [&](SharedSearches& shared, std::vector<Part> parts) {
-        while (!parts.empty()) {
-            std::vector<SearchResult> results = shared.search(lines, parts);
-            parts = bisection.cut(lines, std::move(parts), results);
-        }
-    };
-    cut_all(searches, parts_of(std::move(regions.borders)));
-    std::vector<SearchResult> results = searches.finish(lines);
-    SharedSearches of_parts(none, spacing, pieces_target, ranks);
-    cut_all(of_parts, bisection.cut(lines, others, results));
+    CutsAtOnce cuts(others, spacing, pieces_target, ranks, make);
+    std::vector<SearchResult> results = cuts.cut(lines, parts_of(std::move(regions.borders)), bisection);
+    cut_dealt(lines, bisection.cut(lines, others, results), ranks.size(), bisection,
+              [&](std::span<const Part> parts, std::span<const unsigned> processes) {
+                  std::vector<DealtBorder> dealt;
+                  for (std::size_t i = 0; i < parts.size(); ++i) dealt.push_back({&parts[i].border, processes[i]});
+                  return search_together(lines, dealt, spacing, pieces_target, ranks);
+              });
     return bisection.take_done();
 }
 

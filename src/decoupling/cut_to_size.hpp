@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -26,7 +27,13 @@ struct EstimatedBorder {
     double work = 0;                            ///< number of triangles, about; all processes know the same
     std::optional<WorkEstimate> estimate = {};  ///< where this process has searched it
     unsigned process = 0;                       ///< that has searched it
+    bool made = false;                          ///< whether that process has made its piece already
 };
+
+/// Makes the piece of a trapezoid that stays whole, which this process has searched. Any thread may call it, while no
+/// lines are added.
+using MakeTrapezoid =
+    std::function<void(std::uint32_t trapezoid, const LineBorder& border, const WorkEstimate& estimate, Lines& lines)>;
 
 /// All regions before they are cut: trapezoids, and others whose borders are given.
 struct UncutRegions {
@@ -40,9 +47,10 @@ struct UncutRegions {
 std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
                                          double pieces_target);
 
-/// Collective: returns what cut_to_size() returns. The processes divide the search for separators among themselves.
-/// Precondition: all arguments are the same everywhere.
+/// Collective: returns what cut_to_size() returns. The processes divide the search for separators among themselves. The
+/// regions round the bodies are cut by the first processes; the others call `make`, if it is given, until this is done.
+/// Precondition: all other arguments are the same everywhere, and the counter of the ranks is 0.
 std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
-                                                  double pieces_target, Ranks& ranks);
+                                                  double pieces_target, Ranks& ranks, const MakeTrapezoid& make);
 
 }  // namespace lamina::decoupling

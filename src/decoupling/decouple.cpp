@@ -101,7 +101,7 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
 
 }  // namespace
 
-CutRegion cut_region(const OuterRegion& region, Ranks* ranks) {
+CutRegion cut_region(const OuterRegion& region, Ranks* ranks, const MakeTrapezoid& make) {
     if (ranks != nullptr && ranks->size() == 1) ranks = nullptr;
     const SeparatorSpacing spacing{region.size, region.options.separators};
     auto [skeleton, far_field_edges, far_field_lines] = draw_skeleton(region, spacing, ranks);
@@ -113,8 +113,12 @@ CutRegion cut_region(const OuterRegion& region, Ranks* ranks) {
                   {},
                   0};
     const double target = region.options.pieces_target;
-    cut.borders = ranks != nullptr ? cut_to_size_together(cut.lines, std::move(uncut), spacing, target, *ranks)
-                                   : cut_to_size(cut.lines, std::move(uncut), spacing, target);
+    if (ranks != nullptr) {
+        if (make) cut.lines.gather_points();
+        cut.borders = cut_to_size_together(cut.lines, std::move(uncut), spacing, target, *ranks, make);
+    } else {
+        cut.borders = cut_to_size(cut.lines, std::move(uncut), spacing, target);
+    }
     cut.separator_vertices = cut.lines.vertices() - region.points.size();
     return cut;
 }
@@ -124,10 +128,9 @@ LineBorder CutRegion::border(std::size_t subdomain) const {
     return border.trapezoid == EstimatedBorder::no_trapezoid ? border.border : rings.border(border.trapezoid, lines);
 }
 
-Subdomain make_subdomain(CutRegion& cut, std::size_t number, const SeparatorSpacing& spacing,
-                         const RefineOptions& refine) {
-    LocalBorder border = localize(cut.border(number), cut.lines, spacing);
-    const std::optional<WorkEstimate>& known = cut.borders[number].estimate;
+Subdomain make_subdomain(const LineBorder& line_border, const std::optional<WorkEstimate>& known, Lines& lines,
+                         const SeparatorSpacing& spacing, const RefineOptions& refine) {
+    LocalBorder border = localize(line_border, lines, spacing);
     const WorkEstimate estimate = known ? *known : BorderTriangulation(border, spacing.size).estimate();
     Box box;
     for (const Point p : border.points) box.include(p);
@@ -171,7 +174,7 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
     Decoupling result;
     result.subdomains.resize(cut.borders.size());
     core::parallel_for(cut.borders.size(), 1, [&](std::size_t i, std::size_t) {
-        result.subdomains[i] = make_subdomain(cut, i, spacing, refine);
+        result.subdomains[i] = make_subdomain(cut.border(i), cut.borders[i].estimate, cut.lines, spacing, refine);
     });
     result.separator_vertices = cut.separator_vertices;
     result.points.resize(cut.lines.vertices());

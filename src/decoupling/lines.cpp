@@ -24,7 +24,8 @@ Lines::Lines(Lines&& other) noexcept
       chunks_(std::move(other.chunks_)),
       size_(other.size_.load()),
       vertices_(other.vertices_),
-      gathered_(std::move(other.gathered_)) {}
+      gathered_(std::move(other.gathered_)),
+      gathered_vertices_(other.gathered_vertices_) {}
 
 Lines& Lines::operator=(Lines&& other) noexcept {
     points_ = std::move(other.points_);
@@ -32,6 +33,7 @@ Lines& Lines::operator=(Lines&& other) noexcept {
     size_ = other.size_.load();
     vertices_ = other.vertices_;
     gathered_ = std::move(other.gathered_);
+    gathered_vertices_ = other.gathered_vertices_;
     return *this;
 }
 
@@ -140,7 +142,7 @@ std::size_t Lines::divide(std::uint32_t number, const SeparatorSpacing& spacing)
                 "processes divide a line between subdomains in different ways: all must run the same program "
                 "on the same kind of machine");
         line.interior = std::move(interior);
-        if (gathered_.data() != nullptr) store(line, gathered_points());
+        if (line.segments != 0 && end_of(line) <= gathered_vertices_) store(line, gathered_points());
     });
     return line.interior.size();
 }
@@ -175,6 +177,7 @@ void Lines::copy_points(std::span<Point> points) const {
 
 void Lines::gather_points() {
     gathered_ = core::ScratchMemory(vertices_ * sizeof(Point), false);
+    gathered_vertices_ = vertices_;
     copy_points(gathered_points());
 }
 

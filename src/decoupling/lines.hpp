@@ -98,11 +98,11 @@ public:
 
     /// Copies the vertices of all lines that are divided, and those on no line, to their ids.
     void copy_points(std::span<Point> points) const;
-    /// Makes one array of all vertices, by their ids. Those of lines that are not divided yet have no place in it until
-    /// divide() gives them one. Call it when all vertices are numbered.
+    /// Makes one array of all vertices that are numbered, by their ids. Those of lines that are not divided yet have no
+    /// place in it until divide() gives them one. Call it again for those that are numbered later: ids stay.
     void gather_points();
     std::span<const Point> gathered() const {
-        return {reinterpret_cast<const Point*>(gathered_.data()), gathered_.data() != nullptr ? vertices_ : 0};
+        return {reinterpret_cast<const Point*>(gathered_.data()), gathered_vertices_};
     }
     /// Sets the place of a vertex that another process has told.
     void set_gathered(VertexId v, Point p) { gathered_points()[v.index()] = p; }
@@ -132,10 +132,9 @@ private:
     std::size_t vertices_ = 0;
     /// Each process has places for some lines alone: memory is taken for these, page by page.
     core::ScratchMemory gathered_;
+    std::size_t gathered_vertices_ = 0;
 
-    std::span<Point> gathered_points() {
-        return {reinterpret_cast<Point*>(gathered_.data()), gathered_.data() != nullptr ? vertices_ : 0};
-    }
+    std::span<Point> gathered_points() { return {reinterpret_cast<Point*>(gathered_.data()), gathered_vertices_}; }
 };
 
 }  // namespace lamina::decoupling

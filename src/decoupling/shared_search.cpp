@@ -44,6 +44,8 @@ LoopVertex unpack_end(Unpacker& unpacker) {
     return {loop, static_cast<std::size_t>(unpacker.get_short())};
 }
 
+}  // namespace
+
 void pack_result(const SearchResult& result, Packer& packer) {
     if (result.separator) {
         packer.put(has_separator);
@@ -52,10 +54,9 @@ void pack_result(const SearchResult& result, Packer& packer) {
         packer.put_short(result.separator->vertices);
         return;
     }
-    packer.put(work_code(result.estimate->triangles));
+    packer.put(work_code(result.work));
 }
 
-/// Takes what pack_result() has put there. The separator is still to be divided.
 SearchResult unpack_result(Unpacker& unpacker) {
     SearchResult result;
     const auto found = unpacker.get<std::uint8_t>();
@@ -69,40 +70,26 @@ SearchResult unpack_result(Unpacker& unpacker) {
     return result;
 }
 
-}  // namespace
+void make_as_told(SearchResult& result) {
+    if (!result.separator) result.work = decoded_work(work_code(result.work));
+}
 
-SearchDealer::SearchDealer(unsigned processes) : work_(processes, 0), in_round_(processes, 0), of_deal_(processes, 0) {
+SearchDealer::SearchDealer(unsigned processes) : work_(processes, 0) {
     for (unsigned process = 0; process < processes; ++process) least_.emplace_back(0, process);
 }
 
-void SearchDealer::begin_round() {
-    in_round_.assign(in_round_.size(), 0);
-    most_ = 0;
-}
-
 unsigned SearchDealer::deal(std::size_t vertices, unsigned process) {
-    const std::uint64_t work = 2 * vertices;
     if (process == any_process) {
-        while (least_.front().first != of_deal_[least_.front().second]) {
+        while (least_.front().first != work_[least_.front().second]) {
             std::pop_heap(least_.begin(), least_.end(), std::greater<>());
             least_.pop_back();
         }
         process = least_.front().second;
     }
-    of_deal_[process] += work;
-    least_.emplace_back(of_deal_[process], process);
-    std::push_heap(least_.begin(), least_.end(), std::greater<>());
-    work_[process] += work;
-    in_round_[process] += work;
-    most_ = std::max(most_, in_round_[process]);
-    return process;
-}
-
-bool SearchDealer::deal_if_room(unsigned process, std::size_t vertices) {
-    if (in_round_[process] + vertices > most_) return false;
-    in_round_[process] += vertices;
     work_[process] += vertices;
-    return true;
+    least_.emplace_back(work_[process], process);
+    std::push_heap(least_.begin(), least_.end(), std::greater<>());
+    return process;
 }
 
 std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBorder> borders,
@@ -123,16 +110,27 @@ std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBor
         const unsigned process = borders[i].process;
         if (process != ranks.rank())
             result = unpack_result(unpackers[process]);
-        else if (!result.separator)
-            result.work = decoded_work(work_code(result.estimate->triangles));  // what the others know
+        else
+            make_as_told(result);
         result.process = process;
     }
     return results;
 }
 
+unsigned cutting_processes(std::size_t others, unsigned processes) {
+    // Few processes lose little while most of them wait, in the first rounds. There are 130 pieces round a body and more:
+    // fewer than eight processes would have too many of them, and of the edges between them. Where there is little else
+    // to do, or one process would have most of the work, all cut.
+    if (others < processes || processes < 4) return processes;
+    return std::max(processes / 16, std::min(processes / 4, 8u));
+}
+
 std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes) {
-    std::vector<std::size_t> shares;
-    for (unsigned process = 0; process <= processes; ++process) shares.push_back(regions * process / processes);
+    unsigned cutting = cutting_processes(regions, processes);
+    if (cutting == processes) cutting = 0;
+    std::vector<std::size_t> shares(cutting + 1, 0);
+    for (unsigned process = cutting + 1; process <= processes; ++process)
+        shares.push_back(regions * (process - cutting) / (processes - cutting));
     return shares;
 }
 

@@ -48,13 +48,20 @@ mesh::WorstCell most_oversized(const Subdomain& subdomain, const Refinement& ref
     return worst;
 }
 
+/// Returns how many triangles of a piece are measured: together enough for a mean that is known within 0.5 %. How many
+/// pieces there are is not known yet where some are made before others are cut.
+std::size_t samples_of(double triangles, double expected_in_all) {
+    return 32 + static_cast<std::size_t>(4096 * std::min(1.0, triangles / std::max(expected_in_all, 1.0)));
+}
+
 PieceFacts facts_of(std::span<const Point> points, const Subdomain& subdomain, const delaunay::LinkedRefinement& linked,
-                    double min_angle_deg, std::size_t samples) {
+                    const PieceRules& rules) {
     const Refinement& refinement = linked.refinement;
+    const std::size_t samples = samples_of(static_cast<double>(refinement.triangles.size()), rules.expected_triangles);
     PieceFacts facts;
     facts.findings = mesh::check_piece(
         {subdomain.points, subdomain.global, refinement.steiner_points, refinement.triangles, linked.links, points},
-        min_angle_deg);
+        rules.min_angle_deg);
     facts.stats = refinement.stats;
     facts.estimated_triangles = subdomain.estimated_triangles;
     facts.edge_over_size = mean_edge_over_size(subdomain, refinement, samples);
@@ -64,17 +71,15 @@ PieceFacts facts_of(std::span<const Point> points, const Subdomain& subdomain, c
 
 }  // namespace
 
-CheckedPiece refine_and_check_piece(const Subdomain& region, std::span<const Point> points, std::size_t subdomains,
-                                    double min_angle_deg, core::BusyTimes& times, PieceWork work) {
-    // Together enough for a mean that is known within 0.5 %.
-    const std::size_t samples = 32 + 4096 / subdomains;
+CheckedPiece refine_and_check_piece(const Subdomain& region, std::span<const Point> points, const PieceRules& rules,
+                                    core::BusyTimes& times) {
     delaunay::LinkedRefinement linked;
     {
-        const core::BusyTimes::Scope busy(&times, work.refining);
+        const core::BusyTimes::Scope busy(&times, rules.work.refining);
         linked = delaunay::refine_linked(region.points, region.segments, region.size, region.refine);
     }
-    const core::BusyTimes::Scope busy(&times, work.checking);
-    PieceFacts facts = facts_of(points, region, linked, min_angle_deg, samples);
+    const core::BusyTimes::Scope busy(&times, rules.work.checking);
+    PieceFacts facts = facts_of(points, region, linked, rules);
     return {std::move(linked.refinement), std::move(facts)};
 }
 
@@ -95,15 +100,14 @@ void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& c
     check.add_piece(std::move(facts.findings));
 }
 
-PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
-                               core::BusyTimes& times, PieceWork work, mesh::PiecewiseCheck& check,
+PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order,
+                               const PieceRules& rules, core::BusyTimes& times, mesh::PiecewiseCheck& check,
                                const PieceKeeper& keeper) {
     PiecesSummary summary;
     core::InOrder<PieceFacts> in_order([&](PieceFacts facts) { add_piece(std::move(facts), summary, check); });
     const auto make_piece = [&](std::size_t subdomain) {
         keeper.begin(subdomain);
-        CheckedPiece piece = refine_and_check_piece(decoupling.subdomains[subdomain], decoupling.points, order.size(),
-                                                    min_angle_deg, times, work);
+        CheckedPiece piece = refine_and_check_piece(decoupling.subdomains[subdomain], decoupling.points, rules, times);
         in_order.put(subdomain, std::move(piece.facts));
         keeper.keep(subdomain, std::move(piece.refinement));
     };

@@ -59,9 +59,16 @@ struct CheckedPiece {
     PieceFacts facts;
 };
 
-/// Refines one of so many subdomains and checks the piece. `points` holds its border vertices by their ids in the mesh.
-CheckedPiece refine_and_check_piece(const Subdomain& subdomain, std::span<const Point> points, std::size_t subdomains,
-                                    double min_angle_deg, core::BusyTimes& times, PieceWork work);
+/// How pieces are checked and counted, whoever makes them.
+struct PieceRules {
+    double min_angle_deg = 0;
+    double expected_triangles = 0;  ///< in all pieces together, about
+    PieceWork work{};
+};
+
+/// Refines a subdomain and checks the piece. `points` holds its border vertices by their ids in the mesh.
+CheckedPiece refine_and_check_piece(const Subdomain& subdomain, std::span<const Point> points, const PieceRules& rules,
+                                    core::BusyTimes& times);
 
 /// Returns whether the number of triangles of a piece was estimated within 15 %.
 bool is_good_estimate(double estimated, std::size_t made);
@@ -72,8 +79,8 @@ void add_piece(PieceFacts facts, PiecesSummary& summary, mesh::PiecewiseCheck& c
 /// Refines all subdomains in parallel in this order. Each piece is checked while it lies in the cache of the thread that
 /// has made it, its findings are added to the check in the order of the subdomains, and the piece is handed to the keeper.
 /// The result depends neither on this order nor on the number of threads.
-PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order, double min_angle_deg,
-                               core::BusyTimes& times, PieceWork work, mesh::PiecewiseCheck& check,
+PiecesSummary refine_and_check(const Decoupling& decoupling, std::span<const std::size_t> order,
+                               const PieceRules& rules, core::BusyTimes& times, mesh::PiecewiseCheck& check,
                                const PieceKeeper& keeper);
 
 }  // namespace lamina::pipeline

@@ -18,9 +18,9 @@ HeldParts::HeldParts(std::unique_ptr<SharedDecoupling> shared, LayerCells cells,
                      const MeshCounts& counts, const Ranks& ranks)
     : shared_(std::move(shared)), cells_(std::move(cells)), held_(std::move(held)) {
     core::parallel_for(held_.pieces.size(), 1, [&](std::size_t i, std::size_t) {
-        const std::size_t piece = held_.pieces[i];
-        if (Refinement* refinement = held_.store->in_memory(piece))
-            number_in_mesh(*shared_->subdomains[piece], held_.numbers[i].first_vertex, *refinement);
+        PieceStore& store = *held_.store;
+        if (Refinement* refinement = store.in_memory(held_.places[i]))
+            number_in_mesh(store.subdomain(held_.places[i]), held_.numbers[i].first_vertex, *refinement);
     });
     points_ = parts_of_points(shared_->points());
     for (std::size_t i = ranks.rank(); i < points_.size(); i += ranks.size()) own_points_.push_back(i);
@@ -47,15 +47,15 @@ void HeldParts::visit(std::size_t i, const std::function<void(const MeshPart&)>&
     if (i < layer_.size()) return take(layer_[i]);
     i -= layer_.size();
     if (i >= held_.pieces.size()) return take(behind_[i - held_.pieces.size()]);
-    const std::size_t piece = held_.pieces[i];
     const auto take_piece = [&](const Refinement& refinement) {
-        take(part_of_piece(shared_->points(), held_.layer_pieces, piece, held_.numbers[i].first_vertex,
+        take(part_of_piece(shared_->points(), held_.layer_pieces, held_.pieces[i], held_.numbers[i].first_vertex,
                            held_.numbers[i].first_triangle, refinement));
     };
     const PieceStore& store = *held_.store;
-    if (const Refinement* refinement = store.in_memory(piece)) return take_piece(*refinement);
-    Refinement refinement = store.read(piece);
-    number_in_mesh(*shared_->subdomains[piece], held_.numbers[i].first_vertex, refinement);
+    const std::size_t place = held_.places[i];
+    if (const Refinement* refinement = store.in_memory(place)) return take_piece(*refinement);
+    Refinement refinement = store.read(place);
+    number_in_mesh(store.subdomain(place), held_.numbers[i].first_vertex, refinement);
     take_piece(refinement);
 }
 
@@ -68,7 +68,7 @@ PartCounts HeldParts::counts(std::size_t i) const {
     if (i < layer_.size()) return of(layer_[i]);
     i -= layer_.size();
     if (i >= held_.pieces.size()) return of(behind_[i - held_.pieces.size()]);
-    return held_.store->counts(held_.pieces[i]);
+    return held_.store->counts(held_.places[i]);
 }
 
 }  // namespace lamina::pipeline

@@ -21,6 +21,7 @@ namespace lamina::pipeline {
 struct HeldNumbers {
     std::unique_ptr<PieceStore> store;
     std::vector<std::size_t> pieces;    ///< ascending
+    std::vector<std::size_t> places;    ///< of each of them in the store
     std::vector<PieceNumbers> numbers;  ///< of each of them
     std::size_t layer_pieces = 0;       ///< pieces of the layer, which are numbered before those of the subdomains
 };

@@ -73,6 +73,10 @@ RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& laye
     return estimate;
 }
 
+double triangles_beyond_layer(const RunEstimate& estimate, const Layer& layer) {
+    return estimate.triangles - layer_triangles(layer);
+}
+
 RefineOptions refine_options(const CaseOptions& options, double chord, const WorkCost& cost) {
     RefineOptions refine = options.refine;
     refine.unit_length = chord;

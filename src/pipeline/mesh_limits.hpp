@@ -25,6 +25,9 @@ void require_options_within(const CaseOptions& options, const LayerGrowth& growt
 RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
                                    const FarField& far_field, const WorkCost& cost);
 
+/// Returns how many triangles the estimate has beyond the layer.
+double triangles_beyond_layer(const RunEstimate& estimate, const Layer& layer);
+
 /// Returns the options of refinement round a configuration of this reference chord, with which no subdomain goes beyond
 /// the limits. Estimates may be wrong.
 RefineOptions refine_options(const CaseOptions& options, double chord, const WorkCost& cost);

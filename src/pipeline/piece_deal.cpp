@@ -7,11 +7,13 @@ namespace lamina::pipeline {
 PieceDeal deal_pieces(std::span<const decoupling::EstimatedBorder> borders, unsigned process, unsigned processes) {
     constexpr double kept_share = 0.75;
     double work = 0;
-    for (const decoupling::EstimatedBorder& border : borders) work += border.work;
+    for (const decoupling::EstimatedBorder& border : borders)
+        if (!border.made) work += border.work;
     const double kept = processes == 1 ? work : kept_share * work / processes;
     PieceDeal deal;
     std::vector<double> kept_by(processes, 0);
     for (std::size_t i = 0; i < borders.size(); ++i) {
+        if (borders[i].made) continue;
         double& of_process = kept_by[borders[i].process];
         if (of_process + borders[i].work > kept) {
             deal.shared.push_back(i);

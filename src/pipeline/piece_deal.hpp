@@ -16,9 +16,9 @@ struct PieceDeal {
     std::vector<std::size_t> shared;  ///< the same for all processes
 };
 
-/// Deals the pieces. A process keeps those that it has searched, whose lines it has divided and along which it matches
-/// the seams, but no more than three quarters of an equal share of the work by estimate; all others are shared. What is
-/// shared makes up for wrong estimates, and for processes that have other work or are slow.
+/// Deals the pieces that are not made yet. A process keeps those that it has searched, whose lines it has divided and
+/// along which it matches the seams, but no more than three quarters of an equal share of the work by estimate; all
+/// others are shared. What is shared makes up for wrong estimates, and for processes that have other work or are slow.
 PieceDeal deal_pieces(std::span<const decoupling::EstimatedBorder> borders, unsigned process, unsigned processes);
 
 }  // namespace lamina::pipeline

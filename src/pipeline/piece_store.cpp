@@ -5,44 +5,38 @@
 
 namespace lamina::pipeline {
 
-PieceStore::PieceStore(std::size_t pieces, const std::optional<std::filesystem::path>& beside) {
-    if (!beside) {
-        in_memory_.resize(pieces);
-        return;
+PieceStore::PieceStore(const std::optional<std::filesystem::path>& beside) {
+    if (beside) file_ = std::make_unique<core::UnnamedFile>(*beside);
+}
+
+std::size_t PieceStore::put(Subdomain subdomain, Refinement refinement) {
+    Piece piece{std::move(subdomain),
+                {.points = refinement.steiner_points.size(), .triangles = refinement.triangles.size()}};
+    if (file_) {
+        const auto bytes = [](const auto& values) {
+            return std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]);
+        };
+        const std::string_view points = bytes(refinement.steiner_points), triangles = bytes(refinement.triangles);
+        piece.offset = file_size_.fetch_add(points.size() + triangles.size());
+        file_->write_at(piece.offset, points);
+        file_->write_at(piece.offset + points.size(), triangles);
+    } else {
+        piece.refinement = std::move(refinement);
     }
-    file_ = std::make_unique<core::UnnamedFile>(*beside);
-    stored_.resize(pieces);
+    const std::lock_guard lock(mutex_);
+    pieces_.push_back(std::move(piece));
+    return pieces_.size() - 1;
 }
 
-void PieceStore::put(std::size_t piece, Refinement refinement) {
-    if (!file_) {
-        in_memory_[piece] = std::move(refinement);
-        return;
-    }
-    const auto bytes = [](const auto& values) {
-        return std::string_view(reinterpret_cast<const char*>(values.data()), values.size() * sizeof values[0]);
-    };
-    const std::string_view points = bytes(refinement.steiner_points), triangles = bytes(refinement.triangles);
-    const std::size_t offset = size_.fetch_add(points.size() + triangles.size());
-    file_->write_at(offset, points);
-    file_->write_at(offset + points.size(), triangles);
-    stored_[piece] = {offset, refinement.steiner_points.size(), refinement.triangles.size()};
-}
-
-PartCounts PieceStore::counts(std::size_t piece) const {
-    if (file_) return {.points = stored_[piece].points, .triangles = stored_[piece].triangles};
-    return {.points = in_memory_[piece].steiner_points.size(), .triangles = in_memory_[piece].triangles.size()};
-}
-
-Refinement PieceStore::read(std::size_t piece) const {
-    const Stored& stored = stored_[piece];
+Refinement PieceStore::read(std::size_t place) const {
+    const Piece& piece = pieces_[place];
     Refinement refinement;
-    refinement.steiner_points.resize(stored.points);
-    refinement.triangles.resize(stored.triangles);
-    const std::size_t point_bytes = stored.points * sizeof(Point);
-    file_->read_at(stored.offset, {reinterpret_cast<char*>(refinement.steiner_points.data()), point_bytes});
-    file_->read_at(stored.offset + point_bytes,
-                   {reinterpret_cast<char*>(refinement.triangles.data()), stored.triangles * sizeof(Triangle)});
+    refinement.steiner_points.resize(piece.counts.points);
+    refinement.triangles.resize(piece.counts.triangles);
+    const std::size_t point_bytes = piece.counts.points * sizeof(Point);
+    file_->read_at(piece.offset, {reinterpret_cast<char*>(refinement.steiner_points.data()), point_bytes});
+    file_->read_at(piece.offset + point_bytes,
+                   {reinterpret_cast<char*>(refinement.triangles.data()), piece.counts.triangles * sizeof(Triangle)});
     return refinement;
 }
 

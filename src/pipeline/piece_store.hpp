@@ -3,11 +3,13 @@
 
 #include <atomic>
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
-#include <vector>
 
+#include <lamina/decoupling.hpp>
 #include <lamina/delaunay.hpp>
 #include <lamina/mesh_sink.hpp>
 
@@ -15,30 +17,35 @@
 
 namespace lamina::pipeline {
 
-/// Keeps refinements in memory, or on the disk.
+/// Keeps subdomains, and their refinements in memory or on the disk. How many there will be need not be known.
 class PieceStore {
 public:
-    /// For this many pieces; on the disk of the file `beside`, if that is given. Throws IoError about it.
-    PieceStore(std::size_t pieces, const std::optional<std::filesystem::path>& beside);
+    /// On the disk of the file `beside`, if that is given. Throws IoError about it.
+    explicit PieceStore(const std::optional<std::filesystem::path>& beside);
 
-    /// Stores points and triangles of a piece, once for each. Any thread may call it. Throws IoError.
-    void put(std::size_t piece, Refinement refinement);
-    /// Returns the piece where it lies in memory; null: it is on the disk.
-    Refinement* in_memory(std::size_t piece) { return file_ ? nullptr : &in_memory_[piece]; }
-    const Refinement* in_memory(std::size_t piece) const { return file_ ? nullptr : &in_memory_[piece]; }
+    /// Stores a piece, of whose refinement only points and triangles. Returns its place here. Any thread may call it.
+    /// Throws IoError.
+    std::size_t put(Subdomain subdomain, Refinement refinement);
+    const Subdomain& subdomain(std::size_t place) const { return pieces_[place].subdomain; }
+    /// Returns the refinement where it lies in memory; null: it is on the disk.
+    Refinement* in_memory(std::size_t place) { return file_ ? nullptr : &pieces_[place].refinement; }
+    const Refinement* in_memory(std::size_t place) const { return file_ ? nullptr : &pieces_[place].refinement; }
     /// Returns how many vertices and triangles a piece has.
-    PartCounts counts(std::size_t piece) const;
-    /// Returns a piece from the disk, without statistics. Any thread may call it. Throws IoError.
-    Refinement read(std::size_t piece) const;
+    PartCounts counts(std::size_t place) const { return pieces_[place].counts; }
+    /// Returns a refinement from the disk, without statistics. Any thread may call it. Throws IoError.
+    Refinement read(std::size_t place) const;
 
 private:
-    struct Stored {
-        std::size_t offset = 0, points = 0, triangles = 0;
+    struct Piece {
+        Subdomain subdomain;
+        PartCounts counts;
+        std::size_t offset = 0;   ///< in the file
+        Refinement refinement{};  ///< in memory
     };
-    std::vector<Refinement> in_memory_;
     std::unique_ptr<core::UnnamedFile> file_;
-    std::vector<Stored> stored_;  ///< in the file
-    std::atomic<std::size_t> size_ = 0;
+    std::atomic<std::size_t> file_size_ = 0;
+    std::deque<Piece> pieces_;
+    std::mutex mutex_;
 };
 
 }  // namespace lamina::pipeline

@@ -196,14 +196,14 @@ struct PiecesWork {
     const CaseOptions& options;
     const Layer& layer;
     const Decoupling& decoupling;
+    const PieceRules& rules;
     mesh::PiecewiseCheck& check;
     core::BusyTimes& times;
     std::span<const Marker> markers;
 
     LayerCells fill_layer() const { return layers::fill(layer, options.layer.topology, options.decomposition, &times); }
     PiecesSummary refine(std::span<const std::size_t> order, const PieceKeeper& keeper) const {
-        return refine_and_check(decoupling, order, options.refine.min_angle_deg, times, {refinement_work, check_work},
-                                check, keeper);
+        return refine_and_check(decoupling, order, rules, times, check, keeper);
     }
 };
 
@@ -268,13 +268,10 @@ MadePieces stream_pieces(const PiecesWork& work, const OpenSink& open_sink, Made
 }
 
 /// Makes the pieces that this process gets and keeps them. Rank 0 alone fills the layer, and checks it.
-MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const Destination& destination,
-                        const StageClock& clock, MadeMesh& mesh) {
+MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, PieceMaker& maker,
+                        const Destination& destination, const StageClock& clock, MadeMesh& mesh) {
     Ranks& ranks = *destination.ranks;
     MadePieces made;
-    made.held.store = std::make_unique<PieceStore>(shared.pieces(), destination.beside);
-    const double min_angle_deg = work.options.refine.min_angle_deg;
-    ranks.reset_counter();
     HeldPieces held;
     mesh::HashOfParts hash;
     // All that rank 0 can do before the pieces are made keeps the others from waiting for it once they are. It makes fewer
@@ -290,14 +287,15 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, const 
         hash.add(shared.points(), std::span<const Quad>(made.cells.quads));
         hash.add(shared.points(), work.markers);
     };
-    core::parallel_invoke(fill_layer, [&] {
-        held =
-            take_and_refine(shared, min_angle_deg, work.times, {refinement_work, check_work}, ranks, *made.held.store);
-    });
+    core::parallel_invoke(fill_layer, [&] { held = take_and_refine(shared, maker, work.times, ranks); });
     clock.begin("numbering");
-    CountedMesh counted =
-        count_and_check(shared, held, made.cells, min_angle_deg, ranks, destination.checks() ? &work.check : nullptr);
-    for (const HeldPiece& piece : held.pieces) made.held.pieces.push_back(piece.piece);
+    CountedMesh counted = count_and_check(shared, held, made.cells, work.rules.min_angle_deg, ranks,
+                                          destination.checks() ? &work.check : nullptr);
+    made.held.store = maker.take_store();
+    for (const HeldPiece& piece : held.pieces) {
+        made.held.pieces.push_back(piece.piece);
+        made.held.places.push_back(piece.place);
+    }
     made.held.numbers = std::move(counted.numbers);
     made.held.layer_pieces = counted.layer_pieces;
     made.summary = counted.summary;
@@ -318,17 +316,14 @@ void share_unexcused(Ranks& ranks, std::vector<mesh::NarrowTriangle>& unexcused)
     unexcused = unpacker.get_all<mesh::NarrowTriangle>();
 }
 
-/// Collective: cuts the outer region, and deals its pieces. The processes divide the work among themselves.
+/// Collective: returns what cut_and_deal() returns, with all that the markers need.
 std::unique_ptr<SharedDecoupling> share_decoupling(const Layer& layer, const SizeField& size, const FarField& far_field,
                                                    const CaseOptions& options, const RefineOptions& refine,
-                                                   Ranks& ranks) {
+                                                   PieceMaker& maker, Ranks& ranks) {
     validate(options.decoupling);
     validate(options.refine);
-    auto shared = std::make_unique<SharedDecoupling>(
-        decoupling::cut_region({layer.points, layer.borders, size, far_field, options.decoupling}, &ranks), size,
-        options.decoupling.separators, refine);
-    decoupling::require_same_borders(shared->cut, ranks);
-    shared->deal = deal_pieces(shared->cut.borders, ranks.rank(), ranks.size());
+    auto shared =
+        cut_and_deal({layer.points, layer.borders, size, far_field, options.decoupling}, refine, maker, ranks);
     if (divides_far_field(options)) shared->place(shared->cut.far_field);
     return shared;
 }
@@ -356,10 +351,14 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
 
     clock.begin("decoupling", announce_estimate ? std::optional(result.estimate) : std::nullopt);
     const RefineOptions refine = refine_options(options, plan.conditions.chord, cost);
+    const PieceRules rules{
+        options.refine.min_angle_deg, triangles_beyond_layer(result.estimate, layer), {refinement_work, check_work}};
     std::unique_ptr<SharedDecoupling> shared;
+    std::optional<PieceMaker> maker;
     Decoupling decoupling;
     if (destination.ranks != nullptr)
-        shared = share_decoupling(layer, size, plan.far_field, options, refine, *destination.ranks);
+        shared = share_decoupling(layer, size, plan.far_field, options, refine,
+                                  maker.emplace(rules, destination.beside), *destination.ranks);
     else
         decoupling = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, refine);
     const std::span<const Point> points = shared ? shared->points() : std::span<const Point>(decoupling.points);
@@ -376,8 +375,8 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
 
     clock.begin("layer triangulation, refinement and check of pieces");
     core::BusyTimes times;
-    PiecesWork work{plan, options, layer, decoupling, check, times, markers};
-    MadePieces pieces = destination.ranks       ? share_pieces(work, *shared, destination, clock, made)
+    PiecesWork work{plan, options, layer, decoupling, rules, check, times, markers};
+    MadePieces pieces = destination.ranks       ? share_pieces(work, *shared, *maker, destination, clock, made)
                         : destination.open_sink ? stream_pieces(work, *destination.open_sink, made)
                                                 : keep_pieces(work, made);
     record_shared_times(times, clock.lap(), seconds, result.thread_seconds);

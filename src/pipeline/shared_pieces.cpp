@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include <lamina/error.hpp>
@@ -25,12 +26,11 @@ using core::Packer;
 using core::Unpacker;
 
 /// Returns what the others need to know of the border of a piece.
-HeldPiece describe_border(const SharedDecoupling& shared, std::size_t number, mesh::PieceFindings& findings) {
+HeldPiece describe_border(std::size_t number, const Subdomain& subdomain, std::span<const Segment> chain,
+                          std::span<const Point> points, mesh::PieceFindings& findings) {
     HeldPiece held;
     held.piece = number;
-    held.apexes = apexes_of(*shared.subdomains[number], findings);
-    const std::span<const Point> points = shared.points();
-    const std::vector<Segment> chain = shared.chain(number).edges;
+    held.apexes = apexes_of(subdomain, findings);
     held.shape_classes.reserve(chain.size());
     for (std::size_t i = 0; i < chain.size(); ++i) {
         const Point a = points[chain[i].a.index()], b = points[chain[i].b.index()];
@@ -109,11 +109,7 @@ void require_same_places(SharedDecoupling& shared, const SharedFindings& found) 
 
 SharedDecoupling::SharedDecoupling(decoupling::CutRegion cut_region, const SizeField& of_region,
                                    SeparatorRule of_separators, const RefineOptions& options)
-    : cut(std::move(cut_region)),
-      size(of_region),
-      rule(of_separators),
-      refine(options),
-      subdomains(cut.borders.size()) {
+    : cut(std::move(cut_region)), size(of_region), rule(of_separators), refine(options) {
     cut.lines.gather_points();
 }
 
@@ -126,36 +122,60 @@ void SharedDecoupling::place(std::span<const Segment> edges) {
         for (const VertexId end : {edge.a, edge.b}) place(end.index(), end.index() + 1);
 }
 
-const Subdomain& SharedDecoupling::make_subdomain(std::size_t i) {
-    subdomains[i] = std::make_unique<Subdomain>(decoupling::make_subdomain(cut, i, {size, rule}, refine));
-    return *subdomains[i];
+void PieceMaker::make(std::size_t number, Subdomain subdomain, std::span<const Segment> chain,
+                      std::span<const Point> points, core::BusyTimes& times) {
+    CheckedPiece made = refine_and_check_piece(subdomain, points, rules_, times);
+    mesh::PieceFindings& findings = made.facts.findings;
+    HeldPiece piece = describe_border(number, subdomain, chain, points, findings);
+    findings.border = {};
+    findings.border_vertices = {};
+    mesh::QualityCollector totals(rules_.min_angle_deg);
+    totals.append(findings.cells.isotropic.totals());
+    const mesh::QualityCollector shapes = std::exchange(findings.cells.isotropic, std::move(totals));
+    const mesh::HashOfParts hash = hash_of_piece(subdomain, made.refinement);
+    piece.place = store_->put(std::move(subdomain), std::move(made.refinement));
+    piece.facts = std::move(made.facts);
+    const std::lock_guard lock(mutex_);
+    held_.hash.add(hash);
+    held_.area_ratios.append_area_ratios(shapes.area_ratios());
+    held_.pieces.push_back(std::move(piece));
 }
 
-HeldPieces take_and_refine(SharedDecoupling& shared, double min_angle_deg, core::BusyTimes& times, PieceWork work,
-                           Ranks& ranks, PieceStore& store) {
-    HeldPieces held;
+void PieceMaker::number_trapezoids(std::span<const decoupling::EstimatedBorder> borders) {
+    std::unordered_map<std::size_t, std::size_t> numbers;
+    for (std::size_t i = 0; i < borders.size(); ++i)
+        if (borders[i].made) numbers.emplace(borders[i].trapezoid, i);
+    for (HeldPiece& piece : held_.pieces) piece.piece = numbers.at(piece.piece);
+}
+
+std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& region, const RefineOptions& refine,
+                                               PieceMaker& maker, Ranks& ranks) {
+    const SeparatorRule rule = region.options.separators;
+    core::BusyTimes times;  // these pieces count as a part of the decoupling
+    ranks.reset_counter();
+    const auto make = [&](std::uint32_t trapezoid, const decoupling::LineBorder& border,
+                          const decoupling::WorkEstimate& estimate, decoupling::Lines& lines) {
+        Subdomain subdomain = decoupling::make_subdomain(border, estimate, lines, {region.size, rule}, refine);
+        maker.make(trapezoid, std::move(subdomain), border_chain(border, lines).edges, lines.gathered(), times);
+    };
+    auto shared =
+        std::make_unique<SharedDecoupling>(decoupling::cut_region(region, &ranks, make), region.size, rule, refine);
+    decoupling::require_same_borders(shared->cut, ranks);
+    maker.number_trapezoids(shared->cut.borders);
+    ranks.reset_counter();
+    shared->deal = deal_pieces(shared->cut.borders, ranks.rank(), ranks.size());
+    return shared;
+}
+
+HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::BusyTimes& times, Ranks& ranks) {
     const PieceDeal& deal = shared.deal;
-    std::mutex mutex;
+    decoupling::CutRegion& cut = shared.cut;
     std::atomic<bool> failed = false;
     std::atomic<std::size_t> next_own = 0;
     const auto make_piece = [&](std::size_t number) {
-        const Subdomain& subdomain = shared.make_subdomain(number);
-        CheckedPiece made =
-            refine_and_check_piece(subdomain, shared.points(), shared.pieces(), min_angle_deg, times, work);
-        mesh::PieceFindings& findings = made.facts.findings;
-        HeldPiece piece = describe_border(shared, number, findings);
-        findings.border = {};
-        findings.border_vertices = {};
-        mesh::QualityCollector totals(min_angle_deg);
-        totals.append(findings.cells.isotropic.totals());
-        const mesh::QualityCollector shapes = std::exchange(findings.cells.isotropic, std::move(totals));
-        const mesh::HashOfParts hash = hash_of_piece(subdomain, made.refinement);
-        store.put(number, std::move(made.refinement));
-        const std::lock_guard lock(mutex);
-        held.hash.add(hash);
-        held.area_ratios.append_area_ratios(shapes.area_ratios());
-        piece.facts = std::move(made.facts);
-        held.pieces.push_back(std::move(piece));
+        Subdomain subdomain = decoupling::make_subdomain(cut.border(number), cut.borders[number].estimate, cut.lines,
+                                                         {shared.size, shared.rule}, shared.refine);
+        maker.make(number, std::move(subdomain), shared.chain(number).edges, shared.points(), times);
     };
     core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {
         try {
@@ -168,6 +188,7 @@ HeldPieces take_and_refine(SharedDecoupling& shared, double min_angle_deg, core:
             throw;
         }
     });
+    HeldPieces held = maker.take_held();
     std::sort(held.pieces.begin(), held.pieces.end(),
               [](const HeldPiece& a, const HeldPiece& b) { return a.piece < b.piece; });
     return held;

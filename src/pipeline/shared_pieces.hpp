@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <lamina/layers.hpp>
@@ -21,13 +24,12 @@
 
 namespace lamina::pipeline {
 
-/// A decoupling of which all processes know the borders. Each makes those subdomains that it refines.
+/// A decoupling of which all processes know the borders.
 struct SharedDecoupling {
     decoupling::CutRegion cut;
     SizeField size;
     SeparatorRule rule;
     RefineOptions refine;
-    std::vector<std::unique_ptr<Subdomain>> subdomains;  ///< null until they are made
     PieceDeal deal{};
     std::uint64_t outer_places = 0;  ///< on rank 0: sum of hash_of_places() over the far field
 
@@ -45,13 +47,12 @@ struct SharedDecoupling {
     void place(std::size_t begin, std::size_t end);
     /// Does so with the ends of these edges.
     void place(std::span<const Segment> edges);
-    /// Makes a subdomain. May be called for several of them at the same time.
-    const Subdomain& make_subdomain(std::size_t i);
 };
 
 /// A piece that this process has made, with what it leaves behind once it is stored.
 struct HeldPiece {
     std::size_t piece = 0;
+    std::size_t place = 0;                    ///< in the store
     PieceFacts facts;                         ///< without the border and without the histogram of area ratios
     std::vector<Point> apexes;                ///< behind the edges of border_chain()
     std::vector<std::uint8_t> shape_classes;  ///< of the triangles there
@@ -60,15 +61,42 @@ struct HeldPiece {
 
 /// All pieces that this process has made.
 struct HeldPieces {
-    std::vector<HeldPiece> pieces;          ///< in ascending order
+    std::vector<HeldPiece> pieces;          ///< in ascending order, once take_and_refine() has ended
     mesh::QualityCollector area_ratios{0};  ///< the histogram of all of them
     mesh::HashOfParts hash;                 ///< of their triangles
 };
 
-/// Refines and checks the pieces that this process gets: its own ones, then those that whoever is free takes from a
-/// counter that all share. Each piece goes to the store. Where a piece fails, all processes end soon.
-HeldPieces take_and_refine(SharedDecoupling& shared, double min_angle_deg, core::BusyTimes& times, PieceWork work,
-                           Ranks& ranks, PieceStore& store);
+/// Makes the pieces of a process. Several threads may do so at the same time.
+class PieceMaker {
+public:
+    /// Throws IoError about the file beside which pieces are stored.
+    PieceMaker(const PieceRules& rules, const std::optional<std::filesystem::path>& beside)
+        : rules_(rules), store_(std::make_unique<PieceStore>(beside)) {}
+
+    /// Refines and checks a piece, whose border_chain() has these edges, and stores it. `points` holds their ends.
+    void make(std::size_t piece, Subdomain subdomain, std::span<const Segment> chain, std::span<const Point> points,
+              core::BusyTimes& times);
+    /// Gives the pieces so far, which are those of trapezoids by their numbers, the numbers that they have among these.
+    void number_trapezoids(std::span<const decoupling::EstimatedBorder> borders);
+    /// Return all that was made.
+    HeldPieces take_held() { return std::move(held_); }
+    std::unique_ptr<PieceStore> take_store() { return std::move(store_); }
+
+private:
+    PieceRules rules_;
+    std::unique_ptr<PieceStore> store_;
+    std::mutex mutex_;
+    HeldPieces held_;
+};
+
+/// Collective: cuts the region, deals its pieces, and sets the counter for those that all share to 0. The processes
+/// divide the work among themselves, and make pieces while they would wait for each other.
+std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& region, const RefineOptions& refine,
+                                               PieceMaker& maker, Ranks& ranks);
+
+/// Makes the pieces that this process gets: its own ones, then those that whoever is free takes from a counter that all
+/// share. Where a piece fails, all processes end soon. Returns all pieces of the maker.
+HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::BusyTimes& times, Ranks& ranks);
 
 /// Where the vertices and triangles of a piece begin in the mesh.
 struct PieceNumbers {

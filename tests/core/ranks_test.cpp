@@ -40,6 +40,38 @@ TEST(Ranks, JoinTheirBytesInTheirOrder) {
     }
 }
 
+// The first ranks tell each other something several times in a row, while others do something else.
+TEST(Ranks, TellSomeOthers) {
+    for (const unsigned n : {1u, 2u, 5u, 8u})
+        for (unsigned members = 1; members <= n; ++members) {
+            SCOPED_TRACE(testing::Message() << members << " of " << n);
+            const std::string failure = run_ranks(n, [&](Ranks& ranks) {
+                for (int repeat = 0; ranks.rank() < members && repeat < 20; ++repeat) {
+                    std::vector<std::string> expected;
+                    for (unsigned rank = 0; rank < members; ++rank)
+                        expected.push_back(std::to_string(repeat) + std::string(rank, 'x'));
+                    EXPECT_EQ(ranks.all_gather_among(members, expected[ranks.rank()]), expected);
+                }
+                EXPECT_EQ(ranks.all_gather("").size(), n);
+            });
+            EXPECT_EQ(failure, "");
+        }
+}
+
+TEST(Ranks, KnowWhetherNumbersWereTaken) {
+    EXPECT_EQ(run_ranks(3,
+                        [](Ranks& ranks) {
+                            ranks.reset_counter();
+                            EXPECT_FALSE(ranks.has_numbers());
+                            ranks.agree();
+                            if (ranks.rank() == 1) ranks.next_number();
+                            ranks.agree();
+                            EXPECT_TRUE(ranks.has_numbers());
+                            EXPECT_FALSE(ranks.has_failed());
+                        }),
+              "");
+}
+
 TEST(Ranks, EndTogetherWhereOneCannotJoin) {
     for (const unsigned failing : {0u, 2u}) {
         const std::string failure = run_ranks(4, [&](Ranks& ranks) {

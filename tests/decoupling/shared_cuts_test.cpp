@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numbers>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -127,6 +129,61 @@ TEST(SharedCuts, AreThoseOfOneProcess) {
             }
         }
     }
+}
+
+/// Ranks of which the first one ends its cuts after another one has made a piece.
+class SlowCutters : public ThreadRanks {
+public:
+    using ThreadRanks::ThreadRanks;
+    static inline std::atomic<bool> made = false;
+
+protected:
+    std::uint64_t do_add_to_counter(std::uint64_t number) override {
+        if (number == 1) made.wait(false);
+        return ThreadRanks::do_add_to_counter(number);
+    }
+};
+
+// All ranks know which trapezoids have become pieces during the cuts, and each of these was made once, where it was
+// searched.
+TEST(SharedCuts, LeaveTimeForPieces) {
+    const CutCase c = cut_cases()[2];
+    const SizeField size = size_of(c);
+    const DecouplingOptions options{DecouplingOptions{}.separators, c.pieces_target};
+    const decoupling::OuterRegion region{c.discs.points, c.discs.borders, size, c.far_field, options};
+    const decoupling::CutRegion alone = decoupling::cut_region(region);
+    constexpr unsigned n = 7;
+    std::vector<std::size_t> made(n, 0);
+    SlowCutters::made = false;
+    EXPECT_EQ(run_ranks<SlowCutters>(n,
+                                     [&](Ranks& ranks) {
+                                         std::mutex mutex;
+                                         std::set<std::uint32_t> own;
+                                         const decoupling::CutRegion cut = decoupling::cut_region(
+                                             region, &ranks,
+                                             [&](std::uint32_t trapezoid, const decoupling::LineBorder& border,
+                                                 const decoupling::WorkEstimate&, decoupling::Lines& lines) {
+                                                 const std::lock_guard lock(mutex);
+                                                 EXPECT_TRUE(own.insert(trapezoid).second);
+                                                 const auto vertices = lines.gathered().size();
+                                                 for (const decoupling::LineLoop& loop : border.loops)
+                                                     for (const VertexId v : decoupling::ids_of(loop, lines))
+                                                         EXPECT_LT(v.index(), vertices);
+                                                 SlowCutters::made = true;
+                                                 SlowCutters::made.notify_all();
+                                             });
+                                         expect_equal(alone, cut);
+                                         std::set<std::uint32_t> known;
+                                         for (const decoupling::EstimatedBorder& border : cut.borders)
+                                             if (border.made && border.process == ranks.rank())
+                                                 known.insert(border.trapezoid);
+                                         EXPECT_EQ(own, known);
+                                         for (const decoupling::EstimatedBorder& border : cut.borders)
+                                             made[ranks.rank()] += border.made;
+                                     }),
+              "");
+    EXPECT_GT(made.front(), 0u);
+    EXPECT_EQ(made, std::vector<std::size_t>(n, made.front()));
 }
 
 TEST(SharedCuts, AreRefusedWhereRanksDiffer) {

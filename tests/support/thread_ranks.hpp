@@ -4,17 +4,19 @@
 #include <algorithm>
 #include <atomic>
 #include <barrier>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <exception>
 #include <fstream>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <semaphore>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <lamina/ranks.hpp>
@@ -23,13 +25,17 @@ namespace lamina::test {
 
 /// What the threads share.
 struct RankHub {
-    RankHub(unsigned n, unsigned taker) : ranks(n), slots(n), from_to(n), first_taker(taker), barrier(n) {
-        for (unsigned rank = 0; rank < n; ++rank) sent.emplace_back(0);
-    }
+    RankHub(unsigned n, unsigned taker) : ranks(n), slots(n), from_to(n), sent(n), first_taker(taker), barrier(n) {}
     const unsigned ranks;  ///< their number
     std::vector<std::string> slots;
     std::vector<std::vector<std::string>> from_to;  ///< what each rank sends to each
-    std::deque<std::binary_semaphore> sent;         ///< by each rank, to one that has not taken it yet
+    /// What was sent to a rank, by whom, and is not received yet.
+    struct Mailbox {
+        std::mutex mutex;
+        std::condition_variable more;
+        std::list<std::pair<unsigned, std::string>> messages;
+    };
+    std::deque<Mailbox> sent;
     std::atomic<unsigned> lowest_failed{0};
     std::atomic<std::uint64_t> counter{0};
     std::atomic<unsigned> first_taker;  ///< the rank that takes the first number; size(): any
@@ -115,13 +121,26 @@ protected:
         wait();
         return text;
     }
-    void do_send(unsigned, std::string_view bytes) override {
-        hub_.slots[rank_] = bytes;
-        hub_.sent[rank_].release();
+    void do_send(unsigned to, std::string_view bytes) override {
+        RankHub::Mailbox& box = hub_.sent[to];
+        {
+            const std::lock_guard lock(box.mutex);
+            box.messages.emplace_back(rank_, bytes);
+        }
+        box.more.notify_one();
     }
     std::string do_receive(unsigned from) override {
-        hub_.sent[from].acquire();
-        return hub_.slots[from];
+        RankHub::Mailbox& box = hub_.sent[rank_];
+        std::unique_lock lock(box.mutex);
+        auto found = box.messages.end();
+        box.more.wait(lock, [&] {
+            found = std::find_if(box.messages.begin(), box.messages.end(),
+                                 [&](const auto& message) { return message.first == from; });
+            return found != box.messages.end();
+        });
+        std::string bytes = std::move(found->second);
+        box.messages.erase(found);
+        return bytes;
     }
     void do_reset_counter() override {
         wait();
@@ -129,6 +148,7 @@ protected:
         wait();
     }
     std::uint64_t do_add_to_counter(std::uint64_t number) override {
+        if (number == 0) return hub_.counter;  // only asks whether a rank has failed
         while (hub_.first_taker != size() && hub_.first_taker != rank_) std::this_thread::yield();
         const std::uint64_t taken = hub_.counter.fetch_add(number);
         hub_.first_taker = size();
