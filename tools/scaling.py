@@ -4,11 +4,12 @@
     tools/scaling.py build/release/src/app/lamina build/release/bench/lamina_measure_ranks > out/scaling.json
 
 lamina_measure_ranks makes the same mesh on 1, 2, 4 ... ranks and says how much processor time each rank takes for each
-stage, and what the busiest ranks take between each two exchanges. Two finer meshes, on two large numbers of ranks each,
-say what does not become less on more ranks, how it grows with the mesh, and for how long ranks wait for the cuts round the
-bodies, which are made one after the other. A file of the same mesh says how many triangles each piece has. The replay
-deals pieces of the same sizes as ranks ask for them, the largest estimates first, and adds the rest. docs/scaling.md
-states the assumptions and shows the result.
+stage, and how long the stage takes with the waiting. Two finer meshes, on two large numbers of ranks each, say what
+does not become less on more ranks, how it grows with the mesh, and how long the cuts round the bodies last, which some
+ranks make while the others make pieces. Further runs of them, with 2 million triangles a rank, say how much longer the
+end takes than what the mean rank does there; the median counts. A file of the first mesh says how many triangles each
+piece has. The replay deals pieces of the same sizes as ranks ask for them, the largest estimates first, and adds the
+rest. docs/scaling.md states the assumptions and shows the result.
 """
 
 import argparse
@@ -17,6 +18,7 @@ import json
 import math
 import random
 import re
+import statistics
 import struct
 import subprocess
 import sys
@@ -45,6 +47,7 @@ CASE = ["naca:0012", "--preset", "none", "--first-height", "2.5e-5", "--growth",
         "--max-ray-angle", "4", "--far-field", "50"]  # that of lamina_measure_ranks
 PIECES = "layer triangulation, refinement and check of pieces"
 AT_END = ("numbering", "check", "assembly")
+WEAK_SHARE = 2e6  # triangles a rank for weak scaling, and with 1e9 triangles on 512 ranks
 LINES_SHARE = 0.15  # of what is divided of the decoupling: lines, which come before the searches
 
 
@@ -73,14 +76,18 @@ def stage_seconds(run, names):
 
 def summarize(run):
     """Returns what the busiest rank did in each part of a run, and what rank 0 did alone at the end."""
-    names = {name for stages in run["stages"] for name, _ in stages}
-    before = names - {PIECES, "decoupling", *AT_END}
+    before = stages_before(run)
     at_end = stage_seconds(run, AT_END)
     return {"ranks": run["ranks"], "before": max(stage_seconds(run, before)),
             "decoupling": max(stage_seconds(run, {"decoupling"})), "pieces": max(stage_seconds(run, {PIECES})),
             "pieces_of_all": sum(stage_seconds(run, {PIECES})), "end_at_rank_0": at_end[0],
             "decoupling_with_waiting": with_waiting(run, {"decoupling"}), "end_with_waiting": with_waiting(run, AT_END),
             "bytes_a_piece": run["bytes"] / run["pieces"], "messages": run["messages"]}  # fmt: skip
+
+
+def stages_before(run):
+    """Returns the names of the stages before the decoupling."""
+    return {name for stages in run["stages"] for name, _ in stages} - {PIECES, "decoupling", *AT_END}
 
 
 def of_all(run, names):
@@ -107,39 +114,62 @@ def power_through(a, b):
 
 
 def cutting_of(few, many):
-    """Returns what each rank repeats of the decoupling, what all divide, and for how long the cuts round the bodies keep
-    all waiting, from runs of the same mesh on few and on many ranks."""
-    stage = {"decoupling"}
-    repeated = (of_all(many, stage) - of_all(few, stage)) / (many["ranks"] - few["ranks"])
-    divided = of_all(few, stage) - few["ranks"] * repeated
-    # On many ranks the lines, which are divided first, and the share of the searches are the least part.
-    critical = with_waiting(many, stage) - repeated - LINES_SHARE * divided / many["ranks"]
-    return {"triangles": few["triangles"], "repeated": repeated, "divided": divided, "critical": critical}
+    """Returns what each rank repeats of the decoupling, what all divide, and how long the cuts round the bodies last,
+    from runs of the same mesh on few and on many ranks."""
+    of_few, of_many = (of_all(run, {"decoupling"}) - run["pieces_during_cuts"] for run in (few, many))
+    repeated = (of_many - of_few) / (many["ranks"] - few["ranks"])
+    return {"triangles": few["triangles"], "repeated": repeated, "divided": of_few - few["ranks"] * repeated,
+            "critical": many["cuts"],
+            "before": of_all(many, stages_before(many)) / many["ranks"]}  # fmt: skip
+
+
+def beyond_mean(run):
+    """Returns by how much the end of a run takes longer than what the mean rank does there."""
+    return with_waiting(run, AT_END) - of_all(run, AT_END) / run["ranks"]
+
+
+def cutting_ranks(ranks):
+    """Returns how many ranks cut the regions round the bodies."""
+    return max(ranks // 16, min(ranks // 4, 8)) if ranks >= 4 else ranks
 
 
 def calibrate(parts, triangles, cuts, ends):
     """Returns the times that the replay needs, in seconds.
 
     `parts` are the runs on one rank and more of a mesh with so many triangles, `cuts` two results of cutting_of(), `ends`
-    runs of two meshes on many ranks.
+    (triangles, seconds beyond the mean rank) of two meshes.
     """
     one = parts[0]
-    cost = {"layer": one["before"], "piece_per_triangle": one["pieces_of_all"] / triangles,
+    cost = {"piece_per_triangle": one["pieces_of_all"] / triangles,
             "cutting_divided": one["decoupling"] / triangles,
             "cutting_divided_on_many": cuts[1]["divided"] / cuts[1]["triangles"],
             "end_divided": one["end_at_rank_0"] / triangles}  # fmt: skip
     cost["cutting_fixed"], cost["cutting_repeated"] = line_through(
         *((cut["triangles"], cut["repeated"]) for cut in cuts))
-    # The cuts round the bodies, and the check of the boundary at the end, go with the edges of borders.
+    # A finer mesh needs more sizes.
+    cost["before_of_1e9"], cost["before_power"] = power_through(*((cut["triangles"], cut["before"]) for cut in cuts))
+    # The cuts round the bodies go with the edges of borders.
     cost["critical_of_1e9"], cost["critical_power"] = power_through(
         *((cut["triangles"], cut["critical"]) for cut in cuts))
-    cost["end_of_1e9"], cost["end_power"] = power_through(
-        *((run["triangles"], with_waiting(run, AT_END) - of_all(run, AT_END) / run["ranks"]) for run in ends))
+    cost["end_of_1e9"], cost["end_power"] = power_through(*ends)
     return cost
 
 
+def make_during_cuts(work, begin, cuts_end, ranks):
+    """Takes the pieces from the work that ranks make from `begin` on, each until it finds the cuts ended, and returns when
+    the last of these is made."""
+    last = begin
+    for _ in range(ranks - cutting_ranks(ranks)):
+        clock = begin
+        while clock < cuts_end and work:
+            clock += work.pop()[1]
+        last = max(last, clock)
+    return last
+
+
 def replay(ranks, triangles, sizes, cost, model):
-    """Returns the seconds of a run: pieces are taken one by one by whoever is idle, the largest estimates first."""
+    """Returns the seconds of a run: pieces are taken one by one by whoever is idle, the largest estimates first. While
+    some ranks cut the regions round the bodies, each of the others makes pieces of its own."""
     chance = random.Random(1)
     mean = sum(sizes) / len(sizes)
     count = max(1, round(triangles / (mean * model["piece_scale"])))
@@ -149,20 +179,25 @@ def replay(ranks, triangles, sizes, cost, model):
         estimate = size * (1 + chance.uniform(-1, 1) * model["estimate_error"])
         noise = 1 + abs(chance.gauss(0, model["noise"]))
         work.append((estimate, size * cost["piece_per_triangle"] * noise))
-    work.sort(reverse=True)
+    if ranks == 1:
+        work.sort(reverse=True)
+    before = cost["before_of_1e9"] * (triangles / 1e9) ** cost["before_power"]
     divided_too = model["divided_too"]
     cutting = (cost["cutting_fixed"] + triangles * cost["cutting_repeated"]) * (1 - divided_too)
     if ranks == 1:
-        start = cost["layer"] + triangles * cost["cutting_divided"]
+        start = before + triangles * cost["cutting_divided"]
         end = triangles * cost["end_divided"]
     else:
         share = triangles * cost["cutting_divided_on_many"] / ranks
-        critical = cost["critical_of_1e9"] * (triangles / 1e9) ** cost["critical_power"] * (1 - model["overlapped"])
-        start = cost["layer"] + cutting + LINES_SHARE * share + max(critical, (1 - LINES_SHARE) * share)
+        critical = cost["critical_of_1e9"] * (triangles / 1e9) ** cost["critical_power"] * model["cuts_scale"]
+        start = before + cutting + LINES_SHARE * share
+        cuts_end = start + critical
+        start = max(make_during_cuts(work, start + (1 - LINES_SHARE) * share, cuts_end, ranks), cuts_end)
         end = cost["end_of_1e9"] * (triangles / 1e9) ** cost["end_power"] * (1 - divided_too)
         end += triangles * cost["end_divided"] / ranks
-    if ranks >= count:
-        last = start + model["fetch_seconds"] + max(seconds for _, seconds in work)
+        work.sort(reverse=True)
+    if ranks >= len(work):
+        last = start + model["fetch_seconds"] + max((seconds for _, seconds in work), default=0)
     else:
         free = [start] * ranks
         for _, seconds in work:
@@ -179,10 +214,9 @@ def replay(ranks, triangles, sizes, cost, model):
 def tables(sizes, cost, model):
     """Returns weak and strong scaling: efficiencies against one rank."""
     weak, strong = [], []
-    per_rank = 2e6
-    one = replay(1, per_rank, sizes, cost, model)["seconds"]
+    one = replay(1, WEAK_SHARE, sizes, cost, model)["seconds"]
     for ranks in (1, 32, 1024):
-        run = replay(ranks, per_rank * ranks, sizes, cost, model)
+        run = replay(ranks, WEAK_SHARE * ranks, sizes, cost, model)
         weak.append({"ranks": ranks, "efficiency": one / run["seconds"], **run})
     whole = replay(1, 1e9, sizes, cost, model)["seconds"]
     for ranks in (1, 2, 8, 64, 512, 4096, 65536):
@@ -194,7 +228,7 @@ def tables(sizes, cost, model):
 MODEL = {
     "piece_scale": 1.0,  # size of pieces, relative to those of the run
     "divided_too": 0.0,  # share of what ranks repeat, and of the end at rank 0, that they would divide as well
-    "overlapped": 0.0,  # share of the cuts round the bodies during which other ranks would make pieces
+    "cuts_scale": 1.0,  # how long the cuts round the bodies last, relative to those of the runs
     "estimate_error": 0.05,  # of the work of pieces, on either side
     "noise": 0.02,  # of the time of a piece
     "fetch_seconds": 5e-6,  # one atomic fetch from another rank
@@ -209,8 +243,7 @@ VARIANTS = {
     "as now, pieces of a quarter": {"piece_scale": 0.25},
     "as now, 24 bytes a triangle to disk": {"bytes_per_triangle": 24.0},
     "ranks divide what they repeat": {"divided_too": 1.0},
-    "pieces are made during the cuts round the bodies": {"overlapped": 1.0},
-    "both": {"divided_too": 1.0, "overlapped": 1.0},
+    "cuts round the bodies take half of the time": {"cuts_scale": 0.5},
 }
 
 
@@ -222,6 +255,7 @@ def main():
     parser.add_argument("--finer", default="0.0013,0.0004", help="gradations of two finer meshes [%(default)s]")
     parser.add_argument("--many", default="64,256", help="two numbers of ranks that cut the finer meshes [%(default)s]")
     parser.add_argument("--ranks", default="1,2,4,8,16,32", help="of the runs that are measured [%(default)s]")
+    parser.add_argument("--repeat", type=int, default=3, help="runs for the median of the end [%(default)s]")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the model")
     arguments = parser.parse_args()
     for text in arguments.set:
@@ -234,7 +268,9 @@ def main():
     cuts, ends = [], []
     for gradation in arguments.finer.split(","):
         cuts.append(cutting_of(*measure(arguments.measure, ["--until-pieces", gradation, *many])))
-        ends += measure(arguments.measure, [gradation, many[0]])
+        ranks_at_end = max(2, round(cuts[-1]["triangles"] / WEAK_SHARE))
+        ended = measure(arguments.measure, ["--forget", gradation, *arguments.repeat * [ranks_at_end]])
+        ends.append((ended[0]["triangles"], statistics.median(map(beyond_mean, ended))))
     triangles = runs[0]["triangles"]
     sizes = sizes_of(arguments.program, arguments.gradation)
     parts = [summarize(run) for run in runs]
@@ -251,8 +287,7 @@ def main():
         "pieces": runs[0]["pieces"],
         "measured": parts,
         "cuts": cuts,
-        "ends": [{"triangles": run["triangles"], "with_waiting": with_waiting(run, AT_END),
-                  "mean": of_all(run, AT_END) / run["ranks"]} for run in ends],
+        "ends": ends,
         "cost": cost,
         "model": MODEL,
         "replayed": {name: tables(sizes, cost, {**MODEL, **change}) for name, change in VARIANTS.items()},
