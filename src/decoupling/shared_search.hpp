@@ -33,7 +33,7 @@ public:
 
 private:
     std::vector<std::uint64_t> work_;  ///< per process
-    /// What processes have got, the least on top. Entries that are out of date differ from work_.
+    /// A heap of the work that processes have got, the least on top. Entries that are out of date differ from work_.
     std::vector<std::pair<std::uint64_t, unsigned>> least_;
 };
 
@@ -43,9 +43,10 @@ struct DealtBorder {
     unsigned process;
 };
 
-/// What processes tell of a border: about how much work it is, in one byte, or the ends of its separator and how many
+/// Adds what processes tell of a border: about how much work it is, in one byte, or the ends of its separator and how many
 /// vertices that has. Who needs these divides it.
 void pack_result(const SearchResult& result, core::Packer& packer);
+/// Returns what pack_result() has added.
 SearchResult unpack_result(core::Unpacker& unpacker);
 /// Makes what this process has found what the others know of it.
 void make_as_told(SearchResult& result);

@@ -20,6 +20,11 @@ struct LayeredRays {
         const RayLine& line = set.lines[ray];
         return layer == 0 ? line.origin : line.origin + scale * (heights.of(ray)[layer] * line.direction + line.shift);
     }
+    /// Returns the height of the last layer on a ray; 0 where it has none.
+    double last_spacing(std::size_t ray) const {
+        const std::uint32_t n = counts[ray];
+        return n > 0 ? heights.of(ray)[n] - heights.of(ray)[n - 1] : 0;
+    }
     /// Returns the end of a ray.
     Point tip(std::size_t ray, double scale = 1) const { return point(ray, counts[ray], scale); }
 };

@@ -60,7 +60,7 @@ TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_
     const std::uint32_t n = rays.counts[ray], common = std::min({rays.counts[before], n, rays.counts[after]});
     if (n < 2 || common == 0) return {};
     const std::span<const double> heights = rays.heights.of(ray).first(n + std::size_t{1});
-    const double last = heights[n] - heights[n - 1];
+    const double last = rays.last_spacing(ray);
     const Point tip = rays.tip(ray);
     const double width = std::sqrt(distance(tip, rays.tip(before)) * distance(tip, rays.tip(after)));
     const auto row = [&](std::size_t from, std::size_t to) {

@@ -16,6 +16,7 @@
 #include "core/box_tree.hpp"
 #include "layers/front.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/target_length.hpp"
 
 namespace lamina::pipeline {
 
@@ -24,8 +25,9 @@ namespace {
 /// Tops are divided into parts of at least this share of the height of the cell below. Half of a cell that is as wide as
 /// such a part has 1.8 times the area of an equilateral triangle beyond.
 constexpr double least_share_of_height = 0.64;
-/// A top has no more parts than are asked for if sizes are this many times as long as the parts.
-constexpr double size_over_part = 1.1;
+/// A top has no more parts than are asked for if sizes are this many times as long as the parts: they are divided by it
+/// where borders are (TargetLength), and so is their growth.
+constexpr double size_over_part = layers::target_slack;
 /// A top may have any number of parts beyond this.
 constexpr double most_parts = 100;
 
@@ -37,17 +39,14 @@ struct CellTop {
 
 std::vector<CellTop> cell_tops(const Rays& rays, std::size_t element) {
     const layers::LayeredRays layered = layers::layered_rays(rays);
-    const auto last_height = [&](const layers::FrontCorner& corner) {
-        const std::span<const double> heights = layered.heights.of(corner.ray);
-        return corner.layers > 0 ? heights[corner.layers] - heights[corner.layers - 1] : 0.0;
-    };
     std::vector<CellTop> tops;
     const std::vector<layers::FrontCorner> corners = layers::front_corners(layered)[element];
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const layers::FrontCorner &corner = corners[k], &next = corners[(k + 1) % corners.size()];
         const Point a = layered.tip(corner.ray), b = layered.tip(next.ray);
         const double length = distance(a, b);
-        const double least_part = least_share_of_height * std::min(last_height(corner), last_height(next));
+        const double least_part =
+            least_share_of_height * std::min(layered.last_spacing(corner.ray), layered.last_spacing(next.ray));
         if (!(length < most_parts * least_part)) continue;
         const double parts = std::max(std::floor(length / least_part), 1.0);
         tops.push_back({a, b, size_over_part * length / parts});
@@ -73,10 +72,11 @@ void fit_wake_to_layer(const Rays& rays, std::size_t element, double gradation, 
     }
     const core::BoxTree tree(std::move(boxes));
     const auto minima = tree.group_minima(std::move(values));
+    const double slope = gradation / size_over_part;
     for (SizeSource& source : sources) {
         double size = source.size;
-        tree.below(bounding_box(source), gradation, -source.size, minima, [&](std::size_t i) {
-            size = std::max(size, tops[i].least_size - 0.9 * gradation * distance_between(source, tops[i]));
+        tree.below(bounding_box(source), slope, -source.size, minima, [&](std::size_t i) {
+            size = std::max(size, tops[i].least_size - slope * distance_between(source, tops[i]));
         });
         source.size = size;
     }

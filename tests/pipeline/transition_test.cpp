@@ -18,6 +18,15 @@ CaseOptions automatic(double growth) {
     return options;
 }
 
+/// Returns the options for a layer that follows from the flow.
+CaseOptions from_the_flow() {
+    CaseOptions options = automatic(1.2);
+    options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
+    options.layer.first_height = YPlus{1};
+    options.use_flow = true;
+    return options;
+}
+
 /// Returns, for all edges between the regions, the area of the layer's cell over that of the isotropic cell, sorted.
 std::vector<double> area_ratios(const Mesh& mesh) {
     struct EdgeSide {
@@ -101,10 +110,7 @@ TEST(Transition, SectionsOfTheirFormulaHaveEvenWallsAndSmoothBorders) {
 TEST(Transition, NarrowColumnsAtABaseLeaveTheOthersIsotropic) {
     for (const char* name : {"naca:0012:blunt", "naca:4412:blunt", "naca:0006:blunt"}) {
         SCOPED_TRACE(name);
-        CaseOptions options = automatic(1.2);
-        options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
-        options.layer.first_height = YPlus{1};
-        options.use_flow = true;
+        const CaseOptions options = from_the_flow();
         const MeshResult result = generate_mesh({name}, options);
         expect_sound(result, options);
         const TransitionSummary& transition = result.check.transition;
@@ -119,10 +125,7 @@ TEST(Transition, NarrowColumnsAtABaseLeaveTheOthersIsotropic) {
 /// Columns at the corners of wide bases remain narrow, though their rays lean. Half of their last cells had 2.7 times the
 /// area of the triangles beyond.
 TEST(Transition, NarrowColumnsEndInLowCells) {
-    CaseOptions options = automatic(1.2);
-    options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
-    options.layer.first_height = YPlus{1};
-    options.use_flow = true;
+    const CaseOptions options = from_the_flow();
     const MeshResult result = mesh_of({shapes::polygon({{1, 0.5}, {0, 0}, {1, -0.5}})}, options);
     expect_sound(result, options);
     EXPECT_GT(result.check.transition.p01_area_ratio, 0.5);
@@ -132,10 +135,7 @@ TEST(Transition, NarrowColumnsEndInLowCells) {
 /// A wake leaves the layer between columns that are wider than its triangles. It divided tops of cells twice as high as wide,
 /// and half of these cells had nine times the area of the triangles beyond.
 TEST(Transition, WakesLeaveTheirLayersWithoutDividingHighCells) {
-    CaseOptions options = automatic(1.2);
-    options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
-    options.layer.first_height = YPlus{1};
-    options.use_flow = true;
+    const CaseOptions options = from_the_flow();
     shapes::Outline outline;
     for (const Point p : shapes::circle(0.5, 100)) outline.push_back(p + Point{0.5, 0});
     const MeshResult result = mesh_of({outline}, options);
@@ -146,10 +146,7 @@ TEST(Transition, WakesLeaveTheirLayersWithoutDividingHighCells) {
 
 /// Cells of a fan are as wide as its rays are apart, at any height. With a growth of 1.2 they would be 1.9 times as high.
 TEST(Transition, FansEndInLowCells) {
-    CaseOptions options = automatic(1.2);
-    options.conditions = {.alpha_deg = 4, .reynolds = 5e6};
-    options.layer.first_height = YPlus{1};
-    options.use_flow = true;
+    const CaseOptions options = from_the_flow();
     const shapes::Outline diamond = shapes::polygon({{1, 0}, {0.5, 0.05}, {0, 0}, {0.5, -0.05}});
     const MeshResult result = mesh_of({diamond}, options);
     expect_sound(result, options);

@@ -29,7 +29,7 @@ struct RankHub {
     const unsigned ranks;  ///< their number
     std::vector<std::string> slots;
     std::vector<std::vector<std::string>> from_to;  ///< what each rank sends to each
-    /// What was sent to a rank, by whom, and is not received yet.
+    /// The messages that were sent to a rank and that it has not received yet, each with its sender.
     struct Mailbox {
         std::mutex mutex;
         std::condition_variable more;
