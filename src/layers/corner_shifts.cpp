@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angles.hpp"
 #include "layers/neighbours.hpp"
+#include "layers/normal_smoothing.hpp"
 
 namespace lamina::layers {
 
@@ -29,6 +31,8 @@ constexpr double most_shift = 0.2;
 Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height) {
     const Point edge_before = ray.origin - before.origin, edge_after = after.origin - ray.origin;
     const Point a = -perpendicular(unit(edge_before)), b = -perpendicular(unit(edge_after));
+    // Where the wall is smooth, first cells are long, and neighbours may keep what differs a little.
+    if (std::abs(core::angle_between(a, b)) <= core::radians(max_smooth_turning_deg)) return {};
     const auto is_kept = [&](Point normal) {
         return std::abs(dot(normal, ray.direction) * along - height) <= kept_difference * height;
     };

@@ -28,8 +28,6 @@ constexpr double max_thickness_share = 0.05;
 constexpr double max_tilt_deg = 45;
 /// Largest angle between a tilted ray and the normals of the edges at its origin, in degrees.
 constexpr double max_angle_from_normal_deg = 50;
-/// Vertices that turn by more than this are corners. They are few, and the rays beside them need their rays to tilt.
-constexpr double max_smooth_turning_deg = 6;
 
 /// Rays lean towards the one ray of a corner where edges are shorter than this share of the height to keep clear: there
 /// the columns beside it begin like a fan.

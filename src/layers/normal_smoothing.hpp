@@ -10,6 +10,9 @@
 
 namespace lamina::layers {
 
+/// Vertices that turn by more than this are corners. They are few, and the rays beside them need their rays to tilt.
+inline constexpr double max_smooth_turning_deg = 6;
+
 /// A vertex of an outline with the outward normals round it.
 struct WallVertex {
     double turning;       ///< angle between the two edges in radians; > 0 where the body is convex

@@ -12,6 +12,7 @@
 
 #include "core/angles.hpp"
 #include "layers/checked_layer.hpp"
+#include "layers/corner_shifts.hpp"
 #include "layers/rays.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -289,6 +290,24 @@ TEST(Rays, ThatLeanOutOfCornersKeepFirstHeightsAboveBothEdges) {
     }
     EXPECT_GT(shifted, 0u);
     EXPECT_LT(shifted, 4u);
+}
+
+/// Returns the shift of a ray that leans by 30 degrees, at a vertex where a wall of edges 1 long turns inwards.
+Point shift_of_leaning_ray(double turning_deg) {
+    const double turning = core::radians(turning_deg), first_height = 1e-3;
+    const Point edge = core::rotated({-1, 0}, -turning);
+    RaySet set;
+    set.lines = {{{1, 0}, {0, 1}}, {{0, 0}, core::rotated({0, 1}, core::radians(-30))}, {edge, {0, 1}}};
+    set.begin = {0, 3};
+    const LayerHeights heights({0, first_height}, std::vector<HeightColumn>(3, {.layers = 1}));
+    layers::shift_rays_of_corners(heights, set);
+    return set.lines[1].shift;
+}
+
+/// First cells of smooth walls are long. Where one ray is shifted and its neighbour is not, the faces between them lean.
+TEST(Rays, AreShiftedAtCornersOnly) {
+    EXPECT_EQ(shift_of_leaning_ray(4.5), Point{});
+    EXPECT_NE(shift_of_leaning_ray(20), Point{});
 }
 
 TEST(Rays, AreShortenedInCirclesAndLeadOverToThoseBeside) {
