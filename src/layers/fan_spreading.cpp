@@ -119,6 +119,7 @@ std::vector<double> openings(std::span<const FanColumn> columns, double max_leve
     std::vector<double> all = openings_to(max_level, max_opening, columns);
     if (sum(all) <= given) return all;
     double low = 0, high = max_level;
+    for (const FanColumn& column : columns) low = std::min(low, column.width);  // negative where rays would cross
     for (int halving = 0; halving < 40; ++halving) {
         const double middle = 0.5 * (low + high);
         (sum(openings_to(middle, max_opening, columns)) <= given ? low : high) = middle;
@@ -139,7 +140,7 @@ double given_angle(const FanSide& side, double max_ray_angle) {
     }
     // What is left of a fan that leans lies round the bisector, too, which is nearer to one of its sides.
     const double lean = 0.5 * (fan.tilt[0] + fan.tilt[1]);
-    return std::max(0.5 * to_both + (side.ahead ? lean : -lean), 0.0);
+    return std::clamp(0.5 * to_both + (side.ahead ? lean : -lean), 0.0, to_both);
 }
 
 /// Gives a part of a fan's angle to one side.

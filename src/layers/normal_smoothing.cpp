@@ -10,6 +10,7 @@
 #include "core/angles.hpp"
 #include "core/reproducible_math.hpp"
 #include "layers/heights.hpp"
+#include "layers/short_faces.hpp"
 
 namespace lamina::layers {
 
@@ -24,10 +25,11 @@ constexpr double wide_clearance = 5;
 constexpr double min_width = 1.0 / 50;
 /// Layers thicker than this share of the outline's perimeter do not tilt its rays any further.
 constexpr double max_thickness_share = 0.05;
-/// Largest tilt of a ray to either side of the bisector, in degrees.
+/// Largest tilt of a ray to either side of the bisector, in degrees, unless it stands on a short face or in a fan.
 constexpr double max_tilt_deg = 45;
-/// Largest angle between a tilted ray and the normals of the edges at its origin, in degrees.
-constexpr double max_angle_from_normal_deg = 50;
+/// Each end of a fan may take the first share of its angle. On smooth outlines one end may take what the other leaves of
+/// the second: above a short face all rays lean, and a fan whose ray did not would meet them.
+constexpr double share_of_fan = 0.25, share_of_fan_for_both = 0.75;
 
 /// Rays lean towards the one ray of a corner where edges are shorter than this share of the height to keep clear: there
 /// the columns beside it begin like a fan.
@@ -48,8 +50,12 @@ double height_to_keep_clear(std::span<const RayVertex> outline, const LayerGrowt
     return std::min(expected_height(growth, spacing), max_thickness_share * perimeter);
 }
 
+/// Where in the fan of its vertex a ray stands.
+enum class FanEnd : char { none, first, last };
+
 /// The ray of a vertex, or the first or last one of a fan.
 struct TiltableRay {
+    FanEnd fan_end;
     double* tilt;                 ///< the entry of WallVertex::tilt that is to be set
     double max_tilt;              ///< to either side, in radians
     double max_share_of_corners;  ///< what spread_corners() may add to the tilt, in radians
@@ -57,41 +63,48 @@ struct TiltableRay {
     double distance;              ///< to the origin of the next ray, along the wall
     double clear;                 ///< height below which it should not meet the next ray
     double least;                 ///< least height of the column up to the next ray, where it is to spread; 0 elsewhere
+    double opening;       ///< angle by which the rays are to diverge up to the next one on a short face, in radians
     double to_normals;    ///< angle from the ray, not tilted, to the normals of the edges on both sides, in radians
     bool shares_corners;  ///< whether the edge up to the next ray is so short that corners are spread over it
 };
 
-/// Returns the largest tilt of the one ray of a vertex.
-double max_tilt_of_bisector(const WallVertex& vertex) {
+/// Returns the largest tilt of the one ray of a vertex, which may be this large.
+double max_tilt_of_bisector(const WallVertex& vertex, double most) {
     const double b = 0.5 * std::abs(vertex.turning);
-    double tilt = std::min(core::radians(max_tilt_deg), core::radians(max_angle_from_normal_deg) - b);
+    double tilt = std::min(most, core::radians(max_angle_from_normal_deg) - b);
     if (2 * b <= core::radians(max_smooth_turning_deg)) tilt = std::min(tilt, max_tilt_between_edges(vertex.turning));
     return std::max(tilt, 0.0);
 }
 
-std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, double clear,
+std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, double clear, bool smooth,
                                        std::vector<WallVertex>& vertices) {
     // Fans round bases without a wake spread by themselves.
     const bool has_wake =
         std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; });
+    const std::vector<double> openings =
+        smooth && !has_wake ? openings_on_short_faces(outline, vertices) : std::vector<double>(outline.size(), 0.0);
     std::vector<TiltableRay> rays;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
         WallVertex &vertex = vertices[i], &after = vertices[next];
-        const double max_tilt = vertex.fan ? std::clamp(0.25 * vertex.turning, 0.0, core::radians(max_tilt_deg))
-                                           : max_tilt_of_bisector(vertex);
+        const std::size_t before = (i + outline.size() - 1) % outline.size();
+        const bool on_face = openings[before] > 0 || openings[i] > 0;
+        const double most = core::radians(on_face ? max_angle_from_normal_deg : max_tilt_deg);
+        const double max_tilt =
+            vertex.fan ? std::clamp(share_of_fan * vertex.turning, 0.0, most) : max_tilt_of_bisector(vertex, most);
         const double max_share_of_corners = std::min(core::radians(max_corner_tilt_deg),
                                                      vertex.fan ? max_tilt : max_tilt_between_edges(vertex.turning));
         if (vertex.fan)
-            rays.push_back({&vertex.tilt[0], max_tilt, max_share_of_corners, vertex.turning, 0, clear, 0, 0, false});
+            rays.push_back({FanEnd::first, &vertex.tilt[0], max_tilt, max_share_of_corners, vertex.turning, 0, clear, 0,
+                            0, 0, false});
         const double to_normals = vertex.fan ? 0 : 0.5 * vertex.turning;
         const double turning = to_normals + (after.fan ? 0 : 0.5 * after.turning);
         const RayVertex &a = outline[i], &b = outline[next];
         const double least = has_wake ? std::max(a.least_height, b.least_height) : 0;
         const double apart = distance(a.at, b.at);
-        rays.push_back({&vertex.tilt[vertex.fan], max_tilt, max_share_of_corners, turning, apart,
-                        std::max(clear, wide_clearance * least), least, to_normals,
-                        !has_wake && apart < short_edge_share * clear});
+        rays.push_back({vertex.fan ? FanEnd::last : FanEnd::none, &vertex.tilt[vertex.fan], max_tilt,
+                        max_share_of_corners, turning, apart, std::max(clear, wide_clearance * least), least,
+                        openings[i], to_normals, !has_wake && apart < short_edge_share * clear});
     }
     return rays;
 }
@@ -120,22 +133,35 @@ std::vector<double> carried_excess(std::span<const double> excess) {
     return before;
 }
 
+/// Returns the largest tilt of a ray, given the offsets that all rays ask for.
+double largest_tilt(std::span<const TiltableRay> rays, std::span<const double> offsets, std::size_t i) {
+    const TiltableRay& ray = rays[i];
+    if (ray.fan_end == FanEnd::none) return ray.max_tilt;
+    const double other = std::abs(offsets[ray.fan_end == FanEnd::first ? i + 1 : i - 1]);
+    constexpr double both = share_of_fan_for_both / share_of_fan;
+    return std::min(core::radians(max_angle_from_normal_deg), both * ray.max_tilt - std::min(other, ray.max_tilt));
+}
+
 /// Tilts the rays so that from one to the next none falls by more than is allowed, or rises by less than makes their
 /// column wide enough. Let a(s) be the angle of the bisectors along the wall. What is carried from before is how far the
 /// least function above a that falls no faster than allowed lies above a, what is carried from behind how far the greatest
 /// such function below a lies below it. The mean of the two functions falls no faster either, equals a where a itself is
 /// admissible, and treats both directions of the wall alike. The tilt is the difference between this mean and a.
-void tilt(std::span<const TiltableRay> rays) {
+void tilt(std::span<const TiltableRay> rays, bool smooth) {
     const std::size_t n = rays.size();
     std::vector<double> excess(n);
     for (std::size_t i = 0; i < n; ++i) {
         const double apart = upright_distance(rays[i], rays[(i + 1) % n]);
         double min_rise = -(1 / (clearance * rays[i].clear)) * apart;
         if (rays[i].least > 0 && apart > 0) min_rise = std::max(min_rise, min_width - apart / rays[i].least);
+        if (rays[i].opening > 0) min_rise = rays[i].opening;
         excess[i] = min_rise - rays[i].turning;
     }
     const std::vector<double> offsets = carried_excess(excess);
-    for (std::size_t i = 0; i < n; ++i) *rays[i].tilt = std::clamp(offsets[i], -rays[i].max_tilt, rays[i].max_tilt);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double largest = smooth ? largest_tilt(rays, offsets, i) : rays[i].max_tilt;
+        *rays[i].tilt = std::clamp(offsets[i], -largest, largest);
+    }
 }
 
 /// Tilts the rays so that from one to the next on a short edge none rises by more than max_angle. As in tilt(), the angle
@@ -161,8 +187,10 @@ void spread_corners(std::span<const TiltableRay> rays, double max_angle) {
         for (std::size_t i = 0; i < n; ++i)
             spread[i] = std::clamp(spread[i] - offsets[i], -rays[i].max_share_of_corners, rays[i].max_share_of_corners);
     }
-    for (std::size_t i = 0; i < n; ++i)
-        *rays[i].tilt = std::clamp(*rays[i].tilt + spread[i], -rays[i].max_tilt, rays[i].max_tilt);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double largest = std::max(rays[i].max_tilt, std::abs(*rays[i].tilt));
+        *rays[i].tilt = std::clamp(*rays[i].tilt + spread[i], -largest, largest);
+    }
 }
 
 }  // namespace
@@ -175,14 +203,15 @@ double max_tilt_between_edges(double turning) {
     return core::atan2_reproducible(max_height_difference * core::cos_reproducible(b), core::sin_reproducible(b));
 }
 
-void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle,
+void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle, bool smooth,
                     std::vector<WallVertex>& vertices) {
     constexpr int rounds = 3;  // the tilts of one decide the distances of the next
     const bool concave =
         std::any_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; });
     if (!concave && growth.least_heights.empty()) return;
-    const std::vector<TiltableRay> rays = tiltable_rays(outline, height_to_keep_clear(outline, growth), vertices);
-    for (int round = 0; round < rounds; ++round) tilt(rays);
+    const std::vector<TiltableRay> rays =
+        tiltable_rays(outline, height_to_keep_clear(outline, growth), smooth, vertices);
+    for (int round = 0; round < rounds; ++round) tilt(rays, smooth);
     spread_corners(rays, max_angle);
     for (WallVertex& vertex : vertices)
         if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];

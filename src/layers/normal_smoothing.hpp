@@ -13,6 +13,9 @@ namespace lamina::layers {
 /// Vertices that turn by more than this are corners. They are few, and the rays beside them need their rays to tilt.
 inline constexpr double max_smooth_turning_deg = 6;
 
+/// Largest angle between a tilted ray and the normals of the edges at its origin, in degrees.
+inline constexpr double max_angle_from_normal_deg = 50;
+
 /// A vertex of an outline with the outward normals round it.
 struct WallVertex {
     double turning;       ///< angle between the two edges in radians; > 0 where the body is convex
@@ -28,8 +31,9 @@ struct WallVertex {
 double max_tilt_between_edges(double turning);
 
 /// Sets the tilts of the vertices. Convex and gently turning walls get none. On short edges corners of one ray are spread
-/// until neighbouring rays differ by no more than max_angle, in radians; not at all where it is pi.
-void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle,
+/// until neighbouring rays differ by no more than max_angle, in radians; not at all where it is pi. On smooth outlines the
+/// rays of short faces diverge (short_faces.hpp), and fans beside them lean as far as these.
+void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle, bool smooth,
                     std::vector<WallVertex>& vertices);
 
 }  // namespace lamina::layers

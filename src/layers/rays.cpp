@@ -101,7 +101,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
     const double max_angle = core::radians(options.max_ray_angle_deg);
     // Smooth outlines have fans at their corners.
     const bool has_plain_corners = !smooth && options.corners == CornerRays::fan && !options.fan_rays;
-    smooth_normals(outline, growth, has_plain_corners ? max_angle : core::pi, vertices);
+    smooth_normals(outline, growth, has_plain_corners ? max_angle : core::pi, smooth, vertices);
     if (!heights.empty() && !options.fan_rays) spread_fans(outline, heights, max_angle, vertices);
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());
