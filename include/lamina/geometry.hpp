@@ -57,7 +57,9 @@ struct Element {
     /// and where the two parts of the mean line of a NACA section meet.
     std::vector<std::size_t> given_corners;
     bool resampled = false;  ///< whether prepare_surfaces() chose the spacing of points, of all or of some stretches
-    bool smooth = false;     ///< whether the resampled outline is smooth but at few corners, as iced ones are not
+    /// Whether the outline is smooth but at few corners, as iced ones are not, and its points are evenly spaced: they are
+    /// resampled, or prepare_surfaces() kept them though it need not.
+    bool smooth = false;
     /// Whether prepare_surfaces() kept the points although the options ask for others, which would have crossed.
     bool surface_restored = false;
     OutlineFeatures features;  ///< set by prepare_surfaces()

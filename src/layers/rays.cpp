@@ -88,8 +88,8 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 }  // namespace
 
 OutlineKind outline_kind(const Element& element) {
-    if (!element.resampled) return OutlineKind::given;
-    return element.smooth ? OutlineKind::smooth : OutlineKind::jagged;
+    if (element.smooth) return OutlineKind::smooth;
+    return element.resampled ? OutlineKind::jagged : OutlineKind::given;
 }
 
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,

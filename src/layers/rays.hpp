@@ -12,8 +12,8 @@ namespace lamina::layers {
 
 /// How the vertices of an outline were chosen.
 enum class OutlineKind {
-    given,   ///< some or all of them are those of the input
-    smooth,  ///< resampled, and smooth but at few corners (Element::smooth)
+    given,   ///< those of the input, of which nothing is known
+    smooth,  ///< smooth but at few corners (Element::smooth)
     jagged,  ///< resampled between many corners, as iced ones are
 };
 

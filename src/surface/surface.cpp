@@ -203,6 +203,8 @@ Geometry prepare_surfaces(Geometry given, const SurfaceOptions& options, const S
         if (plan.decision.keeps_all()) {
             element.surface_notes.push_back(
                 fmt::format("{} points kept: {}", element.points.size(), plan.decision.reason));
+            // Points that are kept on request may be as noisy and uneven as they like.
+            element.smooth = options.treatment != SurfaceTreatment::keep && !is_jagged(given.elements[i]);
         } else {
             apply(plan, element, given.elements[i], i, request);
             even_out_joints(plan, element, given.elements[i], i, request);

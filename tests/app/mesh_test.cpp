@@ -14,6 +14,7 @@
 #include <lamina/geometry.hpp>
 #include <lamina/io.hpp>
 #include <lamina/layers.hpp>
+#include <lamina/surface.hpp>
 
 #include "app/program.hpp"
 #include "support/layers.hpp"
@@ -190,6 +191,7 @@ TEST_F(MeshCommand, LayerHeightsAreTheRequestedOnesOnFullRays) {
     const auto vertices = vertices_of(folder() / "n.su2");
     Geometry geometry;
     geometry.elements.push_back(naca_airfoil("0012", 200));
+    geometry = prepare_surfaces(std::move(geometry), {});
     LayerOptions options;
     options.first_height = 2.5e-5;
     options.growth = 1.15;

@@ -173,6 +173,17 @@ TEST(AutomaticSurface, ResamplesDensePointsThatAreRandomOrFarTooClose) {
     }
 }
 
+TEST(AutomaticSurface, KeepsEvenPointsAndKnowsThatTheyAreSmooth) {
+    const Outline dense = shapes::ellipse(1, 0.2, 1200);
+    const Element kept = prepared(dense, {});
+    EXPECT_EQ(kept.points, dense);
+    EXPECT_FALSE(kept.resampled);
+    EXPECT_TRUE(kept.smooth);
+    SurfaceOptions keep;
+    keep.treatment = SurfaceTreatment::keep;
+    EXPECT_FALSE(prepared(dense, keep).smooth) << "they might be anything";
+}
+
 /// Returns an arc of a circle, with points `spacing` apart, closed by two sides of two edges that meet in a corner.
 Outline cone(double spacing) {
     constexpr double half_gap = 1.0471975511965976;
