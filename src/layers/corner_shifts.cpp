@@ -27,12 +27,13 @@ constexpr double kept_difference = 0.0095;
 /// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
 constexpr double most_shift = 0.2;
 
-/// Returns the shift of a ray of its own at a corner. along: first height along the ray; height: above the edges.
-Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height) {
+/// Returns the shift of a ray of its own at a vertex; none where the wall turns by least_turning or less, in radians. along:
+/// first height along the ray; height: above the edges.
+Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height,
+                      double least_turning) {
     const Point edge_before = ray.origin - before.origin, edge_after = after.origin - ray.origin;
     const Point a = -perpendicular(unit(edge_before)), b = -perpendicular(unit(edge_after));
-    // Where the wall is smooth, first cells are long, and neighbours may keep what differs a little.
-    if (std::abs(core::angle_between(a, b)) <= core::radians(max_smooth_turning_deg)) return {};
+    if (std::abs(core::angle_between(a, b)) <= least_turning) return {};
     const auto is_kept = [&](Point normal) {
         return std::abs(dot(normal, ray.direction) * along - height) <= kept_difference * height;
     };
@@ -45,16 +46,20 @@ Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& 
 
 }  // namespace
 
-void shift_rays_of_corners(const LayerHeights& heights, RaySet& set) {
+void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& heights, RaySet& set) {
     const RayNeighbours neighbours(set);
+    std::size_t element = 0;
     for (std::size_t i = 0; i < set.lines.size(); ++i) {
+        while (i == set.begin[element + 1]) ++element;
         RayLine& ray = set.lines[i];
         const RayLine &before = set.lines[neighbours.previous[i]], &after = set.lines[neighbours.next[i]];
         const auto on_wall = [](const RayLine& line) { return line.place == RayPlace::wall; };
         if (!on_wall(before) || !on_wall(ray) || !on_wall(after) || heights.of(i).size() < 2) continue;
         if (before.origin == ray.origin || after.origin == ray.origin) continue;  // a ray of a fan
+        // Where the wall is smooth, first cells are long, and neighbours may keep what differs a little.
+        const double least_turning = jagged[element] ? 0 : core::radians(max_smooth_turning_deg);
         const double along = heights.of(i)[1];
-        ray.shift = shift_at_corner(before, ray, after, along, along / heights.column(i).slant);
+        ray.shift = shift_at_corner(before, ray, after, along, along / heights.column(i).slant, least_turning);
     }
 }
 

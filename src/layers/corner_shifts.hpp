@@ -1,13 +1,16 @@
 // Rays that lean out of corners keep the first height above both edges.
 #pragma once
 
+#include <span>
+
 #include <lamina/layers.hpp>
 
 namespace lamina::layers {
 
 /// Sets the shifts of rays at corners (RayLine::shift), where there is room: those of the one ray of a vertex whose first
 /// layer would be higher above one of the edges there than above the other, or higher above both than it may be
-/// (max_slant). heights: those of the rays.
-void shift_rays_of_corners(const LayerHeights& heights, RaySet& set);
+/// (max_slant). On outlines that are not jagged, only at corners that turn by more than max_smooth_turning_deg. jagged: one
+/// per element; heights: those of the rays.
+void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& heights, RaySet& set);
 
 }  // namespace lamina::layers

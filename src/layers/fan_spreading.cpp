@@ -28,6 +28,8 @@ constexpr double max_corner_fan_deg = 120, given_by_corner_fans_deg = 35, given_
 /// line between the middles of the long cells on both sides would pass far below the face between them. The middle of a
 /// narrow column is next to its faces. It is as wide as any column of a fan, but no wider than the second angle.
 constexpr double max_turning_at_ray_deg = 35, max_kept_column_deg = 10;
+/// Fans of which less is left would have columns far narrower than those beside them.
+constexpr double max_sliver_deg = 2;
 /// A stretch of columns ends where the wall turns inwards by more than this.
 constexpr double concave_corner_deg = 20;
 /// Columns widen up to this share of the distance of the fan's rays at the height of the front.
@@ -162,6 +164,14 @@ void spread(const FanSide& side, double max_ray_angle, std::vector<WallVertex>& 
     }
 }
 
+/// Turns the two rays into one of a fan of which a sliver is left that it need not keep.
+void close_sliver(WallVertex& fan) {
+    const double left = fan.turning + fan.tilt[1] - fan.tilt[0];
+    if (left >= core::radians(max_sliver_deg) || fan.turning > core::radians(max_turning_at_ray_deg)) return;
+    fan.tilt[0] += 0.5 * left;
+    fan.tilt[1] = fan.tilt[0] - fan.turning;
+}
+
 /// Columns that are narrower than this share of their height, though the fan has given its angle, are widened at the
 /// expense of wider ones, which lose up to the second share of their width.
 constexpr double wanted_share = 1.0 / 25, most_lost = 0.25;
@@ -250,6 +260,8 @@ void spread_fans(std::span<const RayVertex> outline, std::span<const double> hei
         if (before[i].fan)
             for (const bool ahead : {false, true})
                 spread({outline, heights, before, i, ahead}, max_ray_angle, vertices);
+    for (WallVertex& vertex : vertices)
+        if (vertex.fan) close_sliver(vertex);
     before = vertices;
     for (std::size_t i = 0; i < outline.size(); ++i)
         if (ends_stretch(before[i]))

@@ -75,7 +75,7 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         const LayerGrowth own = growth_on_element(growth, e);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
         std::vector<RayLine> rays = make_rays(outline, kind, options, own);
-        if (kind == OutlineKind::smooth && !own.least_heights.empty())
+        if (kind != OutlineKind::given && !own.least_heights.empty())
             rays = make_rays(outline, kind, options, own, front_heights(outline, rays, own));
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());
@@ -92,7 +92,7 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
     for (int insertion = 0; insertion < max_insertions && !options.fan_rays; ++insertion)
         if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.jagged, rays.heights, rays.limits), rays))
             break;
-    shift_rays_of_corners(rays.heights, rays.set);
+    shift_rays_of_corners(rays.jagged, rays.heights, rays.set);
     fit_and_count_layers(rays);
 }
 

@@ -27,9 +27,9 @@ constexpr double min_width = 1.0 / 50;
 constexpr double max_thickness_share = 0.05;
 /// Largest tilt of a ray to either side of the bisector, in degrees, unless it stands on a short face or in a fan.
 constexpr double max_tilt_deg = 45;
-/// Each end of a fan may take the first share of its angle. On smooth outlines one end may take what the other leaves of
-/// the second: above a short face all rays lean, and a fan whose ray did not would meet them.
-constexpr double share_of_fan = 0.25, share_of_fan_for_both = 0.75;
+/// Both ends of a fan together may take this share of its angle. Above the riser of a step, or on a horn of ice, all rays
+/// lean, and a fan whose rays did not would meet them.
+constexpr double share_of_fan = 0.75;
 
 /// Rays lean towards the one ray of a corner where edges are shorter than this share of the height to keep clear: there
 /// the columns beside it begin like a fan.
@@ -57,7 +57,7 @@ enum class FanEnd : char { none, first, last };
 struct TiltableRay {
     FanEnd fan_end;
     double* tilt;                 ///< the entry of WallVertex::tilt that is to be set
-    double max_tilt;              ///< to either side, in radians
+    double max_tilt;              ///< to either side, in radians; in fans, where both ends ask for as much
     double max_share_of_corners;  ///< what spread_corners() may add to the tilt, in radians
     double turning;               ///< angle to the next ray, in radians
     double distance;              ///< to the origin of the next ray, along the wall
@@ -90,8 +90,7 @@ std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, doubl
         const std::size_t before = (i + outline.size() - 1) % outline.size();
         const bool on_face = openings[before] > 0 || openings[i] > 0;
         const double most = core::radians(on_face ? max_angle_from_normal_deg : max_tilt_deg);
-        const double max_tilt =
-            vertex.fan ? std::clamp(share_of_fan * vertex.turning, 0.0, most) : max_tilt_of_bisector(vertex, most);
+        const double max_tilt = vertex.fan ? 0.5 * share_of_fan * vertex.turning : max_tilt_of_bisector(vertex, most);
         const double max_share_of_corners = std::min(core::radians(max_corner_tilt_deg),
                                                      vertex.fan ? max_tilt : max_tilt_between_edges(vertex.turning));
         if (vertex.fan)
@@ -133,13 +132,13 @@ std::vector<double> carried_excess(std::span<const double> excess) {
     return before;
 }
 
-/// Returns the largest tilt of a ray, given the offsets that all rays ask for.
+/// Returns the largest tilt of a ray, given the offsets that all rays ask for. One end of a fan may take what the other
+/// leaves.
 double largest_tilt(std::span<const TiltableRay> rays, std::span<const double> offsets, std::size_t i) {
     const TiltableRay& ray = rays[i];
     if (ray.fan_end == FanEnd::none) return ray.max_tilt;
     const double other = std::abs(offsets[ray.fan_end == FanEnd::first ? i + 1 : i - 1]);
-    constexpr double both = share_of_fan_for_both / share_of_fan;
-    return std::min(core::radians(max_angle_from_normal_deg), both * ray.max_tilt - std::min(other, ray.max_tilt));
+    return std::min(core::radians(max_angle_from_normal_deg), 2 * ray.max_tilt - std::min(other, ray.max_tilt));
 }
 
 /// Tilts the rays so that from one to the next none falls by more than is allowed, or rises by less than makes their
@@ -147,7 +146,7 @@ double largest_tilt(std::span<const TiltableRay> rays, std::span<const double> o
 /// least function above a that falls no faster than allowed lies above a, what is carried from behind how far the greatest
 /// such function below a lies below it. The mean of the two functions falls no faster either, equals a where a itself is
 /// admissible, and treats both directions of the wall alike. The tilt is the difference between this mean and a.
-void tilt(std::span<const TiltableRay> rays, bool smooth) {
+void tilt(std::span<const TiltableRay> rays) {
     const std::size_t n = rays.size();
     std::vector<double> excess(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -159,7 +158,7 @@ void tilt(std::span<const TiltableRay> rays, bool smooth) {
     }
     const std::vector<double> offsets = carried_excess(excess);
     for (std::size_t i = 0; i < n; ++i) {
-        const double largest = smooth ? largest_tilt(rays, offsets, i) : rays[i].max_tilt;
+        const double largest = largest_tilt(rays, offsets, i);
         *rays[i].tilt = std::clamp(offsets[i], -largest, largest);
     }
 }
@@ -211,7 +210,7 @@ void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growt
     if (!concave && growth.least_heights.empty()) return;
     const std::vector<TiltableRay> rays =
         tiltable_rays(outline, height_to_keep_clear(outline, growth), smooth, vertices);
-    for (int round = 0; round < rounds; ++round) tilt(rays, smooth);
+    for (int round = 0; round < rounds; ++round) tilt(rays);
     spread_corners(rays, max_angle);
     for (WallVertex& vertex : vertices)
         if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];

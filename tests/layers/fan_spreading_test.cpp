@@ -140,6 +140,32 @@ Outline bulging_tail() {
     return outline;
 }
 
+/// A corner that may give all of its angle keeps no sliver of it.
+TEST(FanSpreading, LeavesNoSliverOfAFan) {
+    std::size_t without_fan = 0, with_fan = 0;
+    for (const double shortest : {1e-4, 3e-4, 1e-3, 2e-3, 4e-3, 6e-3})
+        for (double corner_deg = 12; corner_deg < 35; corner_deg += 0.5) {
+            SCOPED_TRACE(testing::Message() << corner_deg << " degrees, edges of " << shortest);
+            // A roof on a deep house, whose edges are short at the ridge.
+            const double slope = std::tan(core::radians(0.5 * corner_deg));
+            Outline outline{{-1, -1}, {1, -1}};
+            std::vector<double> distances;
+            for (double x = shortest, edge = shortest; x < 1; x += edge *= 1.1) distances.push_back(x);
+            std::for_each(distances.rbegin(), distances.rend(), [&](double x) { outline.push_back({x, -x * slope}); });
+            outline.push_back({0, 0});
+            for (const double x : distances) outline.push_back({-x, -x * slope});
+            const std::vector<RayLine> rays = spread_rays(outline, true);
+            double angle = 0;
+            for (std::size_t i = 0; i + 1 < rays.size(); ++i)
+                if (rays[i].origin == Point{0, 0} && rays[i + 1].origin == Point{0, 0})
+                    angle = core::degrees(core::angle_between(rays[i].direction, rays[i + 1].direction));
+            ++(angle > 0 ? with_fan : without_fan);
+            if (angle > 0) EXPECT_GT(angle, 1.9);
+        }
+    EXPECT_GT(with_fan, 20u);
+    EXPECT_GT(without_fan, 20u);
+}
+
 TEST(FanSpreading, WidensColumnsThatAFanCannotReach) {
     const Outline outline = bulging_tail();
     const std::vector<RayLine> before = spread_rays(outline, false), after = spread_rays(outline, true);

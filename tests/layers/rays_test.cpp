@@ -293,14 +293,14 @@ TEST(Rays, ThatLeanOutOfCornersKeepFirstHeightsAboveBothEdges) {
 }
 
 /// Returns the shift of a ray that leans by 30 degrees, at a vertex where a wall of edges 1 long turns inwards.
-Point shift_of_leaning_ray(double turning_deg) {
+Point shift_of_leaning_ray(double turning_deg, bool jagged = false) {
     const double turning = core::radians(turning_deg), first_height = 1e-3;
     const Point edge = core::rotated({-1, 0}, -turning);
     RaySet set;
     set.lines = {{{1, 0}, {0, 1}}, {{0, 0}, core::rotated({0, 1}, core::radians(-30))}, {edge, {0, 1}}};
     set.begin = {0, 3};
     const LayerHeights heights({0, first_height}, std::vector<HeightColumn>(3, {.layers = 1}));
-    layers::shift_rays_of_corners(heights, set);
+    layers::shift_rays_of_corners(std::vector<char>{jagged}, heights, set);
     return set.lines[1].shift;
 }
 
@@ -308,6 +308,7 @@ Point shift_of_leaning_ray(double turning_deg) {
 TEST(Rays, AreShiftedAtCornersOnly) {
     EXPECT_EQ(shift_of_leaning_ray(4.5), Point{});
     EXPECT_NE(shift_of_leaning_ray(20), Point{});
+    EXPECT_NE(shift_of_leaning_ray(4.5, true), Point{}) << "walls of ice have no long cells";
 }
 
 TEST(Rays, AreShortenedInCirclesAndLeadOverToThoseBeside) {

@@ -109,6 +109,40 @@ TEST(ShortFaces, OnlyRisersOpenAndNoFurtherThanTheirEndsAllow) {
     }
 }
 
+/// Returns a plate from (0, 0) to (1, 0.1) with a tooth on its upper side between two that are alike: their sides lean by 45
+/// degrees, and 0.003 deep feet are between them.
+Outline plate_with_teeth() {
+    constexpr double spacing = 2e-3, on_teeth = 1e-4, depth = 0.003;
+    Outline outline{{0, 0}};
+    add_straight({1, 0}, spacing, outline);
+    add_straight({1, 0.1}, spacing, outline);
+    add_straight({0.5 + 3 * depth, 0.1}, spacing, outline);
+    for (int k = 2; k >= -3; --k) {
+        const double y = k % 2 == 0 ? 0.1 - depth : 0.1;
+        add_straight({0.5 + k * depth, y}, on_teeth, outline);
+    }
+    add_straight({0, 0.1}, spacing, outline);
+    add_straight({0, 0}, spacing, outline);
+    outline.pop_back();
+    return outline;
+}
+
+/// Rays of both sides of a horn of ice lean out of the feet beside it, towards its tip.
+TEST(ShortFaces, RaysOfHornsDoNotMeetThoseOfTheirFans) {
+    const std::vector<RayLine> rays = rays_round(plate_with_teeth(), layers::OutlineKind::jagged);
+    std::size_t at_tips = 0;
+    for (std::size_t i = 0; i + 1 < rays.size(); ++i) {
+        const RayLine &ray = rays[i], &next = rays[i + 1];
+        if (ray.origin == next.origin) continue;
+        const auto is_tip = [](Point p) { return p.y == 0.1 && p.x > 0.495 && p.x < 0.505; };
+        if (!is_tip(ray.origin) && !is_tip(next.origin)) continue;
+        ++at_tips;
+        // Beside each tip they turned inwards by 15 degrees when a fan gave half of its angle at most.
+        EXPECT_GT(core::degrees(core::angle_between(ray.direction, next.direction)), -8) << ray.origin.x;
+    }
+    EXPECT_EQ(at_tips, 4u);
+}
+
 TEST(ShortFaces, MirroredOutlinesHaveMirroredRays) {
     const Outline outline = stepped_plate(0.003, 0.5);
     Outline mirrored(outline.rbegin(), outline.rend());
