@@ -474,6 +474,21 @@ struct LayerCells {
 LAMINA_EXPORT LayerCells fill_layer(const Layer& layer, LayerTopology topology,
                                     const DecompositionOptions& options = {});
 
+/// A cell of a layer with a large angle.
+struct ObtuseCell {
+    std::uint32_t column;  ///< LayerCells::triangle_column or quad_column
+    std::uint16_t layer;   ///< LayerCells::triangle_layer or quad_layer
+};
+
+/// Returns the cells of a layer that have an angle above this one, which is obtuse, but for those of columns with a ray that
+/// is nearer than its supplement to the wall below: they cannot do without. Cells behind bases and of
+/// LayerTopology::delaunay have no columns, so none of them is found.
+LAMINA_EXPORT std::vector<ObtuseCell> obtuse_cells(const Layer& layer, const LayerCells& cells, double max_angle_deg);
+
+/// Lowers the limits of the rays beside these cells so that columns end below them, but for the first layer; leads the limits
+/// over to those beside, and finds the numbers of layers anew, as shorten_rays() does. Returns whether it changed any.
+LAMINA_EXPORT bool end_columns_below(std::span<const ObtuseCell> cells, Rays& rays);
+
 /// Returns the defects of a layer that was made with these options, one line each; empty: every promise above holds.
 /// Exact where a sign decides; O(n log n) in practice.
 LAMINA_EXPORT std::vector<std::string> check_layer(const Layer& layer, const LayerOptions& options,

@@ -197,7 +197,7 @@ struct MeshResult {
     std::vector<VertexId> column_origins;         ///< per column: the vertex that its first ray begins at
     std::vector<ElementCoverage> layer_coverage;  ///< per element; empty without layers
     BorderSteps border_steps;                     ///< of the layer's outer border
-    std::size_t thinned_rays = 0;                 ///< rays shortened so that triangles beyond keep the bound on angles
+    std::size_t thinned_rays = 0;                 ///< rays shortened so that angles beyond and within keep bounds
     Point thinned_at{};                           ///< origin of the one that lost the largest share of its height
     RefineStats refinement;                       ///< summed over the subdomains
     double mean_edge_over_size = 0;               ///< mean isotropic edge over h at its middle, of a sample; 0: no edge

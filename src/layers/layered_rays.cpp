@@ -33,11 +33,7 @@ bool lower_limits_of_lowered_rays(Rays& rays) {
         changed = true;
     }
     if (!changed) return false;
-    smooth_limits(rays.set, rays.heights, rays.limits);
-    // No ray loses its first layer for this.
-    for (std::size_t i = 0; i < rays.limits.size(); ++i)
-        if (const std::span<const double> heights = rays.heights.of(i); heights.size() > 1)
-            rays.limits[i] = std::max(rays.limits[i], std::min(before[i], heights[1]));
+    lead_limits_over(before, rays);
     return true;
 }
 
@@ -51,6 +47,13 @@ bool replace_rays(RaySet larger, Rays& rays) {
     rays.heights = make_heights(rays.set, rays.growth);
     rays.limits = height_limits(rays.set, rays.heights);
     return true;
+}
+
+void lead_limits_over(std::span<const double> before, Rays& rays) {
+    smooth_limits(rays.set, rays.heights, rays.limits);
+    for (std::size_t i = 0; i < rays.limits.size(); ++i)
+        if (const std::span<const double> heights = rays.heights.of(i); heights.size() > 1)
+            rays.limits[i] = std::max(rays.limits[i], std::min(before[i], heights[1]));
 }
 
 void fit_and_count_layers(Rays& rays) {

@@ -36,6 +36,10 @@ LayeredRays layered_rays(const Rays& rays);
 /// set is no larger.
 bool replace_rays(RaySet larger, Rays& rays);
 
+/// Leads limits that have been lowered over to those beside. No ray loses its first layer for this: `before` holds the limits
+/// before they were lowered.
+void lead_limits_over(std::span<const double> before, Rays& rays);
+
 /// Fits the heights to the limits and counts the layers on each ray.
 void fit_and_count_layers(Rays& rays);
 

@@ -530,6 +530,7 @@ MadeMesh run(const Geometry& given, const CaseOptions& given_options, const Dest
     clock.begin("layers");
     RayPlan plan = plan_rays(std::move(prepared), conditions, options, growth, std::move(wakes));
     refine_walls_below_borders(given, options, limits, growth, plan);
+    end_columns_below_obtuse_cells(options, plan);
     MadeMesh made = mesh_on_rays(plan, options, destination, clock, seconds, true);
     make_room(options, destination, plan, clock, made);
     MeshResult& result = made.result;

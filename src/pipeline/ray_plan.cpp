@@ -89,6 +89,19 @@ void count_thinned(RayPlan& plan) {
     }
 }
 
+/// Requests sizes anew, since the fronts are others.
+void renew_requests(const CaseOptions& options, RayPlan& plan) {
+    plan.requests = request_sizes(options.sizing, sized_bodies(plan.geometry, plan.conditions), plan.rays, plan.wakes,
+                                  plan.far_field.box());
+}
+
+/// Returns whether all rays have all layers that were requested.
+bool all_layers_fit(const Rays& rays) {
+    for (std::size_t i = 0; i < rays.counts.size(); ++i)
+        if (rays.counts[i] < rays.heights.column(i).layers) return false;
+    return true;
+}
+
 }  // namespace
 
 RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, const CaseOptions& options,
@@ -123,6 +136,32 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
     }
 }
 
+void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
+    constexpr double max_angle_deg = 150;
+    constexpr int max_rounds = 8, max_rounds_without_gain = 2;
+    // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
+    if (!options.layer.enabled || options.layer.fan_rays || all_layers_fit(plan.rays)) return;
+    Rays rays = plan.rays;
+    std::size_t fewest = 0;
+    int rounds_without_gain = 0;
+    bool is_changed = false;
+    for (int round = 0; round < max_rounds && rounds_without_gain <= max_rounds_without_gain; ++round) {
+        const Layer layer =
+            close_border(rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
+        const std::vector<ObtuseCell> obtuse =
+            obtuse_cells(layer, fill_layer(layer, options.layer.topology, options.decomposition), max_angle_deg);
+        const bool is_better = obtuse.size() < fewest;
+        rounds_without_gain = is_better ? 0 : rounds_without_gain + 1;
+        if (is_better) plan.rays = rays;
+        is_changed |= is_better;
+        if (round == 0 || is_better) fewest = obtuse.size();
+        if (!end_columns_below(obtuse, rays)) break;
+    }
+    if (!is_changed) return;
+    count_thinned(plan);
+    renew_requests(options, plan);
+}
+
 bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, const CaseOptions& options,
                                    RayPlan& plan) {
     // Where no layer is left to be thinned, the borders' edges become this share of the circles' radii.
@@ -135,8 +174,7 @@ bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow,
         if (ends[k] == 0) plan.short_edges.push_back({.a = at, .b = at, .size = edge_share * places[k].radius});
     }
     count_thinned(plan);
-    plan.requests = request_sizes(options.sizing, sized_bodies(plan.geometry, plan.conditions), plan.rays, plan.wakes,
-                                  plan.far_field.box());
+    renew_requests(options, plan);
     plan.requests.at_borders.insert(plan.requests.at_borders.end(), plan.short_edges.begin(), plan.short_edges.end());
     return true;
 }

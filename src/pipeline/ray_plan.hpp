@@ -40,6 +40,10 @@ RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, cons
 void refine_walls_below_borders(const Geometry& given, const CaseOptions& options, SpacingLimits limits,
                                 const LayerGrowth& growth, RayPlan& plan);
 
+/// Shortens rays so that columns end below cells with an angle above 150 degrees, for as long as there are fewer and fewer of
+/// them. First layers stay (docs/decisions/0066).
+void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan);
+
 /// If there are isotropic triangles whose angle is below the bound, and which no sharp corner excuses: shortens the
 /// rays that end beside them or, where no layer is left, the edges of the borders there. Returns whether it changed the
 /// plan.

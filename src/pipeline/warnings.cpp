@@ -120,8 +120,8 @@ void warn_of_thinned_layers(const MeshResult& result, std::vector<Warning>& warn
          .at = result.thinned_at,
          .number = static_cast<double>(result.thinned_rays),
          .unit = "rays",
-         .message = fmt::format("the layers on {} are thinner than there is room for (most at {}), since the triangles "
-                                "beyond could not keep the bound on their angles otherwise (--layers, --thickness, "
+         .message = fmt::format("the layers on {} are thinner than there is room for (most at {}), since angles beyond "
+                                "or within them would be too small or too large otherwise (--layers, --thickness, "
                                 "--surface)",
                                 counted(result.thinned_rays, "ray", "rays"), place_text(result.thinned_at))});
 }

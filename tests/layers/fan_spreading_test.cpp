@@ -160,7 +160,9 @@ TEST(FanSpreading, LeavesNoSliverOfAFan) {
                 if (rays[i].origin == Point{0, 0} && rays[i + 1].origin == Point{0, 0})
                     angle = core::degrees(core::angle_between(rays[i].direction, rays[i + 1].direction));
             ++(angle > 0 ? with_fan : without_fan);
-            if (angle > 0) EXPECT_GT(angle, 1.9);
+            if (angle > 0) {
+                EXPECT_GT(angle, 1.9);
+            }
         }
     EXPECT_GT(with_fan, 20u);
     EXPECT_GT(without_fan, 20u);

@@ -1,0 +1,91 @@
+// Cells with large angles, and columns that end below them. Such cells stand where the border divides the tops of flat
+// cells, where rows rise steeply towards a wider column, and in clefts of ice.
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+#include "core/angles.hpp"
+#include "core/reproducible_math.hpp"
+#include "layers/layered_rays.hpp"
+
+namespace lamina {
+
+using namespace layers;
+
+namespace {
+
+/// Returns whether the angle at `corner` exceeds an obtuse one with this cosine.
+bool exceeds(double cosine, Point before, Point corner, Point after) {
+    const Point u = before - corner, v = after - corner;
+    const double d = dot(u, v);
+    return d < 0 && d * d > cosine * cosine * squared_length(u) * squared_length(v);
+}
+
+/// Adds the cells of one kind.
+template <class Cell>
+void add_obtuse(const Layer& layer, std::span<const Cell> cells, std::span<const std::uint16_t> layers,
+                std::span<const std::uint32_t> columns, double cosine, std::vector<ObtuseCell>& found) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const auto& v = cells[i].v;
+        const auto at = [&](std::size_t k) { return layer.points[v[k % std::size(v)].index()]; };
+        for (std::size_t k = 0; k < std::size(v); ++k) {
+            if (!exceeds(cosine, at(k), at(k + 1), at(k + 2))) continue;
+            found.push_back({columns[i], layers[i]});
+            break;
+        }
+    }
+}
+
+/// Returns, for each column, whether one of its rays is so near to the wall below that no cell of the column can do without
+/// such an angle: it is the one ray of a concave corner whose sides meet at twice that angle or less.
+std::vector<char> columns_of_sharp_corners(const Layer& layer, double cosine) {
+    std::vector<char> result;
+    for (const std::vector<Ray>& rays : layer.rays)
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
+            const Point edge = layer.points[next.origin.index()] - layer.points[ray.origin.index()];
+            const double least = -cosine * length(edge);
+            result.push_back(edge != Point{} &&
+                             (dot(ray.direction, edge) > least || -dot(next.direction, edge) > least));
+        }
+    return result;
+}
+
+}  // namespace
+
+std::vector<ObtuseCell> obtuse_cells(const Layer& layer, const LayerCells& cells, double max_angle_deg) {
+    std::vector<ObtuseCell> found;
+    const double cosine = core::cos_reproducible(core::radians(max_angle_deg));
+    if (!cells.triangle_column.empty())
+        add_obtuse<Triangle>(layer, cells.triangles, cells.triangle_layer, cells.triangle_column, cosine, found);
+    if (!cells.quad_column.empty())
+        add_obtuse<Quad>(layer, cells.quads, cells.quad_layer, cells.quad_column, cosine, found);
+    if (found.empty()) return found;
+    const std::vector<char> excused = columns_of_sharp_corners(layer, cosine);
+    std::erase_if(found,
+                  [&](const ObtuseCell& cell) { return cell.column == LayerCells::no_column || excused[cell.column]; });
+    return found;
+}
+
+bool end_columns_below(std::span<const ObtuseCell> cells, Rays& rays) {
+    const std::vector<std::size_t> next = rays.set.following();
+    const std::vector<double> before = rays.limits;
+    bool changed = false;
+    for (const ObtuseCell& cell : cells) {
+        if (cell.layer < 2) continue;
+        for (const std::size_t ray : {std::size_t{cell.column}, next[cell.column]}) {
+            if (rays.counts[ray] < cell.layer) continue;
+            rays.limits[ray] = std::min(rays.limits[ray], rays.fitted.of(ray)[cell.layer - 1u]);
+            changed = true;
+        }
+    }
+    if (!changed) return false;
+    lead_limits_over(before, rays);
+    fit_and_count_layers(rays);
+    return true;
+}
+
+}  // namespace lamina
