@@ -7,12 +7,16 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
 
+#include "core/packing.hpp"
 #include "decoupling/cut_region.hpp"
 #include "decoupling/lines.hpp"
+#include "decoupling/shared_search.hpp"
 #include "support/thread_ranks.hpp"
 
 namespace lamina::test {
@@ -196,6 +200,50 @@ TEST(SharedCuts, AreRefusedWhereRanksDiffer) {
         decoupling::cut_region({c.discs.points, c.discs.borders, size, far_field, options}, &ranks);
     });
     EXPECT_NE(line.find("process 2 has cut the domain in another way"), std::string::npos) << line;
+}
+
+/// Ranks of which one hears that each line has a vertex more than it has. It is found out by whoever divides the line: by
+/// this rank, if it cuts regions round the bodies, when it begins to search the first one.
+class MisledCutter : public ThreadRanks {
+public:
+    using ThreadRanks::ThreadRanks;
+    static inline unsigned misled = 0;
+
+protected:
+    std::vector<std::string> do_all_gather(std::string_view bytes) override {
+        std::vector<std::string> told = ThreadRanks::do_all_gather(bytes);
+        if (rank() != misled || std::exchange(has_heard_, true)) return told;
+        for (std::string& numbers : told) {
+            core::Packer packer;
+            for (core::Unpacker unpacker(numbers); !unpacker.at_end();) packer.put_short(unpacker.get_short() + 1);
+            numbers = packer.take();
+        }
+        return told;
+    }
+
+private:
+    bool has_heard_ = false;
+};
+
+// The other cutters wait for what this one finds, and all other ranks make pieces until the cuts are made.
+TEST(SharedCuts, EndOnAllRanksWhereOneOfTheCuttersFails) {
+    const CutCase c = cut_cases().front();
+    const SizeField size = size_of(c);
+    const DecouplingOptions options{DecouplingOptions{}.separators, c.pieces_target};
+    constexpr unsigned n = 12, cutters = 3;
+    for (unsigned failing = 0; failing < cutters; ++failing) {
+        SCOPED_TRACE(failing);
+        MisledCutter::misled = failing;
+        const std::string line = run_ranks<MisledCutter>(n, [&](Ranks& ranks) {
+            const decoupling::CutRegion cut =
+                decoupling::cut_region({c.discs.points, c.discs.borders, size, c.far_field, options}, &ranks,
+                                       [](std::uint32_t, const decoupling::LineBorder&, const decoupling::WorkEstimate&,
+                                          decoupling::Lines&) {});
+            ASSERT_EQ(decoupling::cutting_processes(cut.rings.size(), n), cutters);
+        });
+        EXPECT_NE(line.find("processes divide a line between subdomains in different ways"), std::string::npos) << line;
+        EXPECT_EQ(line.find("differently"), std::string::npos) << line;
+    }
 }
 
 }  // namespace
