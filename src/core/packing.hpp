@@ -32,6 +32,8 @@ public:
         put_short(values.size());
         if (!values.empty()) bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     }
+    /// Puts bytes without their number.
+    void put_bytes(std::string_view bytes) { bytes_ += bytes; }
     void put_text(std::string_view text) { put_all<char>({text.data(), text.size()}); }
     /// Puts counts, of which many are small and many are 0, without the zeros at the end.
     void put_counts(std::span<const std::uint32_t> counts) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +31,8 @@ struct LAMINA_EXPORT CutRegion {
     template <class F>
     void for_lines(std::size_t subdomain, F&& f) const {
         const EstimatedBorder& border = borders[subdomain];
-        if (border.trapezoid != EstimatedBorder::no_trapezoid) return rings.for_lines(border.trapezoid, f);
-        for (const LineLoop& loop : border.border.loops)
+        if (!border.border) return rings.for_lines(border.trapezoid, f);
+        for (const LineLoop& loop : border.border->loops)
             for (const Stretch& stretch : loop.stretches) f(stretch.line);
     }
 };
@@ -53,9 +52,9 @@ struct OuterRegion {
 /// the vertices of trapezoids in Lines::gathered(): these have their ids before anything is cut.
 LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr, const MakeTrapezoid& make = {});
 
-/// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known. `spacing` holds
-/// the size field and the rule of the region.
-LAMINA_EXPORT Subdomain make_subdomain(const LineBorder& border, const std::optional<WorkEstimate>& known, Lines& lines,
+/// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known: null. `spacing`
+/// holds the size field and the rule of the region.
+LAMINA_EXPORT Subdomain make_subdomain(const LineBorder& border, const WorkEstimate* known, Lines& lines,
                                        const SeparatorSpacing& spacing, const RefineOptions& refine);
 
 /// Collective, as the next one: throws MeshError on rank 0 where another process has other lines. What it tells of its

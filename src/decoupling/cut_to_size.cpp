@@ -50,8 +50,12 @@ public:
     }
     /// Returns the border of a region that stays whole.
     EstimatedBorder whole(std::size_t i) const {
-        if (i < given_.size()) return {given_[i]};
-        return {{}, trapezoid(i)};
+        EstimatedBorder whole;
+        if (i < given_.size())
+            whole.border = std::make_unique<LineBorder>(given_[i]);
+        else
+            whole.trapezoid = trapezoid(i);
+        return whole;
     }
 
 private:
@@ -90,7 +94,7 @@ public:
             if (results[i].separator)
                 cut_in_two(lines, whole[i].border, results[i], parts);
             else
-                add_done({std::move(whole[i].border)}, results[i]);
+                add_done({.border = std::make_unique<LineBorder>(std::move(whole[i].border))}, results[i]);
         return parts;
     }
     std::vector<Part> cut(Lines& lines, const SimpleRegions& regions, std::span<SearchResult> results) {
@@ -111,20 +115,17 @@ public:
         }
     }
 
+    /// Adds a border that stays whole.
+    void add_done(EstimatedBorder border) { done_.push_back(std::move(border)); }
+    void add_done(EstimatedBorder border, const SearchResult& result) {
+        border.work = static_cast<float>(result.work);
+        if (result.estimate) border.estimate = std::make_unique<WorkEstimate>(*result.estimate);
+        border.process = result.process;
+        add_done(std::move(border));
+    }
+    void expect_done(std::size_t more) { done_.reserve(done_.size() + more); }
     std::vector<EstimatedBorder> take_done() { return std::move(done_); }
 
-private:
-    const SeparatorSpacing& spacing_;
-    double pieces_target_;
-    std::vector<EstimatedBorder> done_;
-
-    void add_done(EstimatedBorder border, const SearchResult& result) {
-        border.work = result.work;
-        border.estimate = result.estimate;
-        border.process = result.process;
-        border.made = result.made;
-        done_.push_back(std::move(border));
-    }
     static void cut_in_two(Lines& lines, const LineBorder& border, SearchResult& result, std::vector<Part>& parts) {
         auto& [from, to, vertices, interior] = *result.separator;
         const std::uint32_t number = lines.add_line(vertex_of(border, from, lines), vertex_of(border, to, lines), 1);
@@ -141,6 +142,11 @@ private:
             parts.push_back({std::move(second), first_stays ? any_process : result.process});
         }
     }
+
+private:
+    const SeparatorSpacing& spacing_;
+    double pieces_target_;
+    std::vector<EstimatedBorder> done_;
 };
 
 /// Calls search(parts, processes) for parts and their parts until none is left, with the processes that are to search
@@ -169,26 +175,27 @@ public:
           ranks_(ranks),
           make_(make),
           cutters_(cutting_processes(others.size(), ranks.size())),
-          shares_(region_shares(others.size(), ranks.size())),
-          results_(others.size()) {}
+          shares_(region_shares(others.size(), ranks.size())) {}
 
-    /// Collective: cuts these parts, and returns the results for the other regions.
-    std::vector<SearchResult> cut(Lines& lines, std::vector<Part> parts, Bisection& bisection) {
+    /// Collective: cuts these parts and then the other regions. Returns the parts of the latter.
+    std::vector<Part> cut(Lines& lines, std::vector<Part> parts, Bisection& bisection) {
         const bool is_cutter = ranks_.rank() < cutters_;
         Packer packer;
-        if (is_cutter) {
+        if (is_cutter)
             cut_among_cutters(lines, parts, bisection, packer);
-        } else {
-            search_share(lines);
-            const std::size_t made = make_pieces(lines);
-            for (std::size_t i = begin(ranks_.rank()); i < end(ranks_.rank()); ++i) pack_result(results_[i], packer);
-            packer.put_short(made);
-        }
+        else
+            search_share(lines, packer);
         const std::vector<std::string> told = ranks_.all_gather(packer.take());
         if (!is_cutter) cut_as_told(lines, std::move(parts), bisection, told.front());
-        for (unsigned process = cutters_; process < ranks_.size(); ++process) take_results(process, told[process]);
-        if (cutters_ == ranks_.size()) search_shares(lines);
-        return std::move(results_);
+        if (cutters_ == ranks_.size()) {
+            std::vector<SearchResult> results = search_shares(lines);
+            return bisection.cut(lines, others_, results);
+        }
+        std::vector<Part> of_others;
+        bisection.expect_done(others_.size());
+        for (unsigned process = cutters_; process < ranks_.size(); ++process)
+            take_results(lines, process, told[process], bisection, of_others);
+        return of_others;
     }
 
 private:
@@ -199,7 +206,7 @@ private:
     const MakeTrapezoid& make_;
     unsigned cutters_;
     std::vector<std::size_t> shares_;  ///< the regions that each process searches, from one of these to the next
-    std::vector<SearchResult> results_;
+    std::vector<SearchResult> own_;    ///< of the share of this process
 
     std::size_t begin(unsigned process) const { return shares_[process]; }
     std::size_t end(unsigned process) const { return shares_[process + 1]; }
@@ -268,49 +275,66 @@ private:
                   });
     }
 
-    void search_share(Lines& lines) {
+    /// Searches the share of this process, and makes pieces of it. Puts how many, and the results.
+    void search_share(Lines& lines, Packer& packer) {
         const std::size_t first = begin(ranks_.rank());
-        core::parallel_for(end(ranks_.rank()) - first, 1, [&](std::size_t i, std::size_t) {
-            results_[first + i] = search(others_.border(first + i, lines), lines);
+        own_.resize(end(ranks_.rank()) - first);
+        core::parallel_for(own_.size(), 1, [&](std::size_t i, std::size_t) {
+            own_[i] = search(others_.border(first + i, lines), lines);
         });
+        packer.put_short(make_pieces(lines));
+        ResultsPacker results;
+        for (const SearchResult& result : own_) results.put(result);
+        results.finish(packer);
     }
-    /// Returns whether a region becomes a piece as it is and need not wait for the ids of vertices of other cuts.
-    bool is_whole_trapezoid(std::size_t region) const {
-        return !results_[region].separator && others_.trapezoid(region) != EstimatedBorder::no_trapezoid;
-    }
-    /// Makes pieces of the share of this process, in its order, until the cuts round the bodies are made. Returns their
-    /// number.
+    /// Makes pieces of the share of this process, in its order, until the cuts round the bodies are made: of regions
+    /// that become pieces as they are and need not wait for the ids of vertices of other cuts. Returns their number.
     std::size_t make_pieces(Lines& lines) const {
         if (!make_) return 0;
+        const std::size_t first = begin(ranks_.rank());
         std::vector<std::size_t> whole;
-        for (std::size_t i = begin(ranks_.rank()); i < end(ranks_.rank()); ++i)
-            if (is_whole_trapezoid(i)) whole.push_back(i);
+        for (std::size_t i = 0; i < own_.size(); ++i)
+            if (!own_[i].separator && is_trapezoid(first + i)) whole.push_back(i);
         std::atomic<std::size_t> next = 0;
         core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {
-            for (std::size_t i; !ranks_.has_numbers() && (i = next++) < whole.size();)
-                make_(others_.trapezoid(whole[i]), others_.border(whole[i], lines), *results_[whole[i]].estimate,
-                      lines);
+            for (std::size_t i; !ranks_.has_numbers() && (i = next++) < whole.size();) {
+                const std::size_t region = first + whole[i];
+                make_(others_.trapezoid(region), others_.border(region, lines), *own_[whole[i]].estimate, lines);
+            }
         });
         return std::min(next.load(), whole.size());
     }
+    bool is_trapezoid(std::size_t region) const { return others_.trapezoid(region) != EstimatedBorder::no_trapezoid; }
 
-    void take_results(unsigned process, const std::string& told) {
+    /// Cuts the share of a process as it has told.
+    void take_results(Lines& lines, unsigned process, const std::string& told, Bisection& bisection,
+                      std::vector<Part>& parts) {
         Unpacker unpacker(told);
-        for (std::size_t i = begin(process); i < end(process); ++i) {
-            SearchResult result = unpack_result(unpacker);
-            if (process == ranks_.rank()) continue;
-            results_[i] = std::move(result);
-            results_[i].process = process;
-        }
         std::size_t made = unpacker.get_short();
-        for (std::size_t i = begin(process); made > 0; ++i)
-            if (is_whole_trapezoid(i)) {
-                results_[i].made = true;
+        ResultsUnpacker results(unpacker);
+        const bool is_own = process == ranks_.rank();
+        for (std::size_t i = begin(process); i < end(process); ++i) {
+            SearchResult* own = is_own ? &own_[i - begin(process)] : nullptr;
+            if (results.next_is_cut()) {
+                SearchResult result;
+                result.separator = results.separator();
+                result.process = process;
+                bisection.cut_in_two(lines, others_.border(i, lines), own != nullptr ? *own : result, parts);
+                continue;
+            }
+            EstimatedBorder whole = others_.whole(i);
+            whole.work = results.work();
+            whole.process = process;
+            if (own != nullptr) whole.estimate = std::make_unique<WorkEstimate>(*own->estimate);
+            if (made > 0 && is_trapezoid(i)) {
+                whole.made = true;
                 --made;
             }
+            bisection.add_done(std::move(whole));
+        }
     }
     /// Collective: searches the other regions once those round the bodies are cut, each process its share.
-    void search_shares(Lines& lines) {
+    std::vector<SearchResult> search_shares(Lines& lines) {
         std::deque<LineBorder> own;
         std::vector<DealtBorder> dealt;
         for (unsigned process = 0; process < ranks_.size(); ++process)
@@ -318,7 +342,8 @@ private:
                 const bool is_own = process == ranks_.rank();
                 dealt.push_back({is_own ? &own.emplace_back(others_.border(i, lines)) : nullptr, process});
             }
-        if (!dealt.empty()) results_ = search_together(lines, dealt, spacing_, pieces_target_, ranks_);
+        if (dealt.empty()) return {};
+        return search_together(lines, dealt, spacing_, pieces_target_, ranks_);
     }
 };
 
@@ -351,8 +376,8 @@ std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions reg
     const SimpleRegions others(regions);
     Bisection bisection(spacing, pieces_target);
     CutsAtOnce cuts(others, spacing, pieces_target, ranks, make);
-    std::vector<SearchResult> results = cuts.cut(lines, parts_of(std::move(regions.borders)), bisection);
-    cut_dealt(lines, bisection.cut(lines, others, results), ranks.size(), bisection,
+    std::vector<Part> of_others = cuts.cut(lines, parts_of(std::move(regions.borders)), bisection);
+    cut_dealt(lines, std::move(of_others), ranks.size(), bisection,
               [&](std::span<const Part> parts, std::span<const unsigned> processes) {
                   std::vector<DealtBorder> dealt;
                   for (std::size_t i = 0; i < parts.size(); ++i) dealt.push_back({&parts[i].border, processes[i]});

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
@@ -18,16 +18,16 @@
 
 namespace lamina::decoupling {
 
-/// The border of a subdomain with its estimated work.
+/// The border of a subdomain with its estimated work. Every process holds one of each subdomain, so they are small.
 struct EstimatedBorder {
     static constexpr std::uint32_t no_trapezoid = std::numeric_limits<std::uint32_t>::max();
 
-    LineBorder border;                          ///< empty where it is a trapezoid of a ring
-    std::uint32_t trapezoid = no_trapezoid;     ///< its number
-    double work = 0;                            ///< number of triangles, about; all processes know the same
-    std::optional<WorkEstimate> estimate = {};  ///< where this process has searched it
-    unsigned process = 0;                       ///< that has searched it
-    bool made = false;                          ///< whether that process has made its piece already
+    std::unique_ptr<LineBorder> border{};      ///< null where it is a trapezoid of a ring
+    std::unique_ptr<WorkEstimate> estimate{};  ///< where this process has searched it
+    std::uint32_t trapezoid = no_trapezoid;    ///< its number
+    std::uint32_t process = 0;                 ///< that has searched it
+    float work = 0;                            ///< number of triangles, about; all processes know the same
+    bool made = false;                         ///< whether that process has made its piece already
 };
 
 /// Makes the piece of a trapezoid that stays whole, which this process has searched. Any thread may call it, while no

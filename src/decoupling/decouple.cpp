@@ -125,13 +125,13 @@ CutRegion cut_region(const OuterRegion& region, Ranks* ranks, const MakeTrapezoi
 
 LineBorder CutRegion::border(std::size_t subdomain) const {
     const EstimatedBorder& border = borders[subdomain];
-    return border.trapezoid == EstimatedBorder::no_trapezoid ? border.border : rings.border(border.trapezoid, lines);
+    return border.border ? *border.border : rings.border(border.trapezoid, lines);
 }
 
-Subdomain make_subdomain(const LineBorder& line_border, const std::optional<WorkEstimate>& known, Lines& lines,
+Subdomain make_subdomain(const LineBorder& line_border, const WorkEstimate* known, Lines& lines,
                          const SeparatorSpacing& spacing, const RefineOptions& refine) {
     LocalBorder border = localize(line_border, lines, spacing);
-    const WorkEstimate estimate = known ? *known : BorderTriangulation(border, spacing.size).estimate();
+    const WorkEstimate estimate = known != nullptr ? *known : BorderTriangulation(border, spacing.size).estimate();
     Box box;
     for (const Point p : border.points) box.include(p);
     Subdomain subdomain;
@@ -174,7 +174,7 @@ Decoupling decouple(std::span<const Point> points, std::span<const std::vector<V
     Decoupling result;
     result.subdomains.resize(cut.borders.size());
     core::parallel_for(cut.borders.size(), 1, [&](std::size_t i, std::size_t) {
-        result.subdomains[i] = make_subdomain(cut.border(i), cut.borders[i].estimate, cut.lines, spacing, refine);
+        result.subdomains[i] = make_subdomain(cut.border(i), cut.borders[i].estimate.get(), cut.lines, spacing, refine);
     });
     result.separator_vertices = cut.separator_vertices;
     result.points.resize(cut.lines.vertices());

@@ -9,10 +9,13 @@
 
 namespace lamina::decoupling {
 
-/// Lines that never move, so that one thread can add some while others look at them.
-struct Lines::Chunk {
-    std::array<Line, chunk_size> lines;
+struct Lines::Group {
+    std::array<Line, group_size> lines;
 };
+
+Lines::Chunk::~Chunk() {
+    for (const auto& group : groups) delete group.load();
+}
 
 Lines::Lines(std::span<const Point> points)
     : points_(points.begin(), points.end()),
@@ -23,34 +26,75 @@ Lines::Lines(Lines&& other) noexcept
     : points_(std::move(other.points_)),
       chunks_(std::move(other.chunks_)),
       size_(other.size_.load()),
+      rows_(std::move(other.rows_)),
+      row_ends_(std::move(other.row_ends_)),
+      first_in_rows_(other.first_in_rows_),
+      lines_in_rows_(other.lines_in_rows_),
       vertices_(other.vertices_),
       gathered_(std::move(other.gathered_)),
-      gathered_vertices_(other.gathered_vertices_) {}
+      gathered_vertices_(other.gathered_vertices_),
+      gathered_room_(other.gathered_room_),
+      gathered_lines_(other.gathered_lines_) {}
 
 Lines& Lines::operator=(Lines&& other) noexcept {
     points_ = std::move(other.points_);
     chunks_ = std::move(other.chunks_);
     size_ = other.size_.load();
+    rows_ = std::move(other.rows_);
+    row_ends_ = std::move(other.row_ends_);
+    first_in_rows_ = other.first_in_rows_;
+    lines_in_rows_ = other.lines_in_rows_;
     vertices_ = other.vertices_;
     gathered_ = std::move(other.gathered_);
     gathered_vertices_ = other.gathered_vertices_;
+    gathered_room_ = other.gathered_room_;
+    gathered_lines_ = other.gathered_lines_;
     return *this;
 }
 
 Lines::~Lines() = default;
 
-Lines::Line& Lines::at(std::uint32_t line) const { return chunks_[line / chunk_size]->lines[line % chunk_size]; }
-
-Lines::Line& Lines::add() {
-    const std::size_t line = size_;
-    if (line >= chunk_size * max_chunks) throw MeshError("the domain would be cut along too many lines");
-    if (line % chunk_size == 0) chunks_[line / chunk_size] = std::make_unique<Chunk>();
-    size_.store(line + 1, std::memory_order_release);
-    return at(static_cast<std::uint32_t>(line));
+Lines::Line& Lines::at(std::uint32_t line) const {
+    Group* group = chunk(line).groups[line % chunk_size / group_size].load(std::memory_order_acquire);
+    if (group == nullptr) group = make_group(line);
+    return group->lines[line % group_size];
 }
 
-std::size_t Lines::end_of(const Line& line) {
-    return line.first.index() + (line.loop.empty() ? line.segments - 1 : line.own);
+Lines::Group* Lines::make_group(std::uint32_t line) const {
+    auto made = std::make_unique<Group>();
+    draw_rows(line, *made);
+    // Another thread may have made it meanwhile.
+    Group* expected = nullptr;
+    if (!chunk(line).groups[line % chunk_size / group_size].compare_exchange_strong(expected, made.get()))
+        return expected;
+    return made.release();
+}
+
+void Lines::draw_rows(std::uint32_t line, Group& group) const {
+    const std::uint32_t begin = line - line % group_size;
+    for (std::uint32_t number = begin; number < begin + group_size; ++number) {
+        if (!is_in_row(number)) continue;
+        const auto row =
+            static_cast<std::size_t>(std::upper_bound(row_ends_.begin(), row_ends_.end(), number) - row_ends_.begin());
+        const std::uint32_t in_row = number - (row_ends_[row] - rows_[row].count);
+        Line& drawn = group.lines[number - begin];
+        drawn.from = {rows_[row].from(in_row)};
+        drawn.to = {rows_[row].to(in_row)};
+        drawn.min_segments = rows_[row].min_segments;
+    }
+}
+
+std::uint32_t Lines::add(std::size_t lines) {
+    const std::size_t first = size_;
+    if (first + lines > chunk_size * max_chunks) throw MeshError("the domain would be cut along too many lines");
+    for (std::size_t chunk = (first + chunk_size - 1) / chunk_size; chunk * chunk_size < first + lines; ++chunk)
+        chunks_[chunk] = std::make_unique<Chunk>();
+    size_.store(first + lines, std::memory_order_release);
+    return static_cast<std::uint32_t>(first);
+}
+
+std::size_t Lines::end_of(std::uint32_t line) const {
+    return first_inside(line).index() + (is_loop(line) ? at(line).own : segments(line) - 1);
 }
 
 VertexId Lines::add_junction(Point p) {
@@ -60,42 +104,58 @@ VertexId Lines::add_junction(Point p) {
 }
 
 std::uint32_t Lines::add_loop(std::span<const VertexId> loop) {
-    Line& line = add();
-    line.segments = static_cast<std::uint32_t>(loop.size());
-    line.first = VertexId{vertices_};
+    const std::uint32_t number = add(1);
+    number_segments(number, loop.size());
+    Line& line = at(number);
     line.loop.assign(loop.begin(), loop.end());
     line.loop.push_back(loop.front());
     for (const VertexId v : line.loop) line.interior.push_back(points_[v.index()]);
     std::call_once(line.divided, [] {});
-    return static_cast<std::uint32_t>(size() - 1);
+    return number;
 }
 
 std::uint32_t Lines::add_new_loop(std::vector<Point> loop) {
-    Line& line = add();
-    line.segments = static_cast<std::uint32_t>(loop.size());
-    line.first = VertexId{vertices_};
+    const std::uint32_t number = add(1);
+    number_segments(number, loop.size());
+    Line& line = at(number);
     for (std::size_t i = 0; i < loop.size(); ++i) line.loop.push_back(VertexId{vertices_ + i});
     line.loop.push_back(line.loop.front());
     vertices_ += loop.size();
-    line.own = line.segments;
+    line.own = static_cast<std::uint32_t>(loop.size());
     loop.push_back(loop.front());
     line.interior = std::move(loop);
     std::call_once(line.divided, [] {});
-    return static_cast<std::uint32_t>(size() - 1);
+    return number;
+}
+
+std::uint32_t Lines::add_row(const LineRow& row) {
+    assert(rows_.empty() || size() == row_ends_.back());
+    const std::uint32_t first = add(row.count);
+    if (rows_.empty()) first_in_rows_ = first;
+    lines_in_rows_ += row.count;
+    rows_.push_back(row);
+    row_ends_.push_back(first + row.count);
+    // Loops before them may have made the group of the first ones.
+    if (Group* group = chunk(first).groups[first % chunk_size / group_size]) draw_rows(first, *group);
+    return first;
 }
 
 std::uint32_t Lines::add_line(const LineVertex& from, const LineVertex& to, std::uint32_t min_segments) {
-    Line& line = add();
+    const std::uint32_t number = add(1);
+    Line& line = at(number);
     line.from = from;
     line.to = to;
     line.min_segments = min_segments;
-    return static_cast<std::uint32_t>(size() - 1);
+    return number;
 }
 
-void Lines::number(std::uint32_t number, std::size_t interior) {
-    Line& line = at(number);
-    line.first = VertexId{vertices_};
-    line.segments = static_cast<std::uint32_t>(interior + 1);
+void Lines::number_segments(std::uint32_t line, std::size_t segments) {
+    chunk(line).first[line % chunk_size] = VertexId{vertices_};
+    chunk(line).segments[line % chunk_size] = static_cast<std::uint32_t>(segments);
+}
+
+void Lines::number(std::uint32_t line, std::size_t interior) {
+    number_segments(line, interior + 1);
     vertices_ += interior;
 }
 
@@ -108,8 +168,8 @@ LineVertex Lines::vertex(std::uint32_t number, std::uint32_t place) const {
     const Line& line = at(number);
     if (!line.loop.empty()) return {line.loop[place], number, place};
     if (place == 0) return line.from;
-    if (place == line.segments) return line.to;
-    return {VertexId{line.first.index() + place - 1}, number, place};
+    if (place == segments(number)) return line.to;
+    return {VertexId{first_inside(number).index() + place - 1}, number, place};
 }
 
 VertexId Lines::id(std::uint32_t line, std::uint32_t place) const { return vertex(line, place).id; }
@@ -117,7 +177,8 @@ VertexId Lines::id(std::uint32_t line, std::uint32_t place) const { return verte
 bool Lines::runs_along(std::uint32_t number, Segment edge) const {
     const Line& line = at(number);
     if (!line.loop.empty())
-        return edge.b.index() == line.first.index() + (edge.a.index() + 1 - line.first.index()) % line.own;
+        return edge.b.index() ==
+               first_inside(number).index() + (edge.a.index() + 1 - first_inside(number).index()) % line.own;
     return edge.a == line.from.id ? edge.b == id(number, 1)
                                   : edge.b == line.to.id || edge.b.index() == edge.a.index() + 1;
 }
@@ -126,7 +187,7 @@ Point Lines::point(std::uint32_t number, std::uint32_t place) const {
     const Line& line = at(number);
     if (!line.loop.empty()) return line.interior[place];
     if (place == 0) return point(line.from);
-    if (place == line.segments) return point(line.to);
+    if (place == segments(number)) return point(line.to);
     return line.interior[place - 1];
 }
 
@@ -137,12 +198,13 @@ std::size_t Lines::divide(std::uint32_t number, const SeparatorSpacing& spacing)
             if (end.line != LineVertex::no_line) divide(end.line, spacing);
         std::vector<Point> interior = divide_separator(point(line.from), point(line.to), spacing, line.min_segments);
         // Whoever has numbered its vertices has divided it in the same way.
-        if (line.segments != 0 && interior.size() + 1 != line.segments)
+        const std::uint32_t told = segments(number);
+        if (told != 0 && interior.size() + 1 != told)
             throw MeshError(
                 "processes divide a line between subdomains in different ways: all must run the same program "
                 "on the same kind of machine");
         line.interior = std::move(interior);
-        if (line.segments != 0 && end_of(line) <= gathered_vertices_) store(line, gathered_points());
+        if (told != 0 && end_of(number) <= gathered_vertices_) store(number, gathered_points());
     });
     return line.interior.size();
 }
@@ -152,33 +214,50 @@ void Lines::divide_between(VertexId begin, VertexId end, const SeparatorSpacing&
     std::size_t low = 0, high = size();
     while (low < high) {
         const std::size_t middle = (low + high) / 2;
-        const Line& line = at(static_cast<std::uint32_t>(middle));
-        if (end_of(line) <= begin.index())
+        if (end_of(static_cast<std::uint32_t>(middle)) <= begin.index())
             low = middle + 1;
         else
             high = middle;
     }
-    for (auto i = static_cast<std::uint32_t>(low); i < size() && at(i).first < end; ++i)
+    for (auto i = static_cast<std::uint32_t>(low); i < size() && first_inside(i) < end; ++i)
         if (!is_loop(i)) divide(i, spacing);
 }
 
-void Lines::store(const Line& line, std::span<Point> points) {
+void Lines::store(std::uint32_t number, std::span<Point> points) const {
+    const Line& line = at(number);
+    const std::size_t first = first_inside(number).index();
     // A loop repeats its first vertex.
-    const std::size_t n = line.loop.empty() ? line.interior.size() : line.segments;
-    for (std::size_t i = 0; i < n; ++i)
-        points[line.loop.empty() ? line.first.index() + i : line.loop[i].index()] = line.interior[i];
+    const std::size_t n = line.loop.empty() ? line.interior.size() : segments(number);
+    for (std::size_t i = 0; i < n; ++i) points[line.loop.empty() ? first + i : line.loop[i].index()] = line.interior[i];
+}
+
+void Lines::store_from(std::uint32_t line, std::span<Point> points) const {
+    for (; line < size(); ++line) {
+        const Group* group = chunk(line).groups[line % chunk_size / group_size].load(std::memory_order_acquire);
+        if (group == nullptr)
+            line += group_size - 1 - line % group_size;
+        else if (!group->lines[line % group_size].interior.empty())
+            store(line, points);
+    }
 }
 
 void Lines::copy_points(std::span<Point> points) const {
     std::copy(points_.begin(), points_.end(), points.begin());
-    for (std::uint32_t i = 0; i < size(); ++i)
-        if (const Line& line = at(i); !line.interior.empty()) store(line, points);
+    store_from(0, points);
 }
 
 void Lines::gather_points() {
-    gathered_ = core::ScratchMemory(vertices_ * sizeof(Point), false);
-    gathered_vertices_ = vertices_;
-    copy_points(gathered_points());
+    if (vertices_ > gathered_room_) {
+        // Cuts seldom add more than this.
+        gathered_room_ = vertices_ + vertices_ / 2;
+        gathered_ = core::ScratchMemory(gathered_room_ * sizeof(Point), false);
+        gathered_vertices_ = vertices_;
+        copy_points(gathered_points());
+    } else {
+        gathered_vertices_ = vertices_;
+        store_from(static_cast<std::uint32_t>(gathered_lines_), gathered_points());
+    }
+    gathered_lines_ = size();
 }
 
 }  // namespace lamina::decoupling

@@ -9,6 +9,34 @@ RingRegions::Place RingRegions::find(std::size_t trapezoid) const {
     return {rings_[ring], static_cast<std::uint32_t>(trapezoid - (ring > 0 ? end_[ring - 1] : 0))};
 }
 
+void RingRegions::share(const std::vector<std::size_t>& shares) {
+    runs_.clear();
+    // Adds the lines first_line + lines_before(t) to lines_before(t + 1) of each trapezoid t of a ring.
+    const auto add_row = [&](std::size_t ring, std::uint32_t first_line, auto&& lines_before) {
+        const std::size_t begin = ring > 0 ? end_[ring - 1] : 0;
+        auto process = static_cast<std::size_t>(std::upper_bound(shares.begin(), shares.end(), begin) - shares.begin());
+        for (std::size_t next = begin; next < end_[ring]; ++process) {
+            const std::size_t to = std::min(shares[process], end_[ring]);
+            if (to == next) continue;
+            const LineRun run{first_line + lines_before(next - begin), first_line + lines_before(to - begin),
+                              static_cast<unsigned>(process - 1)};
+            if (run.begin < run.end) runs_.push_back(run);
+            next = to;
+        }
+    };
+    const auto times = [](std::uint32_t n) {
+        return [n](std::size_t trapezoids) { return n * static_cast<std::uint32_t>(trapezoids); };
+    };
+    if (!rings_.empty()) add_row(0, rings_.front().first_inner, times(rings_.front().inner_per_trapezoid));
+    for (std::size_t ring = 0; ring < rings_.size(); ++ring)
+        add_row(ring, rings_[ring].first_outer, times(rings_[ring].outer_per_trapezoid));
+    // A line that leads outwards is beside the trapezoid before it, and the first one beside the first trapezoid.
+    for (std::size_t ring = 0; ring < rings_.size(); ++ring)
+        add_row(ring, rings_[ring].first_radial, [n = rings_[ring].trapezoids](std::size_t trapezoids) {
+            return trapezoids == 0 ? 0 : std::min(static_cast<std::uint32_t>(trapezoids) + 1, n);
+        });
+}
+
 //      o----------- outer lines ---------->o
 //       ^                                 /       The lines on the boxes run counter-clockwise and those between
 //        \  radial j       radial j + 1  /        trapezoids outwards. Of the border's edges the first one of the

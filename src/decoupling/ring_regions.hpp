@@ -3,12 +3,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
 
 namespace lamina::decoupling {
+
+/// Successive lines of a process.
+struct LineRun {
+    std::uint32_t begin = 0, end = 0;
+    unsigned process = 0;
+};
 
 /// All trapezoids between successive boxes, ring by ring from inside and counter-clockwise in each. Boxes consist of
 /// lines in counter-clockwise order, and lines lead outwards between the trapezoids of a ring.
@@ -26,6 +33,11 @@ public:
         rings_.push_back(ring);
         end_.push_back(size() + ring.trapezoids);
     }
+    /// Says which process has which trapezoids: those from the i-th of these numbers to the next one.
+    void share(const std::vector<std::size_t>& shares);
+    /// Returns whose the lines round the trapezoids are, in ascending order, once they are shared: a line belongs to the
+    /// process of the first trapezoid beside it.
+    std::span<const LineRun> runs() const { return runs_; }
     /// Returns the number of all trapezoids.
     std::size_t size() const { return end_.empty() ? 0 : end_.back(); }
 
@@ -58,6 +70,7 @@ private:
 
     std::vector<RingLines> rings_;
     std::vector<std::size_t> end_;  ///< per ring: the number behind those of its trapezoids
+    std::vector<LineRun> runs_;
 };
 
 }  // namespace lamina::decoupling

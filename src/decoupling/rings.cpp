@@ -150,9 +150,8 @@ struct RingJunctions {
     std::vector<std::uint32_t> first;   ///< per level: how many are on those before
     std::uint32_t first_id = 0;
 
-    VertexId at(std::size_t level, std::size_t j) const {
-        return VertexId{std::size_t{first_id} + first[level] + j % (sides * per_side[level])};
-    }
+    /// Returns the first one of a level.
+    VertexId at(std::size_t level) const { return VertexId{std::size_t{first_id} + first[level]}; }
 };
 
 /// Adds the junctions to the skeleton.
@@ -193,20 +192,21 @@ std::vector<std::uint32_t> add_rings(Skeleton& skeleton, std::span<const Ring> r
     // Trapezoids are not traced: the regions round the bodies and beyond the rings are.
     for (std::size_t level = 0; level <= rings.size(); ++level) {
         const bool is_outermost = level == rings.size();
-        for (std::size_t j = 0; j < sides * junctions.per_side[level]; ++j) {
-            const std::uint32_t added = skeleton.add_line(junctions.at(level, j), junctions.at(level, j + 1),
-                                                          min_segments, {level == 0, is_outermost && region_beyond});
-            if (is_outermost) outermost.push_back(added);
-        }
+        const auto n = static_cast<std::uint32_t>(sides * junctions.per_side[level]);
+        const std::uint32_t first = junctions.at(level).value;
+        const std::uint32_t added =
+            skeleton.add_row({n, first, 1, first, 1, 1, min_segments}, {level == 0, is_outermost && region_beyond});
+        for (std::uint32_t j = 0; is_outermost && j < n; ++j) outermost.push_back(added + j);
     }
     for (std::size_t ring = 0; ring < rings.size(); ++ring) {
         const std::size_t n = rings[ring].per_side;
-        const std::size_t inner = junctions.per_side[ring] / n, outer = junctions.per_side[ring + 1] / n;
-        skeleton.rings.add({first_line + junctions.first[ring], static_cast<std::uint32_t>(inner),
-                            first_line + junctions.first[ring + 1], static_cast<std::uint32_t>(outer),
-                            static_cast<std::uint32_t>(skeleton.lines.size()), static_cast<std::uint32_t>(sides * n)});
-        for (std::size_t j = 0; j < sides * n; ++j)
-            skeleton.add_line(junctions.at(ring, j * inner), junctions.at(ring + 1, j * outer), min_segments, {});
+        const auto inner = static_cast<std::uint32_t>(junctions.per_side[ring] / n);
+        const auto outer = static_cast<std::uint32_t>(junctions.per_side[ring + 1] / n);
+        const auto trapezoids = static_cast<std::uint32_t>(sides * n);
+        const std::uint32_t radial = skeleton.add_row(
+            {trapezoids, junctions.at(ring).value, inner, junctions.at(ring + 1).value, outer, 0, min_segments}, {});
+        skeleton.rings.add({first_line + junctions.first[ring], inner, first_line + junctions.first[ring + 1], outer,
+                            radial, trapezoids});
     }
     return outermost;
 }

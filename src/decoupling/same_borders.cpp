@@ -1,4 +1,5 @@
 // Processes compare hashes of what they have cut.
+#include <bit>
 #include <cstdint>
 #include <string>
 
@@ -30,15 +31,13 @@ void require_same(const core::WordHash& hash, Ranks& ranks) {
 
 void require_same_lines(const Lines& lines, Ranks& ranks) {
     core::WordHash hash;
-    for (std::uint32_t line = 0; line < lines.size(); ++line) {
-        if (lines.is_loop(line)) {
-            for (std::uint32_t i = 0; i < lines.segments(line); ++i) hash.add(lines.point(line, i));
-            continue;
-        }
-        const auto [from, to] = lines.ends(line);
-        hash.add(lines.point(from));
-        hash.add(lines.point(to));
-    }
+    for (std::size_t i = 0; i < lines.junctions(); ++i) hash.add(lines.point(LineVertex{VertexId{i}}));
+    for (const LineRow& row : lines.rows())
+        for (const std::uint32_t number :
+             {row.count, row.first_from, row.from_step, row.first_to, row.to_step, row.to_shift, row.min_segments})
+            hash.add(std::uint64_t{number});
+    for (std::uint32_t line = 0; line < lines.size() && !lines.is_in_row(line); ++line)
+        for (std::uint32_t i = 0; i < lines.segments(line); ++i) hash.add(lines.point(line, i));
     hash.add(std::uint64_t{lines.vertices()});
     require_same(hash, ranks);
 }
@@ -49,9 +48,10 @@ void require_same_borders(const CutRegion& cut, Ranks& ranks) {
     hash.add(std::uint64_t{lines.vertices()});
     for (std::uint32_t line = 0; line < lines.size(); ++line) hash.add(std::uint64_t{lines.segments(line)});
     for (const EstimatedBorder& estimated : cut.borders) {
-        hash.add(estimated.work);
-        hash.add(std::uint64_t{estimated.trapezoid} << 32 | estimated.process);
-        for (const LineLoop& loop : estimated.border.loops)
+        hash.add(std::uint64_t{std::bit_cast<std::uint32_t>(estimated.work)} << 32 | estimated.process);
+        hash.add(std::uint64_t{estimated.trapezoid});
+        if (!estimated.border) continue;
+        for (const LineLoop& loop : estimated.border->loops)
             for (const Stretch& stretch : loop.stretches)
                 hash.add((std::uint64_t{stretch.line} << 40) ^ (std::uint64_t{stretch.first} << 20) ^ stretch.last);
     }

@@ -25,7 +25,6 @@ struct SearchResult {
     double work = 0;                       ///< the number of triangles, about; all processes know the same
     std::optional<Separator> separator = {};
     unsigned process = 0;  ///< that has searched it
-    bool made = false;     ///< whether this process has made its piece already
 };
 
 /// Estimates the work of a subdomain and, where it is more than about 1.5 x `pieces_target` triangles, looks for a good

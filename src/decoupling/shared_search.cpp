@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "core/difference_packing.hpp"
 #include "core/packing.hpp"
 #include "core/parallel.hpp"
 
@@ -44,14 +45,24 @@ LoopVertex unpack_end(Unpacker& unpacker) {
     return {loop, static_cast<std::size_t>(unpacker.get_short())};
 }
 
+void pack_separator(const Separator& separator, Packer& packer) {
+    pack_end(separator.from, packer);
+    pack_end(separator.to, packer);
+    packer.put_short(separator.vertices);
+}
+
+Separator unpack_separator(Unpacker& unpacker) {
+    const LoopVertex from = unpack_end(unpacker);
+    const LoopVertex to = unpack_end(unpacker);
+    return {from, to, static_cast<std::size_t>(unpacker.get_short())};
+}
+
 }  // namespace
 
 void pack_result(const SearchResult& result, Packer& packer) {
     if (result.separator) {
         packer.put(has_separator);
-        pack_end(result.separator->from, packer);
-        pack_end(result.separator->to, packer);
-        packer.put_short(result.separator->vertices);
+        pack_separator(*result.separator, packer);
         return;
     }
     packer.put(work_code(result.work));
@@ -60,19 +71,35 @@ void pack_result(const SearchResult& result, Packer& packer) {
 SearchResult unpack_result(Unpacker& unpacker) {
     SearchResult result;
     const auto found = unpacker.get<std::uint8_t>();
-    if (found == has_separator) {
-        const LoopVertex from = unpack_end(unpacker);
-        const LoopVertex to = unpack_end(unpacker);
-        result.separator = {from, to, static_cast<std::size_t>(unpacker.get_short())};
-    } else {
+    if (found == has_separator)
+        result.separator = unpack_separator(unpacker);
+    else
         result.work = decoded_work(found);
-    }
     return result;
 }
 
 void make_as_told(SearchResult& result) {
     if (!result.separator) result.work = decoded_work(work_code(result.work));
 }
+
+void ResultsPacker::put(const SearchResult& result) {
+    codes_.put(result.separator ? has_separator : work_code(result.work));
+    if (result.separator) pack_separator(*result.separator, separators_);
+}
+
+void ResultsPacker::finish(Packer& packer) {
+    packer.put_text(codes_.take());
+    packer.put_bytes(separators_.take());
+}
+
+bool ResultsUnpacker::next_is_cut() {
+    code_ = static_cast<std::uint8_t>(codes_.get());
+    return code_ == has_separator;
+}
+
+float ResultsUnpacker::work() const { return static_cast<float>(decoded_work(code_)); }
+
+Separator ResultsUnpacker::separator() { return unpack_separator(separators_); }
 
 SearchDealer::SearchDealer(unsigned processes) : work_(processes, 0) {
     for (unsigned process = 0; process < processes; ++process) least_.emplace_back(0, process);
@@ -134,17 +161,17 @@ std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes) 
     return shares;
 }
 
-void number_together(Lines& lines, std::span<const unsigned> process, const SeparatorSpacing& spacing, Ranks& ranks) {
+void number_together(Lines& lines, std::span<const LineRun> runs, const SeparatorSpacing& spacing, Ranks& ranks) {
     std::vector<std::uint32_t> own;
-    for (std::uint32_t line = 0; line < lines.size(); ++line)
-        if (process[line] == ranks.rank() && !lines.is_loop(line)) own.push_back(line);
+    for (const LineRun& run : runs)
+        for (std::uint32_t line = run.begin; run.process == ranks.rank() && line < run.end; ++line) own.push_back(line);
     core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) { lines.divide(own[i], spacing); });
-    Packer packer;
-    for (const std::uint32_t line : own) packer.put_short(lines.divide(line, spacing));
+    core::DifferencePacker packer;
+    for (const std::uint32_t line : own) packer.put(static_cast<std::uint32_t>(lines.divide(line, spacing)));
     const std::vector<std::string> told = ranks.all_gather(packer.take());
-    std::vector<Unpacker> unpackers(told.begin(), told.end());
-    for (std::uint32_t line = 0; line < lines.size(); ++line)
-        if (!lines.is_loop(line)) lines.number(line, unpackers[process[line]].get_short());
+    std::vector<core::DifferenceUnpacker> unpackers(told.begin(), told.end());
+    for (const LineRun& run : runs)
+        for (std::uint32_t line = run.begin; line < run.end; ++line) lines.number(line, unpackers[run.process].get());
 }
 
 }  // namespace lamina::decoupling

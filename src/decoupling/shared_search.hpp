@@ -6,14 +6,17 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <lamina/ranks.hpp>
 
+#include "core/difference_packing.hpp"
 #include "core/packing.hpp"
 #include "decoupling/line_border.hpp"
 #include "decoupling/lines.hpp"
+#include "decoupling/ring_regions.hpp"
 #include "decoupling/separator_search.hpp"
 #include "decoupling/separators.hpp"
 
@@ -51,6 +54,39 @@ SearchResult unpack_result(core::Unpacker& unpacker);
 /// Makes what this process has found what the others know of it.
 void make_as_told(SearchResult& result);
 
+/// Puts the results of successive regions, most of which stay whole and are about as much work as the ones before.
+class ResultsPacker {
+public:
+    void put(const SearchResult& result);
+    /// Puts what was put, for a ResultsUnpacker.
+    void finish(core::Packer& packer);
+
+private:
+    core::DifferencePacker codes_;
+    core::Packer separators_;
+};
+
+/// Takes the results in their order.
+class ResultsUnpacker {
+public:
+    /// Precondition: the bytes outlive this object.
+    explicit ResultsUnpacker(core::Unpacker& unpacker)
+        : codes_text_(unpacker.get_text()), codes_(codes_text_), separators_(unpacker) {}
+    ResultsUnpacker(const ResultsUnpacker&) = delete;
+
+    /// Looks at the next region. Returns whether it is cut; then separator() is to be called.
+    bool next_is_cut();
+    /// Returns the work of a region that stays whole.
+    float work() const;
+    Separator separator();
+
+private:
+    std::string codes_text_;
+    core::DifferenceUnpacker codes_;
+    core::Unpacker& separators_;
+    std::uint8_t code_ = 0;
+};
+
 /// Collective: returns what search_separator() finds in each border, but for the estimates of those that are cut, which
 /// count no more. Each process searches its own borders. Precondition: all arguments are the same everywhere, but for
 /// borders of others and for the lines that are divided.
@@ -64,7 +100,8 @@ unsigned cutting_processes(std::size_t others, unsigned processes);
 /// Successive regions often share a line. Processes that cut regions round the bodies while others do not have none.
 std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes);
 
-/// Collective: divides all lines but loops, each by its process, and numbers their vertices.
-void number_together(Lines& lines, std::span<const unsigned> process, const SeparatorSpacing& spacing, Ranks& ranks);
+/// Collective: divides the lines of these runs, which are all but loops in ascending order, each by its process, and
+/// numbers their vertices.
+void number_together(Lines& lines, std::span<const LineRun> runs, const SeparatorSpacing& spacing, Ranks& ranks);
 
 }  // namespace lamina::decoupling

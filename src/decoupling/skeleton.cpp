@@ -29,15 +29,33 @@ std::uint32_t Skeleton::add_new_loop(std::vector<Point> loop) {
 
 std::uint32_t Skeleton::add_line(VertexId from, VertexId to, std::uint32_t min_segments, Sides traced) {
     const std::uint32_t line = lines.add_line({from}, {to}, min_segments);
+    trace_line(line, from, to, traced);
+    return line;
+}
+
+std::uint32_t Skeleton::add_row(const LineRow& row, Sides traced) {
+    const std::uint32_t first = lines.add_row(row);
+    if (traced.left || traced.right)
+        for (std::uint32_t i = 0; i < row.count; ++i) trace_line(first + i, row.from(i), row.to(i), traced);
+    return first;
+}
+
+VertexId Skeleton::corner(VertexId junction) {
+    if (junction.index() < given_corners_) return junction;
+    const auto [at, is_new] = corner_of_.try_emplace(junction.value, VertexId{corners_.size()});
+    if (is_new) corners_.push_back(lines.point(LineVertex{junction}));
+    return at->second;
+}
+
+void Skeleton::trace_line(std::uint32_t line, VertexId from, VertexId to, Sides traced) {
     if (traced.left) {
-        ends_.push_back({from, to});
+        ends_.push_back({corner(from), corner(to)});
         edges_.push_back({line, 0, true});
     }
     if (traced.right) {
-        ends_.push_back({to, from});
+        ends_.push_back({corner(to), corner(from)});
         edges_.push_back({line, 0, false});
     }
-    return line;
 }
 
 LineLoop Skeleton::loop_of(std::span<const std::uint32_t> edges) const {
@@ -70,16 +88,12 @@ std::vector<LineBorder> Skeleton::trace() {
 }
 
 void Skeleton::number_together(const SeparatorSpacing& spacing, Ranks& ranks) {
-    std::vector<unsigned> process(lines.size(), ranks.size());
-    const std::vector<std::size_t> shares = region_shares(rings.size(), ranks.size());
-    for (unsigned searching = 0; searching < ranks.size(); ++searching)
-        for (std::size_t region = shares[searching]; region < shares[searching + 1]; ++region)
-            rings.for_lines(region, [&](std::uint32_t line) {
-                if (unsigned& dividing = process[line]; dividing == ranks.size()) dividing = searching;
-            });
-    for (std::uint32_t line = 0; line < lines.size(); ++line)
-        if (process[line] == ranks.size()) process[line] = line % ranks.size();
-    decoupling::number_together(lines, process, spacing, ranks);
+    rings.share(region_shares(rings.size(), ranks.size()));
+    std::vector<LineRun> runs(rings.runs().begin(), rings.runs().end());
+    if (rings.size() == 0)  // lines round the domain
+        for (std::uint32_t line = 0; line < lines.size(); ++line)
+            if (!lines.is_loop(line)) runs.push_back({line, line + 1, line % ranks.size()});
+    decoupling::number_together(lines, runs, spacing, ranks);
 }
 
 std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
@@ -20,15 +21,13 @@ namespace lamina::decoupling {
 class Skeleton {
 public:
     /// Begins with these points, which are corners.
-    explicit Skeleton(std::span<const Point> points) : lines(points), corners_(points.begin(), points.end()) {}
+    explicit Skeleton(std::span<const Point> points)
+        : lines(points), corners_(points.begin(), points.end()), given_corners_(points.size()) {}
 
     Lines lines;
 
     /// Adds a vertex where lines meet. Precondition: there are no lines yet.
-    VertexId add_junction(Point p) {
-        corners_.push_back(p);
-        return lines.add_junction(p);
-    }
+    VertexId add_junction(Point p) { return lines.add_junction(p); }
     /// Adds a closed line along vertices that exist, with the region on its left.
     void add_loop(std::span<const VertexId> loop);
     /// Adds a closed line along new vertices, with the region on its left. Returns its number.
@@ -39,6 +38,8 @@ public:
     };
     /// Adds a straight line between two junctions. Returns its number.
     std::uint32_t add_line(VertexId from, VertexId to, std::uint32_t min_segments, Sides traced);
+    /// Adds a row of lines. Returns the number of the first one.
+    std::uint32_t add_row(const LineRow& row, Sides traced);
 
     /// The regions between lines of which the borders follow from numbers.
     RingRegions rings;
@@ -57,8 +58,12 @@ private:
         bool forward = true;
     };
     std::vector<Point> corners_;
-    std::vector<Segment> ends_;  ///< of the edges, in corners_
+    std::size_t given_corners_;
+    std::unordered_map<std::uint32_t, VertexId> corner_of_;  ///< of junctions at the ends of edges, by their ids
+    std::vector<Segment> ends_;                              ///< of the edges, in corners_
     std::vector<Edge> edges_;
+    VertexId corner(VertexId junction);
+    void trace_line(std::uint32_t line, VertexId from, VertexId to, Sides traced);
     LineLoop loop_of(std::span<const std::uint32_t> edges) const;
 };
 

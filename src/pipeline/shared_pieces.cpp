@@ -141,10 +141,11 @@ void PieceMaker::make(std::size_t number, Subdomain subdomain, std::span<const S
     held_.pieces.push_back(std::move(piece));
 }
 
-void PieceMaker::number_trapezoids(std::span<const decoupling::EstimatedBorder> borders) {
+void PieceMaker::number_trapezoids(std::span<const decoupling::EstimatedBorder> borders, unsigned process) {
+    if (held_.pieces.empty()) return;
     std::unordered_map<std::size_t, std::size_t> numbers;
     for (std::size_t i = 0; i < borders.size(); ++i)
-        if (borders[i].made) numbers.emplace(borders[i].trapezoid, i);
+        if (borders[i].made && borders[i].process == process) numbers.emplace(borders[i].trapezoid, i);
     for (HeldPiece& piece : held_.pieces) piece.piece = numbers.at(piece.piece);
 }
 
@@ -155,13 +156,13 @@ std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& re
     ranks.reset_counter();
     const auto make = [&](std::uint32_t trapezoid, const decoupling::LineBorder& border,
                           const decoupling::WorkEstimate& estimate, decoupling::Lines& lines) {
-        Subdomain subdomain = decoupling::make_subdomain(border, estimate, lines, {region.size, rule}, refine);
+        Subdomain subdomain = decoupling::make_subdomain(border, &estimate, lines, {region.size, rule}, refine);
         maker.make(trapezoid, std::move(subdomain), border_chain(border, lines).edges, lines.gathered(), times);
     };
     auto shared =
         std::make_unique<SharedDecoupling>(decoupling::cut_region(region, &ranks, make), region.size, rule, refine);
     decoupling::require_same_borders(shared->cut, ranks);
-    maker.number_trapezoids(shared->cut.borders);
+    maker.number_trapezoids(shared->cut.borders, ranks.rank());
     ranks.reset_counter();
     shared->deal = deal_pieces(shared->cut.borders, ranks.rank(), ranks.size());
     return shared;
@@ -173,8 +174,8 @@ HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::Bu
     std::atomic<bool> failed = false;
     std::atomic<std::size_t> next_own = 0;
     const auto make_piece = [&](std::size_t number) {
-        Subdomain subdomain = decoupling::make_subdomain(cut.border(number), cut.borders[number].estimate, cut.lines,
-                                                         {shared.size, shared.rule}, shared.refine);
+        Subdomain subdomain = decoupling::make_subdomain(cut.border(number), cut.borders[number].estimate.get(),
+                                                         cut.lines, {shared.size, shared.rule}, shared.refine);
         maker.make(number, std::move(subdomain), shared.chain(number).edges, shared.points(), times);
     };
     core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {

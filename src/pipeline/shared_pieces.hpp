@@ -77,7 +77,7 @@ public:
     void make(std::size_t piece, Subdomain subdomain, std::span<const Segment> chain, std::span<const Point> points,
               core::BusyTimes& times);
     /// Gives the pieces so far, which are those of trapezoids by their numbers, the numbers that they have among these.
-    void number_trapezoids(std::span<const decoupling::EstimatedBorder> borders);
+    void number_trapezoids(std::span<const decoupling::EstimatedBorder> borders, unsigned process);
     /// Return all that was made.
     HeldPieces take_held() { return std::move(held_); }
     std::unique_ptr<PieceStore> take_store() { return std::move(store_); }

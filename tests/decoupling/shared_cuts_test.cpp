@@ -13,7 +13,7 @@
 
 #include <lamina/decoupling.hpp>
 
-#include "core/packing.hpp"
+#include "core/difference_packing.hpp"
 #include "decoupling/cut_region.hpp"
 #include "decoupling/lines.hpp"
 #include "decoupling/shared_search.hpp"
@@ -83,7 +83,8 @@ void expect_equal(const decoupling::CutRegion& one, const decoupling::CutRegion&
     for (std::size_t i = 0; i < one.borders.size(); ++i) {
         EXPECT_EQ(one.border(i).loops, other.border(i).loops) << i;
         EXPECT_EQ(one.border(i).may_dangle, other.border(i).may_dangle) << i;
-        const auto& [exact, told] = std::pair(*one.borders[i].estimate, other.borders[i].estimate);
+        const decoupling::WorkEstimate& exact = *one.borders[i].estimate;
+        const decoupling::WorkEstimate* told = other.borders[i].estimate.get();
         if (told) {
             EXPECT_EQ(exact.triangles, told->triangles) << i;
             EXPECT_EQ(exact.lattice, told->lattice) << i;
@@ -214,8 +215,8 @@ protected:
         std::vector<std::string> told = ThreadRanks::do_all_gather(bytes);
         if (rank() != misled || std::exchange(has_heard_, true)) return told;
         for (std::string& numbers : told) {
-            core::Packer packer;
-            for (core::Unpacker unpacker(numbers); !unpacker.at_end();) packer.put_short(unpacker.get_short() + 1);
+            core::DifferencePacker packer;
+            for (core::DifferenceUnpacker unpacker(numbers); !unpacker.at_end();) packer.put(unpacker.get() + 1);
             numbers = packer.take();
         }
         return told;

@@ -18,7 +18,7 @@ TEST(PieceDeal, GivesEachPieceToOneProcessOrToAll) {
         std::vector<decoupling::EstimatedBorder> borders(100);
         double work = 0;
         for (decoupling::EstimatedBorder& border : borders) {
-            border.work = 1000 + static_cast<double>(random.below(50'000));
+            border.work = 1000 + static_cast<float>(random.below(50'000));
             border.process = static_cast<unsigned>(random.below(processes));
             border.made = random.below(4) == 0;
             if (!border.made) work += border.work;
