@@ -167,22 +167,22 @@ std::array<Candidates, Quadrants::count> LowerEnvelope::push(const Quadrants& qu
     return result;
 }
 
-/// Returns the lower one of `best` and the values of a group's sources at a point. Looks at the nearest groups first.
+/// Returns the lower one of `best` and the values of a group's sources at a point. Looks first at the groups whose sources
+/// may have the lowest values: where the gradation is small, these are often not the nearest ones.
 double LowerEnvelope::evaluate_group(std::uint32_t index, Point p, double best) {
-    const auto measure = [&](std::uint32_t group) {
-        return DistantGroup{group, core::squared_distance(groups_[group].box, p)};
+    const auto bound = [&](std::uint32_t group) {
+        const SourceGroup& bounded = groups_[group];
+        return BoundedGroup{group, bounded.min_size + gradation_ * std::sqrt(core::squared_distance(bounded.box, p))};
     };
-    DistantGroup at = measure(index);
+    BoundedGroup at = bound(index);
     for (;;) {
         const SourceGroup& group = groups_[at.index];
-        // Only sources nearer than this can lower the best value so far.
-        const double reach = larger((best - group.min_size) * inverse_gradation_, 0.0);
-        if (at.squared < reach * reach) {
+        if (at.lowest < best) {
             if (!group.is_single()) {
-                DistantGroup near = measure(at.index + 1), far = measure(group.right);
-                if (far.squared < near.squared) std::swap(near, far);
-                pending_at_point_.push_back(far);
-                at = near;
+                BoundedGroup low = bound(at.index + 1), high = bound(group.right);
+                if (high.lowest < low.lowest) std::swap(low, high);
+                if (high.lowest < best) pending_at_point_.push_back(high);
+                at = low;
                 continue;
             }
             best = smaller(best, group.min_size + gradation_ * shapes_[group.shape].distance_to(p));

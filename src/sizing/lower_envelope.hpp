@@ -52,7 +52,6 @@ class LowerEnvelope {
 public:
     LowerEnvelope(const SourceTree& sources, const SizeFieldOptions& options)
         : gradation_(options.gradation),
-          inverse_gradation_(1 / std::max(options.gradation, 1e-300)),
           max_size_(options.max_size),
           groups_(sources.groups),
           shapes_(sources.shapes) {}
@@ -84,10 +83,10 @@ public:
     void evaluate(const Candidates& candidates, CellPoints<N>& points);
 
 private:
-    /// A group, and the squared distance of its box from a point.
-    struct DistantGroup {
+    /// A group, and a lower bound of the values of its sources at a point.
+    struct BoundedGroup {
         std::uint32_t index;
-        double squared;
+        double lowest;
     };
 
     /// A candidate, and the quadrants that it is one of, as bits.
@@ -108,14 +107,14 @@ private:
     void find_in_group(std::uint32_t index, const Quadrants& quadrants, QuadrantBounds& bounds);
     double evaluate_group(std::uint32_t index, Point p, double best);
 
-    double gradation_, inverse_gradation_, max_size_;
+    double gradation_, max_size_;
     const std::vector<SourceGroup>& groups_;
     const std::vector<SourceShape>& shapes_;
     std::vector<std::uint32_t> stack_;
     // Scratch space, kept so that it is allocated once: the groups still to be visited in a walk down the tree of
     // groups, and what push() has found so far.
     std::vector<std::uint32_t> pending_;
-    std::vector<DistantGroup> pending_at_point_;
+    std::vector<BoundedGroup> pending_at_point_;
     std::vector<Found> sources_found_, groups_found_;
 };
 
