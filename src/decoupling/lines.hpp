@@ -86,9 +86,11 @@ public:
     std::size_t size() const { return size_.load(std::memory_order_acquire); }
     std::size_t vertices() const { return vertices_; }
     std::uint32_t segments(std::uint32_t line) const { return chunk(line).segments[line % chunk_size]; }
-    /// Returns all rows, and whether a line is in one of them.
+    /// Returns all rows; whether a line is in one of them; the first line that is, and how many are.
     std::span<const LineRow> rows() const { return rows_; }
     bool is_in_row(std::uint32_t line) const { return line - first_in_rows_ < lines_in_rows_; }
+    std::uint32_t first_in_rows() const { return first_in_rows_; }
+    std::uint32_t lines_in_rows() const { return lines_in_rows_; }
     /// Returns both ends of a line that is no loop.
     std::pair<LineVertex, LineVertex> ends(std::uint32_t line) const { return {at(line).from, at(line).to}; }
     LineVertex vertex(std::uint32_t line, std::uint32_t place) const;

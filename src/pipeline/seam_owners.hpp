@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <lamina/ids.hpp>
@@ -12,38 +13,50 @@
 
 namespace lamina::pipeline {
 
-/// Says which process matches which edges and counts which vertices. A line belongs to the process that has searched the
-/// first piece beside it: that one holds the piece, unless another process was idle. The layer belongs to rank 0, and a
-/// vertex where lines meet to the process of the first line that begins there.
+/// Says which process matches which edges and counts which vertices. A line between trapezoids belongs to the process that
+/// has divided it, any other line to the one that has searched the first piece beside it: these hold the pieces, unless
+/// another process was idle. The layer belongs to rank 0, and a vertex where lines meet to the process of the first line
+/// that begins there.
 class SeamOwners {
 public:
     /// `layer_vertices` is the number of vertices that no line of the decoupling has added; `self` is the process whose
-    /// places are asked for.
+    /// places are asked for. The region must outlive this object.
     SeamOwners(const decoupling::CutRegion& cut, std::size_t layer_vertices, unsigned self);
 
     /// Returns the first vertex beyond the layer.
     VertexId first() const { return VertexId{layer_}; }
     bool is_in_layer(VertexId v) const { return v.index() < layer_; }
     /// Returns the process that the edges of a line belong to.
-    unsigned owner(std::uint32_t line) const { return of_line_[line]; }
-    unsigned owner(const decoupling::LineVertex& v) const {
-        if (v.line != decoupling::LineVertex::no_line) return of_line_[v.line];
-        return is_in_layer(v.id) ? 0u : of_junction_[v.id.index() - layer_];
+    unsigned owner(std::uint32_t line) const {
+        return lines_.is_in_row(line) ? owner_in_rows(line) : of_other_line_[other_line(line)];
     }
-    /// Returns the number of the vertices that belong to this process, and the place of one beyond the layer among them.
-    std::size_t own_vertices() const { return own_vertices_; }
-    std::size_t place(const decoupling::LineVertex& v) const {
-        if (v.line == decoupling::LineVertex::no_line) return first_place_of_junction_[v.id.index() - layer_];
-        return first_place_[v.line] + (v.id.index() - first_id_[v.line]);
+    unsigned owner(const decoupling::LineVertex& v) const;
+    /// Returns the number of the vertices that belong to this process, and the place among them of one that does, beyond
+    /// the layer. Those that a line has added have successive places.
+    std::size_t own_vertices() const {
+        return own_.empty() ? 0 : own_.back().place + (own_.back().end - own_.back().begin);
     }
+    std::size_t place(VertexId v) const;
 
 private:
+    /// Successive vertices of this process.
+    struct OwnVertices {
+        std::size_t begin = 0, end = 0;
+        std::size_t place = 0;  ///< of the first one
+    };
+
+    /// Returns the number of a line among those in no row.
+    std::size_t other_line(std::uint32_t line) const { return line < rows_begin_ ? line : line - lines_in_rows_; }
+    unsigned owner_in_rows(std::uint32_t line) const;
+    void find_owners_of_others(const decoupling::CutRegion& cut);
+    void find_own_vertices(unsigned self);
+
+    const decoupling::Lines& lines_;
+    std::span<const decoupling::LineRun> runs_;  ///< of the lines in rows
     std::size_t layer_;
-    std::vector<std::uint32_t> of_line_, of_junction_;
-    std::vector<std::uint32_t> first_id_;     ///< per line
-    std::vector<std::uint32_t> first_place_;  ///< per line of this process
-    std::vector<std::uint32_t> first_place_of_junction_;
-    std::size_t own_vertices_ = 0;
+    std::uint32_t rows_begin_, lines_in_rows_;
+    std::vector<std::uint32_t> of_other_line_;
+    std::vector<OwnVertices> own_;  ///< in ascending order
 };
 
 }  // namespace lamina::pipeline

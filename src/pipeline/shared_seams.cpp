@@ -32,7 +32,7 @@ private:
     bool half_ = false;
 };
 
-/// Calls f for the vertices of a border that belong to a process.
+/// Calls f(v, n) for the vertices of a border that belong to a process: n successive ones from v on.
 template <class F>
 void for_owned_vertices(const decoupling::LineBorder& border, const decoupling::Lines& lines, const SeamOwners& owners,
                         unsigned process, F&& f) {
@@ -40,9 +40,13 @@ void for_owned_vertices(const decoupling::LineBorder& border, const decoupling::
         for (const decoupling::Stretch& stretch : loop.stretches) {
             // The first vertex may be one of another line, or of none; the others are inside this one.
             if (const LineVertex first = lines.vertex(stretch.line, stretch.first); owners.owner(first) == process)
-                f(first);
-            if (owners.owner(stretch.line) != process) continue;
-            for (std::uint32_t i = 1; i < stretch.segments(); ++i) f(lines.vertex(stretch.line, stretch.place(i)));
+                f(first.id, 1);
+            const std::uint32_t n = stretch.segments();
+            if (n == 1 || owners.owner(stretch.line) != process) continue;
+            if (lines.is_loop(stretch.line))
+                for (std::uint32_t i = 1; i < n; ++i) f(lines.id(stretch.line, stretch.place(i)), 1);
+            else
+                f(lines.id(stretch.line, std::min(stretch.first, stretch.last) + 1), n - 1);
         }
 }
 
@@ -146,11 +150,16 @@ std::vector<std::string> SharedSeams::pack_borders() const {
                 concern(owners_.owner(lines.vertex(stretch.line, stretch.first)));
                 concern(owners_.owner(stretch.line));
             }
+        NibblePacker* of_line = nullptr;
         for_edges(
-            border, lines, [](std::uint32_t) { return true; },
-            [&](std::uint32_t i, Segment, std::uint32_t line) {
+            border, lines,
+            [&](std::uint32_t line) {
+                of_line = &classes[owners_.owner(line)];
+                return true;
+            },
+            [&](std::uint32_t i, Segment, std::uint32_t) {
                 const std::uint8_t none = 0;
-                classes[owners_.owner(line)].put(i < held.shape_classes.size() ? held.shape_classes[i] : none);
+                of_line->put(i < held.shape_classes.size() ? held.shape_classes[i] : none);
             });
         for (const unsigned owner : concerned) {
             packers[owner].put_short(held.piece);
@@ -165,11 +174,11 @@ std::vector<std::string> SharedSeams::pack_borders() const {
     return texts;
 }
 
-void SharedSeams::take_vertex(const LineVertex& v) {
-    if (owners_.is_in_layer(v.id))
-        vertices_in_layer_.push_back(v.id);
+void SharedSeams::take_vertices(VertexId first, std::size_t n) {
+    if (owners_.is_in_layer(first))
+        for (std::size_t i = 0; i < n; ++i) vertices_in_layer_.push_back(VertexId{first.index() + i});
     else
-        used_[owners_.place(v)] = 1;
+        std::fill_n(used_.begin() + static_cast<std::ptrdiff_t>(owners_.place(first)), n, std::uint8_t{1});
 }
 
 void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
@@ -179,7 +188,8 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
         const auto piece = static_cast<std::uint32_t>(unpacker.get_short());
         const std::string classes = unpacker.get_text();
         const decoupling::LineBorder border = shared_.cut.border(piece);
-        for_owned_vertices(border, shared_.cut.lines, owners_, self, [&](const LineVertex& v) { take_vertex(v); });
+        for_owned_vertices(border, shared_.cut.lines, owners_, self,
+                           [&](VertexId first, std::size_t n) { take_vertices(first, n); });
         const HeldPiece* here = rank == self ? &held(piece) : nullptr;
         std::size_t next = 0;
         const auto take_edge = [&](std::uint32_t i, Segment edge, std::uint32_t line) {

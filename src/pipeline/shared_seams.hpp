@@ -61,7 +61,7 @@ private:
     };
     std::vector<std::string> pack_borders() const;
     const HeldPiece& held(std::size_t piece) const;
-    void take_vertex(const decoupling::LineVertex& v);
+    void take_vertices(VertexId first, std::size_t n);
     void take_borders(std::uint32_t rank, const std::string& told);
     std::string answer(const std::string& questions) const;
     bool has_source_here(std::size_t edge) const;
