@@ -53,10 +53,13 @@ public:
     /// Bits without a number behind the last one are 0, and each number has one that is not.
     bool at_end() const { return place_ >= 8 * bytes_.size() || window() == 0; }
     std::uint32_t get() {
-        const int more = std::countr_zero(window());
+        constexpr int all_at_once = 28;  // bits of a code that are in one window with the zeros before them
+        std::uint64_t bits = window();
+        const int more = std::countr_zero(bits);
         place_ += static_cast<std::size_t>(more) + 1;
-        const std::uint64_t code =
-            (std::uint64_t{1} << more) + (more > 0 ? window() & ((std::uint64_t{1} << more) - 1) : 0);
+        bits = more <= all_at_once ? bits >> (more + 1) : window();
+        const std::uint64_t highest = std::uint64_t{1} << more;
+        const std::uint64_t code = highest + (bits & (highest - 1));
         place_ += static_cast<std::size_t>(more);
         const auto half = static_cast<std::int64_t>(code / 2);
         last_ += code % 2 == 0 ? half : -half;

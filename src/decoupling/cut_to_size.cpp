@@ -115,13 +115,13 @@ public:
         }
     }
 
-    /// Adds a border that stays whole.
-    void add_done(EstimatedBorder border) { done_.push_back(std::move(border)); }
-    void add_done(EstimatedBorder border, const SearchResult& result) {
-        border.work = static_cast<float>(result.work);
-        if (result.estimate) border.estimate = std::make_unique<WorkEstimate>(*result.estimate);
-        border.process = result.process;
-        add_done(std::move(border));
+    /// Adds a border that stays whole, and returns it.
+    EstimatedBorder& add_done(EstimatedBorder&& border) { return done_.emplace_back(std::move(border)); }
+    void add_done(EstimatedBorder&& border, const SearchResult& result) {
+        EstimatedBorder& done = add_done(std::move(border));
+        done.work = static_cast<float>(result.work);
+        if (result.estimate) done.estimate = std::make_unique<WorkEstimate>(*result.estimate);
+        done.process = result.process;
     }
     void expect_done(std::size_t more) { done_.reserve(done_.size() + more); }
     std::vector<EstimatedBorder> take_done() { return std::move(done_); }
@@ -322,7 +322,7 @@ private:
                 bisection.cut_in_two(lines, others_.border(i, lines), own != nullptr ? *own : result, parts);
                 continue;
             }
-            EstimatedBorder whole = others_.whole(i);
+            EstimatedBorder& whole = bisection.add_done(others_.whole(i));
             whole.work = results.work();
             whole.process = process;
             if (own != nullptr) whole.estimate = std::make_unique<WorkEstimate>(*own->estimate);
@@ -330,7 +330,6 @@ private:
                 whole.made = true;
                 --made;
             }
-            bisection.add_done(std::move(whole));
         }
     }
     /// Collective: searches the other regions once those round the bodies are cut, each process its share.

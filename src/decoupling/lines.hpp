@@ -66,6 +66,8 @@ public:
     Lines& operator=(Lines&&) noexcept;
     ~Lines();
 
+    /// Makes room for so many more vertices on no line.
+    void expect_junctions(std::size_t more) { points_.reserve(points_.size() + more); }
     /// Adds a vertex on no line. Precondition: no vertices of lines are numbered yet.
     VertexId add_junction(Point p);
     /// Adds a closed line along vertices that exist. Returns its number.

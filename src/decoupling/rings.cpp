@@ -159,6 +159,9 @@ RingJunctions add_junctions(Skeleton& skeleton, std::span<const Ring> rings, con
     RingJunctions junctions;
     junctions.first_id = static_cast<std::uint32_t>(skeleton.lines.junctions());
     std::uint32_t added = 0;
+    std::size_t expected = 0;
+    for (const Ring& ring : rings) expected += 2 * sides * ring.per_side;
+    skeleton.lines.expect_junctions(expected + sides);
     for (std::size_t level = 0; level <= rings.size(); ++level) {
         const std::size_t of_inner_ring = level > 0 ? rings[level - 1].per_side : 1;
         const std::size_t of_outer_ring = level < rings.size() ? rings[level].per_side : 1;

@@ -46,7 +46,10 @@ void require_same_borders(const CutRegion& cut, Ranks& ranks) {
     const Lines& lines = cut.lines;
     core::WordHash hash;
     hash.add(std::uint64_t{lines.vertices()});
-    for (std::uint32_t line = 0; line < lines.size(); ++line) hash.add(std::uint64_t{lines.segments(line)});
+    // The numbers of vertices of two lines, at a time.
+    for (std::uint32_t line = 0; line < lines.size(); line += 2)
+        hash.add(std::uint64_t{lines.segments(line)} << 32 |
+                 (line + 1 < lines.size() ? lines.segments(line + 1) : std::uint32_t{0}));
     for (const EstimatedBorder& estimated : cut.borders) {
         hash.add(std::uint64_t{std::bit_cast<std::uint32_t>(estimated.work)} << 32 | estimated.process);
         hash.add(std::uint64_t{estimated.trapezoid});

@@ -170,8 +170,11 @@ void number_together(Lines& lines, std::span<const LineRun> runs, const Separato
     for (const std::uint32_t line : own) packer.put(static_cast<std::uint32_t>(lines.divide(line, spacing)));
     const std::vector<std::string> told = ranks.all_gather(packer.take());
     std::vector<core::DifferenceUnpacker> unpackers(told.begin(), told.end());
-    for (const LineRun& run : runs)
-        for (std::uint32_t line = run.begin; line < run.end; ++line) lines.number(line, unpackers[run.process].get());
+    for (const LineRun& run : runs) {
+        core::DifferenceUnpacker unpacker = unpackers[run.process];
+        for (std::uint32_t line = run.begin; line < run.end; ++line) lines.number(line, unpacker.get());
+        unpackers[run.process] = unpacker;
+    }
 }
 
 }  // namespace lamina::decoupling

@@ -2,6 +2,8 @@
 // segments were traced, line by line, those to the left of the line before those to its right.
 #include "decoupling/skeleton.hpp"
 
+#include <utility>
+
 #include "decoupling/shared_search.hpp"
 #include "decoupling/traced_border.hpp"
 
@@ -98,8 +100,14 @@ void Skeleton::number_together(const SeparatorSpacing& spacing, Ranks& ranks) {
 
 std::vector<Segment> edges_along(const Lines& lines, std::uint32_t line) {
     std::vector<Segment> edges;
-    for (std::uint32_t i = 0; i < lines.segments(line); ++i)
-        edges.push_back({lines.id(line, i), lines.id(line, i + 1)});
+    const std::uint32_t n = lines.segments(line);
+    edges.reserve(n);
+    VertexId last = lines.id(line, 0);
+    for (std::uint32_t i = 1; i <= n; ++i) {
+        // The ids inside a line follow one another.
+        const VertexId next = i == 1 || i == n ? lines.id(line, i) : VertexId{last.index() + 1};
+        edges.push_back({std::exchange(last, next), next});
+    }
     return edges;
 }
 
