@@ -69,7 +69,7 @@ struct PiecesRecord {
     std::vector<NarrowInPiece> narrow;      ///< by their pieces, as the defects
     std::vector<DefectInPiece> defects;     ///< the first ones
 
-    void add(const HeldPiece& held);
+    void add(const HeldPiece& held, std::size_t first_triangle);
     void add(PiecesRecord&& other);
 };
 
@@ -92,7 +92,7 @@ void for_sums(Record& record, F&& f) {
         f(*sum);
 }
 
-void PiecesRecord::add(const HeldPiece& held) {
+void PiecesRecord::add(const HeldPiece& held, std::size_t first_triangle) {
     const mesh::PieceFindings& of_piece = held.facts.findings;
     const mesh::QualityTotals& shapes = of_piece.cells.isotropic.totals();
     ++pieces;
@@ -117,7 +117,10 @@ void PiecesRecord::add(const HeldPiece& held) {
     widest.add({of_piece.widest, held.piece});
     narrowest.add({of_piece.narrowest, held.piece});
     oversized.add({held.facts.oversized, held.piece});
-    for (const mesh::NarrowTriangle& triangle : of_piece.narrow) narrow.push_back({held.piece, triangle});
+    for (mesh::NarrowTriangle triangle : of_piece.narrow) {
+        triangle.cell += first_triangle;
+        narrow.push_back({held.piece, triangle});
+    }
     for (const MeshDefect& defect : of_piece.cells.defects.kept) defects.push_back({held.piece, defect});
 }
 
@@ -199,10 +202,10 @@ PiecesRecord unpack(std::string_view bytes) {
 
 }  // namespace
 
-std::string pack_pieces(const HeldPieces& held) {
+std::string pack_pieces(const HeldPieces& held, std::span<const PieceNumbers> numbers) {
     PiecesRecord record;
     record.hash = held.hash;
-    for (const HeldPiece& piece : held.pieces) record.add(piece);
+    for (std::size_t i = 0; i < numbers.size(); ++i) record.add(held.pieces[i], numbers[i].first_triangle);
     record.area_ratios.append_area_ratios(held.area_ratios.area_ratios());
     return pack(record);
 }
@@ -213,41 +216,7 @@ std::string join_records(std::string_view one, std::string_view other) {
     return pack(record);
 }
 
-std::string pack_sizes(const HeldPieces& held) {
-    Packer packer;
-    for (const HeldPiece& piece : held.pieces) {
-        packer.put_short(piece.piece);
-        packer.put_short(piece.facts.findings.triangles);
-        packer.put_short(piece.facts.findings.inner_vertices);
-    }
-    return packer.take();
-}
-
-NumberedPieces number_pieces(std::span<const std::string> of_ranks, std::size_t pieces, const MeshCounts& before) {
-    NumberedPieces all{std::vector<PieceNumbers>(pieces), {}, before};
-    std::vector<std::uint32_t> times_made(pieces, 0);
-    for (const std::string& told : of_ranks) {
-        std::vector<std::size_t>& of_rank = all.of_ranks.emplace_back();
-        for (Unpacker unpacker(told); !unpacker.at_end();) {
-            const std::size_t piece = unpacker.get_short(), triangles = unpacker.get_short();
-            all.numbers[piece] = {unpacker.get_short(), triangles};  // its size at first
-            ++times_made[piece];
-            of_rank.push_back(piece);
-        }
-    }
-    for (std::size_t piece = 0; piece < pieces; ++piece) {
-        if (times_made[piece] != 1)
-            throw MeshError(fmt::format("piece {} was made {} times", piece, times_made[piece]));
-        PieceNumbers& numbers = all.numbers[piece];
-        const PieceNumbers size = std::exchange(numbers, {all.counts.vertices, all.counts.triangles});
-        all.counts.vertices += size.first_vertex;
-        all.counts.triangles += size.first_triangle;
-    }
-    require_numbered(all.counts.vertices);
-    return all;
-}
-
-AllPieces add_up(std::string_view bytes, std::span<const PieceNumbers> numbers, double min_angle_deg) {
+AllPieces add_up(std::string_view bytes, double min_angle_deg) {
     PiecesRecord record = unpack(bytes);
     AllPieces all(min_angle_deg);
     all.hash = record.hash;
@@ -274,10 +243,7 @@ AllPieces add_up(std::string_view bytes, std::span<const PieceNumbers> numbers, 
     for (DefectInPiece& defect : record.defects) findings.cells.defects.kept.push_back(std::move(defect.defect));
     findings.widest = record.widest.cell;
     findings.narrowest = record.narrowest.cell;
-    for (NarrowInPiece& narrow : record.narrow) {
-        narrow.triangle.cell += numbers[narrow.piece].first_triangle;
-        findings.narrow.push_back(narrow.triangle);
-    }
+    for (const NarrowInPiece& narrow : record.narrow) findings.narrow.push_back(narrow.triangle);
     all.summary = {.pieces = record.pieces,
                    .largest = record.largest,
                    .good_estimates = record.good_estimates,

@@ -16,8 +16,8 @@
 
 namespace lamina::pipeline {
 
-/// Returns what rank 0 needs to know of all pieces of this process together.
-std::string pack_pieces(const HeldPieces& held);
+/// Returns what rank 0 needs to know of all pieces of this process together, which begin at these numbers.
+std::string pack_pieces(const HeldPieces& held, std::span<const PieceNumbers> numbers);
 /// Returns what pack_pieces() would return for the pieces of both records.
 std::string join_records(std::string_view one, std::string_view other);
 
@@ -30,20 +30,7 @@ struct AllPieces {
     explicit AllPieces(double min_angle_deg) : findings(min_angle_deg) {}
 };
 
-/// These numbers say where all pieces of a mesh begin, whoever has made them.
-struct NumberedPieces {
-    std::vector<PieceNumbers> numbers;               ///< by the numbers of the pieces
-    std::vector<std::vector<std::size_t>> of_ranks;  ///< for each rank: its pieces, in its order
-    MeshCounts counts;                               ///< of the mesh, with its layer
-};
-
-/// Returns the sizes of the pieces of this process for number_pieces().
-std::string pack_sizes(const HeldPieces& held);
-/// Numbers so many pieces in their order, behind the vertices and triangles of `before`, from what pack_sizes() returns on
-/// all ranks. Throws MeshError unless each piece was made once.
-NumberedPieces number_pieces(std::span<const std::string> of_ranks, std::size_t pieces, const MeshCounts& before);
-
 /// Adds up all pieces, from the joined records of all ranks.
-AllPieces add_up(std::string_view record, std::span<const PieceNumbers> numbers, double min_angle_deg);
+AllPieces add_up(std::string_view record, double min_angle_deg);
 
 }  // namespace lamina::pipeline

@@ -15,6 +15,7 @@
 #include "core/parallel.hpp"
 #include "pipeline/border_chain.hpp"
 #include "pipeline/parts.hpp"
+#include "pipeline/piece_numbers.hpp"
 #include "pipeline/piece_records.hpp"
 #include "pipeline/shared_seams.hpp"
 
@@ -52,46 +53,15 @@ std::string join_ratios(std::string_view one, std::string_view other) {
     return pack_ratios(ratios);
 }
 
-/// What rank 0 gets from all ranks.
-struct GatheredRecords {
-    std::string least_ratios, pieces;  ///< of all ranks together
-    std::vector<std::string> sizes;    ///< per rank, of its pieces
-};
-
-/// What rank 0 knows of the mesh, and what it tells each rank.
-struct RankZeroCount {
-    CountedMesh mesh;
-    std::vector<std::string> to_ranks{};
-};
-
-/// Numbers the pieces, and adds them to the check. Called on rank 0 with what it has got from all ranks.
-RankZeroCount count_all(const SharedDecoupling& shared, const SharedSeams& seams, const LayerCells& layer,
-                        double min_angle_deg, const GatheredRecords& told, mesh::PiecewiseCheck& check) {
-    const NumberedPieces numbered = number_pieces(
-        told.sizes, shared.pieces(),
-        {shared.cut.lines.vertices(), layer.triangles.size(), layer.quads.size(), layer.triangles.size()});
-    AllPieces all = add_up(told.pieces, numbered.numbers, min_angle_deg);
-    RankZeroCount count{
-        {.counts = numbered.counts, .layer_pieces = layer.pieces(), .summary = all.summary, .hash = all.hash}};
+/// Adds all pieces to the check, and returns what is known of them. Called on rank 0 with what all ranks have joined.
+AllPieces count_all(const SharedSeams& seams, double min_angle_deg, const std::string& pieces,
+                    mesh::PiecewiseCheck& check) {
+    AllPieces all = add_up(pieces, min_angle_deg);
     all.findings.border = seams.along_layer();
     all.findings.border_vertices = seams.vertices_in_layer();
     check.match_elsewhere(seams.first_elsewhere());
     check.add_piece(std::move(all.findings));
-    mesh::QualityCollector ratios = check.least_ratios();
-    ratios.append_area_ratios(Unpacker(told.least_ratios).get_counts());
-    const double even_ratio = mesh::even_ratio(ratios);
-    for (const std::vector<std::size_t>& of_rank : numbered.of_ranks) {
-        std::vector<PieceNumbers> numbers;
-        numbers.reserve(of_rank.size());
-        for (const std::size_t piece : of_rank) numbers.push_back(numbered.numbers[piece]);
-        Packer packer;
-        packer.put(count.mesh.counts);
-        packer.put_short(count.mesh.layer_pieces);
-        packer.put(even_ratio);
-        packer.put_all<PieceNumbers>(numbers);
-        count.to_ranks.push_back(packer.take());
-    }
-    return count;
+    return all;
 }
 
 /// Throws MeshError where the edges of two sides do not lie at the same places on both of them.
@@ -199,21 +169,28 @@ CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const La
                             Ranks& ranks, mesh::PiecewiseCheck* check) {
     SharedSeams seams(shared, held, ranks);
     seams.collect();
-    GatheredRecords told;
-    told.least_ratios = ranks.reduce(pack_ratios(seams.least_ratios()), join_ratios);
-    told.pieces = ranks.reduce(pack_pieces(held), join_records);
-    told.sizes = ranks.gather(pack_sizes(held));
+    NumberedPieces numbered = number_pieces(
+        held, shared.pieces(),
+        {shared.cut.lines.vertices(), layer.triangles.size(), layer.quads.size(), layer.triangles.size()}, ranks);
+    const std::string least_ratios = ranks.reduce(pack_ratios(seams.least_ratios()), join_ratios);
+    const std::string pieces = ranks.reduce(pack_pieces(held, numbered.numbers), join_records);
     for (HeldPiece& piece : held.pieces) piece.facts = PieceFacts();
 
-    RankZeroCount count;
-    if (check) count = count_all(shared, seams, layer, min_angle_deg, told, *check);
-    const std::string answer = ranks.scatter(count.to_ranks);
+    CountedMesh counted{.counts = numbered.counts, .numbers = std::move(numbered.numbers)};
+    Packer to_all;
+    if (check) {
+        const AllPieces all = count_all(seams, min_angle_deg, pieces, *check);
+        counted.summary = all.summary;
+        counted.hash = all.hash;
+        mesh::QualityCollector ratios = check->least_ratios();
+        ratios.append_area_ratios(Unpacker(least_ratios).get_counts());
+        to_all.put_short(layer.pieces());
+        to_all.put(mesh::even_ratio(ratios));
+    }
+    const std::string answer = ranks.broadcast(to_all.take());
     Unpacker unpacker(answer);
-    CountedMesh counted = std::move(count.mesh);
-    counted.counts = unpacker.get<MeshCounts>();
     counted.layer_pieces = unpacker.get_short();
     const auto even_ratio = unpacker.get<double>();
-    counted.numbers = unpacker.get_all<PieceNumbers>();
     seams.ask(even_ratio, check);
     const std::string findings = ranks.reduce(pack_findings({seams.findings(), seams.places()}), join_findings);
     if (!check) return counted;

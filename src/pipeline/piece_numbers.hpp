@@ -1,0 +1,25 @@
+// Where the pieces of a mesh begin, whoever has made them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <lamina/mesh_sink.hpp>
+#include <lamina/ranks.hpp>
+
+#include "pipeline/shared_pieces.hpp"
+
+namespace lamina::pipeline {
+
+/// Where the held pieces begin in the mesh, and the counts of the mesh with its layer.
+struct NumberedPieces {
+    std::vector<PieceNumbers> numbers;
+    MeshCounts counts;
+};
+
+/// Collective: numbers so many pieces in their order, behind the vertices and triangles of `before`, which is that of rank 0.
+/// Each process adds up the sizes of successive pieces, and rank 0 those of the processes. Throws MeshError unless each
+/// piece was made once.
+NumberedPieces number_pieces(const HeldPieces& held, std::size_t pieces, const MeshCounts& before, Ranks& ranks);
+
+}  // namespace lamina::pipeline
