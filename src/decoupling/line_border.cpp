@@ -24,6 +24,17 @@ void append_part(const LineLoop& loop, std::size_t from, std::size_t to, LineLoo
     }
 }
 
+/// Returns whether a loop runs along a line in both directions.
+bool runs_both_ways(const LineLoop& loop) {
+    const auto& stretches = loop.stretches;
+    for (std::size_t i = 0; i < stretches.size(); ++i)
+        for (std::size_t j = i + 1; j < stretches.size(); ++j)
+            if (stretches[i].line == stretches[j].line &&
+                (stretches[i].first < stretches[i].last) != (stretches[j].first < stretches[j].last))
+                return true;
+    return false;
+}
+
 Stretch reversed(const Stretch& stretch) { return {stretch.line, stretch.last, stretch.first}; }
 
 /// Successive vertices of a loop whose ids ascend or descend one by one.
@@ -138,7 +149,9 @@ BorderHalves split(const LineBorder& border, std::size_t from, std::size_t to, c
     append_part(border.loops.front(), to, from, first);
     second.add(reversed(line));
     append_part(border.loops.front(), from, to, second);
-    return {{{std::move(first)}, border.may_dangle}, {{std::move(second)}, border.may_dangle}};
+    const bool first_may_dangle = border.may_dangle && runs_both_ways(first);
+    const bool second_may_dangle = border.may_dangle && runs_both_ways(second);
+    return {{{std::move(first)}, first_may_dangle}, {{std::move(second)}, second_may_dangle}};
 }
 
 LineBorder join(const LineBorder& border, LoopVertex from, LoopVertex to, const Stretch& line) {

@@ -29,7 +29,7 @@ struct LineLoop {
 /// loop runs along both sides of an edge that dangles in the subdomain and then holds its vertices twice.
 struct LineBorder {
     std::vector<LineLoop> loops;
-    bool may_dangle = false;  ///< whether loops were joined, so that edges may dangle
+    bool may_dangle = false;  ///< whether loops were joined, and a loop runs along a line in both directions still
 
     std::size_t vertices() const {
         std::size_t sum = 0;
