@@ -18,12 +18,11 @@ Lines::Chunk::~Chunk() {
 }
 
 Lines::Lines(std::span<const Point> points)
-    : points_(points.begin(), points.end()),
-      chunks_(std::make_unique<std::unique_ptr<Chunk>[]>(max_chunks)),
-      vertices_(points.size()) {}
+    : given_(points), chunks_(std::make_unique<std::unique_ptr<Chunk>[]>(max_chunks)), vertices_(points.size()) {}
 
 Lines::Lines(Lines&& other) noexcept
-    : points_(std::move(other.points_)),
+    : given_(other.given_),
+      junctions_(std::move(other.junctions_)),
       chunks_(std::move(other.chunks_)),
       size_(other.size_.load()),
       rows_(std::move(other.rows_)),
@@ -37,7 +36,8 @@ Lines::Lines(Lines&& other) noexcept
       gathered_lines_(other.gathered_lines_) {}
 
 Lines& Lines::operator=(Lines&& other) noexcept {
-    points_ = std::move(other.points_);
+    given_ = other.given_;
+    junctions_ = std::move(other.junctions_);
     chunks_ = std::move(other.chunks_);
     size_ = other.size_.load();
     rows_ = std::move(other.rows_);
@@ -98,8 +98,8 @@ std::size_t Lines::end_of(std::uint32_t line) const {
 }
 
 VertexId Lines::add_junction(Point p) {
-    assert(vertices_ == points_.size());
-    points_.push_back(p);
+    assert(vertices_ == junctions());
+    junctions_.push_back(p);
     return VertexId{vertices_++};
 }
 
@@ -109,7 +109,7 @@ std::uint32_t Lines::add_loop(std::span<const VertexId> loop) {
     Line& line = at(number);
     line.loop.assign(loop.begin(), loop.end());
     line.loop.push_back(loop.front());
-    for (const VertexId v : line.loop) line.interior.push_back(points_[v.index()]);
+    for (const VertexId v : line.loop) line.interior.push_back(point(LineVertex{v}));
     std::call_once(line.divided, [] {});
     return number;
 }
@@ -242,7 +242,8 @@ void Lines::store_from(std::uint32_t line, std::span<Point> points) const {
 }
 
 void Lines::copy_points(std::span<Point> points) const {
-    std::copy(points_.begin(), points_.end(), points.begin());
+    std::copy(given_.begin(), given_.end(), points.begin());
+    std::copy(junctions_.begin(), junctions_.end(), points.begin() + static_cast<std::ptrdiff_t>(given_.size()));
     store_from(0, points);
 }
 

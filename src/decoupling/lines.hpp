@@ -60,14 +60,14 @@ struct LineRow {
 /// those that were there before, and divide them.
 class LAMINA_EXPORT Lines {
 public:
-    /// The vertices that exist before all lines.
+    /// The vertices that exist before all lines. They must outlive the use of this object, but for that of gathered().
     explicit Lines(std::span<const Point> points);
     Lines(Lines&&) noexcept;
     Lines& operator=(Lines&&) noexcept;
     ~Lines();
 
     /// Makes room for so many more vertices on no line.
-    void expect_junctions(std::size_t more) { points_.reserve(points_.size() + more); }
+    void expect_junctions(std::size_t more) { junctions_.reserve(junctions_.size() + more); }
     /// Adds a vertex on no line. Precondition: no vertices of lines are numbered yet.
     VertexId add_junction(Point p);
     /// Adds a closed line along vertices that exist. Returns its number.
@@ -106,7 +106,7 @@ public:
     /// Returns the number of vertices that were added with a line: they have successive ids.
     std::size_t own_vertices(std::uint32_t line) const { return end_of(line) - first_inside(line).index(); }
     /// Returns the number of vertices on no line, which have the lowest ids.
-    std::size_t junctions() const { return points_.size(); }
+    std::size_t junctions() const { return given_.size() + junctions_.size(); }
 
     /// Divides a line, unless that was done. Returns the number of vertices inside it. Any thread may call it. Throws
     /// MeshError where it has another number of vertices than number() was told.
@@ -118,7 +118,8 @@ public:
     /// Returns where a vertex lies. Precondition: its line is divided.
     Point point(std::uint32_t line, std::uint32_t place) const;
     Point point(const LineVertex& v) const {
-        return v.line == LineVertex::no_line ? points_[v.id.index()] : point(v.line, v.place);
+        if (v.line != LineVertex::no_line) return point(v.line, v.place);
+        return v.id.index() < given_.size() ? given_[v.id.index()] : junctions_[v.id.index() - given_.size()];
     }
 
     /// Copies the vertices of all lines that are divided, and those on no line, to their ids.
@@ -144,7 +145,7 @@ private:
     };
     /// Lines that never move, so that one thread can add some while others look at them. Of most lines a process needs
     /// the numbers of vertices alone: others have room once somebody asks for one of their group.
-    static constexpr std::size_t group_size = 32, chunk_size = 1024, max_chunks = 16384;
+    static constexpr std::size_t group_size = 32, chunk_size = 4096, max_chunks = 4096;
     struct Group;
     struct Chunk {
         Chunk() = default;
@@ -167,7 +168,8 @@ private:
     void store_from(std::uint32_t line, std::span<Point> points) const;
     void store(std::uint32_t number, std::span<Point> points) const;
 
-    std::vector<Point> points_;  ///< of the vertices on no line
+    std::span<const Point> given_;
+    std::vector<Point> junctions_;
     std::unique_ptr<std::unique_ptr<Chunk>[]> chunks_;
     std::atomic<std::size_t> size_ = 0;
     std::vector<LineRow> rows_;

@@ -11,8 +11,12 @@ namespace lamina::decoupling {
 
 void Skeleton::add_loop(std::span<const VertexId> loop) {
     const std::uint32_t line = lines.add_loop(loop);
+    corner_of_.reserve(corner_of_.size() + loop.size());
+    const VertexId first = corner(loop.front());
+    VertexId last = first;
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
-        ends_.push_back({loop[i], loop[i + 1 < loop.size() ? i + 1 : 0]});
+        const VertexId next = i + 1 < loop.size() ? corner(loop[i + 1]) : first;
+        ends_.push_back({std::exchange(last, next), next});
         edges_.push_back({line, i, true});
     }
 }
@@ -42,10 +46,9 @@ std::uint32_t Skeleton::add_row(const LineRow& row, Sides traced) {
     return first;
 }
 
-VertexId Skeleton::corner(VertexId junction) {
-    if (junction.index() < given_corners_) return junction;
-    const auto [at, is_new] = corner_of_.try_emplace(junction.value, VertexId{corners_.size()});
-    if (is_new) corners_.push_back(lines.point(LineVertex{junction}));
+VertexId Skeleton::corner(VertexId vertex) {
+    const auto [at, is_new] = corner_of_.try_emplace(vertex.value, VertexId{corners_.size()});
+    if (is_new) corners_.push_back(lines.point(LineVertex{vertex}));
     return at->second;
 }
 

@@ -20,9 +20,8 @@ namespace lamina::decoupling {
 /// All lines before anything is cut to size, and where they meet.
 class Skeleton {
 public:
-    /// Begins with these points, which are corners.
-    explicit Skeleton(std::span<const Point> points)
-        : lines(points), corners_(points.begin(), points.end()), given_corners_(points.size()) {}
+    /// Begins with these points, which must outlive the lines (Lines).
+    explicit Skeleton(std::span<const Point> points) : lines(points) {}
 
     Lines lines;
 
@@ -58,11 +57,10 @@ private:
         bool forward = true;
     };
     std::vector<Point> corners_;
-    std::size_t given_corners_;
-    std::unordered_map<std::uint32_t, VertexId> corner_of_;  ///< of junctions at the ends of edges, by their ids
+    std::unordered_map<std::uint32_t, VertexId> corner_of_;  ///< of vertices at the ends of edges
     std::vector<Segment> ends_;                              ///< of the edges, in corners_
     std::vector<Edge> edges_;
-    VertexId corner(VertexId junction);
+    VertexId corner(VertexId vertex);
     void trace_line(std::uint32_t line, VertexId from, VertexId to, Sides traced);
     LineLoop loop_of(std::span<const std::uint32_t> edges) const;
 };

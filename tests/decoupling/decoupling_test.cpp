@@ -314,7 +314,8 @@ TEST(SubdomainBorders, SplitAndJoinKeepEveryEdge) {
         for (int v : values) result.push_back(VertexId{static_cast<std::size_t>(v)});
         return result;
     };
-    decoupling::Lines lines(std::vector<Point>(7));
+    const std::vector<Point> points(7);
+    decoupling::Lines lines(points);
     const std::uint32_t outer = lines.add_loop(ids({0, 1, 2, 3})), hole = lines.add_loop(ids({4, 5, 6}));
     const auto add_line = [&](const decoupling::LineBorder& border, decoupling::LoopVertex from,
                               decoupling::LoopVertex to, std::uint32_t interior) {
