@@ -48,6 +48,8 @@ public:
     /// Adds the part of the ring between two parameters.
     void add_step(double t, double next) {
         const auto from = boxes_.at(t).corners(), to = boxes_.at(next).corners();
+        if (!sizes_inside_known_) sample(from, sizes_inside_);
+        sample(to, sizes_outside_);
         const auto middle = boxes_.at(0.5 * (t + next)).corners();
         for (std::size_t side = 0; side < sides; ++side) {
             const std::size_t end = (side + 1) % sides;
@@ -57,16 +59,18 @@ public:
             for (std::size_t i = 0; i < samples_per_side; ++i) {
                 const double along = (static_cast<double>(i) + 0.5) / samples_per_side;
                 const double h = size_(a + along * (b - a));
-                const double h_inside = size_(from[side] + along * (from[end] - from[side]));
-                const double h_outside = size_(to[side] + along * (to[end] - to[side]));
-                const double gradient = std::abs(h_outside - h_inside) / width;
+                const std::size_t at = side * samples_per_side + i;
+                const double gradient = std::abs(sizes_outside_[at] - sizes_inside_[at]) / width;
                 triangles_ += delaunay::estimated_triangles(std::abs(area), 1 / (h * h), gradient) /
                               static_cast<double>(extents_.size());
-                Extents& extents = extents_[side * samples_per_side + i];
+                Extents& extents = extents_[at];
                 extents.radial += width / h;
                 extents.tangential += distance(a, b) * (next - t) / ((outer_ - inner_) * h);
             }
         }
+        // The next step begins where this one ends.
+        sizes_inside_ = sizes_outside_;
+        sizes_inside_known_ = true;
     }
 
     QuarterRing result() const {
@@ -84,8 +88,20 @@ private:
     const RingBoxes& boxes_;
     const SizeField& size_;
     double inner_, outer_;
+    /// Takes the sizes at the samples along a box.
+    void sample(const std::array<Point, sides>& corners, std::array<double, sides * samples_per_side>& sizes) const {
+        for (std::size_t side = 0; side < sides; ++side)
+            for (std::size_t i = 0; i < samples_per_side; ++i) {
+                const double along = (static_cast<double>(i) + 0.5) / samples_per_side;
+                sizes[side * samples_per_side + i] =
+                    size_(corners[side] + along * (corners[(side + 1) % sides] - corners[side]));
+            }
+    }
+
     double triangles_ = 0;
     std::array<Extents, sides * samples_per_side> extents_;  ///< by side and sample
+    std::array<double, sides * samples_per_side> sizes_inside_{}, sizes_outside_{};
+    bool sizes_inside_known_ = false;
 };
 
 /// Measures a ring between two parameters in steps that grow with the box.
@@ -109,9 +125,13 @@ public:
     RingPlanner(const RingBoxes& boxes, const SizeField& size, double pieces_target)
         : boxes_(boxes), size_(size), pieces_target_(pieces_target) {}
 
-    void plan(const Ring& ring) {
+    void plan(const Ring& ring) { plan(ring, measure_ring(boxes_, size_, ring.inner, ring.outer)); }
+
+    std::vector<Ring> rings;
+
+private:
+    void plan(const Ring& ring, const QuarterRing& quarter) {
         const auto [inner, outer, per_side] = ring;
-        const QuarterRing quarter = measure_ring(boxes_, size_, inner, outer);
         const auto n = static_cast<double>(per_side);
         constexpr double min_segments = 8;  // of every side of a trapezoid that was halved
         const bool is_wide = quarter.mean.tangential / n > quarter.mean.radial;
@@ -119,7 +139,7 @@ public:
         if (quarter.triangles <= pieces_target_ * n || min_extent < 2 * min_segments) {
             rings.push_back(ring);
         } else if (is_wide) {
-            plan({inner, outer, 2 * per_side});
+            plan({inner, outer, 2 * per_side}, quarter);
         } else {
             const double middle = middle_of(inner, outer);
             plan({inner, middle, per_side});
@@ -127,9 +147,6 @@ public:
         }
     }
 
-    std::vector<Ring> rings;
-
-private:
     /// Returns the parameter at which the logarithm of the box's extent is half-way between inner and outer. The box
     /// grows linearly with the parameter, and edges grow about as the box does.
     double middle_of(double inner, double outer) const {
