@@ -48,6 +48,7 @@ CASE = ["naca:0012", "--preset", "none", "--first-height", "2.5e-5", "--growth",
 PIECES = "layer triangulation, refinement and check of pieces"
 AT_END = ("numbering", "check", "assembly")
 WEAK_SHARE = 2e6  # triangles a rank for weak scaling, and with 1e9 triangles on 512 ranks
+LARGE_SHARE = 1e7  # triangles a rank of published runs on clusters
 LINES_SHARE = 0.15  # of what is divided of the decoupling: lines, which come before the searches
 
 
@@ -205,24 +206,25 @@ def replay(ranks, triangles, sizes, cost, model):
         last = max(free)
     hops = math.ceil(math.log2(ranks)) if ranks > 1 else 0
     # What each rank tells all others of its lines and of its cuts, once for each round of cuts.
-    told = hops * (model["latency_seconds"] * model["rounds"] + 10 * count / model["bytes_per_second"])
+    told = hops * (model["latency_seconds"] * model["rounds"]
+                   + model["bytes_told_of_piece"] * count / model["bytes_per_second"])  # fmt: skip
     reductions = 4 * hops * model["latency_seconds"]
     output = triangles * model["bytes_per_triangle"] / model["output_bytes_per_second"]
     return {"seconds": last + end + told + reductions + output, "pieces": count, "start": start}
 
 
 def tables(sizes, cost, model):
-    """Returns weak and strong scaling: efficiencies against one rank."""
-    weak, strong = [], []
-    one = replay(1, WEAK_SHARE, sizes, cost, model)["seconds"]
-    for ranks in (1, 32, 1024):
-        run = replay(ranks, WEAK_SHARE * ranks, sizes, cost, model)
-        weak.append({"ranks": ranks, "efficiency": one / run["seconds"], **run})
+    """Returns weak scaling, with two shares of triangles, and strong scaling: efficiencies against one rank."""
+    weak, strong = {}, []
+    for share in (WEAK_SHARE, LARGE_SHARE):
+        one = replay(1, share, sizes, cost, model)["seconds"]
+        runs = [{"ranks": ranks, **replay(ranks, share * ranks, sizes, cost, model)} for ranks in (1, 32, 1024)]
+        weak[share] = [{"efficiency": one / run["seconds"], **run} for run in runs]
     whole = replay(1, 1e9, sizes, cost, model)["seconds"]
     for ranks in (1, 2, 8, 64, 512, 4096, 65536):
         run = replay(ranks, 1e9, sizes, cost, model)
         strong.append({"ranks": ranks, "efficiency": whole / ranks / run["seconds"], **run})
-    return {"weak": weak, "strong": strong}
+    return {"weak": weak[WEAK_SHARE], "weak_large": weak[LARGE_SHARE], "strong": strong}
 
 
 MODEL = {
@@ -234,6 +236,7 @@ MODEL = {
     "fetch_seconds": 5e-6,  # one atomic fetch from another rank
     "latency_seconds": 5e-6,
     "rounds": 16,  # of cuts, each with a collective exchange
+    "bytes_told_of_piece": 2.0,  # to all ranks: its work, and the numbers of vertices of its lines
     "bytes_per_second": 5e9,  # between two ranks
     "bytes_per_triangle": 0.0,  # of output; 0: a sink that counts
     "output_bytes_per_second": 1e10,  # of the file system, shared by all ranks

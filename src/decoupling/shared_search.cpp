@@ -16,9 +16,6 @@ namespace {
 using core::Packer;
 using core::Unpacker;
 
-/// What is known of a border that is cut. Smaller numbers are work_code() of one that is not.
-constexpr std::uint8_t has_separator = 255;
-
 /// Numbers of triangles within 6 % of each other as a number below 255: eight of them double the work.
 constexpr int codes_per_doubling = 8;
 
@@ -93,11 +90,12 @@ void ResultsPacker::finish(Packer& packer) {
 }
 
 bool ResultsUnpacker::next_is_cut() {
-    code_ = static_cast<std::uint8_t>(codes_.get());
-    return code_ == has_separator;
+    const auto code = static_cast<std::uint8_t>(codes_.get());
+    if (code == has_separator) return true;
+    // Most are equal to the one before.
+    if (code != std::exchange(code_, code)) work_ = static_cast<float>(decoded_work(code));
+    return false;
 }
-
-float ResultsUnpacker::work() const { return static_cast<float>(decoded_work(code_)); }
 
 Separator ResultsUnpacker::separator() { return unpack_separator(separators_); }
 

@@ -54,6 +54,9 @@ SearchResult unpack_result(core::Unpacker& unpacker);
 /// Makes what this process has found what the others know of it.
 void make_as_told(SearchResult& result);
 
+/// What is told of a region that is cut. Smaller numbers tell the work of one that is not.
+inline constexpr std::uint8_t has_separator = 255;
+
 /// Puts the results of successive regions, most of which stay whole and are about as much work as the ones before.
 class ResultsPacker {
 public:
@@ -77,14 +80,15 @@ public:
     /// Looks at the next region. Returns whether it is cut; then separator() is to be called.
     bool next_is_cut();
     /// Returns the work of a region that stays whole.
-    float work() const;
+    float work() const { return work_; }
     Separator separator();
 
 private:
     std::string codes_text_;
     core::DifferenceUnpacker codes_;
     core::Unpacker& separators_;
-    std::uint8_t code_ = 0;
+    std::uint8_t code_ = has_separator;
+    float work_ = 0;
 };
 
 /// Collective: returns what search_separator() finds in each border, but for the estimates of those that are cut, which

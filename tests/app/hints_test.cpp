@@ -200,8 +200,8 @@ TEST(Hints, ALayerBeyondTheFarFieldBlamesTheHeights) {
 // SU2 files hold no regions. The cells of the layer must not count as isotropic cells that are too narrow.
 TEST(Hints, CheckTellsThinLayerCellsFromOthersWithoutRegions) {
     const TemporaryFolder folder;
-    const ProgramRun made = run_lamina(folder, {"mesh", "naca:0012", "--layers", "auto", "--layer-topology",
-                                                "delaunay", "--far-field", "5", "-o", "a.su2", "-o", "a.vtu"});
+    const ProgramRun made = run_lamina(folder, {"mesh", "naca:0012", "--layers", "auto", "--layer-topology", "delaunay",
+                                                "--far-field", "5", "-o", "a.su2", "-o", "a.vtu"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const ProgramRun run = run_lamina(folder, {"check", "a.su2", "--min-angle", "20.7", "--require-delaunay"});
     EXPECT_EQ(run.exit_code, 0) << run.err << run.out;
