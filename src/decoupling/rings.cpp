@@ -88,6 +88,11 @@ private:
     const RingBoxes& boxes_;
     const SizeField& size_;
     double inner_, outer_;
+    double triangles_ = 0;
+    std::array<Extents, sides * samples_per_side> extents_;  ///< by side and sample
+    std::array<double, sides * samples_per_side> sizes_inside_{}, sizes_outside_{};
+    bool sizes_inside_known_ = false;
+
     /// Takes the sizes at the samples along a box.
     void sample(const std::array<Point, sides>& corners, std::array<double, sides * samples_per_side>& sizes) const {
         for (std::size_t side = 0; side < sides; ++side)
@@ -97,11 +102,6 @@ private:
                     size_(corners[side] + along * (corners[(side + 1) % sides] - corners[side]));
             }
     }
-
-    double triangles_ = 0;
-    std::array<Extents, sides * samples_per_side> extents_;  ///< by side and sample
-    std::array<double, sides * samples_per_side> sizes_inside_{}, sizes_outside_{};
-    bool sizes_inside_known_ = false;
 };
 
 /// Measures a ring between two parameters in steps that grow with the box.

@@ -36,6 +36,7 @@ void require_same_lines(const Lines& lines, Ranks& ranks) {
         for (const std::uint32_t number :
              {row.count, row.first_from, row.from_step, row.first_to, row.to_step, row.to_shift, row.min_segments})
             hash.add(std::uint64_t{number});
+    // Before the rows there are loops alone, and behind them nothing yet.
     for (std::uint32_t line = 0; line < lines.size() && !lines.is_in_row(line); ++line)
         for (std::uint32_t i = 0; i < lines.segments(line); ++i) hash.add(lines.point(line, i));
     hash.add(std::uint64_t{lines.vertices()});

@@ -54,7 +54,8 @@ SearchResult unpack_result(core::Unpacker& unpacker);
 /// Makes what this process has found what the others know of it.
 void make_as_told(SearchResult& result);
 
-/// What is told of a region that is cut. Smaller numbers tell the work of one that is not.
+/// Processes tell each other this number of a region that is cut, and a smaller one, which stands for the work, of a
+/// region that stays whole.
 inline constexpr std::uint8_t has_separator = 255;
 
 /// Puts the results of successive regions, most of which stay whole and are about as much work as the ones before.

@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "layers/outline_walk.hpp"
 
 namespace lamina::layers {
 
@@ -53,17 +54,13 @@ struct FanSide {
     std::span<const RayVertex> outline;
     std::span<const double> heights;       ///< of the front, one per vertex
     std::span<const WallVertex> vertices;  ///< as they are before any fan is spread
-    std::size_t fan;                       ///< index of the corner's vertex
-    bool ahead;                            ///< whether it follows the outline's direction
+    OutlineWalk walk;                      ///< from the corner's vertex
 
-    std::size_t size() const { return outline.size(); }
-    /// Returns the vertex after so many steps.
-    std::size_t at(std::size_t steps) const { return (ahead ? fan + steps : fan + size() - steps) % size(); }
     /// Returns the number of steps to the next corner; all the way round, it is this one.
     std::size_t steps_to_corner() const {
-        for (std::size_t k = 1; k < size(); ++k)
-            if (ends_stretch(vertices[at(k)])) return k;
-        return size();
+        for (std::size_t k = 1; k < walk.size; ++k)
+            if (ends_stretch(vertices[walk.vertex(k)])) return k;
+        return walk.size;
     }
 };
 
@@ -73,7 +70,7 @@ std::vector<FanColumn> columns_to_corner(const FanSide& side) {
     std::vector<FanColumn> columns;
     columns.reserve(steps);
     for (std::size_t k = 0; k < steps; ++k) {
-        const std::size_t i = side.at(side.ahead ? k : k + 1), j = side.at(side.ahead ? k + 1 : k);
+        const std::size_t i = side.walk.edge(k + 1), j = (i + 1) % side.walk.size;
         const WallVertex &a = side.vertices[i], &b = side.vertices[j];
         const double edge = distance(side.outline[i].at, side.outline[j].at);
         const double turning = (a.fan ? 0 : 0.5 * a.turning) + (b.fan ? 0 : 0.5 * b.turning) + b.tilt[0] - a.tilt[1];
@@ -131,7 +128,7 @@ std::vector<double> openings(std::span<const FanColumn> columns, double max_leve
 
 /// Returns the angle that a fan of a corner or of a sharp trailing edge gives to one side.
 double given_angle(const FanSide& side, double max_ray_angle) {
-    const WallVertex& fan = side.vertices[side.fan];
+    const WallVertex& fan = side.vertices[side.walk.start];
     const double angle = fan.turning + fan.tilt[1] - fan.tilt[0];
     double to_both = 2 * core::radians(given_by_wide_fans_deg);
     if (angle <= core::radians(max_corner_fan_deg)) {
@@ -142,7 +139,7 @@ double given_angle(const FanSide& side, double max_ray_angle) {
     }
     // What is left of a fan that leans lies round the bisector, too, which is nearer to one of its sides.
     const double lean = 0.5 * (fan.tilt[0] + fan.tilt[1]);
-    return std::clamp(0.5 * to_both + (side.ahead ? lean : -lean), 0.0, to_both);
+    return std::clamp(0.5 * to_both + (side.walk.ahead ? lean : -lean), 0.0, to_both);
 }
 
 /// Gives a part of a fan's angle to one side.
@@ -150,13 +147,14 @@ void spread(const FanSide& side, double max_ray_angle, std::vector<WallVertex>& 
     const std::vector<FanColumn> columns = columns_beside(side);
     if (columns.empty()) return;
     const double max_opening = level_share * max_ray_angle, given = given_angle(side, max_ray_angle);
-    const std::vector<double> angles = openings(columns, max_opening * side.heights[side.fan], max_opening, given);
+    const std::vector<double> angles =
+        openings(columns, max_opening * side.heights[side.walk.start], max_opening, given);
     double left = sum(angles);
     for (std::size_t k = 0; k < angles.size(); ++k) {
-        WallVertex& vertex = vertices[side.at(k)];
-        const double tilt = side.ahead ? -left : left;
+        WallVertex& vertex = vertices[side.walk.vertex(k)];
+        const double tilt = side.walk.ahead ? -left : left;
         if (vertex.fan) {
-            vertex.tilt[side.ahead ? 1 : 0] += tilt;
+            vertex.tilt[side.walk.ahead ? 1 : 0] += tilt;
         } else {
             for (double& entry : vertex.tilt) entry += tilt;
         }
@@ -242,11 +240,12 @@ void widen_narrow(const FanSide& side, std::vector<WallVertex>& vertices) {
     });
     columns.erase(widest, columns.end());
     std::vector<double> max_leans(columns.size() + 1, 0.0);
-    for (std::size_t k = 1; k < columns.size(); ++k) max_leans[k] = largest_lean(side.vertices[side.at(k)]);
+    for (std::size_t k = 1; k < columns.size(); ++k) max_leans[k] = largest_lean(side.vertices[side.walk.vertex(k)]);
     const Leans both = highest_leans(true, columns, max_leans), away = highest_leans(false, columns, max_leans);
     const Leans& leans = away.level > both.level ? away : both;
     for (std::size_t k = 1; k + 1 < leans.angles.size(); ++k)
-        for (double& tilt : vertices[side.at(k)].tilt) tilt += side.ahead ? leans.angles[k] : -leans.angles[k];
+        for (double& tilt : vertices[side.walk.vertex(k)].tilt)
+            tilt += side.walk.ahead ? leans.angles[k] : -leans.angles[k];
 }
 
 }  // namespace
@@ -259,13 +258,14 @@ void spread_fans(std::span<const RayVertex> outline, std::span<const double> hei
     for (std::size_t i = 0; i < outline.size(); ++i)
         if (before[i].fan)
             for (const bool ahead : {false, true})
-                spread({outline, heights, before, i, ahead}, max_ray_angle, vertices);
+                spread({outline, heights, before, {outline.size(), i, ahead}}, max_ray_angle, vertices);
     for (WallVertex& vertex : vertices)
         if (vertex.fan) close_sliver(vertex);
     before = vertices;
     for (std::size_t i = 0; i < outline.size(); ++i)
         if (ends_stretch(before[i]))
-            for (const bool ahead : {false, true}) widen_narrow({outline, heights, before, i, ahead}, vertices);
+            for (const bool ahead : {false, true})
+                widen_narrow({outline, heights, before, {outline.size(), i, ahead}}, vertices);
 }
 
 }  // namespace lamina::layers

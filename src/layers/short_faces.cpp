@@ -1,20 +1,24 @@
 // The rays of a short face lean out of the concave corner at its foot, and those of the fan at its top lean with them. If
 // they were parallel to each other, their columns would be as narrow at the front as the face is divided, which is far
-// finer than the walls beside it. So they open, by as much as rays may lean from the normals at both ends:
+// finer than the walls beside it. So they open, as far as rays may lean from the normals at both ends:
 //
-//         \ \ \ \ \ |  |            \  \   \  \ |  |
-//          \ \ \ \ \|  |             \  \   \ \ |  |
-//     ______\ \ \ \ \__|___     ______\_ \  \ \ \__|___
-//           |/ / / / /                |// / // /
-//           |_/_/_/_/___              |_/__/_/_____
+//      front      / / / / / /                  front    /   /  /  / / /
+//                / / / / / /                           /  /  /  / / /
+//     ----------o / / / / /     fan at the top    ----o  / /  / / /
+//               |/ / / / /                            | / / / / /
+//          face | / / / /                             |/ / / / /
+//               |/ / / /                              |/// / /
+//               o--------------  foot                 o--------------
+//            parallel rays                         rays that open
 //
-// (The picture shows rays of a step with a riser, left without and right with openings.) docs/decisions/0065
+// docs/decisions/0065
 #include "layers/short_faces.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 #include "core/angles.hpp"
+#include "layers/outline_walk.hpp"
 
 namespace lamina::layers {
 
@@ -29,18 +33,8 @@ constexpr double min_column_width = 1.0 / 25;
 
 bool is_foot(const WallVertex& vertex) { return vertex.turning < -core::radians(min_foot_deg); }
 
-/// A walk along an outline away from a foot.
-struct Walk {
-    std::size_t size, foot;
-    bool ahead;
-
-    std::size_t vertex(std::size_t steps) const { return (ahead ? foot + steps : foot + size - steps) % size; }
-    /// Returns the edge before the vertex after so many steps.
-    std::size_t edge(std::size_t steps) const { return vertex(ahead ? steps - 1 : steps); }
-};
-
 /// Returns the angles that the columns of a face lack, one per edge from its foot on. Empty if no fan is near.
-std::vector<double> lacking_angles(const Walk& walk, std::span<const RayVertex> outline,
+std::vector<double> lacking_angles(const OutlineWalk& walk, std::span<const RayVertex> outline,
                                    std::span<const WallVertex> vertices) {
     double length = 0;
     std::vector<double> lacking;
@@ -62,7 +56,7 @@ std::vector<double> openings_on_short_faces(std::span<const RayVertex> outline, 
     for (std::size_t i = 0; i < outline.size(); ++i) {
         if (!is_foot(vertices[i])) continue;
         for (const bool ahead : {false, true}) {
-            const Walk walk{outline.size(), i, ahead};
+            const OutlineWalk walk{outline.size(), i, ahead};
             const std::vector<double> lacking = lacking_angles(walk, outline, vertices);
             if (lacking.empty()) continue;
             const double of_fan = opened_share_of_fan * vertices[walk.vertex(lacking.size())].turning;

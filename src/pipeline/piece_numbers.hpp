@@ -1,4 +1,4 @@
-// Where the pieces of a mesh begin, whoever has made them.
+// The numbers of the first vertex and triangle of each piece of a mesh, which all processes find out together.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace lamina::pipeline {
 
-/// Where the held pieces begin in the mesh, and the counts of the mesh with its layer.
+/// The numbers of the pieces that a process holds, and the counts of the whole mesh with its layer.
 struct NumberedPieces {
-    std::vector<PieceNumbers> numbers;
+    std::vector<PieceNumbers> numbers;  ///< one per held piece: those of its first inner vertex and triangle
     MeshCounts counts;
 };
 

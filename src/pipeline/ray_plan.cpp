@@ -138,24 +138,27 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
 
 void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
     constexpr double max_angle_deg = 150;
-    constexpr int max_rounds = 8, max_rounds_without_gain = 2;
+    constexpr int max_rounds = 8, max_rounds_without_gain = 3;
     // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
     if (!options.layer.enabled || options.layer.fan_rays || all_layers_fit(plan.rays)) return;
-    Rays rays = plan.rays;
-    std::size_t fewest = 0;
-    int rounds_without_gain = 0;
-    bool is_changed = false;
-    for (int round = 0; round < max_rounds && rounds_without_gain <= max_rounds_without_gain; ++round) {
+    const auto obtuse_cells_of = [&](const Rays& rays) {
         const Layer layer =
             close_border(rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
-        const std::vector<ObtuseCell> obtuse =
-            obtuse_cells(layer, fill_layer(layer, options.layer.topology, options.decomposition), max_angle_deg);
-        const bool is_better = obtuse.size() < fewest;
-        rounds_without_gain = is_better ? 0 : rounds_without_gain + 1;
-        if (is_better) plan.rays = rays;
-        is_changed |= is_better;
-        if (round == 0 || is_better) fewest = obtuse.size();
+        return obtuse_cells(layer, fill_layer(layer, options.layer.topology, options.decomposition), max_angle_deg);
+    };
+    Rays rays = plan.rays;
+    std::vector<ObtuseCell> obtuse = obtuse_cells_of(rays);
+    std::size_t fewest = obtuse.size();
+    bool is_changed = false;
+    for (int round = 1, without_gain = 0; round < max_rounds && without_gain < max_rounds_without_gain; ++round) {
         if (!end_columns_below(obtuse, rays)) break;
+        obtuse = obtuse_cells_of(rays);
+        ++without_gain;
+        if (obtuse.size() >= fewest) continue;
+        fewest = obtuse.size();
+        plan.rays = rays;
+        is_changed = true;
+        without_gain = 0;
     }
     if (!is_changed) return;
     count_thinned(plan);

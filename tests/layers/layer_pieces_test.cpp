@@ -17,13 +17,7 @@ namespace {
 
 using delaunay::pieces::PiecewiseTriangulation;
 
-LayerOptions layers(std::uint32_t count) {
-    LayerOptions options;
-    options.first_height = 1e-5;
-    options.growth = 1.1;
-    options.layers = count;
-    return options;
-}
+LayerOptions layers(std::uint32_t count) { return test::layers_of(1e-5, 1.1, count); }
 
 Geometry naca(const std::string& digits, std::size_t points) {
     Geometry geometry;

@@ -43,13 +43,7 @@ std::map<std::string, Outline> awkward_outlines() {
             {"star", shapes::refined(shapes::star(18, 0.4, random), 15)}};
 }
 
-LayerOptions thick_layers(std::uint32_t layers) {
-    LayerOptions options;
-    options.first_height = 1e-3;
-    options.growth = 1.2;
-    options.layers = layers;
-    return options;
-}
+LayerOptions thick_layers(std::uint32_t layers) { return test::layers_of(1e-3, 1.2, layers); }
 
 TEST(ObtuseCells, AreThoseWithALargeAngle) {
     std::size_t found_in_all = 0;
