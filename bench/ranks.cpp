@@ -27,11 +27,16 @@
 
 #include <unistd.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <lamina/shared_mesh.hpp>
 
+#include "app/kept_memory.hpp"
 #include "core/packing.hpp"
 #include "support/thread_ranks.hpp"
 #include "thesis_case.hpp"
@@ -151,6 +156,9 @@ protected:
         return unpacker.get_text();
     }
     std::uint64_t do_add_to_counter(std::uint64_t number) override {
+        // Whoever makes pieces of its own asks only whether another rank has failed. It goes on with warm caches, as a
+        // process that has a processor for itself.
+        if (number == 0 && !waits_for_numbers()) return ThreadRanks::do_add_to_counter(0);
         end_turn();
         if (!phases.empty() && number == 0 && !std::exchange(makes_pieces_, true)) worked_before_pieces_ = worked_;
         if (!phases.empty() && number > 0) phases.back().told_end = clock_;
@@ -164,6 +172,8 @@ private:
     double since_ = 0;  ///< processor time when worked_ was counted
     std::size_t meetings_ = 0;
 
+    /// Returns whether numbers that others take say when to end.
+    bool waits_for_numbers() const { return stages.empty() || stages.back() == "decoupling"; }
     /// Counts the work since the last call.
     void advance() {
         const double now = processor_seconds();
@@ -309,6 +319,15 @@ std::string measured(unsigned n, const CaseOptions& options, bool until_pieces, 
 extern "C" ssize_t pwrite(int, const void*, std::size_t bytes, off_t) { return static_cast<ssize_t>(bytes); }
 extern "C" ssize_t pwrite64(int, const void*, std::size_t bytes, off64_t) { return static_cast<ssize_t>(bytes); }
 
+/// Gives each rank freed memory of its own, as the processes of lamina-mpi have. By default 16 and more threads share
+/// what they have freed.
+void keep_memory_as_processes() {
+    lamina::app::keep_freed_memory();
+#ifdef __GLIBC__
+    mallopt(M_ARENA_MAX, 4096);
+#endif
+}
+
 int main(int argc, char** argv) {
     const std::string_view option = argc > 1 ? argv[1] : "";
     const bool until_pieces = option == "--until-pieces", forget = option == "--forget";
@@ -317,6 +336,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: lamina_measure_ranks [--until-pieces|--forget] GRADATION RANKS...\n");
         return 2;
     }
+    keep_memory_as_processes();
     lamina::CaseOptions options = lamina::bench::thesis_case(std::strtod(argv[first], nullptr));
     options.limits.max_triangles = 4'000'000'000;
     std::vector<std::string> runs;

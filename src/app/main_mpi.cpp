@@ -6,9 +6,11 @@
 #include <lamina/error.hpp>
 #include <lamina/mpi_ranks.hpp>
 
+#include "app/kept_memory.hpp"
 #include "app/run_program.hpp"
 
 int main(int argc, char** argv) {
+    lamina::app::keep_freed_memory();
     try {
         lamina::MpiSession session(argc, argv);
         // What is printed on standard output is the same everywhere.

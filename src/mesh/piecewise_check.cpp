@@ -34,13 +34,14 @@ void for_vertices_of_cells(const Mesh& mesh, F&& f) {
 
 }  // namespace
 
-PiecewiseCheck::PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOptions options)
+PiecewiseCheck::PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOptions options,
+                               std::optional<VertexId> elsewhere)
     : shared_points_(shared_points),
       options_(std::move(options)),
       layer_(options_.min_angle_deg),
       pieces_(options_.min_angle_deg),
       seams_(shared_points),
-      used_(shared_points.size(), 0) {
+      used_(elsewhere ? elsewhere->index() : shared_points.size(), 0) {
     validate(options_);
 }
 
@@ -169,8 +170,6 @@ void PiecewiseCheck::forget_borders() {
 void PiecewiseCheck::expect_boundary(std::span<const Marker> markers, std::vector<Segment> outer) {
     expected_.emplace(shared_points_, markers, std::move(outer));
 }
-
-void PiecewiseCheck::match_elsewhere(VertexId from) { used_.resize(from.index()); }
 
 void PiecewiseCheck::add_seams(const SeamFindings& findings) {
     elsewhere_.add(findings);

@@ -23,8 +23,11 @@ namespace lamina::mesh {
 class PiecewiseCheck {
 public:
     /// `shared_points` are the vertices of the layer and those on the borders of pieces, by their ids in the mesh; they
-    /// must outlive this object. Throws OptionError for options out of range.
-    LAMINA_EXPORT PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOptions options);
+    /// must outlive this object. Other processes match the edges that end at one from `elsewhere` on, where it is given:
+    /// add_seams() takes what they have found, once for each, and the borders of pieces that are added hold none of these
+    /// edges and vertices. Throws OptionError for options out of range.
+    LAMINA_EXPORT PiecewiseCheck(std::span<const Point> shared_points, MeshCheckOptions options,
+                                 std::optional<VertexId> elsewhere = {});
 
     /// Checks the cells of the layer, all of Region::layer, as check_mesh() does. The points of this mesh are the first
     /// of the shared ones. The constraints are those of finish().
@@ -32,9 +35,7 @@ public:
     /// Adds the findings of the next piece. No number depends on the order of the pieces.
     LAMINA_EXPORT void add_piece(PieceFindings findings);
 
-    /// Says that other processes match the edges that end at shared vertices from this one on. add_seams() takes what
-    /// they have found, once for each; the borders of pieces that are added then hold none of these edges and vertices.
-    LAMINA_EXPORT void match_elsewhere(VertexId from);
+    /// Adds what another process has found.
     LAMINA_EXPORT void add_seams(const SeamFindings& findings);
     /// Says which edges other processes expect on the boundary, and checks the boundary that these markers describe. That
     /// leaves less to do for finish(), which gets the same markers.

@@ -370,8 +370,12 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     const std::span<const Segment> constraints = layer.edges.interfaces;
     // The heights are those of the layer as it is closed.
     summarize_growth(layer, options.layer, result);
-    mesh::PiecewiseCheck check(points, {.min_angle_deg = options.refine.min_angle_deg,
-                                        .first_heights = first_heights_of_markers(result, markers)});
+    // Processes match the borders between their pieces themselves.
+    const auto elsewhere = shared ? std::optional(VertexId{layer.points.size()}) : std::nullopt;
+    mesh::PiecewiseCheck check(
+        points,
+        {.min_angle_deg = options.refine.min_angle_deg, .first_heights = first_heights_of_markers(result, markers)},
+        elsewhere);
 
     clock.begin("layer triangulation, refinement and check of pieces");
     core::BusyTimes times;

@@ -23,8 +23,6 @@ public:
     /// places are asked for. The region must outlive this object.
     SeamOwners(const decoupling::CutRegion& cut, std::size_t layer_vertices, unsigned self);
 
-    /// Returns the first vertex beyond the layer.
-    VertexId first() const { return VertexId{layer_}; }
     bool is_in_layer(VertexId v) const { return v.index() < layer_; }
     /// Returns the process that the edges of a line belong to.
     unsigned owner(std::uint32_t line) const {

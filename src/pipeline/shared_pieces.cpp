@@ -59,7 +59,6 @@ AllPieces count_all(const SharedSeams& seams, double min_angle_deg, const std::s
     AllPieces all = add_up(pieces, min_angle_deg);
     all.findings.border = seams.along_layer();
     all.findings.border_vertices = seams.vertices_in_layer();
-    check.match_elsewhere(seams.first_elsewhere());
     check.add_piece(std::move(all.findings));
     return all;
 }

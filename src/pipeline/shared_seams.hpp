@@ -32,8 +32,6 @@ public:
 
     /// Collective: gives all border edges of the held pieces to those who match them, and pairs those of this process.
     void collect();
-    /// Returns the first of the vertices beyond the layer.
-    VertexId first_elsewhere() const { return owners_.first(); }
     /// Returns the edges along the border of the layer, which are for the check of rank 0 to match, with the vertices
     /// of pieces in the layer.
     const std::vector<mesh::PieceBorderEdge>& along_layer() const { return along_layer_.edges; }

@@ -188,8 +188,7 @@ TEST(PieceCheck, NeedsFewTrianglesBehindBorders) {
 MeshCheck check_pieces_with_seams_elsewhere(const CutMesh& cut, VertexId from,
                                             const std::function<void(std::vector<mesh::PieceBorderEdge>&)>& damage = {},
                                             const std::optional<std::vector<Segment>>& outer = {}) {
-    PiecewiseCheck check(cut.shared, {});
-    check.match_elsewhere(from);
+    PiecewiseCheck check(cut.shared, {}, from);
     if (outer) check.expect_boundary(cut.markers, *outer);
     std::vector<mesh::PieceBorderEdge> elsewhere;
     std::set<VertexId> vertices;
