@@ -94,11 +94,11 @@ private:
 /// A part of the work of a rank: from the begin of a stage, or from a meeting of all ranks, to the next one.
 struct Phase {
     std::size_t stage = 0;
-    double begin = 0;     ///< the clock then
-    double seconds = 0;   ///< of work
-    double pieces = 0;    ///< of this, from when the rank may make its first piece
-    double end = 0;       ///< the clock then
-    double told_end = 0;  ///< the clock when it has told others that make pieces to end
+    double begin = 0;    ///< the clock then
+    double seconds = 0;  ///< of work
+    double pieces = 0;   ///< of this, from when the rank may make its first piece until it is told of all cuts
+    double end = 0;      ///< the clock then
+    double sent = 0;     ///< the clock when it has last told one rank something
 };
 
 /// A rank of a simulation.
@@ -118,7 +118,6 @@ public:
         advance();
         if (phases.empty()) return;
         phases.back().seconds = worked_ - worked_before_phase_;
-        phases.back().pieces = makes_pieces_ ? worked_ - worked_before_pieces_ : 0;
         phases.back().end = clock_;
     }
     std::vector<std::string> stages;
@@ -142,26 +141,35 @@ protected:
     }
     void do_send(unsigned to, std::string_view bytes) override {
         advance();
+        if (!phases.empty()) phases.back().sent = clock_;
         core::Packer packer;
         packer.put(clock_);
         packer.put_text(bytes);
         ThreadRanks::do_send(to, packer.take());
     }
-    std::string do_receive(unsigned from) override {
+    /// Who makes pieces asks this between them.
+    bool do_has_bytes(unsigned from) override {
         end_turn();
+        if (!std::exchange(makes_pieces_, true)) worked_before_pieces_ = worked_;
+        begin_turn();
+        return was_sent(from);
+    }
+    std::string do_receive(unsigned from) override {
+        advance();
+        if (std::exchange(makes_pieces_, false)) phases.back().pieces += worked_ - worked_before_pieces_;
+        const bool waits = !was_sent(from);
+        if (waits) end_turn();
         const std::string packed = ThreadRanks::do_receive(from);
         core::Unpacker unpacker(packed);
         clock_ = std::max(clock_, unpacker.get<double>());
-        begin_turn();
+        if (waits) begin_turn();
         return unpacker.get_text();
     }
     std::uint64_t do_add_to_counter(std::uint64_t number) override {
         // Whoever makes pieces of its own asks only whether another rank has failed. It goes on with warm caches, as a
         // process that has a processor for itself.
-        if (number == 0 && !waits_for_numbers()) return ThreadRanks::do_add_to_counter(0);
+        if (number == 0) return ThreadRanks::do_add_to_counter(0);
         end_turn();
-        if (!phases.empty() && number == 0 && !std::exchange(makes_pieces_, true)) worked_before_pieces_ = worked_;
-        if (!phases.empty() && number > 0) phases.back().told_end = clock_;
         begin_turn();
         return ThreadRanks::do_add_to_counter(number);
     }
@@ -172,8 +180,10 @@ private:
     double since_ = 0;  ///< processor time when worked_ was counted
     std::size_t meetings_ = 0;
 
-    /// Returns whether numbers that others take say when to end.
-    bool waits_for_numbers() const { return stages.empty() || stages.back() == "decoupling"; }
+    /// Returns whether bytes of a rank are there that it has sent by now.
+    bool was_sent(unsigned from) {
+        return has_bytes(from, [&](std::string_view packed) { return core::Unpacker(packed).get<double>() <= clock_; });
+    }
     /// Counts the work since the last call.
     void advance() {
         const double now = processor_seconds();
@@ -193,7 +203,6 @@ private:
         end();
         phases.push_back({stages.size() - 1, clock_});
         worked_before_phase_ = worked_;
-        makes_pieces_ = false;
     }
 };
 
@@ -218,7 +227,7 @@ std::string by_stage(const MeasuredRun& run, const std::vector<double>& seconds)
 Phase cuts_of(const MeasuredRun& run) {
     for (std::size_t i = 0; i < run.of_ranks.front().size(); ++i) {
         Phase cuts = run.of_ranks.front()[i];
-        if (run.stages[cuts.stage] != "decoupling" || cuts.told_end == 0) continue;
+        if (run.stages[cuts.stage] != "decoupling" || cuts.sent == 0) continue;
         for (const std::vector<Phase>& of_rank : run.of_ranks) cuts.pieces += of_rank.at(i).pieces;
         return cuts;
     }
@@ -260,7 +269,7 @@ std::string stages_json(const MeasuredRun& run) {
         "\"stages\": [{}],\n  \"with_waiting\": {},\n  \"phases\": [{}],\n  "
         "\"pieces_during_cuts\": {:.6f}, \"cuts\": {:.6f}",
         fmt::join(rows, ",\n             "), by_stage(run, with_waiting), fmt::join(phases, ", "), cuts.pieces,
-        cuts.told_end - cuts.begin);
+        cuts.sent - cuts.begin);
 }
 
 /// Thrown where a run is not to be finished.
@@ -340,8 +349,9 @@ int main(int argc, char** argv) {
     lamina::CaseOptions options = lamina::bench::thesis_case(std::strtod(argv[first], nullptr));
     options.limits.max_triangles = 4'000'000'000;
     std::vector<std::string> runs;
-    // The first run asks the system for its memory, which counts where one rank is to be compared with.
-    if (!until_pieces && std::atoi(argv[first + 1]) == 1) lamina::bench::measured(1, options, false, forget);
+    // The first run asks the system for its memory, which counts where one rank is to be compared with, unless little is
+    // kept of the mesh.
+    if (!until_pieces && !forget && std::atoi(argv[first + 1]) == 1) lamina::bench::measured(1, options, false, forget);
     for (int i = first + 1; i < argc; ++i)
         runs.push_back(
             lamina::bench::measured(static_cast<unsigned>(std::atoi(argv[i])), options, until_pieces, forget));

@@ -7,9 +7,10 @@ lamina_measure_ranks makes the same mesh on 1, 2, 4 ... ranks and says how much 
 stage, and how long the stage takes with the waiting. Two finer meshes, on two large numbers of ranks each, say what
 does not become less on more ranks, how it grows with the mesh, and how long the cuts round the bodies last, which some
 ranks make while the others make pieces. Further runs of them, with 2 million triangles a rank, say how much longer the
-end takes than what the mean rank does there; the median counts. A file of the first mesh says how many triangles each
-piece has. The replay deals pieces of the same sizes as ranks ask for them, the largest estimates first, and adds the
-rest. docs/scaling.md states the assumptions and shows the result.
+end takes than what the mean rank does there; of each of its phases the median counts. The finer mesh on one rank says
+what a triangle costs. A file of the first mesh says how many triangles each piece has. The replay deals pieces of the
+same sizes as ranks ask for them, the largest estimates first, and adds the rest. docs/scaling.md states the assumptions
+and shows the result. All of it takes ten minutes and 16 GiB.
 """
 
 import argparse
@@ -124,9 +125,13 @@ def cutting_of(few, many):
             "before": of_all(many, stages_before(many)) / many["ranks"]}  # fmt: skip
 
 
-def beyond_mean(run):
-    """Returns by how much the end of a run takes longer than what the mean rank does there."""
-    return with_waiting(run, AT_END) - of_all(run, AT_END) / run["ranks"]
+def beyond_mean(runs):
+    """Returns by how much the end takes longer than what the mean rank does there, from runs of the same mesh on the same
+    number of ranks. Of each phase the median counts: now and then a rank is held up in one of them by the machine."""
+    names = [name for name, _ in runs[0]["with_waiting"]]
+    return sum(statistics.median(lasts - mean for _, mean, _, _, lasts in phase_of_runs)
+               for phase_of_runs in zip(*(run["phases"] for run in runs))
+               if names[phase_of_runs[0][0]] in AT_END)  # fmt: skip
 
 
 def cutting_ranks(ranks):
@@ -134,13 +139,12 @@ def cutting_ranks(ranks):
     return max(ranks // 16, min(ranks // 4, 8)) if ranks >= 4 else ranks
 
 
-def calibrate(parts, triangles, cuts, ends):
+def calibrate(one, triangles, cuts, ends):
     """Returns the times that the replay needs, in seconds.
 
-    `parts` are the runs on one rank and more of a mesh with so many triangles, `cuts` two results of cutting_of(), `ends`
+    `one` is the summary of a run on one rank of a mesh with so many triangles, `cuts` two results of cutting_of(), `ends`
     (triangles, seconds beyond the mean rank) of two meshes.
     """
-    one = parts[0]
     cost = {"piece_per_triangle": one["pieces_of_all"] / triangles,
             "cutting_divided": one["decoupling"] / triangles,
             "cutting_divided_on_many": cuts[1]["divided"] / cuts[1]["triangles"],
@@ -156,21 +160,9 @@ def calibrate(parts, triangles, cuts, ends):
     return cost
 
 
-def make_during_cuts(work, begin, cuts_end, ranks):
-    """Takes the pieces from the work that ranks make from `begin` on, each until it finds the cuts ended, and returns when
-    the last of these is made."""
-    last = begin
-    for _ in range(ranks - cutting_ranks(ranks)):
-        clock = begin
-        while clock < cuts_end and work:
-            clock += work.pop()[1]
-        last = max(last, clock)
-    return last
-
-
 def replay(ranks, triangles, sizes, cost, model):
-    """Returns the seconds of a run: pieces are taken one by one by whoever is idle, the largest estimates first. While
-    some ranks cut the regions round the bodies, each of the others makes pieces of its own."""
+    """Returns the seconds of a run: pieces are taken one by one by whoever is idle, the largest estimates first. Some
+    ranks cut the regions round the bodies before."""
     chance = random.Random(1)
     mean = sum(sizes) / len(sizes)
     count = max(1, round(triangles / (mean * model["piece_scale"])))
@@ -180,37 +172,32 @@ def replay(ranks, triangles, sizes, cost, model):
         estimate = size * (1 + chance.uniform(-1, 1) * model["estimate_error"])
         noise = 1 + abs(chance.gauss(0, model["noise"]))
         work.append((estimate, size * cost["piece_per_triangle"] * noise))
-    if ranks == 1:
-        work.sort(reverse=True)
+    work.sort(reverse=True)
     before = cost["before_of_1e9"] * (triangles / 1e9) ** cost["before_power"]
     divided_too = model["divided_too"]
     cutting = (cost["cutting_fixed"] + triangles * cost["cutting_repeated"]) * (1 - divided_too)
     if ranks == 1:
-        start = before + triangles * cost["cutting_divided"]
+        free = [before + triangles * cost["cutting_divided"]]
         end = triangles * cost["end_divided"]
     else:
         share = triangles * cost["cutting_divided_on_many"] / ranks
         critical = cost["critical_of_1e9"] * (triangles / 1e9) ** cost["critical_power"] * model["cuts_scale"]
         start = before + cutting + LINES_SHARE * share
-        cuts_end = start + critical
-        start = max(make_during_cuts(work, start + (1 - LINES_SHARE) * share, cuts_end, ranks), cuts_end)
+        cutters = cutting_ranks(ranks)
+        free = [start + (1 - LINES_SHARE) * share] * (ranks - cutters) + [start + critical] * cutters
         end = cost["end_of_1e9"] * (triangles / 1e9) ** cost["end_power"] * (1 - divided_too)
         end += triangles * cost["end_divided"] / ranks
-        work.sort(reverse=True)
-    if ranks >= len(work):
-        last = start + model["fetch_seconds"] + max((seconds for _, seconds in work), default=0)
-    else:
-        free = [start] * ranks
-        for _, seconds in work:
-            heapq.heapreplace(free, free[0] + model["fetch_seconds"] + seconds)
-        last = max(free)
+    heapq.heapify(free)
+    for _, seconds in work:
+        heapq.heapreplace(free, free[0] + model["fetch_seconds"] + seconds)
+    last = max(free)
     hops = math.ceil(math.log2(ranks)) if ranks > 1 else 0
     # What each rank tells all others of its lines and of its cuts, once for each round of cuts.
     told = hops * (model["latency_seconds"] * model["rounds"]
                    + model["bytes_told_of_piece"] * count / model["bytes_per_second"])  # fmt: skip
     reductions = 4 * hops * model["latency_seconds"]
     output = triangles * model["bytes_per_triangle"] / model["output_bytes_per_second"]
-    return {"seconds": last + end + told + reductions + output, "pieces": count, "start": start}
+    return {"seconds": last + end + told + reductions + output, "pieces": count}
 
 
 def tables(sizes, cost, model):
@@ -255,8 +242,8 @@ def main():
     parser.add_argument("program", help="lamina")
     parser.add_argument("measure", help="lamina_measure_ranks")
     parser.add_argument("--gradation", type=float, default=0.0026, help="of the runs that are measured")
-    parser.add_argument("--finer", default="0.0013,0.0004", help="gradations of two finer meshes [%(default)s]")
-    parser.add_argument("--many", default="64,256", help="two numbers of ranks that cut the finer meshes [%(default)s]")
+    parser.add_argument("--finer", default="0.0004,0.00014", help="gradations of two finer meshes [%(default)s]")
+    parser.add_argument("--many", default="104,512", help="two numbers of ranks that cut the finer meshes [%(default)s]")
     parser.add_argument("--ranks", default="1,2,4,8,16,32", help="of the runs that are measured [%(default)s]")
     parser.add_argument("--repeat", type=int, default=3, help="runs for the median of the end [%(default)s]")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the model")
@@ -273,11 +260,13 @@ def main():
         cuts.append(cutting_of(*measure(arguments.measure, ["--until-pieces", gradation, *many])))
         ranks_at_end = max(2, round(cuts[-1]["triangles"] / WEAK_SHARE))
         ended = measure(arguments.measure, ["--forget", gradation, *arguments.repeat * [ranks_at_end]])
-        ends.append((ended[0]["triangles"], statistics.median(map(beyond_mean, ended))))
+        ends.append((ended[0]["triangles"], beyond_mean(ended)))
     triangles = runs[0]["triangles"]
     sizes = sizes_of(arguments.program, arguments.gradation)
     parts = [summarize(run) for run in runs]
-    cost = calibrate(parts, triangles, cuts, ends)
+    cost = calibrate(parts[0], triangles, cuts, ends)
+    large = measure(arguments.measure, ["--forget", arguments.finer.split(",")[-1], 1])[0]
+    cost_of_large = calibrate(summarize(large), large["triangles"], cuts, ends)
     one = replay(1, triangles, sizes, cost, MODEL)["seconds"]
     for part in parts:
         with_waiting_in_all = (part["before"] + part["decoupling_with_waiting"] + part["pieces_of_all"] / part["ranks"]
@@ -291,9 +280,11 @@ def main():
         "measured": parts,
         "cuts": cuts,
         "ends": ends,
+        "large": {"triangles": large["triangles"], **summarize(large)},
         "cost": cost,
+        "cost_of_large": cost_of_large,
         "model": MODEL,
-        "replayed": {name: tables(sizes, cost, {**MODEL, **change}) for name, change in VARIANTS.items()},
+        "replayed": {name: tables(sizes, cost_of_large, {**MODEL, **change}) for name, change in VARIANTS.items()},
     }
     json.dump(result, sys.stdout, indent=1)
     print()

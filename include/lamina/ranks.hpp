@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,6 +51,35 @@ public:
     virtual std::string close() = 0;
 };
 
+class Ranks;
+
+/// What all ranks tell all of them while each goes on with its work: see Ranks::start_all_gather(). Rank 0 collects it,
+/// and who has got it passes it on: so a rank looks now and then whether it is there, and waits for it where this object
+/// ends, whatever has happened.
+class LAMINA_EXPORT PendingGather {
+public:
+    PendingGather(const PendingGather&) = delete;
+    PendingGather& operator=(const PendingGather&) = delete;
+    ~PendingGather();
+
+    /// Returns whether all is there. Any thread may call it, and no rank waits for another.
+    bool is_there();
+    /// Waits for the bytes of all ranks, and returns them in their order. May be called once, and by one thread.
+    std::vector<std::string> take();
+
+private:
+    friend class Ranks;
+    PendingGather(Ranks& ranks, std::string_view bytes);
+    bool advance(bool waits);
+    void pass_on();
+
+    Ranks& ranks_;
+    std::vector<std::string> collected_;  ///< on rank 0: the bytes of the first ranks
+    std::string all_;                     ///< the bytes of all ranks, once they are there
+    std::atomic<bool> is_there_ = false;
+    std::mutex mutex_;  ///< guards all of the above
+};
+
 /// The processes of a run, and how they speak with each other. Each has a number, its rank; rank 0 reports to the user.
 ///
 /// Functions marked as collective are called by all ranks in the same order, each by one thread at a time. They begin with
@@ -74,8 +104,6 @@ public:
     /// Returns whether a rank has failed since the counter was set to 0. Any thread may call it, and no rank waits for
     /// another.
     bool has_failed();
-    /// Returns whether a rank has taken a number since the counter was set to 0, or has failed. As has_failed().
-    bool has_numbers();
 
     /// Collective: does nothing but ask whether a rank has failed.
     void agree();
@@ -92,6 +120,9 @@ public:
     /// Returns the bytes of the first ranks, in their order, on all of these. So many of them call it, and no other
     /// rank. Nobody asks whether a rank has failed, and one that has must call it still.
     std::vector<std::string> all_gather_among(unsigned members, std::string_view bytes);
+    /// Gives all ranks the bytes of all of them, and waits for nobody. All ranks call it. Nobody asks whether a rank has
+    /// failed, and one that has must call it still. Other collective functions are to be called once it has ended.
+    std::unique_ptr<PendingGather> start_all_gather(std::string_view bytes);
     /// Collective: returns on each rank the bytes that rank 0 has for it. The argument of other ranks does not count.
     std::string scatter(const std::vector<std::string>& bytes);
     /// Collective: sends each rank the bytes that are meant for it, of which there is one string for each rank. Returns
@@ -123,9 +154,12 @@ protected:
     virtual std::vector<std::string> do_exchange(const std::vector<std::string>& bytes) = 0;
     /// Returns the bytes of rank `from`.
     virtual std::string do_broadcast(std::string_view bytes, unsigned from) = 0;
-    /// Sends bytes to one rank, which receives them in the order in which they were sent.
+    /// Sends bytes to one rank, which receives them in the order in which they were sent. Does not wait for it. Any thread
+    /// may call it, and the next two.
     virtual void do_send(unsigned to, std::string_view bytes) = 0;
-    /// Returns the bytes that one rank sends to this one.
+    /// Returns whether bytes of one rank are there that this one has not received yet.
+    virtual bool do_has_bytes(unsigned from) = 0;
+    /// Waits for the bytes that one rank sends to this one, and returns them.
     virtual std::string do_receive(unsigned from) = 0;
     /// Sets the counter to 0.
     virtual void do_reset_counter() = 0;
@@ -136,6 +170,7 @@ protected:
     virtual std::uint64_t do_add_to_counter(std::uint64_t number) = 0;
 
 private:
+    friend class PendingGather;
     std::atomic<std::size_t> messages_ = 0, bytes_ = 0;
 
     void count(std::size_t bytes);

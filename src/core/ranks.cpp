@@ -59,11 +59,6 @@ bool Ranks::has_failed() {
     return do_add_to_counter(0) >= beyond_all;
 }
 
-bool Ranks::has_numbers() {
-    count(sizeof(std::uint64_t));
-    return do_add_to_counter(0) > 0;
-}
-
 std::vector<std::string> Ranks::gather(std::string_view bytes) {
     agree();
     count(rank() == 0 ? 0 : bytes.size());
@@ -141,6 +136,10 @@ std::vector<std::string> Ranks::all_gather_among(unsigned members, std::string_v
     std::vector<std::string> all;
     for (core::Unpacker unpacker(packed); !unpacker.at_end();) all.push_back(unpacker.get_text());
     return all;
+}
+
+std::unique_ptr<PendingGather> Ranks::start_all_gather(std::string_view bytes) {
+    return std::unique_ptr<PendingGather>(new PendingGather(*this, bytes));
 }
 
 std::string Ranks::broadcast(std::string_view bytes) {

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <lamina/decoupling.hpp>
@@ -46,23 +48,33 @@ struct OuterRegion {
     const DecouplingOptions& options;
 };
 
+/// What processes do beside the cuts, if anything.
+struct BesideCuts {
+    std::function<void()> once_numbered{};  ///< called by all when they have waited for each other, before any piece
+    MakeTrapezoid make{};
+};
+
 /// Cuts the outer region as decouple() does, and throws what it throws. Collective where `ranks` are given: they divide
-/// the work among themselves, and each divides those lines alone that it needs for its share; throws MeshError on rank 0
-/// where another process would cut another region. Processes that would wait call `make`, if it is given, which finds
-/// the vertices of trapezoids in Lines::gathered(): these have their ids before anything is cut.
-LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr, const MakeTrapezoid& make = {});
+/// the work among themselves, and each divides those lines alone that it needs for its share; throws MeshError where
+/// another process would cut another region. Processes that would wait call `make`, if it is given, which finds
+/// the vertices of trapezoids in Lines::gathered(): these have their ids before anything is cut. Those whose pieces they
+/// keep are told by EstimatedBorder::kept.
+LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr, const BesideCuts& beside = {});
 
 /// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known: null. `spacing`
 /// holds the size field and the rule of the region.
 LAMINA_EXPORT Subdomain make_subdomain(const LineBorder& border, const WorkEstimate* known, Lines& lines,
                                        const SeparatorSpacing& spacing, const RefineOptions& refine);
 
-/// Collective, as the next one: throws MeshError on rank 0 where another process has other lines. What it tells of its
-/// cuts would mean something else elsewhere.
-void require_same_lines(const Lines& lines, Ranks& ranks);
+/// Returns a hash of all lines before they are numbered: what processes tell of their cuts means something else where
+/// it differs.
+std::uint64_t hash_of_lines(const Lines& lines);
 
-/// Throws MeshError on rank 0 where another process has other borders. Its numbers would mean other vertices, which no check
-/// of a piece by itself can see.
+/// Throws MeshError where processes have told different hashes, which begin these texts.
+void require_same_hashes(std::span<const std::string> told);
+
+/// Collective: throws MeshError on rank 0 where another process has other borders. Its numbers would mean other vertices,
+/// which no check of a piece by itself can see.
 LAMINA_EXPORT void require_same_borders(const CutRegion& cut, Ranks& ranks);
 
 }  // namespace lamina::decoupling

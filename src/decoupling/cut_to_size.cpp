@@ -163,7 +163,7 @@ void cut_dealt(Lines& lines, std::vector<Part> parts, unsigned processes, Bisect
 
 /// The cuts round the bodies follow one another, and few processes can search at the same time. So the first processes
 /// make them without a word to the others, which search the other regions meanwhile and make pieces of those that stay
-/// whole.
+/// whole. Nobody waits for a piece that another process is making.
 class CutsAtOnce {
 public:
     /// The others are the regions without holes, in their order.
@@ -177,15 +177,17 @@ public:
           cutters_(cutting_processes(others.size(), ranks.size())),
           shares_(region_shares(others.size(), ranks.size())) {}
 
-    /// Collective: cuts these parts and then the other regions. Returns the parts of the latter.
+    /// Called by all processes: cuts these parts and then the other regions. Returns the parts of the latter.
     std::vector<Part> cut(Lines& lines, std::vector<Part> parts, Bisection& bisection) {
         const bool is_cutter = ranks_.rank() < cutters_;
         Packer packer;
-        if (is_cutter)
-            cut_among_cutters(lines, parts, bisection, packer);
-        else
-            search_share(lines, packer);
-        const std::vector<std::string> told = ranks_.all_gather(packer.take());
+        const std::exception_ptr failure = failure_of([&] {
+            if (is_cutter)
+                cut_among_cutters(lines, parts, bisection, packer);
+            else
+                search_share(lines, packer);
+        });
+        const std::vector<std::string> told = tell_all(lines, packer.take(), failure);
         if (!is_cutter) cut_as_told(lines, std::move(parts), bisection, told.front());
         if (cutters_ == ranks_.size()) {
             std::vector<SearchResult> results = search_shares(lines);
@@ -199,6 +201,10 @@ public:
     }
 
 private:
+    /// The share of its own work that a process keeps, whatever the others have. It is enough to do during the cuts, which
+    /// last for half as long as all pieces, and the rest is enough to make up for the time that those who cut need.
+    static constexpr double kept_share = 0.7;
+
     const SimpleRegions& others_;
     const SeparatorSpacing& spacing_;
     double pieces_target_;
@@ -207,9 +213,37 @@ private:
     unsigned cutters_;
     std::vector<std::size_t> shares_;  ///< the regions that each process searches, from one of these to the next
     std::vector<SearchResult> own_;    ///< of the share of this process
+    std::vector<std::size_t> kept_;    ///< those of the share that this process makes pieces of in any case
+
+    /// Thrown by cutters where another one has failed.
+    struct OtherCutterFailed {};
 
     std::size_t begin(unsigned process) const { return shares_[process]; }
     std::size_t end(unsigned process) const { return shares_[process + 1]; }
+
+    /// Returns what a function throws, or null.
+    template <class F>
+    static std::exception_ptr failure_of(F&& f) {
+        try {
+            f();
+        } catch (...) {
+            return std::current_exception();
+        }
+        return nullptr;
+    }
+
+    /// Tells all processes these bytes, or that this one has failed, and makes pieces until all have told theirs. Throws
+    /// where one has failed.
+    std::vector<std::string> tell_all(Lines& lines, const std::string& bytes, std::exception_ptr failure) {
+        const std::unique_ptr<PendingGather> pending = ranks_.start_all_gather(failure ? std::string() : bytes);
+        if (!failure) failure = failure_of([&] { make_pieces(lines, *pending); });
+        std::vector<std::string> told = pending->take();
+        if (failure) std::rethrow_exception(failure);
+        const bool one_failed =
+            std::any_of(told.begin(), told.end(), [](const std::string& one) { return one.empty(); });
+        if (one_failed) ranks_.agree();  // throws what it fails with
+        return told;
+    }
 
     SearchResult search(const LineBorder& border, Lines& lines) const {
         SearchResult result = search_separator(localize(border, lines, spacing_), spacing_, pieces_target_);
@@ -218,31 +252,32 @@ private:
         return result;
     }
 
-    /// Cuts the parts on one of the cutters. Rank 0 puts all results, and tells those that make pieces when the last one
-    /// is there.
+    /// Cuts the parts on one of the cutters. Rank 0 puts all results, the others that they are done. Nobody puts anything
+    /// where another cutter has failed.
     void cut_among_cutters(Lines& lines, std::vector<Part> parts, Bisection& bisection, Packer& packer) {
-        cut_dealt(lines, std::move(parts), cutters_, bisection,
-                  [&](std::span<const Part> round, std::span<const unsigned> dealt) {
-                      std::vector<SearchResult> results = search_round(lines, round, dealt);
-                      if (ranks_.rank() == 0)
-                          for (const SearchResult& result : results) pack_result(result, packer);
-                      return results;
-                  });
-        if (ranks_.rank() == 0 && cutters_ < ranks_.size()) ranks_.next_number();
+        packer.put(true);
+        try {
+            cut_dealt(lines, std::move(parts), cutters_, bisection,
+                      [&](std::span<const Part> round, std::span<const unsigned> dealt) {
+                          std::vector<SearchResult> results = search_round(lines, round, dealt);
+                          if (ranks_.rank() == 0)
+                              for (const SearchResult& result : results) pack_result(result, packer);
+                          return results;
+                      });
+        } catch (const OtherCutterFailed&) {
+            packer = Packer();
+        }
     }
     std::vector<SearchResult> search_round(Lines& lines, std::span<const Part> parts, std::span<const unsigned> dealt) {
         std::vector<std::size_t> own;
         for (std::size_t i = 0; i < parts.size(); ++i)
             if (dealt[i] == ranks_.rank()) own.push_back(i);
         std::vector<SearchResult> results(parts.size());
-        std::exception_ptr failure;
-        try {
+        const std::exception_ptr failure = failure_of([&] {
             core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
                 results[own[i]] = search(parts[own[i]].border, lines);
             });
-        } catch (...) {
-            failure = std::current_exception();
-        }
+        });
         // The other cutters wait for this one, whatever has happened.
         Packer packer;
         packer.put(failure != nullptr);
@@ -252,7 +287,7 @@ private:
         if (failure) std::rethrow_exception(failure);
         std::vector<Unpacker> unpackers(told.begin(), told.end());
         for (Unpacker& unpacker : unpackers)
-            if (unpacker.get<bool>()) ranks_.agree();  // throws what the other one fails with
+            if (unpacker.get<bool>()) throw OtherCutterFailed();
         for (std::size_t i = 0; i < parts.size(); ++i) {
             SearchResult result = unpack_result(unpackers[dealt[i]]);
             if (dealt[i] == ranks_.rank()) continue;
@@ -264,6 +299,7 @@ private:
     /// Makes the cuts that rank 0 has told, as the cutters have made them.
     void cut_as_told(Lines& lines, std::vector<Part> parts, Bisection& bisection, const std::string& told) const {
         Unpacker unpacker(told);
+        unpacker.get<bool>();
         cut_dealt(lines, std::move(parts), cutters_, bisection,
                   [&](std::span<const Part> round, std::span<const unsigned> dealt) {
                       std::vector<SearchResult> results;
@@ -275,34 +311,45 @@ private:
                   });
     }
 
-    /// Searches the share of this process, and makes pieces of it. Puts how many, and the results.
+    /// Searches the share of this process. Puts how many pieces of it the process keeps, and the results.
     void search_share(Lines& lines, Packer& packer) {
         const std::size_t first = begin(ranks_.rank());
         own_.resize(end(ranks_.rank()) - first);
         core::parallel_for(own_.size(), 1, [&](std::size_t i, std::size_t) {
             own_[i] = search(others_.border(first + i, lines), lines);
         });
-        packer.put_short(make_pieces(lines));
+        if (make_) keep_pieces();
+        packer.put_short(kept_.size());
         ResultsPacker results;
         for (const SearchResult& result : own_) results.put(result);
         results.finish(packer);
     }
-    /// Makes pieces of the share of this process, in its order, until the cuts round the bodies are made: of regions
-    /// that become pieces as they are and need not wait for the ids of vertices of other cuts. Returns their number.
-    std::size_t make_pieces(Lines& lines) const {
-        if (!make_) return 0;
-        const std::size_t first = begin(ranks_.rank());
-        std::vector<std::size_t> whole;
+    /// Decides which regions of the share, the first ones that become pieces as they are, this process keeps. They need
+    /// not wait for the ids of vertices of other cuts.
+    void keep_pieces() {
+        const auto becomes_piece = [&](std::size_t i) {
+            return !own_[i].separator && is_trapezoid(begin(ranks_.rank()) + i);
+        };
+        double work = 0, kept_work = 0;
         for (std::size_t i = 0; i < own_.size(); ++i)
-            if (!own_[i].separator && is_trapezoid(first + i)) whole.push_back(i);
+            if (becomes_piece(i)) work += own_[i].work;
+        for (std::size_t i = 0; i < own_.size(); ++i) {
+            if (!becomes_piece(i)) continue;
+            kept_work += own_[i].work;
+            if (kept_work > kept_share * work) return;
+            kept_.push_back(i);
+        }
+    }
+    /// Makes kept pieces, in their order, until all processes have told what they have found.
+    void make_pieces(Lines& lines, PendingGather& pending) const {
+        const std::size_t first = begin(ranks_.rank());
         std::atomic<std::size_t> next = 0;
         core::parallel_for(thread_count(), 1, [&](std::size_t, std::size_t) {
-            for (std::size_t i; !ranks_.has_numbers() && (i = next++) < whole.size();) {
-                const std::size_t region = first + whole[i];
-                make_(others_.trapezoid(region), others_.border(region, lines), *own_[whole[i]].estimate, lines);
+            for (std::size_t i; !pending.is_there() && (i = next++) < kept_.size();) {
+                const std::size_t region = first + kept_[i];
+                make_(others_.trapezoid(region), others_.border(region, lines), *own_[kept_[i]].estimate, lines);
             }
         });
-        return std::min(next.load(), whole.size());
     }
     bool is_trapezoid(std::size_t region) const { return others_.trapezoid(region) != EstimatedBorder::no_trapezoid; }
 
@@ -310,7 +357,7 @@ private:
     void take_results(Lines& lines, unsigned process, const std::string& told, Bisection& bisection,
                       std::vector<Part>& parts) {
         Unpacker unpacker(told);
-        std::size_t made = unpacker.get_short();
+        std::size_t kept = unpacker.get_short();
         ResultsUnpacker results(unpacker);
         const bool is_own = process == ranks_.rank();
         for (std::size_t i = begin(process); i < end(process); ++i) {
@@ -326,9 +373,9 @@ private:
             whole.work = results.work();
             whole.process = process;
             if (own != nullptr) whole.estimate = std::make_unique<WorkEstimate>(*own->estimate);
-            if (made > 0 && is_trapezoid(i)) {
-                whole.made = true;
-                --made;
+            if (kept > 0 && is_trapezoid(i)) {
+                whole.kept = true;
+                --kept;
             }
         }
     }

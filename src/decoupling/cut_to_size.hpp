@@ -27,7 +27,7 @@ struct EstimatedBorder {
     std::uint32_t trapezoid = no_trapezoid;    ///< its number
     std::uint32_t process = 0;                 ///< that has searched it
     float work = 0;                            ///< number of triangles, about; all processes know the same
-    bool made = false;                         ///< whether that process has made its piece already
+    bool kept = false;                         ///< whether that process makes its piece in any case, if it has not yet
 };
 
 /// Makes the piece of a trapezoid that stays whole, which this process has searched. Any thread may call it, while no
@@ -48,8 +48,8 @@ std::vector<EstimatedBorder> cut_to_size(Lines& lines, UncutRegions regions, con
                                          double pieces_target);
 
 /// Collective: returns what cut_to_size() returns. The processes divide the search for separators among themselves. The
-/// regions round the bodies are cut by the first processes; the others call `make`, if it is given, until this is done.
-/// Precondition: all other arguments are the same everywhere, and the counter of the ranks is 0.
+/// regions round the bodies are cut by the first processes; the others call `make`, if it is given, until this is done, for
+/// pieces that they keep. Precondition: all other arguments are the same everywhere.
 std::vector<EstimatedBorder> cut_to_size_together(Lines& lines, UncutRegions regions, const SeparatorSpacing& spacing,
                                                   double pieces_target, Ranks& ranks, const MakeTrapezoid& make);
 

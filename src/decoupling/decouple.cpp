@@ -81,7 +81,6 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
         outermost_lines = add_rings(uncut.skeleton, rings, boxes, !is_box);
     }
     if (ranks != nullptr) {
-        require_same_lines(lines, *ranks);
         uncut.skeleton.number_together(spacing, *ranks);
     } else {
         number_lines(lines, spacing);
@@ -101,10 +100,11 @@ UncutSkeleton draw_skeleton(const OuterRegion& region, const SeparatorSpacing& s
 
 }  // namespace
 
-CutRegion cut_region(const OuterRegion& region, Ranks* ranks, const MakeTrapezoid& make) {
+CutRegion cut_region(const OuterRegion& region, Ranks* ranks, const BesideCuts& beside) {
     if (ranks != nullptr && ranks->size() == 1) ranks = nullptr;
     const SeparatorSpacing spacing{region.size, region.options.separators};
     auto [skeleton, far_field_edges, far_field_lines] = draw_skeleton(region, spacing, ranks);
+    if (beside.once_numbered) beside.once_numbered();
     UncutRegions uncut{skeleton.trace(), skeleton.rings};
     CutRegion cut{std::move(skeleton.lines),
                   std::move(skeleton.rings),
@@ -114,8 +114,8 @@ CutRegion cut_region(const OuterRegion& region, Ranks* ranks, const MakeTrapezoi
                   0};
     const double target = region.options.pieces_target;
     if (ranks != nullptr) {
-        if (make) cut.lines.gather_points();
-        cut.borders = cut_to_size_together(cut.lines, std::move(uncut), spacing, target, *ranks, make);
+        if (beside.make) cut.lines.gather_points();
+        cut.borders = cut_to_size_together(cut.lines, std::move(uncut), spacing, target, *ranks, beside.make);
     } else {
         cut.borders = cut_to_size(cut.lines, std::move(uncut), spacing, target);
     }

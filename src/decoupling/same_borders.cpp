@@ -13,23 +13,7 @@
 
 namespace lamina::decoupling {
 
-namespace {
-
-void require_same(const core::WordHash& hash, Ranks& ranks) {
-    core::Packer packer;
-    packer.put(hash.value());
-    const std::vector<std::string> hashes = ranks.gather(packer.take());
-    for (std::size_t rank = 0; rank < hashes.size(); ++rank)
-        if (hashes[rank] != hashes.front())
-            throw MeshError(
-                fmt::format("process {} has cut the domain in another way than process 0: all must run the same "
-                            "program on the same input",
-                            rank));
-}
-
-}  // namespace
-
-void require_same_lines(const Lines& lines, Ranks& ranks) {
+std::uint64_t hash_of_lines(const Lines& lines) {
     core::WordHash hash;
     for (std::size_t i = 0; i < lines.junctions(); ++i) hash.add(lines.point(LineVertex{VertexId{i}}));
     for (const LineRow& row : lines.rows())
@@ -40,7 +24,17 @@ void require_same_lines(const Lines& lines, Ranks& ranks) {
     for (std::uint32_t line = 0; line < lines.size() && !lines.is_in_row(line); ++line)
         for (std::uint32_t i = 0; i < lines.segments(line); ++i) hash.add(lines.point(line, i));
     hash.add(std::uint64_t{lines.vertices()});
-    require_same(hash, ranks);
+    return hash.value();
+}
+
+void require_same_hashes(std::span<const std::string> told) {
+    const auto hash_of = [](const std::string& text) { return core::Unpacker(text).get<std::uint64_t>(); };
+    for (std::size_t rank = 0; rank < told.size(); ++rank)
+        if (hash_of(told[rank]) != hash_of(told.front()))
+            throw MeshError(
+                fmt::format("process {} has cut the domain in another way than process 0: all must run the same "
+                            "program on the same input",
+                            rank));
 }
 
 void require_same_borders(const CutRegion& cut, Ranks& ranks) {
@@ -59,7 +53,9 @@ void require_same_borders(const CutRegion& cut, Ranks& ranks) {
             for (const Stretch& stretch : loop.stretches)
                 hash.add((std::uint64_t{stretch.line} << 40) ^ (std::uint64_t{stretch.first} << 20) ^ stretch.last);
     }
-    require_same(hash, ranks);
+    core::Packer packer;
+    packer.put(hash.value());
+    require_same_hashes(ranks.gather(packer.take()));
 }
 
 }  // namespace lamina::decoupling

@@ -8,6 +8,7 @@
 #include "core/difference_packing.hpp"
 #include "core/packing.hpp"
 #include "core/parallel.hpp"
+#include "decoupling/cut_region.hpp"
 
 namespace lamina::decoupling {
 
@@ -164,10 +165,15 @@ void number_together(Lines& lines, std::span<const LineRun> runs, const Separato
     for (const LineRun& run : runs)
         for (std::uint32_t line = run.begin; run.process == ranks.rank() && line < run.end; ++line) own.push_back(line);
     core::parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) { lines.divide(own[i], spacing); });
-    core::DifferencePacker packer;
-    for (const std::uint32_t line : own) packer.put(static_cast<std::uint32_t>(lines.divide(line, spacing)));
+    core::DifferencePacker numbers;
+    for (const std::uint32_t line : own) numbers.put(static_cast<std::uint32_t>(lines.divide(line, spacing)));
+    Packer packer;
+    packer.put(hash_of_lines(lines));
+    packer.put_bytes(numbers.take());
     const std::vector<std::string> told = ranks.all_gather(packer.take());
-    std::vector<core::DifferenceUnpacker> unpackers(told.begin(), told.end());
+    require_same_hashes(told);
+    std::vector<core::DifferenceUnpacker> unpackers;
+    for (const std::string& text : told) unpackers.emplace_back(std::string_view(text).substr(sizeof(std::uint64_t)));
     for (const LineRun& run : runs) {
         core::DifferenceUnpacker unpacker = unpackers[run.process];
         for (std::uint32_t line = run.begin; line < run.end; ++line) lines.number(line, unpacker.get());

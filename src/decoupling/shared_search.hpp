@@ -106,7 +106,7 @@ unsigned cutting_processes(std::size_t others, unsigned processes);
 std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes);
 
 /// Collective: divides the lines of these runs, which are all but loops in ascending order, each by its process, and
-/// numbers their vertices.
+/// numbers their vertices. Throws MeshError where another process has other lines.
 void number_together(Lines& lines, std::span<const LineRun> runs, const SeparatorSpacing& spacing, Ranks& ranks);
 
 }  // namespace lamina::decoupling

@@ -32,6 +32,12 @@ void append_matches(Pairs& pairs, const EdgeMatches& matches) {
     pairs.edges += matches.edges;
 }
 
+template <class Pairs>
+void sort_matches(Pairs& pairs) {
+    std::sort(pairs.boundary.begin(), pairs.boundary.end());
+    std::sort(pairs.overused.begin(), pairs.overused.end());
+}
+
 /// Finds the twins in all buckets, which together hold all directed edges of each undirected edge in them. All lists have
 /// the same number of buckets.
 template <class Pairs>
@@ -48,8 +54,7 @@ void match_buckets(std::span<const EdgeBuckets* const> lists, std::size_t bucket
         return matches;
     };
     for (const EdgeMatches& matches : core::parallel_blocks(buckets, 1, match_bucket)) append_matches(pairs, matches);
-    std::sort(pairs.boundary.begin(), pairs.boundary.end());
-    std::sort(pairs.overused.begin(), pairs.overused.end());
+    sort_matches(pairs);
 }
 
 }  // namespace
@@ -89,12 +94,22 @@ Adjacency find_adjacency(const MeshView& mesh) {
 
 EdgePairs pair_edges(std::span<const Segment> edges) {
     if (edges.size() >= no_edge) throw MeshError("mesh too large: more than 2^32 edges between pieces");
-    std::vector<SharedEdge> all(edges.size());
-    for (std::size_t e = 0; e < edges.size(); ++e) all[e] = {edges[e].a, edges[e].b, static_cast<std::uint32_t>(e)};
-    const std::size_t buckets = bucket_count(edges.size());
-    const EdgeBuckets sorted = sort_into_buckets(all, buckets, 0, buckets);
     EdgePairs pairs;
     pairs.twin = core::UninitializedArray<std::uint32_t>(edges.size());
+    const std::size_t buckets = bucket_count(edges.size());
+    if (buckets == 1) {
+        // Few edges need no copies in buckets, which would take longer than the search.
+        TwoWayEdgeList list(edges.size());
+        for (std::size_t e = 0; e < edges.size(); ++e) list.add(edges[e].a, edges[e].b, static_cast<std::uint32_t>(e));
+        EdgeMatches matches;
+        match(list, {pairs.twin.data(), pairs.twin.size()}, matches);
+        append_matches(pairs, matches);
+        sort_matches(pairs);
+        return pairs;
+    }
+    std::vector<SharedEdge> all(edges.size());
+    for (std::size_t e = 0; e < edges.size(); ++e) all[e] = {edges[e].a, edges[e].b, static_cast<std::uint32_t>(e)};
+    const EdgeBuckets sorted = sort_into_buckets(all, buckets, 0, buckets);
     const EdgeBuckets* const lists[] = {&sorted};
     match_buckets(lists, buckets, pairs);
     return pairs;

@@ -5,6 +5,12 @@
 
 namespace lamina::mesh {
 
+void Seams::expect(std::size_t border_edges) {
+    border_.reserve(border_edges);
+    apexes_.reserve(border_edges);
+    shape_classes_.reserve(border_edges);
+}
+
 void Seams::add_layer_edge(Segment ends, double area) {
     edges_of_layer_.push_back(ends);
     areas_in_layer_.push_back(area);
@@ -21,8 +27,12 @@ void Seams::add(std::span<const PieceBorderEdge> border) {
 void Seams::match() {
     if (matched_) return;
     matched_ = true;
-    edges_ = std::move(edges_of_layer_);
-    edges_.insert(edges_.end(), border_.begin(), border_.end());
+    if (edges_of_layer_.empty()) {
+        edges_ = std::move(border_);
+    } else {
+        edges_ = std::move(edges_of_layer_);
+        edges_.insert(edges_.end(), border_.begin(), border_.end());
+    }
     border_ = {};
     pairs_ = pair_edges(edges_);
 }

@@ -37,6 +37,8 @@ public:
     /// `points` holds the ends of all edges that are added, by their ids; it must outlive this object.
     LAMINA_EXPORT explicit Seams(std::span<const Point> points) : points_(points) {}
 
+    /// Makes room for so many edges of pieces.
+    LAMINA_EXPORT void expect(std::size_t border_edges);
     /// Adds an edge of one cell of the layer, which has this area.
     LAMINA_EXPORT void add_layer_edge(Segment ends, double area);
     /// Adds the border of a piece.

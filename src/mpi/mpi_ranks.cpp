@@ -6,9 +6,11 @@
 
 #include <cstdlib>
 #include <limits>
+#include <list>
 #include <mutex>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <lamina/error.hpp>
@@ -38,6 +40,7 @@ public:
         MPI_Barrier(all_);
     }
     ~MpiRanks() override {
+        for (Sent& sent : sent_) MPI_Wait(&sent.request, MPI_STATUS_IGNORE);
         MPI_Win_unlock_all(window_);
         MPI_Win_free(&window_);
         MPI_Comm_free(&all_);
@@ -103,10 +106,25 @@ protected:
     }
 
     void do_send(unsigned to, std::string_view bytes) override {
-        MPI_Send(bytes.data(), int_size(bytes.size()), MPI_BYTE, static_cast<int>(to), 0, all_);
+        const std::lock_guard lock(mutex_);
+        sent_.remove_if([](Sent& sent) {
+            int has_left = 0;
+            MPI_Test(&sent.request, &has_left, MPI_STATUS_IGNORE);
+            return has_left != 0;
+        });
+        Sent& sent = sent_.emplace_back(std::string(bytes));
+        MPI_Isend(sent.bytes.data(), int_size(bytes.size()), MPI_BYTE, static_cast<int>(to), 0, all_, &sent.request);
+    }
+
+    bool do_has_bytes(unsigned from) override {
+        const std::lock_guard lock(mutex_);
+        int are_there = 0;
+        MPI_Iprobe(static_cast<int>(from), 0, all_, &are_there, MPI_STATUS_IGNORE);
+        return are_there != 0;
     }
 
     std::string do_receive(unsigned from) override {
+        const std::lock_guard lock(mutex_);
         MPI_Status status;
         MPI_Probe(static_cast<int>(from), 0, all_, &status);
         int size = 0;
@@ -143,7 +161,15 @@ private:
     int rank_ = 0, size_ = 1;
     MPI_Win window_ = MPI_WIN_NULL;
     std::uint64_t* counter_ = nullptr;  ///< on rank 0
-    std::mutex mutex_;                  ///< guards MPI where threads take numbers
+    std::mutex mutex_;                  ///< guards MPI where several threads may call it
+
+    /// Bytes that are on their way, perhaps.
+    struct Sent {
+        explicit Sent(std::string text) : bytes(std::move(text)) {}
+        std::string bytes;
+        MPI_Request request = MPI_REQUEST_NULL;
+    };
+    std::list<Sent> sent_;
 
     /// Stores where each of several texts begins, and returns the size of all.
     static std::size_t offsets_of(const std::vector<int>& sizes, std::vector<int>& offsets) {

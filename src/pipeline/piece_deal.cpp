@@ -24,22 +24,30 @@ void sort_by_work(std::span<const decoupling::EstimatedBorder> borders, std::vec
 }  // namespace
 
 PieceDeal deal_pieces(std::span<const decoupling::EstimatedBorder> borders, unsigned process, unsigned processes) {
-    constexpr double kept_share = 0.75;
-    double work = 0;
-    for (const decoupling::EstimatedBorder& border : borders)
-        if (!border.made) work += border.work;
-    const double kept = processes == 1 ? work : kept_share * work / processes;
-    PieceDeal deal;
+    constexpr double most_of_share = 0.8;
     std::vector<double> kept_by(processes, 0);
+    double work = 0, rest = 0;
+    for (const decoupling::EstimatedBorder& border : borders) {
+        work += border.work;
+        if (border.kept)
+            kept_by[border.process] += border.work;
+        else
+            rest += border.work;
+    }
+    const double most = processes == 1 ? work : most_of_share * work / processes;
+    const double most_of_rest = processes == 1 ? rest : most_of_share * rest / processes;
+    PieceDeal deal;
+    std::vector<double> of_rest(processes, 0);
     for (std::size_t i = 0; i < borders.size(); ++i) {
-        if (borders[i].made) continue;
-        double& of_process = kept_by[borders[i].process];
-        if (of_process + borders[i].work > kept) {
+        const std::uint32_t owner = borders[i].process;
+        const double of_piece = borders[i].kept ? 0 : borders[i].work;
+        if (of_piece > 0 && (kept_by[owner] + of_piece > most || of_rest[owner] + of_piece > most_of_rest)) {
             deal.shared.push_back(i);
             continue;
         }
-        of_process += borders[i].work;
-        if (borders[i].process == process) deal.own.push_back(i);
+        kept_by[owner] += of_piece;
+        of_rest[owner] += of_piece;
+        if (owner == process) deal.own.push_back(i);
     }
     sort_by_work(borders, deal.own);
     sort_by_work(borders, deal.shared);

@@ -307,6 +307,15 @@ MadePieces share_pieces(const PiecesWork& work, SharedDecoupling& shared, PieceM
     return made;
 }
 
+/// Makes a value of rank 0, which the others do not need before they wait for each other, known to all.
+template <class Value>
+void share_value(Ranks& ranks, Value& value) {
+    core::Packer packer;
+    packer.put(value);
+    const std::string packed = ranks.broadcast(packer.take());
+    value = core::Unpacker(packed).get<Value>();
+}
+
 /// Makes the narrow triangles of rank 0, which has checked the mesh, known to all.
 void share_unexcused(Ranks& ranks, std::vector<mesh::NarrowTriangle>& unexcused) {
     core::Packer packer;
@@ -319,11 +328,12 @@ void share_unexcused(Ranks& ranks, std::vector<mesh::NarrowTriangle>& unexcused)
 /// Collective: returns what cut_and_deal() returns, with all that the markers need.
 std::unique_ptr<SharedDecoupling> share_decoupling(const Layer& layer, const SizeField& size, const FarField& far_field,
                                                    const CaseOptions& options, const RefineOptions& refine,
-                                                   PieceMaker& maker, Ranks& ranks) {
+                                                   PieceMaker& maker, Ranks& ranks,
+                                                   const std::function<void()>& before_pieces) {
     validate(options.decoupling);
     validate(options.refine);
-    auto shared =
-        cut_and_deal({layer.points, layer.borders, size, far_field, options.decoupling}, refine, maker, ranks);
+    auto shared = cut_and_deal({layer.points, layer.borders, size, far_field, options.decoupling}, refine, maker, ranks,
+                               before_pieces);
     if (divides_far_field(options)) shared->place(shared->cut.far_field);
     return shared;
 }
@@ -346,19 +356,23 @@ MadeMesh mesh_on_rays(const RayPlan& plan, const CaseOptions& options, const Des
     clock.begin("sizing");
     const SizeField size = make_size_field(border_loops(layer), plan.requests.sources, options.sizing,
                                            plan.conditions.chord, plan.far_field.box());
-    result.estimate = estimate_within_limits(options, layer, size, plan.far_field, cost);
+    if (destination.checks()) result.estimate = estimate_within_limits(options, layer, size, plan.far_field, cost);
     seconds.sizing += clock.lap();
 
-    clock.begin("decoupling", announce_estimate ? std::optional(result.estimate) : std::nullopt);
+    clock.begin("decoupling",
+                announce_estimate && destination.checks() ? std::optional(result.estimate) : std::nullopt);
     const RefineOptions refine = refine_options(options, plan.conditions.chord, cost);
-    const PieceRules rules{
+    PieceRules rules{
         options.refine.min_angle_deg, triangles_beyond_layer(result.estimate, layer), {refinement_work, check_work}};
     std::unique_ptr<SharedDecoupling> shared;
     std::optional<PieceMaker> maker;
     Decoupling decoupling;
     if (destination.ranks != nullptr)
         shared = share_decoupling(layer, size, plan.far_field, options, refine,
-                                  maker.emplace(rules, destination.beside), *destination.ranks);
+                                  maker.emplace(rules, destination.beside), *destination.ranks, [&] {
+                                      share_value(*destination.ranks, result.estimate);
+                                      rules.expected_triangles = triangles_beyond_layer(result.estimate, layer);
+                                  });
     else
         decoupling = decouple(layer.points, layer.borders, size, plan.far_field, options.decoupling, refine);
     const std::span<const Point> points = shared ? shared->points() : std::span<const Point>(decoupling.points);

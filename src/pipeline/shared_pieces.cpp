@@ -6,6 +6,7 @@
 #include <atomic>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <lamina/error.hpp>
@@ -110,30 +111,39 @@ void PieceMaker::make(std::size_t number, Subdomain subdomain, std::span<const S
     held_.pieces.push_back(std::move(piece));
 }
 
-void PieceMaker::number_trapezoids(std::span<const decoupling::EstimatedBorder> borders, unsigned process) {
-    if (held_.pieces.empty()) return;
+std::unordered_set<std::size_t> PieceMaker::number_trapezoids(std::span<const decoupling::EstimatedBorder> borders,
+                                                              unsigned process) {
+    std::unordered_set<std::size_t> made;
+    if (held_.pieces.empty()) return made;
     std::unordered_map<std::size_t, std::size_t> numbers;
     for (std::size_t i = 0; i < borders.size(); ++i)
-        if (borders[i].made && borders[i].process == process) numbers.emplace(borders[i].trapezoid, i);
-    for (HeldPiece& piece : held_.pieces) piece.piece = numbers.at(piece.piece);
+        if (borders[i].kept && borders[i].process == process) numbers.emplace(borders[i].trapezoid, i);
+    for (HeldPiece& piece : held_.pieces) {
+        piece.piece = numbers.at(piece.piece);
+        made.insert(piece.piece);
+    }
+    return made;
 }
 
 std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& region, const RefineOptions& refine,
-                                               PieceMaker& maker, Ranks& ranks) {
+                                               PieceMaker& maker, Ranks& ranks,
+                                               const std::function<void()>& before_pieces) {
     const SeparatorRule rule = region.options.separators;
     core::BusyTimes times;  // these pieces count as a part of the decoupling
-    ranks.reset_counter();
+    const auto once_numbered = [&] {
+        ranks.reset_counter();
+        before_pieces();
+    };
     const auto make = [&](std::uint32_t trapezoid, const decoupling::LineBorder& border,
                           const decoupling::WorkEstimate& estimate, decoupling::Lines& lines) {
         Subdomain subdomain = decoupling::make_subdomain(border, &estimate, lines, {region.size, rule}, refine);
         maker.make(trapezoid, std::move(subdomain), border_chain(border, lines).edges, lines.gathered(), times);
     };
-    auto shared =
-        std::make_unique<SharedDecoupling>(decoupling::cut_region(region, &ranks, make), region.size, rule, refine);
-    decoupling::require_same_borders(shared->cut, ranks);
-    maker.number_trapezoids(shared->cut.borders, ranks.rank());
-    ranks.reset_counter();
+    auto shared = std::make_unique<SharedDecoupling>(decoupling::cut_region(region, &ranks, {once_numbered, make}),
+                                                     region.size, rule, refine);
+    const std::unordered_set<std::size_t> made = maker.number_trapezoids(shared->cut.borders, ranks.rank());
     shared->deal = deal_pieces(shared->cut.borders, ranks.rank(), ranks.size());
+    std::erase_if(shared->deal.own, [&](std::size_t piece) { return made.count(piece) != 0; });
     return shared;
 }
 
@@ -166,6 +176,8 @@ HeldPieces take_and_refine(SharedDecoupling& shared, PieceMaker& maker, core::Bu
 
 CountedMesh count_and_check(SharedDecoupling& shared, HeldPieces& held, const LayerCells& layer, double min_angle_deg,
                             Ranks& ranks, mesh::PiecewiseCheck* check) {
+    // Asked here and not after the cuts, so that nobody has waited for the others since then.
+    decoupling::require_same_borders(shared.cut, ranks);
     SharedSeams seams(shared, held, ranks);
     seams.collect();
     NumberedPieces numbered = number_pieces(

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -69,7 +71,7 @@ struct HeldPieces {
 /// Makes the pieces of a process. Several threads may do so at the same time.
 class PieceMaker {
 public:
-    /// Throws IoError about the file beside which pieces are stored.
+    /// Throws IoError about the file beside which pieces are stored. The rules must outlive this object.
     PieceMaker(const PieceRules& rules, const std::optional<std::filesystem::path>& beside)
         : rules_(rules), store_(std::make_unique<PieceStore>(beside)) {}
 
@@ -77,22 +79,26 @@ public:
     void make(std::size_t piece, Subdomain subdomain, std::span<const Segment> chain, std::span<const Point> points,
               core::BusyTimes& times);
     /// Gives the pieces so far, which are those of trapezoids by their numbers, the numbers that they have among these.
-    void number_trapezoids(std::span<const decoupling::EstimatedBorder> borders, unsigned process);
+    /// Returns the latter.
+    std::unordered_set<std::size_t> number_trapezoids(std::span<const decoupling::EstimatedBorder> borders,
+                                                      unsigned process);
     /// Return all that was made.
     HeldPieces take_held() { return std::move(held_); }
     std::unique_ptr<PieceStore> take_store() { return std::move(store_); }
 
 private:
-    PieceRules rules_;
+    const PieceRules& rules_;
     std::unique_ptr<PieceStore> store_;
     std::mutex mutex_;
     HeldPieces held_;
 };
 
-/// Collective: cuts the region, deals its pieces, and sets the counter for those that all share to 0. The processes
-/// divide the work among themselves, and make pieces while they would wait for each other.
+/// Collective: sets the counter for pieces that all share to 0, cuts the region and deals its pieces. The processes divide
+/// the work among themselves, and make pieces while they would wait for each other. They call `before_pieces` once they
+/// have waited for each other, and before they make any.
 std::unique_ptr<SharedDecoupling> cut_and_deal(const decoupling::OuterRegion& region, const RefineOptions& refine,
-                                               PieceMaker& maker, Ranks& ranks);
+                                               PieceMaker& maker, Ranks& ranks,
+                                               const std::function<void()>& before_pieces);
 
 /// Makes the pieces that this process gets: its own ones, then those that whoever is free takes from a counter that all
 /// share. Where a piece fails, all processes end soon. Returns all pieces of the maker.

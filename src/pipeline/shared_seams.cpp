@@ -197,11 +197,14 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
             const auto its_class = static_cast<std::uint8_t>(next % 2 == 0 ? both & 15 : both >> 4);
             ++next;
             const bool in_layer = owners_.is_in_layer(edge.a) && owners_.is_in_layer(edge.b);
-            CollectedEdges& collected = in_layer ? along_layer_ : between_;
             const Point apex = here != nullptr && i < here->apexes.size() ? here->apexes[i] : mesh::unknown_apex;
-            collected.edges.push_back({edge.a, edge.b, apex, its_class});
+            const mesh::PieceBorderEdge taken{edge.a, edge.b, apex, its_class};
+            if (in_layer)
+                along_layer_.push_back(taken);
+            else
+                seams_.add({&taken, 1});
             const bool outer = is_far_field_[line] && shared_.cut.lines.runs_along(line, edge);
-            collected.sources.push_back({rank, piece, i, outer});
+            (in_layer ? sources_along_layer_ : sources_).push_back({rank, piece, i, outer});
         };
         for_edges(
             border, shared_.cut.lines, [&](std::uint32_t line) { return owners_.owner(line) == self; }, take_edge);
@@ -210,8 +213,12 @@ void SharedSeams::take_borders(std::uint32_t rank, const std::string& told) {
 
 void SharedSeams::collect() {
     const std::vector<std::string> told = ranks_.exchange(pack_borders());
+    // Each takes half a byte and more.
+    std::size_t most_edges = 0;
+    for (const std::string& of_rank : told) most_edges += 2 * of_rank.size();
+    seams_.expect(most_edges);
+    sources_.reserve(most_edges);
     for (std::uint32_t rank = 0; rank < told.size(); ++rank) take_borders(rank, told[rank]);
-    seams_.add(between_.edges);
     seams_.match();
 }
 
@@ -249,21 +256,21 @@ std::string SharedSeams::answer(const std::string& questions) const {
 }
 
 /// Returns whether an edge between pieces is one of a piece that this process holds.
-bool SharedSeams::has_source_here(std::size_t edge) const { return between_.sources[edge].rank == ranks_.rank(); }
+bool SharedSeams::has_source_here(std::size_t edge) const { return sources_[edge].rank == ranks_.rank(); }
 
 void SharedSeams::ask(double even_ratio, mesh::PiecewiseCheck* check) {
     std::vector<std::vector<Question>> asked(ranks_.size());
-    const auto add = [&](std::span<const Wanted> wanted, const CollectedEdges& collected, bool along_layer) {
+    const auto add = [&](std::span<const Wanted> wanted, bool along_layer) {
         for (const auto [edge, apex] : wanted) {
-            const Source& source = collected.sources[edge];
+            const Source& source = along_layer ? sources_along_layer_[edge] : sources_[edge];
             // Rank 0 has the layer. Beyond it one side tells where the ends of the edge are, unless a piece here has it.
-            const bool ends = apex && !along_layer && collected.edges[edge].a < collected.edges[edge].b &&
+            const bool ends = apex && !along_layer && seams_.edges()[edge].a < seams_.edges()[edge].b &&
                               !has_source_here(seams_.pairs().twin[edge]);
             asked[source.rank].push_back({source.piece, source.edge, apex, ends, along_layer, edge});
         }
     };
-    if (check) add(check->wanted(even_ratio), along_layer_, true);
-    add(seams_.wanted(even_ratio), between_, false);
+    if (check) add(check->wanted(even_ratio), true);
+    add(seams_.wanted(even_ratio), false);
     std::vector<std::string> questions, answers;
     for (const std::vector<Question>& of_rank : asked) questions.push_back(pack_questions(of_rank));
     for (const std::string& of_rank : ranks_.exchange(questions)) answers.push_back(answer(of_rank));
@@ -296,7 +303,7 @@ mesh::SeamFindings SharedSeams::findings() const {
     findings.vertices = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), std::uint8_t{1}));
     findings.measures = seams_.measure([](Segment) { return false; });
     for (const std::uint32_t e : pairs.boundary)
-        if (between_.sources[e].outer)
+        if (sources_[e].outer)
             ++findings.outer_edges;
         else
             findings.one_sided.push_back(seams_.edges()[e]);
@@ -307,8 +314,7 @@ mesh::SeamFindings SharedSeams::findings() const {
 std::uint64_t SharedSeams::places() const {
     std::uint64_t sum = 0;
     for (const HeldPiece& piece : held_.pieces) sum += piece.places;
-    for (const mesh::PieceBorderEdge& edge : along_layer_.edges)
-        sum -= hash_of_places({edge.a, edge.b}, shared_.points());
+    for (const mesh::PieceBorderEdge& edge : along_layer_) sum -= hash_of_places({edge.a, edge.b}, shared_.points());
     return sum;
 }
 

@@ -34,7 +34,7 @@ public:
     void collect();
     /// Returns the edges along the border of the layer, which are for the check of rank 0 to match, with the vertices
     /// of pieces in the layer.
-    const std::vector<mesh::PieceBorderEdge>& along_layer() const { return along_layer_.edges; }
+    const std::vector<mesh::PieceBorderEdge>& along_layer() const { return along_layer_; }
     const std::vector<VertexId>& vertices_in_layer() const { return vertices_in_layer_; }
     /// Returns the least ratios of areas that are possible.
     mesh::QualityCollector least_ratios() const;
@@ -53,10 +53,6 @@ private:
         std::uint32_t rank = 0, piece = 0, edge = 0;  ///< the edge is numbered in border_chain()
         bool outer = false;                           ///< whether it is expected to be on the boundary
     };
-    struct CollectedEdges {
-        std::vector<mesh::PieceBorderEdge> edges;
-        std::vector<Source> sources;
-    };
     std::vector<std::string> pack_borders() const;
     const HeldPiece& held(std::size_t piece) const;
     void take_vertices(VertexId first, std::size_t n);
@@ -68,7 +64,8 @@ private:
     const HeldPieces& held_;
     Ranks& ranks_;
     SeamOwners owners_;
-    CollectedEdges along_layer_, between_;
+    std::vector<mesh::PieceBorderEdge> along_layer_;
+    std::vector<Source> sources_along_layer_, sources_;  ///< the latter of the edges of seams_
     std::vector<VertexId> vertices_in_layer_;
     std::vector<std::uint8_t> used_;  ///< per vertex of this process beyond the layer
     std::vector<bool> is_far_field_;  ///< per line

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
@@ -18,6 +19,8 @@ namespace {
 /// An edge of a border requests at most this multiple of its length / frozen_share. Without this bound a long
 /// edge that is too long by a few per cent would raise the size at a fine edge far away to a multiple of it.
 constexpr double max_raise = 2.5;
+/// Bounds are lowered by this share, so that rounding never makes them wrong.
+constexpr double rounding = 1e-9;
 
 /// Returns the size that each edge of a border requests. Edges come with their own sizes, length / frozen_share. An
 /// edge beside a longer one, on the same border or across a slot, requests more, so that none is too long for the field
@@ -36,9 +39,13 @@ std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradati
     const auto values = tree.group_minima(std::move(negative_sizes));
     std::vector<double> sizes(edges.size());
     core::parallel_for(edges.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        Point last = midpoint(edges[begin].a, edges[begin].b);
+        double raised = 0;
         for (std::size_t i = begin; i < end; ++i) {
             const Point p = midpoint(edges[i].a, edges[i].b);
-            const double raised = -tree.minimum(p, gradation, -edges[i].size, values, [&](std::size_t other) {
+            // What the edge before has got, less what the way from there takes, is a bound; rounding must not raise it.
+            const double least = (1 - rounding) * (raised - gradation * distance(p, std::exchange(last, p)));
+            raised = -tree.minimum(p, gradation, -std::max(least, edges[i].size), values, [&](std::size_t other) {
                 return distance(p, midpoint(edges[other].a, edges[other].b));
             });
             sizes[i] = std::min(raised, max_raise * edges[i].size);

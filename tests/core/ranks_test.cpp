@@ -1,9 +1,11 @@
 // Ranks that join what they have: the same on any number of them, and what becomes of failures.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include <lamina/error.hpp>
@@ -58,18 +60,43 @@ TEST(Ranks, TellSomeOthers) {
         }
 }
 
-TEST(Ranks, KnowWhetherNumbersWereTaken) {
-    EXPECT_EQ(run_ranks(3,
+// All ranks get the bytes of all, however late one of them has told its own, and whether they look for them or wait. What
+// they do next together is not disturbed.
+TEST(Ranks, TellAllWhileTheyGoOn) {
+    for (const unsigned n : {1u, 2u, 9u, 10u, 75u})
+        for (const unsigned late : {0u, n / 2, n - 1}) {
+            SCOPED_TRACE(testing::Message() << late << " of " << n);
+            std::atomic<unsigned> others = 0;
+            const std::string failure = run_ranks(n, [&](Ranks& ranks) {
+                for (int repeat = 0; repeat < 3; ++repeat) {
+                    std::vector<std::string> expected;
+                    for (unsigned rank = 0; rank < n; ++rank)
+                        expected.push_back(std::to_string(repeat) + std::string(rank, 'x'));
+                    if (ranks.rank() == late)
+                        while (others < (n - 1) * (static_cast<unsigned>(repeat) + 1)) std::this_thread::yield();
+                    const auto pending = ranks.start_all_gather(expected[ranks.rank()]);
+                    if (ranks.rank() != late) {
+                        EXPECT_FALSE(pending->is_there());
+                        ++others;
+                    }
+                    while (ranks.rank() % 2 == 0 && !pending->is_there()) std::this_thread::yield();
+                    EXPECT_EQ(pending->take(), expected);
+                }
+                EXPECT_EQ(ranks.all_gather("").size(), n);
+            });
+            EXPECT_EQ(failure, "");
+        }
+}
+
+// A rank that does not take what it is told passes it on still.
+TEST(Ranks, PassOnWhatTheyDoNotNeed) {
+    EXPECT_EQ(run_ranks(12,
                         [](Ranks& ranks) {
-                            ranks.reset_counter();
-                            EXPECT_FALSE(ranks.has_numbers());
-                            ranks.agree();
-                            if (ranks.rank() == 1) ranks.next_number();
-                            ranks.agree();
-                            EXPECT_TRUE(ranks.has_numbers());
-                            EXPECT_FALSE(ranks.has_failed());
+                            const auto pending = ranks.start_all_gather("bytes");
+                            if (ranks.rank() == 1) throw MeshError("has no need of it");
+                            EXPECT_EQ(pending->take().size(), 12u);
                         }),
-              "");
+              "has no need of it");
 }
 
 TEST(Ranks, EndTogetherWhereOneCannotJoin) {

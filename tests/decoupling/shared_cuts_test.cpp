@@ -1,6 +1,7 @@
 // cut_region() on several ranks: the borders of one process, whatever the number of ranks. Threads stand in for processes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -136,21 +137,21 @@ TEST(SharedCuts, AreThoseOfOneProcess) {
     }
 }
 
-/// Ranks of which the first one ends its cuts after another one has made a piece.
+/// Ranks of which the first one, which alone cuts, ends its cuts after another one has made a piece.
 class SlowCutters : public ThreadRanks {
 public:
     using ThreadRanks::ThreadRanks;
     static inline std::atomic<bool> made = false;
 
 protected:
-    std::uint64_t do_add_to_counter(std::uint64_t number) override {
-        if (number == 1) made.wait(false);
-        return ThreadRanks::do_add_to_counter(number);
+    void do_send(unsigned to, std::string_view bytes) override {
+        if (rank() == 0) made.wait(false);
+        ThreadRanks::do_send(to, bytes);
     }
 };
 
-// All ranks know which trapezoids have become pieces during the cuts, and each of these was made once, where it was
-// searched.
+// All ranks know which trapezoids are kept, and those that have become pieces during the cuts were made once, where they
+// are kept.
 TEST(SharedCuts, LeaveTimeForPieces) {
     const CutCase c = cut_cases()[2];
     const SizeField size = size_of(c);
@@ -158,37 +159,44 @@ TEST(SharedCuts, LeaveTimeForPieces) {
     const decoupling::OuterRegion region{c.discs.points, c.discs.borders, size, c.far_field, options};
     const decoupling::CutRegion alone = decoupling::cut_region(region);
     constexpr unsigned n = 7;
-    std::vector<std::size_t> made(n, 0);
+    std::vector<std::size_t> kept(n, 0);
+    std::atomic<std::size_t> made = 0;
     SlowCutters::made = false;
-    EXPECT_EQ(run_ranks<SlowCutters>(n,
-                                     [&](Ranks& ranks) {
-                                         std::mutex mutex;
-                                         std::set<std::uint32_t> own;
-                                         const decoupling::CutRegion cut = decoupling::cut_region(
-                                             region, &ranks,
-                                             [&](std::uint32_t trapezoid, const decoupling::LineBorder& border,
-                                                 const decoupling::WorkEstimate&, decoupling::Lines& lines) {
-                                                 const std::lock_guard lock(mutex);
-                                                 EXPECT_TRUE(own.insert(trapezoid).second);
-                                                 const auto vertices = lines.gathered().size();
-                                                 for (const decoupling::LineLoop& loop : border.loops)
-                                                     for (const VertexId v : decoupling::ids_of(loop, lines))
-                                                         EXPECT_LT(v.index(), vertices);
-                                                 SlowCutters::made = true;
-                                                 SlowCutters::made.notify_all();
-                                             });
-                                         expect_equal(alone, cut);
-                                         std::set<std::uint32_t> known;
-                                         for (const decoupling::EstimatedBorder& border : cut.borders)
-                                             if (border.made && border.process == ranks.rank())
-                                                 known.insert(border.trapezoid);
-                                         EXPECT_EQ(own, known);
-                                         for (const decoupling::EstimatedBorder& border : cut.borders)
-                                             made[ranks.rank()] += border.made;
-                                     }),
-              "");
-    EXPECT_GT(made.front(), 0u);
-    EXPECT_EQ(made, std::vector<std::size_t>(n, made.front()));
+    EXPECT_EQ(
+        run_ranks<SlowCutters>(n,
+                               [&](Ranks& ranks) {
+                                   std::mutex mutex;
+                                   std::set<std::uint32_t> own;
+                                   decoupling::BesideCuts beside;
+                                   bool is_numbered = false;
+                                   beside.once_numbered = [&] { is_numbered = true; };
+                                   beside.make = [&](std::uint32_t trapezoid, const decoupling::LineBorder& border,
+                                                     const decoupling::WorkEstimate&, decoupling::Lines& lines) {
+                                       const std::lock_guard lock(mutex);
+                                       EXPECT_TRUE(own.insert(trapezoid).second);
+                                       const auto vertices = lines.gathered().size();
+                                       for (const decoupling::LineLoop& loop : border.loops)
+                                           for (const VertexId v : decoupling::ids_of(loop, lines))
+                                               EXPECT_LT(v.index(), vertices);
+                                       SlowCutters::made = true;
+                                       EXPECT_TRUE(is_numbered);
+                                       SlowCutters::made.notify_all();
+                                   };
+                                   const decoupling::CutRegion cut = decoupling::cut_region(region, &ranks, beside);
+                                   expect_equal(alone, cut);
+                                   std::set<std::uint32_t> known;
+                                   for (const decoupling::EstimatedBorder& border : cut.borders)
+                                       if (border.kept && border.process == ranks.rank())
+                                           known.insert(border.trapezoid);
+                                   EXPECT_TRUE(std::includes(known.begin(), known.end(), own.begin(), own.end()));
+                                   made += own.size();
+                                   for (const decoupling::EstimatedBorder& border : cut.borders)
+                                       kept[ranks.rank()] += border.kept;
+                               }),
+        "");
+    EXPECT_GT(made, 0u);
+    EXPECT_LT(kept.front(), alone.borders.size());
+    EXPECT_EQ(kept, std::vector<std::size_t>(n, kept.front()));
 }
 
 TEST(SharedCuts, AreRefusedWhereRanksDiffer) {
@@ -214,10 +222,12 @@ protected:
     std::vector<std::string> do_all_gather(std::string_view bytes) override {
         std::vector<std::string> told = ThreadRanks::do_all_gather(bytes);
         if (rank() != misled || std::exchange(has_heard_, true)) return told;
-        for (std::string& numbers : told) {
+        constexpr std::size_t hash_bytes = sizeof(std::uint64_t);
+        for (std::string& text : told) {
             core::DifferencePacker packer;
+            const auto numbers = std::string_view(text).substr(hash_bytes);
             for (core::DifferenceUnpacker unpacker(numbers); !unpacker.at_end();) packer.put(unpacker.get() + 1);
-            numbers = packer.take();
+            text = text.substr(0, hash_bytes) + packer.take();
         }
         return told;
     }
@@ -236,10 +246,11 @@ TEST(SharedCuts, EndOnAllRanksWhereOneOfTheCuttersFails) {
         SCOPED_TRACE(failing);
         MisledCutter::misled = failing;
         const std::string line = run_ranks<MisledCutter>(n, [&](Ranks& ranks) {
+            decoupling::BesideCuts beside;
+            beside.make = [](std::uint32_t, const decoupling::LineBorder&, const decoupling::WorkEstimate&,
+                             decoupling::Lines&) {};
             const decoupling::CutRegion cut =
-                decoupling::cut_region({c.discs.points, c.discs.borders, size, c.far_field, options}, &ranks,
-                                       [](std::uint32_t, const decoupling::LineBorder&, const decoupling::WorkEstimate&,
-                                          decoupling::Lines&) {});
+                decoupling::cut_region({c.discs.points, c.discs.borders, size, c.far_field, options}, &ranks, beside);
             ASSERT_EQ(decoupling::cutting_processes(cut.rings.size(), n), cutters);
         });
         EXPECT_NE(line.find("processes divide a line between subdomains in different ways"), std::string::npos) << line;

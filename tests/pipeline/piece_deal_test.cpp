@@ -1,4 +1,5 @@
-// deal_pieces(): every piece that is not made yet is made once, and no process is bound to more than its share.
+// deal_pieces(): every piece is made once, the kept ones where they are kept, and no process is bound to more than its
+// share of the others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,15 +21,17 @@ TEST(PieceDeal, GivesEachPieceToOneProcessOrToAll) {
         for (decoupling::EstimatedBorder& border : borders) {
             border.work = 1000 + static_cast<float>(random.below(50'000));
             border.process = static_cast<unsigned>(random.below(processes));
-            border.made = random.below(4) == 0;
-            if (!border.made) work += border.work;
+            border.kept = random.below(4) == 0;
+            if (!border.kept) work += border.work;
         }
-        std::vector<int> times, once;
-        for (const decoupling::EstimatedBorder& border : borders) once.push_back(!border.made);
-        times.resize(borders.size(), 0);
+        std::vector<int> times(borders.size(), 0);
+        const std::vector<int> once(borders.size(), 1);
         const std::vector<std::size_t> shared = pipeline::deal_pieces(borders, 0, processes).shared;
         EXPECT_EQ(shared.empty(), processes == 1);
-        for (const std::size_t piece : shared) ++times[piece];
+        for (const std::size_t piece : shared) {
+            EXPECT_FALSE(borders[piece].kept);
+            ++times[piece];
+        }
         const auto is_larger = [&](std::size_t a, std::size_t b) { return borders[a].work > borders[b].work; };
         for (unsigned process = 0; process < processes; ++process) {
             const pipeline::PieceDeal deal = pipeline::deal_pieces(borders, process, processes);
@@ -36,7 +39,7 @@ TEST(PieceDeal, GivesEachPieceToOneProcessOrToAll) {
             double own_work = 0;
             for (const std::size_t piece : deal.own) {
                 EXPECT_EQ(borders[piece].process, process);
-                own_work += borders[piece].work;
+                if (!borders[piece].kept) own_work += borders[piece].work;
                 ++times[piece];
             }
             EXPECT_LE(own_work, work / processes * (1 + 1e-12));

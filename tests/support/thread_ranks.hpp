@@ -10,7 +10,7 @@
 #include <deque>
 #include <exception>
 #include <fstream>
-#include <list>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -29,11 +29,11 @@ struct RankHub {
     const unsigned ranks;  ///< their number
     std::vector<std::string> slots;
     std::vector<std::vector<std::string>> from_to;  ///< what each rank sends to each
-    /// The messages that were sent to a rank and that it has not received yet, each with its sender.
+    /// The messages that were sent to a rank and that it has not received yet, by their senders.
     struct Mailbox {
         std::mutex mutex;
         std::condition_variable more;
-        std::list<std::pair<unsigned, std::string>> messages;
+        std::map<unsigned, std::deque<std::string>> messages;
     };
     std::deque<Mailbox> sent;
     std::atomic<unsigned> lowest_failed{0};
@@ -125,21 +125,28 @@ protected:
         RankHub::Mailbox& box = hub_.sent[to];
         {
             const std::lock_guard lock(box.mutex);
-            box.messages.emplace_back(rank_, bytes);
+            box.messages[rank_].emplace_back(bytes);
         }
         box.more.notify_one();
+    }
+    bool do_has_bytes(unsigned from) override {
+        return has_bytes(from, [](std::string_view) { return true; });
+    }
+    /// Returns whether the first bytes of a rank that this one has not received yet are there, and are such.
+    template <class AreSuch>
+    bool has_bytes(unsigned from, AreSuch&& are_such) {
+        RankHub::Mailbox& box = hub_.sent[rank_];
+        const std::lock_guard lock(box.mutex);
+        const std::deque<std::string>& sent = box.messages[from];
+        return !sent.empty() && are_such(sent.front());
     }
     std::string do_receive(unsigned from) override {
         RankHub::Mailbox& box = hub_.sent[rank_];
         std::unique_lock lock(box.mutex);
-        auto found = box.messages.end();
-        box.more.wait(lock, [&] {
-            found = std::find_if(box.messages.begin(), box.messages.end(),
-                                 [&](const auto& message) { return message.first == from; });
-            return found != box.messages.end();
-        });
-        std::string bytes = std::move(found->second);
-        box.messages.erase(found);
+        std::deque<std::string>& sent = box.messages[from];
+        box.more.wait(lock, [&] { return !sent.empty(); });
+        std::string bytes = std::move(sent.front());
+        sent.pop_front();
         return bytes;
     }
     void do_reset_counter() override {
