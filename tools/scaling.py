@@ -116,11 +116,14 @@ def power_through(a, b):
 
 
 def cutting_of(few, many):
-    """Returns what each rank repeats of the decoupling, what all divide, and how long the cuts round the bodies last,
-    from runs of the same mesh on few and on many ranks."""
+    """Returns what each rank repeats of the decoupling, what those divide that do not cut round the bodies, and how long
+    these cuts last, from runs of the same mesh on few and on many ranks."""
     of_few, of_many = (of_all(run, {"decoupling"}) - run["pieces_during_cuts"] for run in (few, many))
     repeated = (of_many - of_few) / (many["ranks"] - few["ranks"])
-    return {"triangles": few["triangles"], "repeated": repeated, "divided": of_few - few["ranks"] * repeated,
+    cutters = cutting_ranks(many["ranks"])
+    of_cutters = sum(stage_seconds(many, {"decoupling"})[:cutters])
+    return {"triangles": few["triangles"], "repeated": repeated,
+            "divided": of_many - of_cutters - (many["ranks"] - cutters) * repeated,
             "critical": many["cuts"],
             "before": of_all(many, stages_before(many)) / many["ranks"]}  # fmt: skip
 
@@ -136,7 +139,7 @@ def beyond_mean(runs):
 
 def cutting_ranks(ranks):
     """Returns how many ranks cut the regions round the bodies."""
-    return max(ranks // 16, min(ranks // 4, 8)) if ranks >= 4 else ranks
+    return max(ranks // 32, min(ranks // 4, 8)) if ranks >= 4 else ranks
 
 
 def calibrate(one, triangles, cuts, ends):
@@ -160,6 +163,11 @@ def calibrate(one, triangles, cuts, ends):
     return cost
 
 
+def hops(ranks):
+    """Returns how many steps it takes from one rank to all."""
+    return math.ceil(math.log2(ranks)) if ranks > 1 else 0
+
+
 def replay(ranks, triangles, sizes, cost, model):
     """Returns the seconds of a run: pieces are taken one by one by whoever is idle, the largest estimates first. Some
     ranks cut the regions round the bodies before."""
@@ -180,10 +188,13 @@ def replay(ranks, triangles, sizes, cost, model):
         free = [before + triangles * cost["cutting_divided"]]
         end = triangles * cost["end_divided"]
     else:
-        share = triangles * cost["cutting_divided_on_many"] / ranks
+        cutters = cutting_ranks(ranks)
+        if cutters == ranks:  # all do everything, and wait for each other in the rounds of cuts
+            cutters = 0
+        share = triangles * cost["cutting_divided_on_many"] / (ranks - cutters)
         critical = cost["critical_of_1e9"] * (triangles / 1e9) ** cost["critical_power"] * model["cuts_scale"]
         start = before + cutting + LINES_SHARE * share
-        cutters = cutting_ranks(ranks)
+        critical += model["rounds"] * hops(cutters) * model["latency_seconds"]
         free = [start + (1 - LINES_SHARE) * share] * (ranks - cutters) + [start + critical] * cutters
         end = cost["end_of_1e9"] * (triangles / 1e9) ** cost["end_power"] * (1 - divided_too)
         end += triangles * cost["end_divided"] / ranks
@@ -191,13 +202,10 @@ def replay(ranks, triangles, sizes, cost, model):
     for _, seconds in work:
         heapq.heapreplace(free, free[0] + model["fetch_seconds"] + seconds)
     last = max(free)
-    hops = math.ceil(math.log2(ranks)) if ranks > 1 else 0
-    # What each rank tells all others of its lines and of its cuts, once for each round of cuts.
-    told = hops * (model["latency_seconds"] * model["rounds"]
-                   + model["bytes_told_of_piece"] * count / model["bytes_per_second"])  # fmt: skip
-    reductions = 4 * hops * model["latency_seconds"]
+    told = hops(ranks) * (model["latency_seconds"] * model["collectives"]
+                          + model["bytes_told_of_piece"] * count / model["bytes_per_second"])  # fmt: skip
     output = triangles * model["bytes_per_triangle"] / model["output_bytes_per_second"]
-    return {"seconds": last + end + told + reductions + output, "pieces": count}
+    return {"seconds": last + end + told + output, "pieces": count}
 
 
 def tables(sizes, cost, model):
@@ -222,7 +230,8 @@ MODEL = {
     "noise": 0.02,  # of the time of a piece
     "fetch_seconds": 5e-6,  # one atomic fetch from another rank
     "latency_seconds": 5e-6,
-    "rounds": 16,  # of cuts, each with a collective exchange
+    "rounds": 16,  # of cuts, each with an exchange among those who cut
+    "collectives": 16,  # calls of functions in which all ranks wait for each other
     "bytes_told_of_piece": 2.0,  # to all ranks: its work, and the numbers of vertices of its lines
     "bytes_per_second": 5e9,  # between two ranks
     "bytes_per_triangle": 0.0,  # of output; 0: a sink that counts

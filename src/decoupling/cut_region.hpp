@@ -66,12 +66,13 @@ LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nul
 LAMINA_EXPORT Subdomain make_subdomain(const LineBorder& border, const WorkEstimate* known, Lines& lines,
                                        const SeparatorSpacing& spacing, const RefineOptions& refine);
 
-/// Returns a hash of all lines before they are numbered: what processes tell of their cuts means something else where
-/// it differs.
-std::uint64_t hash_of_lines(const Lines& lines);
+/// A short hash of all lines before they are numbered. What processes tell of their cuts means something else where it
+/// differs. All tell it to all, so it is short: require_same_borders() has a long one in the end.
+using LinesHash = std::uint16_t;
+LinesHash hash_of_lines(const Lines& lines);
 
 /// Throws MeshError where processes have told different hashes, which begin these texts.
-void require_same_hashes(std::span<const std::string> told);
+void require_same_hashes(std::span<const std::string> told, std::size_t bytes_of_hash);
 
 /// Collective: throws MeshError on rank 0 where another process has other borders. Its numbers would mean other vertices,
 /// which no check of a piece by itself can see.

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@
 
 namespace lamina::decoupling {
 
-std::uint64_t hash_of_lines(const Lines& lines) {
+LinesHash hash_of_lines(const Lines& lines) {
     core::WordHash hash;
     for (std::size_t i = 0; i < lines.junctions(); ++i) hash.add(lines.point(LineVertex{VertexId{i}}));
     for (const LineRow& row : lines.rows())
@@ -24,11 +25,11 @@ std::uint64_t hash_of_lines(const Lines& lines) {
     for (std::uint32_t line = 0; line < lines.size() && !lines.is_in_row(line); ++line)
         for (std::uint32_t i = 0; i < lines.segments(line); ++i) hash.add(lines.point(line, i));
     hash.add(std::uint64_t{lines.vertices()});
-    return hash.value();
+    return static_cast<LinesHash>(hash.value() >> 48);
 }
 
-void require_same_hashes(std::span<const std::string> told) {
-    const auto hash_of = [](const std::string& text) { return core::Unpacker(text).get<std::uint64_t>(); };
+void require_same_hashes(std::span<const std::string> told, std::size_t bytes_of_hash) {
+    const auto hash_of = [&](const std::string& text) { return std::string_view(text).substr(0, bytes_of_hash); };
     for (std::size_t rank = 0; rank < told.size(); ++rank)
         if (hash_of(told[rank]) != hash_of(told.front()))
             throw MeshError(
@@ -55,7 +56,7 @@ void require_same_borders(const CutRegion& cut, Ranks& ranks) {
     }
     core::Packer packer;
     packer.put(hash.value());
-    require_same_hashes(ranks.gather(packer.take()));
+    require_same_hashes(ranks.gather(packer.take()), sizeof hash.value());
 }
 
 }  // namespace lamina::decoupling

@@ -144,11 +144,12 @@ std::vector<SearchResult> search_together(Lines& lines, std::span<const DealtBor
 }
 
 unsigned cutting_processes(std::size_t others, unsigned processes) {
-    // Few processes lose little while most of them wait, in the first rounds. There are 130 pieces round a body and more:
-    // fewer than eight processes would have too many of them, and of the edges between them. Where there is little else
-    // to do, or one process would have most of the work, all cut.
+    // Few processes lose little while most of them wait, in the first rounds, and nobody waits for them while there are
+    // other pieces to make. There are 130 pieces round a body and more: fewer than eight processes would have too many of
+    // them, and of the edges between them. Where there is little else to do, or one process would have most of the work,
+    // all cut.
     if (others < processes || processes < 4) return processes;
-    return std::max(processes / 16, std::min(processes / 4, 8u));
+    return std::max(processes / 32, std::min(processes / 4, 8u));
 }
 
 std::vector<std::size_t> region_shares(std::size_t regions, unsigned processes) {
@@ -171,9 +172,9 @@ void number_together(Lines& lines, std::span<const LineRun> runs, const Separato
     packer.put(hash_of_lines(lines));
     packer.put_bytes(numbers.take());
     const std::vector<std::string> told = ranks.all_gather(packer.take());
-    require_same_hashes(told);
+    require_same_hashes(told, sizeof(LinesHash));
     std::vector<core::DifferenceUnpacker> unpackers;
-    for (const std::string& text : told) unpackers.emplace_back(std::string_view(text).substr(sizeof(std::uint64_t)));
+    for (const std::string& text : told) unpackers.emplace_back(std::string_view(text).substr(sizeof(LinesHash)));
     for (const LineRun& run : runs) {
         core::DifferenceUnpacker unpacker = unpackers[run.process];
         for (std::uint32_t line = run.begin; line < run.end; ++line) lines.number(line, unpacker.get());

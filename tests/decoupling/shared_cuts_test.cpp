@@ -222,7 +222,7 @@ protected:
     std::vector<std::string> do_all_gather(std::string_view bytes) override {
         std::vector<std::string> told = ThreadRanks::do_all_gather(bytes);
         if (rank() != misled || std::exchange(has_heard_, true)) return told;
-        constexpr std::size_t hash_bytes = sizeof(std::uint64_t);
+        constexpr std::size_t hash_bytes = sizeof(decoupling::LinesHash);
         for (std::string& text : told) {
             core::DifferencePacker packer;
             const auto numbers = std::string_view(text).substr(hash_bytes);
