@@ -20,7 +20,7 @@ namespace {
 /// edge that is too long by a few per cent would raise the size at a fine edge far away to a multiple of it.
 constexpr double max_raise = 2.5;
 /// Bounds are lowered by this share, so that rounding never makes them wrong.
-constexpr double rounding = 1e-9;
+constexpr double lowering = 1e-9;
 
 /// Returns the size that each edge of a border requests. Edges come with their own sizes, length / frozen_share. An
 /// edge beside a longer one, on the same border or across a slot, requests more, so that none is too long for the field
@@ -44,7 +44,7 @@ std::vector<double> edge_sizes(std::span<const SizeSource> edges, double gradati
         for (std::size_t i = begin; i < end; ++i) {
             const Point p = midpoint(edges[i].a, edges[i].b);
             // What the edge before has got, less what the way from there takes, is a bound; rounding must not raise it.
-            const double least = (1 - rounding) * (raised - gradation * distance(p, std::exchange(last, p)));
+            const double least = (1 - lowering) * (raised - gradation * distance(p, std::exchange(last, p)));
             raised = -tree.minimum(p, gradation, -std::max(least, edges[i].size), values, [&](std::size_t other) {
                 return distance(p, midpoint(edges[other].a, edges[other].b));
             });
