@@ -10,7 +10,7 @@ ranks make while the others make pieces. Further runs of them, with 2 million tr
 end takes than what the mean rank does there; of each of its phases the median counts. The finer mesh on one rank says
 what a triangle costs. A file of the first mesh says how many triangles each piece has. The replay deals pieces of the
 same sizes as ranks ask for them, the largest estimates first, and adds the rest. docs/scaling.md states the assumptions
-and shows the result. All of it takes ten minutes and 16 GiB.
+and shows the result. All of it takes a quarter of an hour and 16 GiB.
 """
 
 import argparse
@@ -254,7 +254,7 @@ def main():
     parser.add_argument("--finer", default="0.0004,0.00014", help="gradations of two finer meshes [%(default)s]")
     parser.add_argument("--many", default="104,512", help="two numbers of ranks that cut the finer meshes [%(default)s]")
     parser.add_argument("--ranks", default="1,2,4,8,16,32", help="of the runs that are measured [%(default)s]")
-    parser.add_argument("--repeat", type=int, default=3, help="runs for the median of the end [%(default)s]")
+    parser.add_argument("--repeat", type=int, default=3, help="runs for medians of the cuts and of the end [%(default)s]")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the model")
     arguments = parser.parse_args()
     for text in arguments.set:
@@ -266,7 +266,9 @@ def main():
     runs = measure(arguments.measure, [arguments.gradation, *ranks])
     cuts, ends = [], []
     for gradation in arguments.finer.split(","):
-        cuts.append(cutting_of(*measure(arguments.measure, ["--until-pieces", gradation, *many])))
+        each = [cutting_of(*measure(arguments.measure, ["--until-pieces", gradation, *many]))
+                for _ in range(arguments.repeat)]  # fmt: skip
+        cuts.append({name: statistics.median(cut[name] for cut in each) for name in each[0]})
         ranks_at_end = max(2, round(cuts[-1]["triangles"] / WEAK_SHARE))
         ended = measure(arguments.measure, ["--forget", gradation, *arguments.repeat * [ranks_at_end]])
         ends.append((ended[0]["triangles"], beyond_mean(ended)))

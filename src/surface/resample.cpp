@@ -127,6 +127,20 @@ void drop_close_to_corners(Stretch& stretch, std::span<const EdgeTreatment> trea
     }
 }
 
+/// Drops all samples between two corners that lie on the straight line between these but for their rounding, unless an
+/// edge there stays as it is. A spline through them would turn at each of them, on a base of a thousandth of the chord by
+/// some degrees.
+void drop_rounding(Stretch& stretch, std::span<const EdgeTreatment> treatment, double tolerance) {
+    std::vector<Point>& p = stretch.run.points;
+    if (stretch.run.closed || p.size() < 3) return;
+    for (std::size_t piece = 0; piece + 1 < p.size(); ++piece)
+        if (treatment_of(stretch, piece, treatment) != EdgeTreatment::spline) return;
+    for (std::size_t i = 1; i + 1 < p.size(); ++i)
+        if (core::distance_to_segment(p[i], p.front(), p.back()) > tolerance) return;
+    p.erase(p.begin() + 1, p.end() - 1);
+    stretch.origins.erase(stretch.origins.begin() + 1, stretch.origins.end() - 1);
+}
+
 /// The curves of an outline.
 struct OutlineCurves {
     std::vector<OutlineCurve> curves;
@@ -308,13 +322,14 @@ double extent(std::span<const Point> outline) { return core::longer_side(core::b
 
 ResampledElement resample(const Element& given, std::size_t index, const ResamplingRequest& request,
                           std::span<const EdgeTreatment> treatment, const std::string& reason, SampledCurves& known) {
-    constexpr double max_pair_share = 1e-3;  // of the extent
+    constexpr double max_pair_share = 1e-3, rounding = 5e-6;  // of the extent; flaps have as many digits as sections
     const SurfaceOptions& options = request.options;
     const double scale = extent(given.points);
     const CorneredOutline outline = merge_close_pairs(given, treatment, max_pair_share * scale);
     OutlineCurves outline_curves;
     for (Stretch& stretch : stretches_of(outline)) {
         drop_close_to_corners(stretch, treatment, 0.5 * options.tolerance * scale);
+        drop_rounding(stretch, treatment, rounding * scale);
         append_curves(stretch, treatment, outline_curves);
     }
     const ChordEnds ends = find_chord_ends(given.points);

@@ -237,6 +237,39 @@ TEST(AutomaticSurface, BendsTheCurvedSideOfAPolygonOnly) {
     EXPECT_LE(max_spacing_ratio(e.points), 1.25);
 }
 
+/// Returns a section with an inclined base of a thousandth of its chord that has many samples, with so many digits.
+Outline section_with_sampled_base(int digits) {
+    Outline outline;
+    const int sides = 80, base = 16;
+    const auto side = [&](int i, double sign) {
+        const double x = 0.5 * (1 + std::cos(3.14159265358979323846 * i / sides));
+        outline.push_back({x, sign * naca_half_thickness(0.12, x, -0.1036) + sign * 0.0005 * x});
+    };
+    for (int i = 0; i < sides; ++i) side(i, 1);
+    for (int i = sides; i >= 0; --i) side(i, -1);
+    const Point lower = outline.back(), upper = outline.front();
+    for (int i = 1; i < base; ++i)
+        outline.push_back(lower + 0.5 * (1 - std::cos(3.14159265358979323846 * i / base)) * (upper - lower));
+    outline = shapes::moved(outline, -0.35, 1, {0, 0});
+    const double unit = std::pow(10, -digits);
+    for (Point& p : outline) p = {std::round(p.x / unit) * unit, std::round(p.y / unit) * unit};
+    return outline;
+}
+
+TEST(AutomaticSurface, TakesNoRoundingForTheCurvatureOfABase) {
+    const auto shortest_edge = [](const Outline& p) {
+        double shortest = HUGE_VAL;
+        for (std::size_t i = 0; i < p.size(); ++i) shortest = std::min(shortest, distance(p[i], p[(i + 1) % p.size()]));
+        return shortest;
+    };
+    const Element exact = prepared(section_with_sampled_base(12), resampling()),
+                  rounded = prepared(section_with_sampled_base(6), resampling());
+    ASSERT_EQ(exact.features.corners.size(), 2u);
+    EXPECT_EQ(rounded.features.corners.size(), 2u);
+    EXPECT_NEAR(shortest_edge(rounded.points), shortest_edge(exact.points), 0.05 * shortest_edge(exact.points));
+    EXPECT_NEAR(static_cast<double>(rounded.points.size()), static_cast<double>(exact.points.size()), 4);
+}
+
 /// Returns the length of the edges of an outline at its vertex that is nearest to a point.
 double spacing_at(const Outline& p, Point at) {
     const auto nearer = [&](Point a, Point b) { return distance(a, at) < distance(b, at); };
