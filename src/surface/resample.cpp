@@ -129,14 +129,18 @@ void drop_close_to_corners(Stretch& stretch, std::span<const EdgeTreatment> trea
 
 /// Drops all samples between two corners that lie on the straight line between these but for their rounding, unless an
 /// edge there stays as it is. A spline through them would turn at each of them, on a base of a thousandth of the chord by
-/// some degrees.
+/// some degrees. Samples that are as far from the line as from each other are a shape, however large the element.
 void drop_rounding(Stretch& stretch, std::span<const EdgeTreatment> treatment, double tolerance) {
     std::vector<Point>& p = stretch.run.points;
+    constexpr double max_share_of_edge = 0.25;
     if (stretch.run.closed || p.size() < 3) return;
     for (std::size_t piece = 0; piece + 1 < p.size(); ++piece)
         if (treatment_of(stretch, piece, treatment) != EdgeTreatment::spline) return;
-    for (std::size_t i = 1; i + 1 < p.size(); ++i)
-        if (core::distance_to_segment(p[i], p.front(), p.back()) > tolerance) return;
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+        const double edge = std::min(distance(p[i - 1], p[i]), distance(p[i], p[i + 1]));
+        if (core::distance_to_segment(p[i], p.front(), p.back()) > std::min(tolerance, max_share_of_edge * edge))
+            return;
+    }
     p.erase(p.begin() + 1, p.end() - 1);
     stretch.origins.erase(stretch.origins.begin() + 1, stretch.origins.end() - 1);
 }

@@ -270,6 +270,14 @@ TEST(AutomaticSurface, TakesNoRoundingForTheCurvatureOfABase) {
     EXPECT_NEAR(static_cast<double>(rounded.points.size()), static_cast<double>(exact.points.size()), 4);
 }
 
+TEST(AutomaticSurface, TakesNoSectionForTheRoundingOfALongSpike) {
+    Outline given = section_with_sampled_base(6);
+    const Point tail = given.front();
+    given.front() = {1e6, tail.y};
+    const Element e = prepared(given, resampling());
+    for (std::size_t i = 10; i < 150; i += 10) EXPECT_LT(distance_to(e.points, given[i]), 0.1) << i;
+}
+
 /// Returns the length of the edges of an outline at its vertex that is nearest to a point.
 double spacing_at(const Outline& p, Point at) {
     const auto nearer = [&](Point a, Point b) { return distance(a, at) < distance(b, at); };
