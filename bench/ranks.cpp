@@ -321,21 +321,21 @@ std::string measured(unsigned n, const CaseOptions& options, bool until_pieces, 
         n, run.triangles, run.pieces, run.hash, run.messages, run.bytes, stages_json(run));
 }
 
+/// Gives each rank freed memory of its own, as the processes of lamina-mpi have. By default 16 and more threads share
+/// what they have freed.
+void keep_memory_as_processes() {
+    app::keep_freed_memory();
+#ifdef __GLIBC__
+    mallopt(M_ARENA_MAX, 4096);
+#endif
+}
+
 }  // namespace
 }  // namespace lamina::bench
 
 /// Writes nothing, in place of the function of the system: see --forget.
 extern "C" ssize_t pwrite(int, const void*, std::size_t bytes, off_t) { return static_cast<ssize_t>(bytes); }
 extern "C" ssize_t pwrite64(int, const void*, std::size_t bytes, off64_t) { return static_cast<ssize_t>(bytes); }
-
-/// Gives each rank freed memory of its own, as the processes of lamina-mpi have. By default 16 and more threads share
-/// what they have freed.
-void keep_memory_as_processes() {
-    lamina::app::keep_freed_memory();
-#ifdef __GLIBC__
-    mallopt(M_ARENA_MAX, 4096);
-#endif
-}
 
 int main(int argc, char** argv) {
     const std::string_view option = argc > 1 ? argv[1] : "";
@@ -345,7 +345,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: lamina_measure_ranks [--until-pieces|--forget] GRADATION RANKS...\n");
         return 2;
     }
-    keep_memory_as_processes();
+    lamina::bench::keep_memory_as_processes();
     lamina::CaseOptions options = lamina::bench::thesis_case(std::strtod(argv[first], nullptr));
     options.limits.max_triangles = 4'000'000'000;
     std::vector<std::string> runs;

@@ -53,9 +53,9 @@ public:
 
 class Ranks;
 
-/// What all ranks tell all of them while each goes on with its work: see Ranks::start_all_gather(). Rank 0 collects it,
-/// and who has got it passes it on: so a rank looks now and then whether it is there, and waits for it where this object
-/// ends, whatever has happened.
+/// A PendingGather brings the bytes of all ranks to all of them while each goes on with its work: Ranks::start_all_gather()
+/// makes one on each rank. Rank 0 collects the bytes, and each rank that has got them passes them on to some others. So a
+/// rank should ask is_there() now and then; where the object ends, it waits for the bytes, whatever has happened.
 class LAMINA_EXPORT PendingGather {
 public:
     PendingGather(const PendingGather&) = delete;
@@ -70,7 +70,9 @@ public:
 private:
     friend class Ranks;
     PendingGather(Ranks& ranks, std::string_view bytes);
+    /// Receives what has come, or waits for what has not. Returns whether the bytes of all ranks are there.
     bool advance(bool waits);
+    /// Sends the bytes of all ranks to those that this one is to tell.
     void pass_on();
 
     Ranks& ranks_;

@@ -56,7 +56,6 @@ std::vector<std::string> PendingGather::take() {
     return texts;
 }
 
-/// Receives what is there, or waits for what is not. Returns whether all is there.
 bool PendingGather::advance(bool waits) {
     if (is_there_) return true;
     if (ranks_.rank() == 0) {

@@ -48,17 +48,16 @@ struct OuterRegion {
     const DecouplingOptions& options;
 };
 
-/// What processes do beside the cuts, if anything.
+/// BesideCuts holds functions that cut_region() calls on each process while it cuts, where they are given.
 struct BesideCuts {
-    std::function<void()> once_numbered{};  ///< called by all when they have waited for each other, before any piece
-    MakeTrapezoid make{};
+    std::function<void()> once_numbered{};  ///< called once, when all have waited for each other and none makes pieces
+    MakeTrapezoid make{};                   ///< called for pieces, by processes that would wait
 };
 
 /// Cuts the outer region as decouple() does, and throws what it throws. Collective where `ranks` are given: they divide
 /// the work among themselves, and each divides those lines alone that it needs for its share; throws MeshError where
-/// another process would cut another region. Processes that would wait call `make`, if it is given, which finds
-/// the vertices of trapezoids in Lines::gathered(): these have their ids before anything is cut. Those whose pieces they
-/// keep are told by EstimatedBorder::kept.
+/// another process would cut another region. BesideCuts::make finds the vertices of trapezoids in Lines::gathered(): these
+/// have their ids before anything is cut. EstimatedBorder::kept tells which pieces a process may have made with it.
 LAMINA_EXPORT CutRegion cut_region(const OuterRegion& region, Ranks* ranks = nullptr, const BesideCuts& beside = {});
 
 /// Makes a subdomain from its border. Divides its lines, and estimates its work unless that is known: null. `spacing`

@@ -4,6 +4,21 @@
 
 namespace lamina::decoupling {
 
+namespace {
+
+/// Returns who divides the lines round the bodies, as shares of the trapezoids beside them: those who cut there and have no
+/// trapezoids, or else the processes that have them.
+std::vector<std::size_t> shares_round_bodies(const std::vector<std::size_t>& shares, std::size_t trapezoids) {
+    const auto cutters =
+        static_cast<std::size_t>(std::upper_bound(shares.begin(), shares.end(), std::size_t{0}) - shares.begin() - 1);
+    if (cutters == 0) return shares;
+    std::vector<std::size_t> of_cutters;
+    for (std::size_t i = 0; i <= cutters; ++i) of_cutters.push_back(trapezoids * i / cutters);
+    return of_cutters;
+}
+
+}  // namespace
+
 RingRegions::Place RingRegions::find(std::size_t trapezoid) const {
     const auto ring = static_cast<std::size_t>(std::upper_bound(end_.begin(), end_.end(), trapezoid) - end_.begin());
     return {rings_[ring], static_cast<std::uint32_t>(trapezoid - (ring > 0 ? end_[ring - 1] : 0))};
@@ -12,8 +27,8 @@ RingRegions::Place RingRegions::find(std::size_t trapezoid) const {
 void RingRegions::share(const std::vector<std::size_t>& shares) {
     runs_.clear();
     // Adds the lines first_line + lines_before(t) to lines_before(t + 1) of each trapezoid t of a ring.
-    const auto add_row_for = [&](const std::vector<std::size_t>& shares_of_row, std::size_t ring,
-                                 std::uint32_t first_line, auto&& lines_before) {
+    const auto add_row = [&](const std::vector<std::size_t>& shares_of_row, std::size_t ring, std::uint32_t first_line,
+                             auto&& lines_before) {
         const std::size_t begin = ring > 0 ? end_[ring - 1] : 0;
         auto process = static_cast<std::size_t>(std::upper_bound(shares_of_row.begin(), shares_of_row.end(), begin) -
                                                 shares_of_row.begin());
@@ -29,24 +44,14 @@ void RingRegions::share(const std::vector<std::size_t>& shares) {
     const auto times = [](std::uint32_t n) {
         return [n](std::size_t trapezoids) { return n * static_cast<std::uint32_t>(trapezoids); };
     };
-    const auto add_row = [&](std::size_t ring, std::uint32_t first_line, auto&& lines_before) {
-        add_row_for(shares, ring, first_line, lines_before);
-    };
-    // The lines round the bodies are divided by those that cut there, who have no trapezoids.
-    if (!rings_.empty()) {
-        const auto cutters = static_cast<std::size_t>(std::upper_bound(shares.begin(), shares.end(), std::size_t{0}) -
-                                                      shares.begin() - 1);
-        std::vector<std::size_t> shares_of_cutters;
-        for (std::size_t i = 0; i <= cutters && cutters > 0; ++i)
-            shares_of_cutters.push_back(end_.front() * i / cutters);
-        add_row_for(cutters > 0 ? shares_of_cutters : shares, 0, rings_.front().first_inner,
-                    times(rings_.front().inner_per_trapezoid));
-    }
+    if (!rings_.empty())
+        add_row(shares_round_bodies(shares, end_.front()), 0, rings_.front().first_inner,
+                times(rings_.front().inner_per_trapezoid));
     for (std::size_t ring = 0; ring < rings_.size(); ++ring)
-        add_row(ring, rings_[ring].first_outer, times(rings_[ring].outer_per_trapezoid));
+        add_row(shares, ring, rings_[ring].first_outer, times(rings_[ring].outer_per_trapezoid));
     // A line that leads outwards is beside the trapezoid before it, and the first one beside the first trapezoid.
     for (std::size_t ring = 0; ring < rings_.size(); ++ring)
-        add_row(ring, rings_[ring].first_radial, [n = rings_[ring].trapezoids](std::size_t trapezoids) {
+        add_row(shares, ring, rings_[ring].first_radial, [n = rings_[ring].trapezoids](std::size_t trapezoids) {
             return trapezoids == 0 ? 0 : std::min(static_cast<std::uint32_t>(trapezoids) + 1, n);
         });
 }

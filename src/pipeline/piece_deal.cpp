@@ -40,13 +40,15 @@ PieceDeal deal_pieces(std::span<const decoupling::EstimatedBorder> borders, unsi
     std::vector<double> of_rest(processes, 0);
     for (std::size_t i = 0; i < borders.size(); ++i) {
         const std::uint32_t owner = borders[i].process;
-        const double of_piece = borders[i].kept ? 0 : borders[i].work;
-        if (of_piece > 0 && (kept_by[owner] + of_piece > most || of_rest[owner] + of_piece > most_of_rest)) {
-            deal.shared.push_back(i);
-            continue;
+        if (!borders[i].kept) {
+            const double of_piece = borders[i].work;
+            if (kept_by[owner] + of_piece > most || of_rest[owner] + of_piece > most_of_rest) {
+                deal.shared.push_back(i);
+                continue;
+            }
+            kept_by[owner] += of_piece;
+            of_rest[owner] += of_piece;
         }
-        kept_by[owner] += of_piece;
-        of_rest[owner] += of_piece;
         if (owner == process) deal.own.push_back(i);
     }
     sort_by_work(borders, deal.own);

@@ -9,8 +9,8 @@
 
 namespace lamina::pipeline {
 
-/// The pieces that a process makes: first those that are its own, then any of those that all share, as it is free. Both
-/// are in the order of the work, the largest first.
+/// The pieces that a process makes: first those that are its own, then some of those that all share, until none is left.
+/// Both are in the order of the work, the largest first.
 struct PieceDeal {
     std::vector<std::size_t> own;
     std::vector<std::size_t> shared;  ///< the same for all processes

@@ -1,7 +1,6 @@
 // Ranks that are threads of the test, in place of processes.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <barrier>
 #include <condition_variable>
