@@ -18,6 +18,8 @@ limit, left an invalid mesh, or ended with an exit code other than 0 (meshed) or
 
 import argparse
 import concurrent.futures
+import dataclasses
+import json
 import os
 import pathlib
 import sys
@@ -46,6 +48,7 @@ def arguments():
     parser.add_argument("--program", default=str(REPOSITORY / "build/release/src/app/lamina"),
                         help="lamina [%(default)s]")
     parser.add_argument("--output", type=pathlib.Path, metavar="PAGE.md", help="file for the page")
+    parser.add_argument("--json", type=pathlib.Path, metavar="FILE.json", help="file for the figures of all cases")
     parser.add_argument("--judgements", type=pathlib.Path, metavar="FILE.toml",
                         default=REPOSITORY / "tools/collection_refusals.toml",
                         help="table of the refusals that somebody has judged [%(default)s]")
@@ -105,6 +108,8 @@ def main():
     text = collection_page.page(results, left_out, judgements, settings)
     settings.output.parent.mkdir(parents=True, exist_ok=True)
     settings.output.write_text(text, encoding="utf-8", errors="backslashreplace")
+    if settings.json:
+        settings.json.write_text(json.dumps([dataclasses.asdict(result) for result in results], indent=1))
     print(f"{collection_page.summary(results)}: {settings.output}")
     sys.exit(1 if any(result.outcome == "failed" for result in results) else 0)
 

@@ -175,6 +175,49 @@ def totals(results, judgements):
     return lines
 
 
+# What layers are judged by: a title, and what says whether a layer meets it.
+LAYER_TARGETS = (
+    ("no angle above 150 degrees", lambda f: f.max_angle <= 150),
+    ("area ratio, 1st percentile at least 0.5", lambda f: f.transition[0] >= 0.5),
+    ("area ratio, median 0.8 to 1.25", lambda f: 0.8 <= f.transition[1] <= 1.25),
+    ("area ratio, 99th percentile at most 2", lambda f: f.transition[2] <= 2),
+    ("99.9 % of first heights within 1 %", lambda f: f.first_off <= 0.001 * f.first_cells),
+)
+
+
+def layers(results):
+    """Returns the tables that say which layers meet their targets, and which do not, apart for single sections and for
+    configurations of several elements."""
+    judged = [result for result in results if result.figures and result.figures.layer and result.figures.layer.transition]
+    if not judged:
+        return []
+    sides = ("single sections", lambda f: f.elements == 1), ("several elements", lambda f: f.elements > 1)
+    groups = [[r.figures.layer for r in judged if of(r.figures.layer)] for _, of in sides]
+    lines = ["", "## Layers", "", *wrapped(
+        "The area ratio is that between the last cell of a column and the triangle beyond it."), "",
+        f"| target | {' | '.join(title for title, _ in sides)} |", "| --- | ---: | ---: |"]
+    targets = (*LAYER_TARGETS, ("all of these", lambda f: all(meets(f) for _, meets in LAYER_TARGETS)))
+    for title, meets in targets:
+        cells = (f"{sum(map(meets, group))} of {len(group)}" for group in groups)
+        lines.append(f"| {title} | {' | '.join(cells)} |")
+    for title, part, whole in (("first heights more than 1 % off", lambda f: f.first_off, lambda f: f.first_cells),
+                               ("wall vertices between edges above 1.25", lambda f: f.wall_uneven,
+                                lambda f: f.first_cells),
+                               ("columns whose ends differ by a third of a cell", lambda f: f.ends_uneven,
+                                lambda f: f.columns)):
+        cells = (f"{sum(map(part, group))} of {sum(map(whole, group))}" for group in groups)
+        lines.append(f"| {title} | {' | '.join(cells)} |")
+    lines += ["", "| does not meet all | angle | area ratio | first heights off |", "| --- | ---: | ---: | ---: |"]
+    for result in judged:
+        figures = result.figures.layer
+        if not targets[-1][1](figures):
+            ratio = " / ".join(f"{value:.2f}" for value in figures.transition)
+            star = " *" if result.own_options else ""
+            lines.append(f"| {file_names(result)}{star} | {figures.max_angle:.1f} | {ratio} "
+                         f"| {figures.first_off} of {figures.first_cells} |")
+    return lines
+
+
 def without_mesh(results, judgements):
     """Returns the table of the cases that have no mesh, each with its reason and its judgement."""
     rows = []
@@ -208,6 +251,7 @@ def page(results, left_out, judgements, settings):
     ordered = sorted(results, key=badness)
     lines = head(left_out, settings)
     lines += totals(results, judgements)
+    lines += layers(results)
     lines += without_mesh(ordered, judgements)
     lines += mended(results, judgements)
     lines += ["", "## All cases, the worst first", "", *wrapped(

@@ -16,6 +16,19 @@ HEIGHT_OPTIONS = ("--first-height", "--y-plus", "--no-layers")
 
 
 @dataclasses.dataclass
+class LayerFigures:
+    """Figures of the boundary layer, and of the walls below it."""
+    elements: int        # outlines
+    max_angle: float     # largest angle of a cell, in degrees
+    transition: tuple    # 1st percentile, median and 99th percentile of the area ratio to the cells beyond; or empty
+    first_off: int       # first cells whose height is more than 1 % off
+    first_cells: int
+    wall_uneven: int     # wall vertices whose edges differ in length by a factor of more than 1.25
+    ends_uneven: int     # columns whose ends differ by more than a third of a cell
+    columns: int
+
+
+@dataclasses.dataclass
 class Figures:
     """Figures of a valid mesh."""
     triangles: int
@@ -29,6 +42,7 @@ class Figures:
     refused: int         # points not placed, since they would encroach upon a frozen edge
     oversized: int       # triangles larger than the size field asks for
     warnings: list       # codes
+    layer: "LayerFigures | None"   # of a mesh with a layer
 
 
 @dataclasses.dataclass
@@ -78,6 +92,24 @@ def share(part, whole):
     return 100 * part / whole if whole else 100.0
 
 
+def layer_figures(report):
+    """Returns the figures of the boundary layer of a mesh from its report; None where it has no layer."""
+    quality = report["quality"]
+    layer, walls, transition = quality["layer"], quality["walls"], quality["transition"]
+    if not layer["cells"]:
+        return None
+    keys = ("p01_area_ratio", "median_area_ratio", "p99_area_ratio")
+    return LayerFigures(
+        elements=len(report["input"]),
+        max_angle=layer["max_angle_deg"],
+        transition=tuple(transition[key] for key in keys) if transition["edges"] else (),
+        first_off=round(walls["first_cells"] * (1 - walls["share_of_kept_heights"])),
+        first_cells=walls["first_cells"],
+        wall_uneven=walls["uneven_vertices"],
+        ends_uneven=layer["border"]["uneven_columns"],
+        columns=layer["border"]["columns"])
+
+
 def figures_of(report, check):
     """Returns the figures of a mesh from its report and from what `lamina check` says of the file."""
     layer, quality = report["layer_cells"], report["quality"]["isotropic"]
@@ -93,7 +125,8 @@ def figures_of(report, check):
         exempt=quality["exempt"],
         refused=quality["refused_points"],
         oversized=quality["oversized"],
-        warnings=[warning["code"] for warning in report["warnings"]])
+        warnings=[warning["code"] for warning in report["warnings"]],
+        layer=layer_figures(report))
 
 
 def mesh_and_check(case, settings, scratch, result):
