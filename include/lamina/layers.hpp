@@ -481,7 +481,7 @@ struct ObtuseCell {
 };
 
 /// Returns the cells of a layer that have an angle above this one, which is obtuse, but for those of columns with a ray that
-/// is nearer than its supplement to the wall below: they cannot do without. Cells behind bases and of
+/// is nearer than its supplement to the walls on both sides: they cannot do without. Cells behind bases and of
 /// LayerTopology::delaunay have no columns, so none of them is found.
 LAMINA_EXPORT std::vector<ObtuseCell> obtuse_cells(const Layer& layer, const LayerCells& cells, double max_angle_deg);
 

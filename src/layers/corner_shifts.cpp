@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "core/reproducible_math.hpp"
 #include "layers/neighbours.hpp"
 #include "layers/normal_smoothing.hpp"
 
@@ -45,6 +46,14 @@ Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& 
 }
 
 }  // namespace
+
+// The shift of a ray tilted by t, where the wall turns by 2 b, is first_height tan t / cos b long.
+double max_tilt_with_shift(double turning, double first_height, double shorter_edge) {
+    constexpr double slack = 0.9;  // first layers are a little higher where neighbours lean
+    const double longest = slack * most_shift * shorter_edge;
+    const double shifted = core::atan2_reproducible(longest * core::cos_reproducible(0.5 * turning), first_height);
+    return std::max(shifted, max_tilt_between_edges(turning));
+}
 
 void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& heights, RaySet& set) {
     const RayNeighbours neighbours(set);

@@ -73,9 +73,8 @@ std::vector<FanColumn> columns_to_corner(const FanSide& side) {
         const std::size_t i = side.walk.edge(k + 1), j = (i + 1) % side.walk.size;
         const WallVertex &a = side.vertices[i], &b = side.vertices[j];
         const double edge = distance(side.outline[i].at, side.outline[j].at);
-        const double turning = (a.fan ? 0 : 0.5 * a.turning) + (b.fan ? 0 : 0.5 * b.turning) + b.tilt[0] - a.tilt[1];
         const double height = std::max(side.heights[i], side.heights[j]);
-        columns.push_back({edge, edge + height * turning, height, 1});
+        columns.push_back({edge, edge + height * angle_to_next(a, b), height, 1});
     }
     return columns;
 }
@@ -252,16 +251,18 @@ void widen_narrow(const FanSide& side, std::vector<WallVertex>& vertices) {
 
 void spread_fans(std::span<const RayVertex> outline, std::span<const double> heights, double max_ray_angle,
                  std::vector<WallVertex>& vertices) {
-    if (std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; }))
-        return;
-    std::vector<WallVertex> before = vertices;
+    const std::vector<WallVertex> before = vertices;
     for (std::size_t i = 0; i < outline.size(); ++i)
         if (before[i].fan)
             for (const bool ahead : {false, true})
                 spread({outline, heights, before, {outline.size(), i, ahead}}, max_ray_angle, vertices);
     for (WallVertex& vertex : vertices)
         if (vertex.fan) close_sliver(vertex);
-    before = vertices;
+}
+
+void widen_narrow_columns(std::span<const RayVertex> outline, std::span<const double> heights,
+                          std::vector<WallVertex>& vertices) {
+    const std::vector<WallVertex> before = vertices;
     for (std::size_t i = 0; i < outline.size(); ++i)
         if (ends_stretch(before[i]))
             for (const bool ahead : {false, true})

@@ -63,6 +63,13 @@ std::vector<double> front_heights(std::span<const RayVertex> outline, std::span<
     return result;
 }
 
+/// Returns whether columns should be wider than their rays' normals make them: where the flow asks for thick layers, and on
+/// jagged outlines where their number is given. Layers up to isotropy end lower over narrow columns.
+bool has_wider_columns(OutlineKind kind, const LayerGrowth& growth) {
+    const bool jagged = kind == OutlineKind::jagged;
+    return (jagged && growth.layers) || (kind != OutlineKind::given && !growth.least_heights.empty());
+}
+
 RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options,
                const LayerGrowth& growth) {
     RaySet set;
@@ -75,7 +82,7 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         const LayerGrowth own = growth_on_element(growth, e);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
         std::vector<RayLine> rays = make_rays(outline, kind, options, own);
-        if (kind != OutlineKind::given && !own.least_heights.empty())
+        if (has_wider_columns(kind, own))
             rays = make_rays(outline, kind, options, own, front_heights(outline, rays, own));
         set.lines.insert(set.lines.end(), rays.begin(), rays.end());
         set.begin.push_back(set.lines.size());

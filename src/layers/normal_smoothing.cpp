@@ -9,6 +9,7 @@
 
 #include "core/angles.hpp"
 #include "core/reproducible_math.hpp"
+#include "layers/corner_shifts.hpp"
 #include "layers/heights.hpp"
 #include "layers/short_faces.hpp"
 
@@ -68,29 +69,38 @@ struct TiltableRay {
     bool shares_corners;  ///< whether the edge up to the next ray is so short that corners are spread over it
 };
 
-/// Returns the largest tilt of the one ray of a vertex, which may be this large.
-double max_tilt_of_bisector(const WallVertex& vertex, double most) {
+/// Returns the largest tilt of the one ray of a vertex: `most` at a corner, and where the wall turns by little
+/// `most_between_edges`, too.
+double max_tilt_of_bisector(const WallVertex& vertex, double most, double most_between_edges) {
     const double b = 0.5 * std::abs(vertex.turning);
     double tilt = std::min(most, core::radians(max_angle_from_normal_deg) - b);
-    if (2 * b <= core::radians(max_smooth_turning_deg)) tilt = std::min(tilt, max_tilt_between_edges(vertex.turning));
+    if (2 * b <= core::radians(max_smooth_turning_deg)) tilt = std::min(tilt, most_between_edges);
     return std::max(tilt, 0.0);
 }
 
-std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, double clear, bool smooth,
-                                       std::vector<WallVertex>& vertices) {
+std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, double clear, double first_height,
+                                       OutlineKind kind, std::vector<WallVertex>& vertices) {
     // Fans round bases without a wake spread by themselves.
-    const bool has_wake =
-        std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; });
-    const std::vector<double> openings =
-        smooth && !has_wake ? openings_on_short_faces(outline, vertices) : std::vector<double>(outline.size(), 0.0);
+    const bool wake = has_wake(outline);
+    const std::vector<double> openings = kind == OutlineKind::smooth && !wake
+                                             ? openings_on_short_faces(outline, vertices)
+                                             : std::vector<double>(outline.size(), 0.0);
     std::vector<TiltableRay> rays;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
         WallVertex &vertex = vertices[i], &after = vertices[next];
         const std::size_t before = (i + outline.size() - 1) % outline.size();
+        const RayVertex &a = outline[i], &b = outline[next];
+        const double apart = distance(a.at, b.at);
         const bool on_face = openings[before] > 0 || openings[i] > 0;
         const double most = core::radians(on_face ? max_angle_from_normal_deg : max_tilt_deg);
-        const double max_tilt = vertex.fan ? 0.5 * share_of_fan * vertex.turning : max_tilt_of_bisector(vertex, most);
+        // On jagged outlines rays are shifted wherever they lean, not at corners alone.
+        const double shorter = std::min(distance(outline[before].at, a.at), apart);
+        const double most_between_edges = kind == OutlineKind::jagged
+                                              ? max_tilt_with_shift(vertex.turning, first_height, shorter)
+                                              : max_tilt_between_edges(vertex.turning);
+        const double max_tilt =
+            vertex.fan ? 0.5 * share_of_fan * vertex.turning : max_tilt_of_bisector(vertex, most, most_between_edges);
         const double max_share_of_corners = std::min(core::radians(max_corner_tilt_deg),
                                                      vertex.fan ? max_tilt : max_tilt_between_edges(vertex.turning));
         if (vertex.fan)
@@ -98,12 +108,10 @@ std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, doubl
                             0, 0, false});
         const double to_normals = vertex.fan ? 0 : 0.5 * vertex.turning;
         const double turning = to_normals + (after.fan ? 0 : 0.5 * after.turning);
-        const RayVertex &a = outline[i], &b = outline[next];
-        const double least = has_wake ? std::max(a.least_height, b.least_height) : 0;
-        const double apart = distance(a.at, b.at);
+        const double least = wake ? std::max(a.least_height, b.least_height) : 0;
         rays.push_back({vertex.fan ? FanEnd::last : FanEnd::none, &vertex.tilt[vertex.fan], max_tilt,
                         max_share_of_corners, turning, apart, std::max(clear, wide_clearance * least), least,
-                        openings[i], to_normals, !has_wake && apart < short_edge_share * clear});
+                        openings[i], to_normals, !wake && apart < short_edge_share * clear});
     }
     return rays;
 }
@@ -202,14 +210,19 @@ double max_tilt_between_edges(double turning) {
     return core::atan2_reproducible(max_height_difference * core::cos_reproducible(b), core::sin_reproducible(b));
 }
 
-void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle, bool smooth,
+double angle_to_next(const WallVertex& vertex, const WallVertex& next) {
+    const double between_bisectors = (vertex.fan ? 0 : 0.5 * vertex.turning) + (next.fan ? 0 : 0.5 * next.turning);
+    return between_bisectors + next.tilt[0] - vertex.tilt[1];
+}
+
+void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle, OutlineKind kind,
                     std::vector<WallVertex>& vertices) {
     constexpr int rounds = 3;  // the tilts of one decide the distances of the next
     const bool concave =
         std::any_of(vertices.begin(), vertices.end(), [](const WallVertex& v) { return v.turning < 0; });
     if (!concave && growth.least_heights.empty()) return;
     const std::vector<TiltableRay> rays =
-        tiltable_rays(outline, height_to_keep_clear(outline, growth), smooth, vertices);
+        tiltable_rays(outline, height_to_keep_clear(outline, growth), growth.first_height, kind, vertices);
     for (int round = 0; round < rounds; ++round) tilt(rays);
     spread_corners(rays, max_angle);
     for (WallVertex& vertex : vertices)

@@ -6,6 +6,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/outline_kind.hpp"
 #include "layers/wake_outline.hpp"
 
 namespace lamina::layers {
@@ -26,6 +27,9 @@ struct WallVertex {
     double tilt[2]{};     ///< angles by which the first and the last ray are tilted, in radians, counter-clockwise
 };
 
+/// Returns the angle from the last ray of a vertex to the first one of the next, counter-clockwise, in radians.
+double angle_to_next(const WallVertex& vertex, const WallVertex& next);
+
 /// Returns the largest tilt of the one ray of a vertex, in radians, at which it is higher above one of the edges at its
 /// origin than above the other by no more than twice 0.009 of their mean. `turning` is that of the vertex, in radians.
 double max_tilt_between_edges(double turning);
@@ -33,7 +37,7 @@ double max_tilt_between_edges(double turning);
 /// Sets the tilts of the vertices. Convex and gently turning walls get none. On short edges corners of one ray are spread
 /// until neighbouring rays differ by no more than max_angle, in radians; not at all where it is pi. On smooth outlines the
 /// rays of short faces diverge (short_faces.hpp), and fans beside them lean as far as these.
-void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle, bool smooth,
+void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growth, double max_angle, OutlineKind kind,
                     std::vector<WallVertex>& vertices);
 
 }  // namespace lamina::layers

@@ -39,18 +39,21 @@ void add_obtuse(const Layer& layer, std::span<const Cell> cells, std::span<const
     }
 }
 
-/// Returns, for each column, whether one of its rays is so near to the wall below that no cell of the column can do without
-/// such an angle: it is the one ray of a concave corner whose sides meet at twice that angle or less.
+/// Returns, for each column, whether one of its rays is so near to the walls on both sides that no cell of the column can do
+/// without such an angle: it is the one ray of a concave corner whose sides meet at twice what is left to 180 degrees, or less.
 std::vector<char> columns_of_sharp_corners(const Layer& layer, double cosine) {
     std::vector<char> result;
-    for (const std::vector<Ray>& rays : layer.rays)
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Ray &ray = rays[i], &next = rays[(i + 1) % rays.size()];
-            const Point edge = layer.points[next.origin.index()] - layer.points[ray.origin.index()];
-            const double least = -cosine * length(edge);
-            result.push_back(edge != Point{} &&
-                             (dot(ray.direction, edge) > least || -dot(next.direction, edge) > least));
-        }
+    for (const std::vector<Ray>& rays : layer.rays) {
+        const std::size_t n = rays.size();
+        const auto origin = [&](std::size_t i) { return layer.points[rays[i % n].origin.index()]; };
+        const auto is_near = [&](std::size_t ray, Point edge) {
+            return dot(rays[ray].direction, edge) > -cosine * length(edge);
+        };
+        std::vector<char> sharp(n);
+        for (std::size_t i = 0; i < n; ++i)
+            sharp[i] = is_near(i, origin(i + 1) - origin(i)) && is_near(i, origin(i + n - 1) - origin(i));
+        for (std::size_t i = 0; i < n; ++i) result.push_back(sharp[i] || sharp[(i + 1) % n]);
+    }
     return result;
 }
 

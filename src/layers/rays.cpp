@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "layers/even_columns.hpp"
 #include "layers/fan_spreading.hpp"
 #include "layers/intermediate_rays.hpp"
 #include "layers/normal_smoothing.hpp"
@@ -87,11 +88,6 @@ void add_refining_rays(const RayLine& first, const RayLine& last, double max_ang
 
 }  // namespace
 
-OutlineKind outline_kind(const Element& element) {
-    if (element.smooth) return OutlineKind::smooth;
-    return element.resampled ? OutlineKind::jagged : OutlineKind::given;
-}
-
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,
                                const LayerGrowth& growth, std::span<const double> heights) {
     const bool smooth = kind == OutlineKind::smooth, jagged = kind == OutlineKind::jagged;
@@ -101,8 +97,14 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
     const double max_angle = core::radians(options.max_ray_angle_deg);
     // Smooth outlines have fans at their corners.
     const bool has_plain_corners = !smooth && options.corners == CornerRays::fan && !options.fan_rays;
-    smooth_normals(outline, growth, has_plain_corners ? max_angle : core::pi, smooth, vertices);
-    if (!heights.empty() && !options.fan_rays) spread_fans(outline, heights, max_angle, vertices);
+    smooth_normals(outline, growth, has_plain_corners ? max_angle : core::pi, kind, vertices);
+    if (!heights.empty() && !options.fan_rays && !has_wake(outline)) {
+        spread_fans(outline, heights, max_angle, vertices);
+        if (jagged)
+            even_columns(outline, heights, growth.first_height, vertices);
+        else
+            widen_narrow_columns(outline, heights, vertices);
+    }
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());
     for (std::size_t i = 0; i < outline.size(); ++i) {

@@ -6,19 +6,10 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/outline_kind.hpp"
 #include "layers/wake_outline.hpp"
 
 namespace lamina::layers {
-
-/// How the vertices of an outline were chosen.
-enum class OutlineKind {
-    given,   ///< those of the input, of which nothing is known
-    smooth,  ///< smooth but at few corners (Element::smooth)
-    jagged,  ///< resampled between many corners, as iced ones are
-};
-
-/// Returns the kind of an element's outline.
-OutlineKind outline_kind(const Element& element);
 
 /// Returns the rays of one counter-clockwise outline in the order of the wall: the bisector at each vertex, or a fan at
 /// a sharp corner, both smoothed in concavities, and refining rays on the edges between, so that neighbours differ by
@@ -26,7 +17,8 @@ OutlineKind outline_kind(const Element& element);
 /// by any angle where they converge. The vertices of the outline are origins exactly; the rays of a fan have one
 /// origin. On smooth outlines, blunter corners have fans, too: refining rays would divide the edges beside them into
 /// far shorter ones. Vertices of a wake have one ray on either side, and its edges no refining rays, so that both sides
-/// keep the same vertices. With heights of the front, one per vertex, fans are spread (fan_spreading.hpp). With
+/// keep the same vertices. With heights of the front, one per vertex, fans are
+/// spread and narrow columns widened (fan_spreading.hpp, even_columns.hpp), but on outlines with a wake. With
 /// options.fan_rays each fan has this number of rays, only sharp corners have fans, and there are neither refining rays
 /// nor spread fans. Source: thesis 3 and 3.1.
 std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind kind, const LayerOptions& options,

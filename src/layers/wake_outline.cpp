@@ -212,6 +212,10 @@ std::vector<Point> stretch(std::span<const Point> outline, const Base& base) {
 
 }  // namespace
 
+bool has_wake(std::span<const RayVertex> outline) {
+    return std::any_of(outline.begin(), outline.end(), [](const RayVertex& v) { return v.place != RayPlace::wall; });
+}
+
 std::vector<DividedWake> divide_wakes(const Geometry& geometry, const LayerGrowth& growth,
                                       std::span<const double> ends) {
     std::vector<DividedWake> wakes;

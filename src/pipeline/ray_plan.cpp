@@ -138,7 +138,9 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
 
 void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
     constexpr double max_angle_deg = 150;
-    constexpr int max_rounds = 8, max_rounds_without_gain = 3;
+    constexpr int max_rounds = 7, max_rounds_without_gain = 3;
+    // Cells far from the wall go first: what ends below cells in a cleft can be worse than these, and would hide the gain.
+    constexpr std::uint16_t far_from_wall = 10, above_first = 1;
     // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
     if (!options.layer.enabled || options.layer.fan_rays || all_layers_fit(plan.rays)) return;
     const auto obtuse_cells_of = [&](const Rays& rays) {
@@ -146,19 +148,22 @@ void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
             close_border(rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
         return obtuse_cells(layer, fill_layer(layer, options.layer.topology, options.decomposition), max_angle_deg);
     };
-    Rays rays = plan.rays;
-    std::vector<ObtuseCell> obtuse = obtuse_cells_of(rays);
-    std::size_t fewest = obtuse.size();
+    std::vector<ObtuseCell> fewest = obtuse_cells_of(plan.rays);
     bool is_changed = false;
-    for (int round = 1, without_gain = 0; round < max_rounds && without_gain < max_rounds_without_gain; ++round) {
-        if (!end_columns_below(obtuse, rays)) break;
-        obtuse = obtuse_cells_of(rays);
-        ++without_gain;
-        if (obtuse.size() >= fewest) continue;
-        fewest = obtuse.size();
-        plan.rays = rays;
-        is_changed = true;
-        without_gain = 0;
+    for (const std::uint16_t above : {far_from_wall, above_first}) {
+        Rays rays = plan.rays;
+        std::vector<ObtuseCell> obtuse = fewest;
+        for (int round = 0, without_gain = 0; round < max_rounds && without_gain < max_rounds_without_gain; ++round) {
+            std::erase_if(obtuse, [&](const ObtuseCell& cell) { return cell.layer <= above; });
+            if (!end_columns_below(obtuse, rays)) break;
+            obtuse = obtuse_cells_of(rays);
+            ++without_gain;
+            if (obtuse.size() >= fewest.size()) continue;
+            fewest = obtuse;
+            plan.rays = rays;
+            is_changed = true;
+            without_gain = 0;
+        }
     }
     if (!is_changed) return;
     count_thinned(plan);

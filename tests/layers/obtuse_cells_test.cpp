@@ -56,11 +56,17 @@ TEST(ObtuseCells, AreThoseWithALargeAngle) {
             // One ray in each corner of two walls that meet at 60 degrees or less.
             const auto is_excused = [&](std::uint32_t column) {
                 const std::vector<Ray>& rays = layer.rays[0];
-                const Ray &ray = rays[column], &next = rays[(column + 1) % rays.size()];
-                const Point edge = layer.points[next.origin.index()] - layer.points[ray.origin.index()];
-                if (edge == Point{}) return false;
-                const auto off = [&](Point d) { return core::degrees(std::abs(core::angle_between(edge, d))); };
-                return off(ray.direction) < 180 - max_angle_deg || 180 - off(next.direction) < 180 - max_angle_deg;
+                const std::size_t n = rays.size(), next = (column + 1) % n;
+                const auto is_in_corner = [&](std::size_t i) {
+                    const auto off = [&](std::size_t other) {
+                        const Point edge =
+                            layer.points[rays[other].origin.index()] - layer.points[rays[i].origin.index()];
+                        return edge == Point{} ? 180
+                                               : core::degrees(std::abs(core::angle_between(edge, rays[i].direction)));
+                    };
+                    return std::max(off((i + 1) % n), off((i + n - 1) % n)) < 180 - max_angle_deg;
+                };
+                return is_in_corner(column) || is_in_corner(next);
             };
             std::vector<std::pair<std::uint32_t, std::uint16_t>> expected, actual;
             for (std::size_t i = 0; i < cells.triangles.size(); ++i)

@@ -1,0 +1,95 @@
+// On outlines such as iced ones corners follow each other at every tenth edge, and edges are short beside the layer's
+// height. Where each ray is normal to its wall, columns on the straight parts between corners are as narrow at the front
+// as their edges, while those at the corners open like wedges:
+//
+//     |||||||      /           \   \  |  /    /
+//     |||||||    /              \  \  |  /  /      front
+//     |||||||  /  _/             \ \  | / / _/
+//     ||||||| / _/ _/             \\  |// _/ _/
+//     |||||||/_/ _/               \\\ |//_/ _/
+//     -------o /                  -------o /      the wall turns at o
+//              `.                          `.
+//
+// So each ray turns towards the wider one of the columns on both sides, again and again. What a corner has too much spreads
+// over the columns near it, as heat does along a rod. docs/decisions/0069
+#include "layers/even_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/angles.hpp"
+#include "layers/corner_shifts.hpp"
+
+namespace lamina::layers {
+
+namespace {
+
+/// How often each ray turns. What is uneven spreads over twice the square root of this in columns.
+constexpr int rounds = 200;
+/// Columns that are wider than this share of their height have no need of others' width.
+constexpr double wide_enough = 0.1;
+/// No ray leans by more than this for it, unless it did before.
+constexpr double max_lean_deg = 40;
+/// Together with what the wall turns by at a vertex, rays lean by no more than this from the normals on both sides.
+constexpr double max_lean_from_normals_deg = 57;
+
+/// The column between a vertex and the next one.
+struct Column {
+    double edge;    ///< of the wall below
+    double height;  ///< of the front
+    double width;   ///< at the front; negative where rays would cross
+
+    /// Returns the width that counts where columns are compared.
+    double counted() const { return std::min(width, wide_enough * height); }
+};
+
+std::vector<Column> columns_of(std::span<const RayVertex> outline, std::span<const double> heights,
+                               std::span<const WallVertex> vertices) {
+    std::vector<Column> columns(outline.size());
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const std::size_t next = (i + 1) % outline.size();
+        const double edge = distance(outline[i].at, outline[next].at), height = std::max(heights[i], heights[next]);
+        columns[i] = {edge, height, edge + height * angle_to_next(vertices[i], vertices[next])};
+    }
+    return columns;
+}
+
+/// Returns the largest angle by which the one ray of a vertex may lean to either side, in radians: none at which the first
+/// height above the edges on both sides, the shorter of which is given, could not be kept.
+double largest_lean(const WallVertex& vertex, double shorter_edge, double first_height) {
+    const double from_normals = core::radians(max_lean_from_normals_deg) - 0.5 * std::abs(vertex.turning);
+    const double first = max_tilt_with_shift(vertex.turning, first_height, shorter_edge);
+    return std::max(std::min({core::radians(max_lean_deg), from_normals, first}), std::abs(vertex.tilt[0]));
+}
+
+/// Returns the angle by which the ray between two columns turns in one round, counter-clockwise, in radians.
+double turn_between(const Column& before, const Column& after, double tilt, double largest) {
+    const double heights = before.height + after.height;
+    if (!(heights > 0)) return 0;
+    const double turn = 0.5 * (after.counted() - before.counted()) / heights;
+    return std::clamp(tilt + turn, -largest, largest) - tilt;
+}
+
+}  // namespace
+
+void even_columns(std::span<const RayVertex> outline, std::span<const double> heights, double first_height,
+                  std::vector<WallVertex>& vertices) {
+    const std::size_t n = outline.size();
+    std::vector<Column> columns = columns_of(outline, heights, vertices);
+    const auto before = [&](std::size_t i) -> const Column& { return columns[(i + n - 1) % n]; };
+    std::vector<double> largest(n), turns(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+        largest[i] = largest_lean(vertices[i], std::min(before(i).edge, columns[i].edge), first_height);
+    for (int round = 0; round < rounds; ++round) {
+        // All turn at once, so that both directions of the wall are treated alike.
+        for (std::size_t i = 0; i < n; ++i)
+            if (!vertices[i].fan) turns[i] = turn_between(before(i), columns[i], vertices[i].tilt[0], largest[i]);
+        for (std::size_t i = 0; i < n; ++i) {
+            columns[i].width += columns[i].height * (turns[(i + 1) % n] - turns[i]);
+            for (double& tilt : vertices[i].tilt) tilt += turns[i];
+        }
+    }
+}
+
+}  // namespace lamina::layers
