@@ -48,7 +48,8 @@ Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& 
 }  // namespace
 
 // The shift of a ray tilted by t, where the wall turns by 2 b, is first_height tan t / cos b long.
-double max_tilt_with_shift(double turning, double first_height, double shorter_edge) {
+double max_tilt_between_edges(double turning, OutlineKind kind, double first_height, double shorter_edge) {
+    if (kind != OutlineKind::jagged) return max_tilt_between_edges(turning);
     constexpr double slack = 0.9;  // first layers are a little higher where neighbours lean
     const double longest = slack * most_shift * shorter_edge;
     const double shifted = core::atan2_reproducible(longest * core::cos_reproducible(0.5 * turning), first_height);

@@ -5,6 +5,8 @@
 
 #include <lamina/layers.hpp>
 
+#include "layers/outline_kind.hpp"
+
 namespace lamina::layers {
 
 /// Sets the shifts of rays at corners (RayLine::shift), where there is room: those of the one ray of a vertex whose first
@@ -13,8 +15,9 @@ namespace lamina::layers {
 /// per element; heights: those of the rays.
 void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& heights, RaySet& set);
 
-/// Returns the largest tilt of the one ray of a vertex, in radians, at which its first layer needs no shift or has room for
-/// it. `turning` is that of the vertex, in radians; shorter_edge: length of the shorter one of its edges.
-double max_tilt_with_shift(double turning, double first_height, double shorter_edge);
+/// Returns the largest tilt of the one ray of a vertex, in radians, at which its first layer needs no shift or, on jagged
+/// outlines, has room for it. `turning` is that of the vertex, in radians; shorter_edge: length of the shorter one of its
+/// edges.
+double max_tilt_between_edges(double turning, OutlineKind kind, double first_height, double shorter_edge);
 
 }  // namespace lamina::layers

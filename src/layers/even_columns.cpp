@@ -11,7 +11,8 @@
 //              `.                          `.
 //
 // So each ray turns towards the wider one of the columns on both sides, again and again. What a corner has too much spreads
-// over the columns near it, as heat does along a rod. docs/decisions/0069
+// over the columns near it, as heat does along a rod. On smooth outlines a few times are enough to even out what is left of
+// slips in the data. docs/decisions/0069
 #include "layers/even_columns.hpp"
 
 #include <algorithm>
@@ -26,9 +27,9 @@ namespace lamina::layers {
 namespace {
 
 /// How often each ray turns. What is uneven spreads over twice the square root of this in columns.
-constexpr int rounds = 200;
+constexpr int jagged_rounds = 200, smooth_rounds = 10;
 /// Columns that are wider than this share of their height have no need of others' width.
-constexpr double wide_enough = 0.1;
+constexpr double wide_enough = 0.15;
 /// No ray leans by more than this for it, unless it did before.
 constexpr double max_lean_deg = 40;
 /// Together with what the wall turns by at a vertex, rays lean by no more than this from the normals on both sides.
@@ -55,12 +56,11 @@ std::vector<Column> columns_of(std::span<const RayVertex> outline, std::span<con
     return columns;
 }
 
-/// Returns the largest angle by which the one ray of a vertex may lean to either side, in radians: none at which the first
-/// height above the edges on both sides, the shorter of which is given, could not be kept.
-double largest_lean(const WallVertex& vertex, double shorter_edge, double first_height) {
+/// Returns the largest angle by which the one ray of a vertex may lean to either side, in radians. `between_edges` is that
+/// at which the first height above both edges can be kept.
+double largest_lean(const WallVertex& vertex, double between_edges) {
     const double from_normals = core::radians(max_lean_from_normals_deg) - 0.5 * std::abs(vertex.turning);
-    const double first = max_tilt_with_shift(vertex.turning, first_height, shorter_edge);
-    return std::max(std::min({core::radians(max_lean_deg), from_normals, first}), std::abs(vertex.tilt[0]));
+    return std::max(std::min({core::radians(max_lean_deg), from_normals, between_edges}), std::abs(vertex.tilt[0]));
 }
 
 /// Returns the angle by which the ray between two columns turns in one round, counter-clockwise, in radians.
@@ -73,14 +73,18 @@ double turn_between(const Column& before, const Column& after, double tilt, doub
 
 }  // namespace
 
-void even_columns(std::span<const RayVertex> outline, std::span<const double> heights, double first_height,
-                  std::vector<WallVertex>& vertices) {
+void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::span<const double> heights,
+                  double first_height, std::vector<WallVertex>& vertices) {
     const std::size_t n = outline.size();
     std::vector<Column> columns = columns_of(outline, heights, vertices);
     const auto before = [&](std::size_t i) -> const Column& { return columns[(i + n - 1) % n]; };
     std::vector<double> largest(n), turns(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i)
-        largest[i] = largest_lean(vertices[i], std::min(before(i).edge, columns[i].edge), first_height);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double shorter_edge = std::min(before(i).edge, columns[i].edge);
+        largest[i] =
+            largest_lean(vertices[i], max_tilt_between_edges(vertices[i].turning, kind, first_height, shorter_edge));
+    }
+    const int rounds = kind == OutlineKind::jagged ? jagged_rounds : smooth_rounds;
     for (int round = 0; round < rounds; ++round) {
         // All turn at once, so that both directions of the wall are treated alike.
         for (std::size_t i = 0; i < n; ++i)

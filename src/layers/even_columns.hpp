@@ -1,4 +1,4 @@
-// Even columns: on jagged outlines rays turn towards the wider one of the columns on both sides.
+// Even columns: rays turn towards the wider one of the columns on both sides.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace lamina::layers {
 
-/// Adds to the tilts of the vertices of a jagged outline, so that neighbouring columns are nearly as wide as each other at
-/// `heights`, those of the front, one per vertex. No ray leans so far that its first height could not be kept above the
+/// Adds to the tilts of the vertices, so that neighbouring columns are nearly as wide as each other at `heights`, those of the
+/// front, one per vertex: over many columns on jagged outlines, over few on others. No ray leans so far that its first height could not be kept above the
 /// edges on both sides, unless it did before. The rays of fans stay.
-void even_columns(std::span<const RayVertex> outline, std::span<const double> heights, double first_height,
-                  std::vector<WallVertex>& vertices);
+void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::span<const double> heights,
+                  double first_height, std::vector<WallVertex>& vertices);
 
 }  // namespace lamina::layers

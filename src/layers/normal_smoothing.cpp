@@ -94,11 +94,8 @@ std::vector<TiltableRay> tiltable_rays(std::span<const RayVertex> outline, doubl
         const double apart = distance(a.at, b.at);
         const bool on_face = openings[before] > 0 || openings[i] > 0;
         const double most = core::radians(on_face ? max_angle_from_normal_deg : max_tilt_deg);
-        // On jagged outlines rays are shifted wherever they lean, not at corners alone.
         const double shorter = std::min(distance(outline[before].at, a.at), apart);
-        const double most_between_edges = kind == OutlineKind::jagged
-                                              ? max_tilt_with_shift(vertex.turning, first_height, shorter)
-                                              : max_tilt_between_edges(vertex.turning);
+        const double most_between_edges = max_tilt_between_edges(vertex.turning, kind, first_height, shorter);
         const double max_tilt =
             vertex.fan ? 0.5 * share_of_fan * vertex.turning : max_tilt_of_bisector(vertex, most, most_between_edges);
         const double max_share_of_corners = std::min(core::radians(max_corner_tilt_deg),

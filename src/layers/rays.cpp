@@ -100,10 +100,9 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
     smooth_normals(outline, growth, has_plain_corners ? max_angle : core::pi, kind, vertices);
     if (!heights.empty() && !options.fan_rays && !has_wake(outline)) {
         spread_fans(outline, heights, max_angle, vertices);
-        if (jagged)
-            even_columns(outline, heights, growth.first_height, vertices);
-        else
-            widen_narrow_columns(outline, heights, vertices);
+        // What leaves the widest column of a stretch alone would leave the wedges at corners of ice.
+        if (!jagged) widen_narrow_columns(outline, heights, vertices);
+        even_columns(outline, kind, heights, growth.first_height, vertices);
     }
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());

@@ -30,16 +30,16 @@ namespace lamina::layers {
 
 namespace {
 
-/// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has 1.3
-/// times the area of the triangle beyond. They become the second number times as high at least, for 0.7 times the area.
-constexpr double wanted_tallness = 1.1, least_tallness = 0.6;
+/// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has the area of
+/// the triangle beyond. They become the second number times as high at least, for 0.6 times the area.
+constexpr double wanted_tallness = 0.9, least_tallness = 0.54;
 /// Faces between columns become shorter, and as much more skewed where rows turn at a ray, up to this.
-constexpr double largest_skewness = 0.6;
+constexpr double largest_skewness = 0.8;
 /// The heights of so many last layers change.
-constexpr double tapered_layers = 18;
+constexpr double tapered_layers = 30;
 /// Where neighbours are not tapered alike, rows rise by this much per unit of distance at most. Points move by up to 4 / 27
 /// of the part that changes, if the last layer vanishes.
-constexpr double most_rise = 0.1, most_moved = 4.0 / 27;
+constexpr double most_rise = 0.25, most_moved = 4.0 / 27;
 
 /// Returns the first layer from which on heights change.
 std::size_t first_tapered(std::span<const double> heights) {

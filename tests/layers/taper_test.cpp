@@ -41,7 +41,7 @@ TEST(Taper, ChangesTheLastLayersAndKeepsTheRest) {
                 EXPECT_LT(ratio, std::max(taper, in_the_middle) + 1e-9) << n;
             }
             if (layers < 30) continue;
-            EXPECT_NEAR(last_spacing(after) / last_spacing(before), taper, 0.13);
+            EXPECT_NEAR(last_spacing(after) / last_spacing(before), taper, 0.18);
         }
     }
 }
@@ -90,10 +90,10 @@ TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
         EXPECT_TRUE(std::is_sorted(heights.begin(), heights.end()));
         const double width = std::sqrt(widths[i - 1] * widths[i]);
         EXPECT_LT(last_spacing(heights), 1.3 * width) << "half of the cell has 1.5 times the area beyond";
-        EXPECT_GT(last_spacing(heights), std::min(1e-3, 0.58 * width)) << "two thirds";
-        // Rows rise by a tenth of the width of a column at most.
+        EXPECT_GT(last_spacing(heights), std::min(1e-3, 0.52 * width)) << "0.6 times";
+        // Rows rise by a quarter of the width of a column at most.
         for (std::size_t n = 0; n < heights.size(); ++n)
-            EXPECT_LE(std::abs(heights[n] - rays.fitted.of(i - 1)[n]), 0.1001 * widths[i - 1]) << n;
+            EXPECT_LE(std::abs(heights[n] - rays.fitted.of(i - 1)[n]), 0.2501 * widths[i - 1]) << n;
     }
 }
 
@@ -101,7 +101,7 @@ TEST(Taper, LowLayersOfWideColumnsBecomeHigher) {
     Rays rays = columns_apart(std::vector<double>(100, 2e-3)), wider = columns_apart(std::vector<double>(100, 4e-3));
     layers::taper_columns(rays);
     layers::taper_columns(wider);
-    EXPECT_NEAR(rays.fitted.column(50).taper, 1.2, 1e-9) << "0.6 times as high as wide";
+    EXPECT_NEAR(rays.fitted.column(50).taper, 1.08, 1e-9) << "0.54 times as high as wide";
     EXPECT_EQ(wider.fitted.column(50).taper, layers::most_taper);
 }
 
@@ -115,16 +115,16 @@ TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
 
 /// Where rows turn at a ray, faces that become shorter become more skewed.
 TEST(Taper, FacesBesideTurningRowsStayLong) {
-    const std::vector<double> widths(401, 4e-4);
+    const std::vector<double> widths(401, 3e-4);
     Rays rays = columns_apart(widths);
     Rays turning = rays;
     for (std::size_t i = 0; i < widths.size(); ++i)
-        turning.set.lines[i].origin.y = -std::abs(turning.set.lines[i].origin.x - turning.set.lines[200].origin.x);
+        turning.set.lines[i].origin.y = -2 * std::abs(turning.set.lines[i].origin.x - turning.set.lines[200].origin.x);
     layers::taper_columns(rays);
     layers::taper_columns(turning);
-    EXPECT_NEAR(rays.fitted.column(200).taper, 1.1 * 0.4, 1e-9);
-    EXPECT_NEAR(turning.fitted.column(100).taper, 1.1 * 0.4 * std::sqrt(2.0), 1e-9) << "edges of the front are longer";
-    EXPECT_NEAR(turning.fitted.column(200).taper, 0.4 / 0.6, 1e-9) << "a skewness of 0.4, made 0.6";
+    EXPECT_NEAR(rays.fitted.column(200).taper, 0.9 * 0.3, 1e-9);
+    EXPECT_NEAR(turning.fitted.column(100).taper, 0.9 * 0.3 * std::sqrt(5.0), 1e-9) << "edges of the front are longer";
+    EXPECT_NEAR(turning.fitted.column(200).taper, 0.6 / 0.8, 1e-9) << "a skewness of 0.6, made 0.8";
 }
 
 }  // namespace
