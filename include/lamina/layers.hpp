@@ -257,7 +257,10 @@ struct Rays {
     /// One per element: whether it is resampled between so many corners that it is not smooth, as iced ones are. Rays
     /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/decisions/0064).
     std::vector<char> jagged;
-    bool enabled = true;                ///< LayerOptions::enabled
+    bool enabled = true;  ///< LayerOptions::enabled
+    /// Whether last layers are higher where numbers of layers change, so that the ends of columns are even. Faces between
+    /// quadrilaterals would be more skewed for it (docs/decisions/0063).
+    bool even_ends = true;
     LayerGrowth growth;                 ///< the growth that was requested
     LayerHeights heights;               ///< as the growth law makes them, along the rays (Ray::slant)
     LayerHeights fitted;                ///< the same, but on rays that are cut short stretched to end at their limits

@@ -33,13 +33,17 @@ namespace {
 /// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has the area of
 /// the triangle beyond. They become the second number times as high at least, for 0.6 times the area.
 constexpr double wanted_tallness = 0.9, least_tallness = 0.54;
+/// Where numbers of layers change, fronts rise by up to a quarter of the width of a column. If last layers become this many times
+/// as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow columns near them become
+/// no higher for it than the second number of times.
+constexpr double even_tallness = 0.86, most_tallness = 1.2;
 /// Faces between columns become shorter, and as much more skewed where rows turn at a ray, up to this.
 constexpr double largest_skewness = 0.8;
 /// The heights of so many last layers change.
 constexpr double tapered_layers = 30;
 /// Where neighbours are not tapered alike, rows rise by this much per unit of distance at most. Points move by up to 4 / 27
 /// of the part that changes, if the last layer vanishes.
-constexpr double most_rise = 0.25, most_moved = 4.0 / 27;
+constexpr double most_rise = 0.3, most_moved = 4.0 / 27;
 
 /// Returns the first layer from which on heights change.
 std::size_t first_tapered(std::span<const double> heights) {
@@ -51,9 +55,11 @@ std::size_t first_tapered(std::span<const double> heights) {
 
 /// How far the column of a ray should be tapered, and how far it may be.
 struct TaperBounds {
-    double part = 0;    ///< length of the part of the column that changes
-    double wanted = 1;  ///< taper with which the last layer is as high as wanted
-    double least = 0;   ///< taper below which it would be too low, or faces too skewed
+    double part = 0;         ///< length of the part of the column that changes
+    double wanted = 1;       ///< taper with which the last layer is as high as wanted
+    double least = 0;        ///< taper below which it would be too low, or faces too skewed
+    double even = 0;         ///< taper with which the ends of columns beside are even, where numbers of layers change
+    double most = HUGE_VAL;  ///< taper above which it would be too high for the triangles beyond
 };
 
 TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after) {
@@ -68,28 +74,36 @@ TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_
                            rays.heights.of(to)[common]);
     };
     const double skewness = skewness_between(row(before, ray), row(ray, after), last);
-    return {heights[n] - heights[first_tapered(heights)], std::clamp(wanted_tallness * width / last, least_taper, 1.0),
-            std::max(std::min(least_tallness * width / last, most_taper), std::min(skewness / largest_skewness, 1.0))};
+    const bool changes = rays.counts[before] != n || rays.counts[after] != n;
+    return {.part = heights[n] - heights[first_tapered(heights)],
+            .wanted = std::clamp(wanted_tallness * width / last, least_taper, 1.0),
+            .least = std::max(std::min(least_tallness * width / last, most_taper),
+                              std::min(skewness / largest_skewness, 1.0)),
+            .even = changes ? std::min(even_tallness * width / last, most_taper) : 0,
+            .most = most_tallness * width / last};
 }
 
-/// Returns the taper of each ray.
-std::vector<double> tapers(const LayeredRays& rays) {
+/// Returns the taper of each ray. even_ends: Rays::even_ends.
+std::vector<double> tapers(const LayeredRays& rays, bool even_ends) {
     const RayNeighbours neighbours(rays.set);
     std::vector<TaperBounds> bounds;
-    std::vector<double> wanted, least;  // the latter negative, so that lowering them raises the bound
+    std::vector<double> wanted, most, least, even;  // the latter two negative, so that lowering them raises the bound
     for (std::size_t i = 0; i < rays.counts.size(); ++i) {
         bounds.push_back(taper_bounds(rays, neighbours.previous[i], i, neighbours.next[i]));
         wanted.push_back(bounds.back().wanted);
+        most.push_back(bounds.back().most);
         least.push_back(-bounds.back().least);
+        even.push_back(-bounds.back().even);
     }
-    // Both lead over to the neighbours, so that no taper jumps where one of them gives way to the other.
-    for (std::vector<double>* values : {&wanted, &least})
+    // All lead over to the neighbours, so that no taper jumps where one of them gives way to another.
+    for (std::vector<double>* values : {&wanted, &most, &least, &even})
         lower_to_neighbours(rays.set, *values, [&](std::size_t from, std::size_t to) {
             const double part = std::max(bounds[from].part, bounds[to].part);
             if (!(part > 0)) return HUGE_VAL;
             return (*values)[from] + most_rise * distance(rays.tip(from), rays.tip(to)) / (most_moved * part);
         });
-    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = std::max(wanted[i], -least[i]);
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        wanted[i] = std::max({wanted[i], -least[i], even_ends ? std::min(-even[i], most[i]) : 0.0});
     return wanted;
 }
 
@@ -107,7 +121,7 @@ void taper_heights(double taper, std::span<double> heights) {
 
 void taper_columns(Rays& rays) {
     if (rays.growth.layers) return;
-    const std::vector<double> wanted = tapers(layered_rays(rays));
+    const std::vector<double> wanted = tapers(layered_rays(rays), rays.even_ends);
     std::vector<double> table = rays.fitted.table();
     std::vector<HeightColumn> columns;
     columns.reserve(wanted.size());

@@ -8,7 +8,7 @@
 namespace lamina::layers {
 
 /// Last layers become so many times as high, at the least and at the most.
-inline constexpr double least_taper = 0.18, most_taper = 1.5;
+inline constexpr double least_taper = 0.18, most_taper = 2.0;
 
 /// Makes the last layer of a column so many times as high, those below by less and less, and others give way so that the
 /// column keeps its end. The layers of its lower half stay. heights[0] = 0 is the wall, heights.back() the end.

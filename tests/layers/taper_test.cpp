@@ -41,7 +41,7 @@ TEST(Taper, ChangesTheLastLayersAndKeepsTheRest) {
                 EXPECT_LT(ratio, std::max(taper, in_the_middle) + 1e-9) << n;
             }
             if (layers < 30) continue;
-            EXPECT_NEAR(last_spacing(after) / last_spacing(before), taper, 0.18);
+            EXPECT_NEAR(last_spacing(after) / last_spacing(before), taper, 0.22);
         }
     }
 }
@@ -91,9 +91,9 @@ TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
         const double width = std::sqrt(widths[i - 1] * widths[i]);
         EXPECT_LT(last_spacing(heights), 1.3 * width) << "half of the cell has 1.5 times the area beyond";
         EXPECT_GT(last_spacing(heights), std::min(1e-3, 0.52 * width)) << "0.6 times";
-        // Rows rise by a quarter of the width of a column at most.
+        // Rows rise by three tenths of the width of a column at most.
         for (std::size_t n = 0; n < heights.size(); ++n)
-            EXPECT_LE(std::abs(heights[n] - rays.fitted.of(i - 1)[n]), 0.2501 * widths[i - 1]) << n;
+            EXPECT_LE(std::abs(heights[n] - rays.fitted.of(i - 1)[n]), 0.3001 * widths[i - 1]) << n;
     }
 }
 
@@ -103,6 +103,26 @@ TEST(Taper, LowLayersOfWideColumnsBecomeHigher) {
     layers::taper_columns(wider);
     EXPECT_NEAR(rays.fitted.column(50).taper, 1.08, 1e-9) << "0.54 times as high as wide";
     EXPECT_EQ(wider.fitted.column(50).taper, layers::most_taper);
+}
+
+/// Where numbers of layers change, fronts rise by up to a quarter of the width.
+TEST(Taper, LastLayersAreHigherWhereNumbersOfLayersChange) {
+    Rays rays = columns_apart(std::vector<double>(400, 1.5e-3));
+    for (std::size_t i = 200; i < 400; ++i) rays.counts[i] = 59;
+    layers::taper_columns(rays);
+    // Beside the change the front's edges are level on one side and rise by a layer on the other.
+    const double width = 1e3 * std::sqrt(1.5e-3 * std::sqrt(1.5e-3 * 1.5e-3 + 1e-6));
+    EXPECT_NEAR(rays.fitted.column(199).taper, 0.86 * width, 1e-9);
+    EXPECT_NEAR(rays.fitted.column(200).taper, 0.86 * width, 1e-9);
+    EXPECT_EQ(rays.fitted.column(50).taper, 1);
+    // Not where narrow columns beside would have cells far higher than wide.
+    std::vector<double> widths(400, 1.5e-3);
+    for (std::size_t i = 203; i < 400; ++i) widths[i] = 4e-4;
+    Rays narrow = columns_apart(widths);
+    narrow.counts.assign(400, 60);
+    for (std::size_t i = 200; i < 400; ++i) narrow.counts[i] = 59;
+    layers::taper_columns(narrow);
+    EXPECT_LT(narrow.fitted.column(200).taper, 1);
 }
 
 TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
