@@ -175,42 +175,61 @@ def totals(results, judgements):
     return lines
 
 
-# What layers are judged by: a title, and what says whether a layer meets it.
-LAYER_TARGETS = (
-    ("no angle above 150 degrees", lambda f: f.max_angle <= 150),
+# What layers are judged by: a title, and what says whether a layer meets it. Those of the area ratio judge layers that end
+# where cells are as high as wide.
+AREA_TARGETS = (
     ("area ratio, 1st percentile at least 0.5", lambda f: f.transition[0] >= 0.5),
     ("area ratio, median 0.8 to 1.25", lambda f: 0.8 <= f.transition[1] <= 1.25),
     ("area ratio, 99th percentile at most 2", lambda f: f.transition[2] <= 2),
+)
+LAYER_TARGETS = (
+    ("no angle above 150 degrees", lambda f: f.max_angle <= 150),
     ("99.9 % of first heights within 1 %", lambda f: f.first_off <= 0.001 * f.first_cells),
 )
+
+
+def targets_of(figures):
+    """Returns the targets that a layer is judged by."""
+    return AREA_TARGETS + LAYER_TARGETS if figures.transition else LAYER_TARGETS
+
+
+def meets_all(figures):
+    """Returns whether a layer meets all targets that it is judged by."""
+    return all(meets(figures) for _, meets in targets_of(figures))
 
 
 def layers(results):
     """Returns the tables that say which layers meet their targets, and which do not, apart for single sections and for
     configurations of several elements."""
-    judged = [result for result in results if result.figures and result.figures.layer and result.figures.layer.transition]
+    judged = [result for result in results if result.figures and result.figures.layer]
     if not judged:
         return []
-    sides = ("single sections", lambda f: f.elements == 1), ("several elements", lambda f: f.elements > 1)
-    groups = [[r.figures.layer for r in judged if of(r.figures.layer)] for _, of in sides]
+    single = [r.figures.layer for r in judged if r.figures.layer.elements == 1]
+    several = [r.figures.layer for r in judged if r.figures.layer.elements > 1]
     lines = ["", "## Layers", "", *wrapped(
-        "The area ratio is that between the last cell of a column and the triangle beyond it."), "",
-        f"| target | {' | '.join(title for title, _ in sides)} |", "| --- | ---: | ---: |"]
-    targets = (*LAYER_TARGETS, ("all of these", lambda f: all(meets(f) for _, meets in LAYER_TARGETS)))
-    for title, meets in targets:
-        cells = (f"{sum(map(meets, group))} of {len(group)}" for group in groups)
-        lines.append(f"| {title} | {' | '.join(cells)} |")
-    for title, part, whole in (("first heights more than 1 % off", lambda f: f.first_off, lambda f: f.first_cells),
-                               ("wall vertices between edges above 1.25", lambda f: f.wall_uneven,
-                                lambda f: f.first_cells),
-                               ("columns whose ends differ by a third of a cell", lambda f: f.ends_uneven,
-                                lambda f: f.columns)):
-        cells = (f"{sum(map(part, group))} of {sum(map(whole, group))}" for group in groups)
-        lines.append(f"| {title} | {' | '.join(cells)} |")
+        "The area ratio is that between the last cell of a column and the triangle beyond it, where layers end as soon as "
+        "cells are as high as wide."), "",
+        "| target | single sections | several elements |", "| --- | ---: | ---: |"]
+
+    def add_row(title, count):
+        lines.append(f"| {title} | {count(single)} | {count(several)} |")
+
+    for title, meets in AREA_TARGETS + LAYER_TARGETS:
+        def met(group, title=title, meets=meets):
+            of = [f for f in group if title in dict(targets_of(f))]
+            return f"{sum(map(meets, of))} of {len(of)}"
+        add_row(title, met)
+    add_row("all of these", lambda group: f"{sum(map(meets_all, group))} of {len(group)}")
+    for title, part, whole in (("first heights more than 1 % off", "first_off", "first_cells"),
+                               ("wall vertices between edges above 1.25", "wall_uneven", "first_cells"),
+                               ("columns whose ends differ by a third of a cell", "ends_uneven", "columns")):
+        def total(group, part=part, whole=whole):
+            return f"{sum(getattr(f, part) for f in group)} of {sum(getattr(f, whole) for f in group)}"
+        add_row(title, total)
     lines += ["", "| does not meet all | angle | area ratio | first heights off |", "| --- | ---: | ---: | ---: |"]
     for result in judged:
         figures = result.figures.layer
-        if not targets[-1][1](figures):
+        if not meets_all(figures):
             ratio = " / ".join(f"{value:.2f}" for value in figures.transition)
             star = " *" if result.own_options else ""
             lines.append(f"| {file_names(result)}{star} | {figures.max_angle:.1f} | {ratio} "

@@ -20,7 +20,8 @@ class LayerFigures:
     """Figures of the boundary layer, and of the walls below it."""
     elements: int        # outlines
     max_angle: float     # largest angle of a cell, in degrees
-    transition: tuple    # 1st percentile, median and 99th percentile of the area ratio to the cells beyond; or empty
+    transition: tuple    # 1st percentile, median and 99th percentile of the area ratio to the cells beyond; empty where
+                         # the number of layers is given
     first_off: int       # first cells whose height is more than 1 % off
     first_cells: int
     wall_uneven: int     # wall vertices whose edges differ in length by a factor of more than 1.25
@@ -92,7 +93,15 @@ def share(part, whole):
     return 100 * part / whole if whole else 100.0
 
 
-def layer_figures(report):
+def layers_go_up_to_isotropy(options):
+    """Returns whether layers end where cells are as high as wide, by the options: as asked for, or with the flow."""
+    words = [word for option in options for word in option.split("=")]
+    if "--layers" in words:
+        return words[words.index("--layers") + 1] == "auto"
+    return "--reynolds" in words
+
+
+def layer_figures(report, options):
     """Returns the figures of the boundary layer of a mesh from its report; None where it has no layer."""
     quality = report["quality"]
     layer, walls, transition = quality["layer"], quality["walls"], quality["transition"]
@@ -102,7 +111,8 @@ def layer_figures(report):
     return LayerFigures(
         elements=len(report["input"]),
         max_angle=layer["max_angle_deg"],
-        transition=tuple(transition[key] for key in keys) if transition["edges"] else (),
+        transition=tuple(transition[key] for key in keys)
+        if transition["edges"] and layers_go_up_to_isotropy(options) else (),
         first_off=round(walls["first_cells"] * (1 - walls["share_of_kept_heights"])),
         first_cells=walls["first_cells"],
         wall_uneven=walls["uneven_vertices"],
@@ -110,8 +120,8 @@ def layer_figures(report):
         columns=layer["border"]["columns"])
 
 
-def figures_of(report, check):
-    """Returns the figures of a mesh from its report and from what `lamina check` says of the file."""
+def figures_of(report, check, options):
+    """Returns the figures of a mesh from its report, from what `lamina check` says of the file, and from its options."""
     layer, quality = report["layer_cells"], report["quality"]["isotropic"]
     parts = (layer, layer["open"])
     return Figures(
@@ -126,7 +136,7 @@ def figures_of(report, check):
         refused=quality["refused_points"],
         oversized=quality["oversized"],
         warnings=[warning["code"] for warning in report["warnings"]],
-        layer=layer_figures(report))
+        layer=layer_figures(report, options))
 
 
 def mesh_and_check(case, settings, scratch, result):
@@ -155,7 +165,7 @@ def mesh_and_check(case, settings, scratch, result):
             if code != 0:
                 result.reason = f"exact_check.py: {said.strip() or name_of_end(code, reason, settings.limit)}"
                 return
-        result.figures = figures_of(json.loads(report.read_text(encoding="utf-8")), json.loads(text))
+        result.figures = figures_of(json.loads(report.read_text(encoding="utf-8")), json.loads(text), options)
         result.outcome = "valid"
 
 
