@@ -31,9 +31,7 @@ constexpr int jagged_rounds = 200, smooth_rounds = 10;
 /// Columns that are wider than this share of their height have no need of others' width.
 constexpr double wide_enough = 0.15;
 /// No ray leans by more than this for it, unless it did before.
-constexpr double max_lean_deg = 40;
-/// Together with what the wall turns by at a vertex, rays lean by no more than this from the normals on both sides.
-constexpr double max_lean_from_normals_deg = 57;
+constexpr double max_lean_to_even_deg = 40;
 
 /// The column between a vertex and the next one.
 struct Column {
@@ -60,7 +58,8 @@ std::vector<Column> columns_of(std::span<const RayVertex> outline, std::span<con
 /// at which the first height above both edges can be kept.
 double largest_lean(const WallVertex& vertex, double between_edges) {
     const double from_normals = core::radians(max_lean_from_normals_deg) - 0.5 * std::abs(vertex.turning);
-    return std::max(std::min({core::radians(max_lean_deg), from_normals, between_edges}), std::abs(vertex.tilt[0]));
+    return std::max(std::min({core::radians(max_lean_to_even_deg), from_normals, between_edges}),
+                    std::abs(vertex.tilt[0]));
 }
 
 /// Returns the angle by which the ray between two columns turns in one round, counter-clockwise, in radians.

@@ -172,10 +172,9 @@ void close_sliver(WallVertex& fan) {
 /// Columns that are narrower than this share of their height, though the fan has given its angle, are widened at the
 /// expense of wider ones, which lose up to the second share of their width.
 constexpr double wanted_share = 1.0 / 25, most_lost = 0.25;
-/// No ray leans by more than the first angle for it, nor by more than max_tilt_between_edges(). Together with what it
-/// leans by already, it is no farther than the second angle from the normals of the edges on both sides: cells in all rows
-/// at the wall are as skewed as that.
-constexpr double max_lean_deg = 25, max_lean_from_normals_deg = 57;
+/// No ray leans by more than this angle for it, nor by more than max_tilt_between_edges(). Together with what it
+/// leans by already, it is no farther than max_lean_from_normals_deg from the normals of the edges on both sides.
+constexpr double max_lean_deg = 25;
 
 /// Returns the largest angle by which the ray of a vertex may lean to either side so that columns widen.
 double largest_lean(const WallVertex& vertex) {

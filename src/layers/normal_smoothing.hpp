@@ -17,6 +17,10 @@ inline constexpr double max_smooth_turning_deg = 6;
 /// Largest angle between a tilted ray and the normals of the edges at its origin, in degrees.
 inline constexpr double max_angle_from_normal_deg = 50;
 
+/// Largest angle between a ray that leans so that columns widen and the normals of the edges at its origin, in degrees: cells
+/// in all rows at the wall are as skewed as that.
+inline constexpr double max_lean_from_normals_deg = 57;
+
 /// A vertex of an outline with the outward normals round it.
 struct WallVertex {
     double turning;       ///< angle between the two edges in radians; > 0 where the body is convex
