@@ -8,7 +8,8 @@ where a `case.json` beside them lists them as "inputs" (with their options as "a
 folder whose names differ in slat, main and flap only are one case, and so are all files of a subfolder.
 
 Without FOLDER the cases are the project's own collection: ../shared/geometry, ../shared/cases and examples/. The page
-is docs/collection.md then, and out/collection.md for a folder of yours.
+is docs/collection.md then, and out/collection.md for a folder of yours. Its options are what a user types who wants to
+solve the Navier-Stokes equations: --y-plus 1 --reynolds 5e6 --alpha 4.
 
 The first height is relative to the chord of the configuration (its extent in x), since files come in all units. Each
 mesh is judged twice: by lamina before it writes the file, and by `lamina check` on the file. Refusals are compared with
@@ -29,6 +30,7 @@ import collection_page
 import collection_run
 
 REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
+OWN_OPTIONS = ["--y-plus", "1", "--reynolds", "5e6", "--alpha", "4"]
 OWN_FOLDERS = (REPOSITORY.parent / "shared/geometry", REPOSITORY.parent / "shared/cases", REPOSITORY / "examples")
 
 
@@ -63,8 +65,8 @@ def arguments():
     parser.add_argument("--only", default="", metavar="TEXT", help="run only cases with a file whose path holds TEXT")
     words, options = split_at_dashes(sys.argv[1:])
     settings = parser.parse_args(words)
-    settings.options = options
     settings.own = settings.folder is None
+    settings.options = options or (OWN_OPTIONS if settings.own else [])
     settings.output = settings.output or REPOSITORY / ("docs" if settings.own else "out") / "collection.md"
     return settings
 
