@@ -27,7 +27,7 @@ namespace lamina::layers {
 namespace {
 
 /// How often each ray turns. What is uneven spreads over twice the square root of this in columns.
-constexpr int jagged_rounds = 200, smooth_rounds = 10;
+constexpr int jagged_rounds = 200, smooth_rounds = 3;
 /// Columns that are wider than this share of their height have no need of others' width.
 constexpr double wide_enough = 0.15;
 /// No ray leans by more than this for it, unless it did before.
@@ -54,6 +54,13 @@ std::vector<Column> columns_of(std::span<const RayVertex> outline, std::span<con
     return columns;
 }
 
+/// Returns whether the ray of a vertex stays. On smooth outlines those do that lean by this already, out of a cove or away from the
+/// foot of a step: their columns are as wide as the room there allows.
+bool stays(const WallVertex& vertex, OutlineKind kind) {
+    constexpr double least_lean_deg = 15;
+    return vertex.fan || (kind == OutlineKind::smooth && std::abs(vertex.tilt[0]) > core::radians(least_lean_deg));
+}
+
 /// Returns the largest angle by which the one ray of a vertex may lean to either side, in radians. `between_edges` is that
 /// at which the first height above both edges can be kept.
 double largest_lean(const WallVertex& vertex, double between_edges) {
@@ -78,7 +85,9 @@ void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::spa
     std::vector<Column> columns = columns_of(outline, heights, vertices);
     const auto before = [&](std::size_t i) -> const Column& { return columns[(i + n - 1) % n]; };
     std::vector<double> largest(n), turns(n, 0.0);
+    std::vector<char> fixed(n);
     for (std::size_t i = 0; i < n; ++i) {
+        fixed[i] = stays(vertices[i], kind);
         const double shorter_edge = std::min(before(i).edge, columns[i].edge);
         largest[i] =
             largest_lean(vertices[i], max_tilt_between_edges(vertices[i].turning, kind, first_height, shorter_edge));
@@ -87,7 +96,7 @@ void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::spa
     for (int round = 0; round < rounds; ++round) {
         // All turn at once, so that both directions of the wall are treated alike.
         for (std::size_t i = 0; i < n; ++i)
-            if (!vertices[i].fan) turns[i] = turn_between(before(i), columns[i], vertices[i].tilt[0], largest[i]);
+            if (!fixed[i]) turns[i] = turn_between(before(i), columns[i], vertices[i].tilt[0], largest[i]);
         for (std::size_t i = 0; i < n; ++i) {
             columns[i].width += columns[i].height * (turns[(i + 1) % n] - turns[i]);
             for (double& tilt : vertices[i].tilt) tilt += turns[i];

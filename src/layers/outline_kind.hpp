@@ -1,4 +1,4 @@
-// What kind of outline rays are grown round.
+// The kinds of outlines: how the vertices that rays start from were chosen.
 #pragma once
 
 #include <lamina/geometry.hpp>

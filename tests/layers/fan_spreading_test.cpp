@@ -78,7 +78,7 @@ TEST(FanSpreading, KeepsOriginsAndTheOrderOfDirections) {
                 EXPECT_EQ(ray.origin, outline[vertex]) << "no ray is added, and none is left out";
             }
             const double turning = core::degrees(core::angle_between(ray.direction, next.direction));
-            EXPECT_GT(turning, -0.15) << ray.origin.x << " " << ray.origin.y;
+            EXPECT_GT(turning, -0.05) << ray.origin.x << " " << ray.origin.y;
             EXPECT_LT(turning, options.max_ray_angle_deg + 1e-9) << ray.origin.x << " " << ray.origin.y;
             if (ray.origin != next.origin) {
                 const Point normal = -perpendicular(unit(next.origin - ray.origin));
