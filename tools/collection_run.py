@@ -128,7 +128,7 @@ def figures_of(report, check, options):
         triangles=report["triangles"],
         rays=tuple(share(p["rays"] - p["incomplete_rays"], p["rays"]) for p in parts),
         cells=tuple(share(p["made"], p["requested"]) for p in parts),
-        first_lost=report["quality"]["layer"]["edges_without_first_layer"],
+        first_lost=report["quality"]["layer"]["edges_without_first_layer"] + report["quality"]["walls"]["bare_edges"],
         wall_edges=report["surface_vertices"],   # walls are closed: they have as many edges as vertices
         min_angle=check["quality"]["isotropic"]["min_angle_deg"],
         below_bound=quality["angles_below_bound"] - quality["exempt"],

@@ -176,6 +176,9 @@ struct RayLine {
     /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
     /// edges at a corner out of which the ray leans; zero elsewhere (docs/decisions/0064).
     Point shift{};
+    /// The wall's vertex between this ray and the next one, where that is a sharp concave corner without a ray of its own
+    /// (docs/decisions/0070).
+    std::optional<Point> corner_after{};
 };
 
 /// A stretch makes a column of layers end at a given height: layer n > above is `factor` to the power of n - above
@@ -343,7 +346,8 @@ struct Ray {
     /// The height of the last layer over that which it would have otherwise, 0.4 to 1.5. Those below move so that the ray
     /// keeps its end (docs/decisions/0063). 1 where a number of layers is requested.
     double taper = 1;
-    Point shift{};  ///< RayLine::shift
+    Point shift{};                           ///< RayLine::shift
+    std::optional<VertexId> corner_after{};  ///< the vertex of RayLine::corner_after
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
     VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }
@@ -392,6 +396,14 @@ struct LayerCore {
     std::vector<std::size_t> stations;          ///< as WakeCore::stations
 };
 
+/// The end of a cleft, where a strip of triangles joins the fronts on both sides of a sharp corner.
+struct LayerCleft {
+    std::size_t element = 0;             ///< its element
+    std::size_t corner = 0;              ///< the ray before the corner (Ray::corner_after), among those of the element
+    std::size_t first = 0, last = 0;     ///< the outermost rays of the strip
+    std::vector<VertexId> outer_edge{};  ///< the outer border from the tip of `first` to that of `last`, both included
+};
+
 /// The points of the layer and its outline.
 struct Layer {
     /// The wall vertices come first, element by element and in the order of the wall, those of refining rays included;
@@ -404,7 +416,8 @@ struct Layer {
     /// One list per element: the rays, in the order of the wall. The rays of a fan share one origin, and so do those on
     /// both sides of a wake.
     std::vector<std::vector<Ray>> rays;
-    /// One list per element: the closed outer border, counter-clockwise, simple and disjoint from the others. Where the
+    /// One list per element: the closed outer border, counter-clockwise, simple and disjoint from the others. It goes through
+    /// the tips of all rays but those inside closed clefts. Where the
     /// rays have no layers, the border runs through wall vertices, and along wall edges between two of them. If such an
     /// edge is divided, its division points belong to the wall, too (without rays).
     std::vector<std::vector<VertexId>> borders;
@@ -414,6 +427,7 @@ struct Layer {
     std::vector<ElementCoverage> coverage;  ///< one per element; empty if the layer is disabled
     LayerGrowth growth;                     ///< the growth that was requested
     std::vector<LayerCore> cores;           ///< the spaces behind bases, parts of the layer
+    std::vector<LayerCleft> clefts;         ///< those that are closed, parts of the layer, in the order of the rays
     LayerEdges edges;                       ///< layer_edges() of this layer
     std::vector<char> jagged{};             ///< Rays::jagged
 };
@@ -456,7 +470,7 @@ struct LayerCells {
     std::vector<std::uint16_t> triangle_layer;
     std::vector<std::uint16_t> quad_layer;  ///< one per quad: its layer from the wall, from 1 on
     /// One per triangle of a grid: the column that it is part of, between two neighbouring rays, with the
-    /// number of the first of them among the rays of all elements; no_column behind bases. Empty for
+    /// number of the first of them among the rays of all elements; no_column behind bases and in closed clefts. Empty for
     /// LayerTopology::delaunay.
     std::vector<std::uint32_t> triangle_column;
     std::vector<std::uint32_t> quad_column;   ///< the same, one per quad

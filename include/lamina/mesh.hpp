@@ -145,7 +145,11 @@ struct WallSummary {
     double max_ratio = 1;   ///< largest ratio of the lengths of neighbouring edges, but across the corners of bases
     Point max_ratio_at{};   ///< the vertex between the two
     std::size_t uneven_vertices = 0;  ///< number of vertices where this ratio exceeds even_wall_ratio
-    std::size_t first_cells = 0;      ///< number of edges with a cell of the first layer; the rest is about these
+    /// Number of edges without a cell of the layer, on walls that have such cells elsewhere or are known to be walls, in a mesh
+    /// with a layer.
+    std::size_t bare_edges = 0;
+    Point bare_at{};              ///< the wall vertex at the start of one of them
+    std::size_t first_cells = 0;  ///< number of edges with a cell of the first layer; the rest is about these
     double median_first_height = 0;   ///< height over the wall's edge, in units of the input
     /// Share of the heights within first_height_tolerance of the height wanted, or else of their marker's median.
     double share_of_kept_heights = 1;

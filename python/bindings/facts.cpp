@@ -82,6 +82,7 @@ nb::dict walls_of(const WallSummary& walls) {
     result["max_ratio"] = walls.max_ratio;
     result["max_ratio_at"] = to_python(walls.max_ratio_at);
     result["uneven_vertices"] = walls.uneven_vertices;
+    result["bare_edges"] = walls.bare_edges;
     result["first_cells"] = walls.first_cells;
     result["median_first_height"] = walls.median_first_height;
     result["share_of_kept_heights"] = walls.share_of_kept_heights;

@@ -54,6 +54,7 @@ class WallSummary:
     max_ratio: float  #: largest ratio of the lengths of neighbouring edges
     max_ratio_at: tuple[float, float]  #: the vertex between the two
     uneven_vertices: int  #: vertices where the ratio exceeds 1.25
+    bare_edges: int  #: edges without a cell of the layer, in a mesh with a layer
     first_cells: int  #: edges with a cell of the first layer
     median_first_height: float  #: in units of the input
     share_of_kept_heights: float  #: share of the first heights within 1 % of the height wanted

@@ -94,6 +94,7 @@ Json walls_report(const WallSummary& walls) {
             {"max_ratio", walls.max_ratio},
             {"max_ratio_at", {walls.max_ratio_at.x, walls.max_ratio_at.y}},
             {"uneven_vertices", walls.uneven_vertices},
+            {"bare_edges", walls.bare_edges},
             {"first_cells", walls.first_cells},
             {"first_heights", first_heights_report(walls.first_heights)},
             {"median_first_height", walls.median_first_height},

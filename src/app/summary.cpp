@@ -60,6 +60,9 @@ std::string wall_lines(const WallSummary& walls) {
     std::string text = summary_line(
         "walls", fmt::format("{} edges: neighbours differ in length by a factor of at most {:.2f}, at ({:.6g}, {:.6g})",
                              walls.edges, walls.max_ratio, walls.max_ratio_at.x, walls.max_ratio_at.y));
+    if (walls.bare_edges > 0)
+        text += summary_line("walls", fmt::format("{} edges have no layer, as at ({:.6g}, {:.6g})", walls.bare_edges,
+                                                  walls.bare_at.x, walls.bare_at.y));
     if (walls.first_cells == 0) return text;
     return text + summary_line("walls", fmt::format("first cells are {}, {:.2f} % of them within {} % "
                                                     "of the height wanted; the worst has {:.3f} of it",

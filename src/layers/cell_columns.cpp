@@ -1,15 +1,26 @@
 // The outer border cut into the stretches between the tips of neighbouring rays.
 #include "layers/cell_columns.hpp"
 
+#include <algorithm>
+
 namespace lamina::layers {
 
-CellColumns::CellColumns(std::span<const Ray> rays, std::span<const VertexId> border)
-    : rays_(rays), border_(border.begin(), border.end()) {
+CellColumns::CellColumns(const Layer& layer, std::size_t element)
+    : rays_(layer.rays[element]), border_(layer.borders[element]) {
     border_.push_back(border_.front());
+    for (const LayerCleft& cleft : layer.clefts) {
+        if (cleft.element != element) continue;
+        const auto outer_edge = std::find(border_.begin(), border_.end(), cleft.outer_edge.front()) + 1;
+        const auto inner_points = static_cast<std::ptrdiff_t>(cleft.outer_edge.size()) - 2;
+        const auto at = border_.erase(outer_edge, outer_edge + inner_points);
+        std::vector<VertexId> tips;
+        for (std::size_t i = cleft.first + 1; i < cleft.last; ++i) tips.push_back(rays_[i].tip());
+        border_.insert(at, tips.begin(), tips.end());
+    }
     // The border visits the tips in the order of the rays; rays of one origin without layers have one tip.
     std::size_t at = 0;
-    tip_.reserve(rays.size() + 1);
-    for (const Ray& ray : rays) {
+    tip_.reserve(rays_.size() + 1);
+    for (const Ray& ray : rays_) {
         while (border_[at] != ray.tip()) ++at;
         tip_.push_back(at);
     }

@@ -23,8 +23,8 @@ struct CellColumn {
 /// The columns of one element.
 class CellColumns {
 public:
-    /// border: the element's outer border. Keeps a reference to the rays.
-    CellColumns(std::span<const Ray> rays, std::span<const VertexId> border);
+    /// Makes the columns of this element of a layer. Keeps a reference to its rays.
+    CellColumns(const Layer& layer, std::size_t element);
 
     std::size_t size() const { return rays_.size(); }
 
@@ -33,7 +33,9 @@ public:
 
 private:
     std::span<const Ray> rays_;
-    std::vector<VertexId> border_;  ///< closed: the first vertex stands at its end again
+    /// The outer border, through the tips of all rays, those inside closed clefts included. The first vertex stands at its end
+    /// again.
+    std::vector<VertexId> border_;
     std::vector<std::size_t> tip_;  ///< index of each tip in the border; at the end that of the first one again
 
     std::span<const VertexId> border_between_tips(std::size_t i) const;

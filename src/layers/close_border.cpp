@@ -2,7 +2,6 @@
 // (2015), chapter 3.
 #include <algorithm>
 #include <numbers>
-#include <utility>
 
 #include <lamina/layers.hpp>
 
@@ -29,10 +28,12 @@ BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corner
                              std::span<const std::vector<double>> whole_up_to) {
     std::vector<std::vector<Point>> fronts(corners.size()), walls(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e) {
-        for (const FrontCorner& corner : corners[e]) fronts[e].push_back(rays.tip(corner.ray));
-        for (std::size_t i = rays.set.begin[e]; i < rays.set.begin[e + 1]; ++i)
-            if (const Point origin = rays.set.lines[i].origin; walls[e].empty() || walls[e].back() != origin)
-                walls[e].push_back(origin);
+        for (const FrontCorner& corner : corners[e]) fronts[e].push_back(place_of(rays, corner));
+        for (std::size_t i = rays.set.begin[e]; i < rays.set.begin[e + 1]; ++i) {
+            const RayLine& ray = rays.set.lines[i];
+            if (walls[e].empty() || walls[e].back() != ray.origin) walls[e].push_back(ray.origin);
+            if (ray.corner_after) walls[e].push_back(*ray.corner_after);
+        }
     }
     return divide_borders(fronts, walls, options, least_requests, whole_up_to);
 }
@@ -41,7 +42,7 @@ BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corner
 /// the edge and that between its lower corners do not overlap. Triangles below parts of the edge would have their
 /// middles farther to the side than the parts are long, which makes skewed faces (docs/decisions/0060).
 bool leans_by_its_width(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b) {
-    if (a.layers == 0 || b.layers == 0) return false;
+    if (a.layers == 0 || b.layers == 0 || a.cleft) return false;
     const Point tip_a = rays.tip(a.ray), tip_b = rays.tip(b.ray), edge = tip_b - tip_a;
     const double along_a = dot(tip_a - rays.point(a.ray, a.layers - 1), edge);
     const double along_b = dot(tip_b - rays.point(b.ray, b.layers - 1), edge);
@@ -59,9 +60,18 @@ std::vector<std::vector<double>> whole_tops(const LayeredRays& rays, const Front
     return whole_up_to;
 }
 
-/// Returns the edge of the wall below an edge of a front: that between the origins of the rays at its ends.
-std::pair<Point, Point> wall_below(const Rays& rays, const std::vector<FrontCorner>& corners, std::size_t k) {
-    return {rays.set.lines[corners[k].ray].origin, rays.set.lines[corners[(k + 1) % corners.size()].ray].origin};
+/// The wall between the origins of two rays.
+struct WallPart {
+    Point a, b;   ///< its ends
+    double edge;  ///< length of its edge, or the mean length of its two edges where there is a corner between
+};
+
+/// Returns the part of the wall below an edge of a front.
+WallPart wall_below(const Rays& rays, const std::vector<FrontCorner>& corners, std::size_t k) {
+    const RayLine &ray = rays.set.lines[corners[k].ray], &next = rays.set.lines[corners[(k + 1) % corners.size()].ray];
+    const Point a = ray.origin, b = next.origin;
+    if (!ray.corner_after) return {a, b, distance(a, b)};
+    return {a, b, 0.5 * (distance(a, *ray.corner_after) + distance(*ray.corner_after, b))};
 }
 
 /// Returns whether an edge of a front lies above an edge of the wall, rather than of a wake.
@@ -87,19 +97,19 @@ std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& op
     const FrontCorners corners = front_corners(layered);
     std::vector<std::vector<double>> least_requests(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e)
-        for (std::size_t k = 0; k < corners[e].size(); ++k) {
-            const auto [a, b] = wall_below(rays, corners[e], k);
-            least_requests[e].push_back(distance(a, b));
-        }
+        for (std::size_t k = 0; k < corners[e].size(); ++k)
+            least_requests[e].push_back(corners[e][k].cleft ? 0 : wall_below(rays, corners[e], k).edge);
     const BorderDivision division = divide_fronts(layered, corners, options, least_requests, {});
     std::vector<WallSpacing> spacings;
     for (std::size_t e = 0; e < corners.size(); ++e) {
         if (!rays.resampled[e]) continue;
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
-            const auto [a, b] = wall_below(rays, corners[e], k);
+            const WallPart wall = wall_below(rays, corners[e], k);
+            if (corners[e][k].cleft) continue;
             if (!is_above_wall(rays, corners[e], k)) continue;
             const double excess = division.excess[e][k] / target_slack;
-            if (a != b && excess > 1) spacings.push_back({e, a, b, margin * distance(a, b) / excess});
+            if (wall.a != wall.b && excess > 1)
+                spacings.push_back({e, wall.a, wall.b, margin * wall.edge / excess});
         }
     }
     return spacings;

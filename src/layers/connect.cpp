@@ -58,7 +58,9 @@ public:
                 inner = {first.vertex(n), second.vertex(n)};
                 top = inner;
             }
-            if (n == 1 && divided_sides) {
+            if (n == 1 && first.corner_after) {
+                add_cell_at_corner(column, top);
+            } else if (n == 1 && divided_sides) {
                 add_cell_between_borders(column, top);
             } else if (n == common && highest > common && column.top.size() > 2) {
                 add_divided_step(column, common);
@@ -90,6 +92,25 @@ public:
             }
             cells_.triangle_layer.resize(cells_.triangles.size(), layer);
         }
+    }
+
+    /// Adds the triangles between the fronts on both sides of a cleft.
+    void add(const LayerCleft& cleft) {
+        first_leads_ = true;
+        const std::vector<Ray>& rays = layer_.rays[cleft.element];
+        std::vector<VertexId> upper, lower;
+        for (std::size_t i = cleft.corner + 1; i-- > cleft.first;) upper.push_back(rays[i].tip());
+        for (std::size_t i = cleft.corner + 1; i <= cleft.last; ++i) lower.push_back(rays[i].tip());
+        // The division points of the outer edge would lie in line with both ends of a long chain's counterpart of one corner.
+        const std::span<const VertexId> divisions = std::span(cleft.outer_edge).subspan(1, cleft.outer_edge.size() - 2);
+        if (upper.size() <= lower.size())
+            upper.insert(upper.end(), divisions.begin(), divisions.end());
+        else
+            lower.insert(lower.end(), divisions.rbegin(), divisions.rend());
+        std::uint32_t most_layers = 0;
+        for (std::size_t i = cleft.first; i <= cleft.last; ++i) most_layers = std::max(most_layers, rays[i].layers);
+        add_strip(lower, upper);
+        number_triangles(0, most_layers);
     }
 
     /// Says that the cells added since the last call are part of the column with this number.
@@ -205,6 +226,21 @@ private:
         return CellSide{a, b, 1 / (3 * (abc + acd)) * sum};
     }
 
+    /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on both edges of the wall
+    /// have the first height, and that between them has the angle of the corner (docs/decisions/0070).
+    ///
+    ///     d____        wall d e a; without the first layer on one of the rays, its origin is the end of the top
+    ///     |    \___ c
+    ///     e--.     |
+    ///         `--. b
+    ///             a
+    void add_cell_at_corner(const CellColumn& column, std::span<const VertexId> top) {
+        const VertexId a = column.second.origin, d = column.first.origin, e = *column.first.corner_after;
+        if (d != top.front()) cells_.triangles.push_back({{e, d, top.front()}});
+        add_strip({&e, 1}, top);
+        if (a != top.back()) cells_.triangles.push_back({{e, top.back(), a}});
+    }
+
     /// Adds the lowest cell of a column beside an empty one. The border divides its sides, too.
     ///
     ///     c---q---b
@@ -263,7 +299,7 @@ LayerCells connect_layer(const Layer& layer, GridCells form) {
     std::size_t first_ray = 0;  // of the element, among the rays of all
     for (std::size_t e = 0; e < layer.rays.size(); first_ray += layer.rays[e].size(), ++e) {
         if (layer.rays[e].empty()) continue;
-        const CellColumns columns(layer.rays[e], layer.borders[e]);
+        const CellColumns columns(layer, e);
         const auto connect = [&](std::size_t begin, std::size_t end) {
             Connector connector(layer, form);
             for (std::size_t i = begin; i < end; ++i) {
@@ -275,12 +311,14 @@ LayerCells connect_layer(const Layer& layer, GridCells form) {
         for (LayerCells& block : core::parallel_blocks(columns.size(), columns_per_block, connect))
             blocks.push_back(std::move(block));
     }
-    for (const LayerCore& core : layer.cores) {
+    const auto add_part = [&](const auto& part) {
         Connector connector(layer, form);
-        connector.add(core);
+        connector.add(part);
         connector.number_column(LayerCells::no_column);
         blocks.push_back(connector.take());
-    }
+    };
+    for (const LayerCore& core : layer.cores) add_part(core);
+    for (const LayerCleft& cleft : layer.clefts) add_part(cleft);
     LayerCells cells;
     cells.triangles = joined(blocks, &LayerCells::triangles);
     cells.quads = joined(blocks, &LayerCells::quads);

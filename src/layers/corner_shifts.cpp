@@ -32,7 +32,8 @@ constexpr double most_shift = 0.2;
 /// first height along the ray; height: above the edges.
 Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height,
                       double least_turning) {
-    const Point edge_before = ray.origin - before.origin, edge_after = after.origin - ray.origin;
+    const WallNeighbours vertices = wall_neighbours(before, ray, after);
+    const Point edge_before = ray.origin - vertices.before, edge_after = vertices.after - ray.origin;
     const Point a = -perpendicular(unit(edge_before)), b = -perpendicular(unit(edge_after));
     if (std::abs(core::angle_between(a, b)) <= least_turning) return {};
     const auto is_kept = [&](Point normal) {

@@ -1,21 +1,35 @@
 // The corners of fronts, and the fronts as points.
 #include "layers/front.hpp"
 
+#include "layers/clefts.hpp"
+
 namespace lamina::layers {
 
 std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
     const auto& [set, heights, counts] = rays;
     std::vector<std::vector<FrontCorner>> fronts(set.elements());
+    const std::vector<CleftEnd> clefts = cleft_ends(rays);
+    std::size_t cleft = 0;  // the next one
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t begin = set.begin[e], end = set.begin[e + 1];
         for (std::size_t i = begin; i < end; ++i) {
+            if (cleft < clefts.size() && i == clefts[cleft].first) {
+                fronts[e].push_back({i, counts[i], false, cleft});
+                i = clefts[cleft++].last - 1;
+                continue;
+            }
             const std::size_t next = i + 1 < end ? i + 1 : begin;
             const bool one_corner =
                 counts[i] == 0 && counts[next] == 0 && set.lines[i].origin == set.lines[next].origin;
             if (!one_corner) fronts[e].push_back({i, counts[i]});
+            if (set.lines[i].corner_after && counts[i] == 0 && counts[next] == 0) fronts[e].push_back({i, 0, true});
         }
     }
     return fronts;
+}
+
+Point place_of(const LayeredRays& rays, const FrontCorner& corner) {
+    return corner.after ? *rays.set.lines[corner.ray].corner_after : rays.tip(corner.ray);
 }
 
 }  // namespace lamina::layers
@@ -30,7 +44,7 @@ std::vector<std::vector<Point>> fronts(const Rays& rays) {
     for (const std::vector<FrontCorner>& corners : front_corners(layered)) {
         std::vector<Point>& front = result.emplace_back();
         front.reserve(corners.size());
-        for (const FrontCorner& corner : corners) front.push_back(layered.tip(corner.ray));
+        for (const FrontCorner& corner : corners) front.push_back(place_of(layered, corner));
     }
     return result;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "layers/layered_rays.hpp"
@@ -13,9 +14,16 @@ namespace lamina::layers {
 struct FrontCorner {
     std::size_t ray;       ///< the ray whose tip it is; of the rays of a fan that have no layers, the last one
     std::uint32_t layers;  ///< number of layers on that ray; 0: the corner is the ray's origin
+    bool after = false;    ///< whether it is the corner of the wall after that ray (RayLine::corner_after) instead
+    /// The cleft that the edge behind this corner closes, if it does: an index into cleft_ends().
+    std::optional<std::size_t> cleft{};
 };
 
-/// Returns the corners of each element's front. The rays of a fan that have no layers share one corner.
+/// Returns the corners of each element's front, which passes the ends of clefts by (clefts.hpp). The rays of a fan that have no layers share one corner. A corner of the wall
+/// without a ray is one of the front's if neither ray beside it has layers.
 std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays);
+
+/// Returns the place of a front's corner.
+Point place_of(const LayeredRays& rays, const FrontCorner& corner);
 
 }  // namespace lamina::layers

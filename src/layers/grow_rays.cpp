@@ -15,6 +15,7 @@
 #include "layers/layered_rays.hpp"
 #include "layers/least_heights.hpp"
 #include "layers/rays.hpp"
+#include "layers/sharp_corners.hpp"
 #include "layers/truncation.hpp"
 #include "layers/wake_outline.hpp"
 
@@ -80,6 +81,7 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
         std::vector<RayVertex> outline = outline_with_wake(element.points, wake == wakes.end() ? nullptr : &*wake);
         const OutlineKind kind = outline_kind(element);
         const LayerGrowth own = growth_on_element(growth, e);
+        if (kind == OutlineKind::jagged && !options.fan_rays) leave_out_sharp_corners(own.first_height, outline);
         if (!own.least_heights.empty()) set_least_heights(own.least_heights, outline);
         std::vector<RayLine> rays = make_rays(outline, kind, options, own);
         if (has_wider_columns(kind, own))

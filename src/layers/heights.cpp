@@ -55,7 +55,8 @@ std::vector<double> slants(const RaySet& set) {
     std::vector<double> result(set.lines.size(), 1.0);
     for (std::size_t i = 0; i < result.size(); ++i) {
         const RayLine& ray = set.lines[i];
-        const Point before = set.lines[neighbours.previous[i]].origin, after = set.lines[neighbours.next[i]].origin;
+        const auto [before, after] =
+            wall_neighbours(set.lines[neighbours.previous[i]], ray, set.lines[neighbours.next[i]]);
         double sum = 0, edges = 0;
         const auto add_edge = [&](Point a, Point b) {
             if (a == b) return;

@@ -35,7 +35,7 @@ std::vector<double> shares_between(const RayEnd& low, const RayEnd& high, std::s
 
 /// Inserts rays on the edges between the origins of neighbouring rays; directions turn evenly. shares: for each ray,
 /// how far along the edge to the origin of the following ray the new ones start, ascending, in (0, 1). No rays are
-/// inserted where both rays have one origin, nor where an edge is too short to be divided.
+/// inserted where both rays have one origin or a corner between them, nor where an edge is too short to be divided.
 RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& shares) {
     const std::vector<std::size_t> next = set.following();
     RaySet result;
@@ -43,7 +43,7 @@ RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& sh
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
             const RayLine &ray = set.lines[i], &after = set.lines[next[i]];
             result.lines.push_back(ray);
-            if (shares[i].empty() || ray.origin == after.origin) continue;
+            if (shares[i].empty() || ray.origin == after.origin || ray.corner_after) continue;
             // Both sides of a wake have the same vertices.
             if (ray.place != RayPlace::wall || after.place != RayPlace::wall) continue;
             const IntermediateRays between(ray, after);

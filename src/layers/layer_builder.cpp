@@ -2,9 +2,11 @@
 #include "layers/layer_builder.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "layers/clefts.hpp"
 
 namespace lamina::layers {
 
@@ -18,9 +20,10 @@ public:
           corners_(corners),
           division_(division),
           origin_of_ray_(set_.lines.size()),
+          corner_after_ray_(set_.lines.size()),
           first_point_(set_.lines.size()),
           base_of_element_(set_.elements()),
-          wall_divisions_(set_.lines.size()) {}
+          wall_divisions_(corners.size()) {}
 
     Layer build() && {
         place_walls();
@@ -42,10 +45,11 @@ private:
     const std::vector<std::vector<FrontCorner>>& corners_;
     const BorderDivision& division_;
     std::vector<VertexId> origin_of_ray_;                 ///< the origin of each ray
+    std::vector<std::optional<VertexId>> corner_after_ray_;  ///< RayLine::corner_after of each ray
     std::vector<std::size_t> first_point_;                ///< Ray::first_point of each ray
     std::vector<std::vector<VertexId>> base_of_element_;  ///< with its corners; empty without a wake behind it
-    /// For each ray, the division points of the wall edge behind it.
-    std::vector<std::vector<VertexId>> wall_divisions_;
+    /// For each corner of each front, the division points of the wall edge behind it.
+    std::vector<std::vector<std::vector<VertexId>>> wall_divisions_;
     Layer layer_;
 
     VertexId add_point(Point p, std::uint32_t layer) {
@@ -72,11 +76,20 @@ private:
         placed.push_back(wall.front());
     }
 
+    /// Adds the division points of the edge behind a corner of a front to the end of the wall, if that edge is the wall's.
+    void divide_wall(std::size_t element, std::size_t k) {
+        if (corners_[element][k].layers > 0 || corner_after(element, k).layers > 0) return;
+        std::vector<VertexId>& divisions = wall_divisions_[element][k];
+        for (Point p : division_.points[element][k]) divisions.push_back(add_point(p, 0));
+        layer_.walls[element].insert(layer_.walls[element].end(), divisions.begin(), divisions.end());
+    }
+
     /// Places the walls. Division points of the border divide the wall, too, where the border runs along it.
     void place_walls() {
         layer_.walls.resize(set_.elements());
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             std::vector<VertexId>& wall = layer_.walls[e];
+            wall_divisions_[e].resize(corners_[e].size());
             std::size_t k = 0;  // the next corner of the front
             for (std::size_t i = set_.begin[e]; i < set_.begin[e + 1]; ++i) {
                 const Point origin = set_.lines[i].origin;
@@ -89,12 +102,12 @@ private:
                 } else if (on_wall) {
                     origin_of_ray_[i] = wall.back();
                 }
-                if (k == corners_[e].size() || corners_[e][k].ray != i) continue;
-                if (rays_.counts[i] == 0 && corner_after(e, k).layers == 0) {
-                    for (Point p : division_.points[e][k]) wall_divisions_[i].push_back(add_point(p, 0));
-                    wall.insert(wall.end(), wall_divisions_[i].begin(), wall_divisions_[i].end());
+                if (k < corners_[e].size() && corners_[e][k].ray == i) divide_wall(e, k++);
+                if (const std::optional<Point> corner = set_.lines[i].corner_after) {
+                    corner_after_ray_[i] = add_point(*corner, 0);
+                    wall.push_back(*corner_after_ray_[i]);
                 }
-                ++k;
+                if (k < corners_[e].size() && corners_[e][k].ray == i) divide_wall(e, k++);
             }
             for (const WakeCore& core : rays_.cores)
                 if (core.element == e) place_base(core);
@@ -172,21 +185,35 @@ private:
     }
 
     void place_borders() {
+        const std::vector<CleftEnd> clefts = cleft_ends(layered_rays(rays_));
         layer_.borders.resize(set_.elements());
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             std::vector<VertexId>& border = layer_.borders[e];
             for (std::size_t k = 0; k < corners_[e].size(); ++k) {
-                const auto [ray, layers] = corners_[e][k];
-                const std::uint32_t layers_after = corner_after(e, k).layers;
-                border.push_back(layers == 0 ? origin_of_ray_[ray] : VertexId(first_point_[ray] + layers - 1));
-                if (layers == 0 && layers_after == 0) {
-                    border.insert(border.end(), wall_divisions_[ray].begin(), wall_divisions_[ray].end());
+                const FrontCorner &corner = corners_[e][k], &after = corner_after(e, k);
+                const std::size_t first = border.size();
+                border.push_back(vertex_at(corner));
+                if (corner.layers == 0 && after.layers == 0) {
+                    border.insert(border.end(), wall_divisions_[e][k].begin(), wall_divisions_[e][k].end());
                 } else {
                     for (Point p : division_.points[e][k])
-                        border.push_back(add_point(p, std::min(layers, layers_after)));
+                        border.push_back(add_point(p, std::min(corner.layers, after.layers)));
                 }
+                if (!corner.cleft) continue;
+                const CleftEnd& end = clefts[*corner.cleft];
+                const std::size_t begin = set_.begin[e];
+                LayerCleft& cleft = layer_.clefts.emplace_back(
+                    LayerCleft{e, end.corner - begin, end.first - begin, end.last - begin});
+                cleft.outer_edge.assign(border.begin() + static_cast<std::ptrdiff_t>(first), border.end());
+                cleft.outer_edge.push_back(vertex_at(after));
             }
         }
+    }
+
+    /// Returns the vertex of a front's corner.
+    VertexId vertex_at(const FrontCorner& corner) const {
+        if (corner.after) return *corner_after_ray_[corner.ray];
+        return corner.layers == 0 ? origin_of_ray_[corner.ray] : VertexId(first_point_[corner.ray] + corner.layers - 1);
     }
 
     void describe_rays() {
@@ -212,7 +239,8 @@ private:
                                           .place = set_.lines[i].place,
                                           .opening = column.opening,
                                           .taper = column.taper,
-                                          .shift = set_.lines[i].shift});
+                                          .shift = set_.lines[i].shift,
+                                          .corner_after = corner_after_ray_[i]});
             }
         }
     }

@@ -9,6 +9,10 @@ RayNeighbours::RayNeighbours(const RaySet& set) : next(set.following()), previou
     for (std::size_t i = 0; i < next.size(); ++i) previous[next[i]] = i;
 }
 
+WallNeighbours wall_neighbours(const RayLine& before, const RayLine& ray, const RayLine& after) {
+    return {before.corner_after.value_or(before.origin), ray.corner_after.value_or(after.origin)};
+}
+
 double tangent_of_lean(const RayLine& from, const RayLine& to) {
     const Point edge = to.origin - from.origin, direction = from.direction + to.direction;
     const double across = std::abs(cross(edge, direction));

@@ -17,6 +17,14 @@ struct RayNeighbours {
     explicit RayNeighbours(const RaySet& set);
 };
 
+/// The vertices of the wall beside the origin of a ray, or the origin itself where a neighbour starts there, too.
+struct WallNeighbours {
+    Point before, after;
+};
+
+/// Returns the wall's vertices beside a ray between these two others.
+WallNeighbours wall_neighbours(const RayLine& before, const RayLine& ray, const RayLine& after);
+
 /// Returns the tangent of the angle by which two rays lean from the normal of the line between their origins, towards
 /// that of `to`; 0 for rays of one origin.
 double tangent_of_lean(const RayLine& from, const RayLine& to);

@@ -54,6 +54,19 @@ Point tilted(Point direction, double tilt) { return tilt == 0 ? direction : unit
 Point first_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_before : v.bisector, v.tilt[0]); }
 Point last_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_after : v.bisector, v.tilt[1]); }
 
+/// Returns half of the angle between the first and the last ray of a fan, in radians.
+double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.tilt[1] - v.tilt[0]); }
+
+/// Makes fans that have no angle left for a third ray one ray in their middle. Both of their rays have slants of their own, so that
+/// points of one layer lie far from each other's heights, and cells between them have angles near 180 degrees.
+void close_narrow_fans(double max_angle, std::vector<WallVertex>& vertices) {
+    for (WallVertex& v : vertices) {
+        if (!v.fan || half_fan(v) < least_half_fan || angle_parts(2 * half_fan(v), max_angle) > 1) continue;
+        v.fan = false;
+        v.tilt[0] = v.tilt[1] = 0.5 * (v.tilt[0] + v.tilt[1]);
+    }
+}
+
 /// Adds the ray or the fan of a vertex, which has `fan_rays` rays, or as many as max_angle asks for. The angles of a fan are counted from the bisector, not from one side to the
 /// other, so that mirrored input gives mirrored rays.
 void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_angle,
@@ -63,9 +76,8 @@ void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_a
     };
     add(first_direction(vertex));
     if (!vertex.fan) return;
-    const double half = 0.5 * (vertex.turning + vertex.tilt[1] - vertex.tilt[0]);
+    const double half = half_fan(vertex), middle = 0.5 * (vertex.tilt[0] + vertex.tilt[1]);
     if (half < least_half_fan) return;
-    const double middle = 0.5 * (vertex.tilt[0] + vertex.tilt[1]);
     const std::size_t parts = fan_rays ? *fan_rays - 1 : angle_parts(2 * half, max_angle);
     for (std::size_t k = 1; k < parts; ++k) {
         const double share = (2.0 * static_cast<double>(k) - static_cast<double>(parts)) / static_cast<double>(parts);
@@ -104,11 +116,14 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         if (!jagged) widen_narrow_columns(outline, heights, vertices);
         even_columns(outline, kind, heights, growth.first_height, vertices);
     }
+    if (jagged && !options.fan_rays) close_narrow_fans(max_angle, vertices);
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const std::size_t next = (i + 1) % outline.size();
         add_vertex_rays(outline[i], vertices[i], max_angle, options.fan_rays, rays);
+        rays.back().corner_after = outline[i].corner_after;
+        if (outline[i].corner_after) continue;
         if (options.fan_rays || outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),

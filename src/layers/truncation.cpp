@@ -26,6 +26,8 @@ namespace {
 /// A ray may go up to this share of the height at which it crosses another ray, so that neighbours keep more than half
 /// of their distance.
 constexpr double ray_fraction = 0.45;
+/// First layers may go up to this share, so that walls in clefts are not bare. Neighbours keep a fifth of their distance.
+constexpr double first_layer_fraction = 0.8;
 /// Largest rise of the limit per unit of distance between neighbouring rays. Two such slopes in a corner of 90 degrees
 /// leave 60 degrees to the outer region.
 constexpr double max_limit_slope = 0.25;
@@ -217,6 +219,13 @@ void lower_to_sample(const RaySet& set, const RaySample& sample, std::span<const
     }
 }
 
+/// Raises limits that are a little too low for a first layer up to its height.
+void allow_first_layers(const LayerHeights& heights, std::vector<double>& limits) {
+    for (std::size_t i = 0; i < limits.size(); ++i)
+        if (const std::span<const double> column = heights.of(i); column.size() > 1)
+            limits[i] = std::max(limits[i], std::min(column[1], first_layer_fraction / ray_fraction * limits[i]));
+}
+
 /// Returns the height at which a ray may end beside one that ends at `height`, so that the row between the two is off a
 /// right angle with them by max_end_tangent.
 double height_of_steepest_row(const RayLine& ray, double height, const RayLine& beside) {
@@ -260,6 +269,7 @@ std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights
     }
     if (std::all_of(limits.begin(), limits.end(), [](double limit) { return limit == HUGE_VAL; })) return limits;
     smooth_limits(set, heights, limits);
+    allow_first_layers(heights, limits);
     return limits;
 }
 

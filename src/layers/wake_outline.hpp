@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct RayVertex {
     RayPlace place = RayPlace::wall;
     double opening = 1;       ///< RayLine::opening
     double least_height = 0;  ///< RayLine::least_height
+    std::optional<Point> corner_after{};  ///< RayLine::corner_after
 };
 
 /// Returns whether a wake is a part of the outline.

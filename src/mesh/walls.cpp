@@ -85,6 +85,23 @@ double median_height(std::vector<FirstHeight> heights) {
     return middle->height;
 }
 
+/// Counts the edges without a cell of the layer.
+void count_bare_edges(std::span<const Point> points, std::span<const Marker> markers, std::span<const WallEdge> walls,
+                      WallSummary& summary) {
+    const auto is_bare = [](const WallEdge& wall) {
+        return !wall.edge->in_first_layer && !wall.edge->beyond_first_layer;
+    };
+    if (std::all_of(walls.begin(), walls.end(), is_bare)) return;
+    std::vector<char> has_layer(markers.size());
+    for (std::size_t m = 0; m < markers.size(); ++m) has_layer[m] = markers[m].kind == MarkerKind::wall;
+    for (const WallEdge& wall : walls)
+        if (!is_bare(wall)) has_layer[wall.marker] = 1;
+    for (const WallEdge& wall : walls) {
+        if (!is_bare(wall) || !has_layer[wall.marker]) continue;
+        if (summary.bare_edges++ == 0) summary.bare_at = points[wall.from.index()];
+    }
+}
+
 void measure_first_heights(std::span<const Point> points, std::span<const Marker> markers,
                            std::span<const WallEdge> walls, const MeshCheckOptions& options, WallSummary& summary) {
     const std::vector<std::vector<FirstHeight>> by_marker = first_heights_of_markers(points, markers.size(), walls);
@@ -133,6 +150,7 @@ WallSummary measure_walls(std::span<const Point> points, std::span<const Marker>
     WallSummary summary;
     summary.edges = walls.size();
     measure_ratios(points, walls, summary);
+    count_bare_edges(points, markers, walls, summary);
     measure_first_heights(points, markers, walls, options, summary);
     return summary;
 }

@@ -43,7 +43,7 @@ std::vector<CellTop> cell_tops(const Rays& rays, std::size_t element) {
     const std::vector<layers::FrontCorner> corners = layers::front_corners(layered)[element];
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const layers::FrontCorner &corner = corners[k], &next = corners[(k + 1) % corners.size()];
-        const Point a = layered.tip(corner.ray), b = layered.tip(next.ray);
+        const Point a = layers::place_of(layered, corner), b = layers::place_of(layered, next);
         const double length = distance(a, b);
         const double least_part =
             least_share_of_height * std::min(layered.last_spacing(corner.ray), layered.last_spacing(next.ray));

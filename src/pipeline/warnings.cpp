@@ -90,6 +90,19 @@ void warn_of_first_layer(const MeshResult& result, const Mesh& layer, std::vecto
                                 lost, counted(result.surface_vertices, "wall edge", "wall edges"), place_text(at))});
 }
 
+void warn_of_bare_walls(const MeshResult& result, std::vector<Warning>& warnings) {
+    const WallSummary& walls = result.check.walls;
+    if (walls.bare_edges == 0) return;
+    warnings.push_back({.code = WarningCode::first_layer_lost,
+                        .at = walls.bare_at,
+                        .number = static_cast<double>(walls.bare_edges),
+                        .unit = "wall edges",
+                        .message = fmt::format("{} of {} have no layer, as at {}: the room between the walls is narrower "
+                                               "there than first layers are high (--first-height, --surface)",
+                                               walls.bare_edges, counted(walls.edges, "wall edge", "wall edges"),
+                                               place_text(walls.bare_at))});
+}
+
 void warn_of_cut_rays(const MeshResult& result, std::vector<Warning>& warnings) {
     // Beside a slot or a cove some rays that count as open are cut, and lack few of their layers.
     constexpr double max_cut_share = 0.25, min_made_share = 0.95;
@@ -264,6 +277,7 @@ std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& 
     warn_of_first_height(result, options.layer, warnings);
     warn_of_topology(result, warnings);
     warn_of_first_layer(result, layer, warnings);
+    warn_of_bare_walls(result, warnings);
     warn_of_cut_rays(result, warnings);
     warn_of_thinned_layers(result, warnings);
     warn_of_transition(result, warnings);

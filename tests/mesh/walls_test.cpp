@@ -1,6 +1,7 @@
 // The measures of walls: how even their edges are, and how high the first cells.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +48,27 @@ TEST(Walls, WithOneVertexOutOfPlace) {
     EXPECT_EQ(check.walls.max_ratio_at, ring.points[3]);
     EXPECT_EQ(check.walls.uneven_vertices, 3u);
     EXPECT_LT(check.walls.share_of_kept_heights, 1);
+}
+
+TEST(Walls, WithoutALayerSomewhere) {
+    Mesh ring = annulus({.around = around});
+    EXPECT_EQ(check_mesh(ring).walls.bare_edges, 0u);
+    std::size_t bare = 0;
+    for (std::size_t t = 0; t < ring.triangles.size(); ++t) {
+        const auto& v = ring.triangles[t].v;
+        const auto is_on_wall = [&](VertexId id) { return id.index() < around; };
+        if (ring.layer[t] != 1 || std::count_if(v, v + 3, is_on_wall) != 2 || bare == 3) continue;
+        ring.layer[t] = 0;
+        ring.region[t] = Region::isotropic;
+        ++bare;
+    }
+    const WallSummary walls = check_mesh(ring).walls;
+    EXPECT_EQ(walls.bare_edges, 3u);
+    EXPECT_NEAR(length(walls.bare_at), 1, 1e-12);
+    EXPECT_EQ(walls.first_cells, around - 3);
+    std::fill(ring.layer.begin(), ring.layer.end(), 0);
+    std::fill(ring.region.begin(), ring.region.end(), Region::isotropic);
+    EXPECT_EQ(check_mesh(ring).walls.bare_edges, 0u) << "a mesh without a layer";
 }
 
 TEST(Walls, CompareFirstHeightsWithTheOneAskedFor) {

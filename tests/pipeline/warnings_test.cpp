@@ -67,6 +67,19 @@ TEST(Warnings, LostFirstLayer) {
     EXPECT_EQ(std::count(kept.begin(), kept.end(), "first_layer_lost"), 0);
 }
 
+/// No first layer fits into a notch that is narrower than it is high.
+TEST(Warnings, WallsWithoutALayer) {
+    CaseOptions options = quick_options();
+    options.layer.first_height = 0.05;
+    options.surface.treatment = SurfaceTreatment::keep;
+    const MeshResult result = mesh_of({shapes::refined(shapes::v_notch(0.1), 10)}, options);
+    EXPECT_GT(result.check.walls.bare_edges, 0u);
+    const Warning warning = expect_warning(result, WarningCode::first_layer_lost);
+    EXPECT_EQ(warning.number, static_cast<double>(result.check.walls.bare_edges));
+    ASSERT_TRUE(warning.at);
+    EXPECT_NEAR(warning.at->x, 2, 0.3);
+}
+
 TEST(Warnings, LayersThickerThanTheRoomRoundTheWall) {
     CaseOptions options = quick_options(20);
     options.layer.topology = LayerTopology::delaunay;
@@ -157,7 +170,7 @@ TEST(Limits, SpikesAcrossNineOrdersOfMagnitudeAreNotOverestimated) {
     shapes::Outline spike = naca("0012", 28);
     for (Point& p : spike)
         if (p.x >= 1) p = {1e9, 0};
-    CaseOptions options = quick_options(2);
+    CaseOptions options = quick_options();
     options.surface = {};
     options.layer.first_height = 0.05;
     options.layer.layers = 2;

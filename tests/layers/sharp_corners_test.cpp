@@ -1,0 +1,227 @@
+// Sharp concave corners of jagged walls, which have no rays, and the clefts that begin there.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <lamina/layers.hpp>
+
+#include "checked_layer.hpp"
+#include "core/angles.hpp"
+#include "expect_cover.hpp"
+#include "layers/clefts.hpp"
+#include "layers/layered_rays.hpp"
+#include "layers/sharp_corners.hpp"
+#include "support/layers.hpp"
+#include "support/shapes.hpp"
+
+namespace lamina {
+namespace {
+
+using shapes::Outline;
+
+constexpr double first_height_of_layers = 1e-4;
+constexpr double max_angle_deg = 150;
+
+/// Returns a plate with a notch that is 0.8 deep, whose walls meet at this angle.
+Outline notched_plate(double angle_deg, std::size_t parts = 40) {
+    return shapes::refined(shapes::v_notch(1.6 * std::tan(core::radians(0.5 * angle_deg))), parts);
+}
+
+Geometry jagged_geometry(const Outline& outline) {
+    Geometry geometry = shapes::geometry({outline});
+    geometry.elements[0].resampled = true;
+    return geometry;
+}
+
+LayerOptions options_of_layers(std::uint32_t layers = 25) { return test::layers_of(first_height_of_layers, 1.2, layers); }
+
+std::size_t corners_without_rays(const Rays& rays) {
+    return static_cast<std::size_t>(std::count_if(rays.set.lines.begin(), rays.set.lines.end(),
+                                                  [](const RayLine& ray) { return ray.corner_after.has_value(); }));
+}
+
+/// Returns the largest angle of the cells of a layer that lie in the notch, in degrees.
+double largest_angle_in_notch_deg(const Layer& layer, const LayerCells& cells) {
+    double largest = 0;
+    test::for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t) {
+        const std::size_t n = cell.size();
+        const Point corner = layer.points[cell[0].index()];
+        if (std::abs(corner.x - 2) > 0.6 || std::abs(corner.y) < 0.15 || std::abs(corner.y) > 0.9) return;
+        for (std::size_t k = 0; k < n; ++k) {
+            const Point at = layer.points[cell[(k + 1) % n].index()];
+            const Point u = layer.points[cell[k].index()] - at, v = layer.points[cell[(k + 2) % n].index()] - at;
+            largest = std::max(largest, core::degrees(std::abs(core::angle_between(u, v))));
+        }
+    });
+    return largest;
+}
+
+/// Expects that the cell on each edge of the wall has the first height.
+void expect_first_heights(const Layer& layer, const LayerCells& cells) {
+    std::map<Segment, double> heights;
+    test::for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t) {
+        if (cell.size() != 3) return;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const VertexId a = cell[k], b = cell[(k + 1) % 3];
+            const Point edge = layer.points[b.index()] - layer.points[a.index()];
+            heights[{a, b}] = cross(edge, layer.points[cell[(k + 2) % 3].index()] - layer.points[a.index()]) / length(edge);
+        }
+    });
+    for (const Segment& edge : layer.edges.walls[0]) {
+        ASSERT_TRUE(heights.contains(edge));
+        EXPECT_NEAR(heights.at(edge), first_height_of_layers, 0.01 * first_height_of_layers);
+    }
+}
+
+TEST(SharpCorners, HaveNoRayButCellsOfTheFirstHeight) {
+    for (const double angle_deg : {8.0, 15.0, 30.0, 45.0, 59.0})
+        for (const bool mirrored : {false, true}) {
+            SCOPED_TRACE(testing::Message() << angle_deg << " degrees" << (mirrored ? ", mirrored" : ""));
+            const Outline outline =
+                mirrored ? shapes::mirrored(notched_plate(angle_deg)) : notched_plate(angle_deg);
+            const Geometry geometry = jagged_geometry(outline);
+            EXPECT_EQ(corners_without_rays(grow_rays(geometry, options_of_layers(), test::growth_of(options_of_layers()))), 1u);
+            const Layer layer = test::checked_layer(geometry, options_of_layers());
+            EXPECT_EQ(layer.walls[0].size(), outline.size());
+            for (const LayerTopology topology : test::topologies) {
+                const LayerCells cells = fill_layer(layer, topology);
+                test::expect_cover(layer, layer.edges, cells);
+                if (topology != LayerTopology::layered) continue;
+                EXPECT_LT(largest_angle_in_notch_deg(layer, cells), max_angle_deg);
+                expect_first_heights(layer, cells);
+            }
+        }
+}
+
+/// One ray in such a corner has cells of 180 degrees less half of the corner's angle beside it, and worse ones where borders
+/// divide their tops.
+TEST(SharpCorners, WouldHaveLargeAnglesWithOneRay) {
+    for (const double angle_deg : {15.0, 30.0, 45.0}) {
+        Geometry geometry = jagged_geometry(notched_plate(angle_deg));
+        geometry.elements[0].resampled = false;
+        const Layer layer = test::make_layer(geometry, options_of_layers());
+        EXPECT_GT(largest_angle_in_notch_deg(layer, fill_layer(layer, LayerTopology::layered)), max_angle_deg);
+    }
+}
+
+TEST(SharpCorners, KeepTheirRayWhereTheyMust) {
+    const auto count = [](const Geometry& geometry, const LayerOptions& options) {
+        return corners_without_rays(grow_rays(geometry, options, test::growth_of(options)));
+    };
+    EXPECT_EQ(count(jagged_geometry(notched_plate(65)), options_of_layers()), 0u) << "wide";
+    EXPECT_EQ(count(jagged_geometry(notched_plate(15)), test::layers_of(4e-3, 1.2, 5)), 0u) << "high first layers";
+    LayerOptions equal_fans = options_of_layers();
+    equal_fans.fan_rays = 5;
+    EXPECT_EQ(count(jagged_geometry(notched_plate(30)), equal_fans), 0u) << "equal numbers of rays";
+    Geometry smooth = jagged_geometry(notched_plate(30));
+    smooth.elements[0].smooth = true;
+    EXPECT_EQ(count(smooth, options_of_layers()), 0u);
+    Outline uneven = notched_plate(5);
+    const auto bottom = std::find(uneven.begin(), uneven.end(), Point{2, 0.2});
+    ASSERT_NE(bottom, uneven.end());
+    *(bottom + 1) = *bottom + 0.4 * (*(bottom + 1) - *bottom);
+    EXPECT_EQ(count(jagged_geometry(uneven), options_of_layers()), 0u) << "edges that differ";
+}
+
+TEST(SharpCorners, TheFirstVertexKeepsItsRay) {
+    const Outline outline = notched_plate(30);
+    const auto bottom = std::find(outline.begin(), outline.end(), Point{2, 0.2});
+    ASSERT_NE(bottom, outline.end());
+    for (const std::ptrdiff_t before : {0, 1, 2}) {
+        Outline rotated = outline;
+        std::rotate(rotated.begin(), rotated.begin() + (bottom - outline.begin()) - before, rotated.end());
+        const Geometry geometry = jagged_geometry(rotated);
+        EXPECT_EQ(corners_without_rays(grow_rays(geometry, options_of_layers(), test::growth_of(options_of_layers()))),
+                  before == 0 ? 0u : 1u);
+        const Layer layer = test::checked_layer(geometry, options_of_layers());
+        test::expect_cover(layer, layer.edges, fill_layer(layer, LayerTopology::layered));
+    }
+}
+
+/// Where rays beside the corner have no layers, the border runs through the corner, or ends beside it.
+TEST(SharpCorners, BareWallsGoThroughThem) {
+    for (const int bare : {0, 1, 2, 3}) {
+        SCOPED_TRACE(bare);
+        const LayerOptions options = options_of_layers();
+        Rays rays = grow_rays(jagged_geometry(notched_plate(30)), options, test::growth_of(options));
+        const auto ray = std::find_if(rays.set.lines.begin(), rays.set.lines.end(),
+                                      [](const RayLine& line) { return line.corner_after.has_value(); });
+        ASSERT_NE(ray, rays.set.lines.end());
+        const auto i = static_cast<std::size_t>(ray - rays.set.lines.begin());
+        if (bare & 1) rays.limits[i] = 0;
+        if (bare & 2) rays.limits[i + 1] = 0;
+        layers::fit_and_count_layers(rays);
+        EXPECT_EQ(rays.counts[i] == 0, (bare & 1) != 0);
+        EXPECT_EQ(rays.counts[i + 1] == 0, (bare & 2) != 0);
+        const Layer layer = close_border(rays);
+        for (const std::string& finding : check_layer(layer, options)) ADD_FAILURE() << finding;
+        const std::vector<VertexId>& border = layer.borders[0];
+        const VertexId corner = *layer.rays[0][i].corner_after;
+        EXPECT_EQ(std::find(border.begin(), border.end(), corner) != border.end(), bare == 3);
+        for (const LayerTopology topology : test::topologies)
+            test::expect_cover(layer, layer.edges, fill_layer(layer, topology));
+    }
+}
+
+TEST(Clefts, EndWhereTheFrontsAreAsFarFromEachOtherAsEdgesAreLong) {
+    for (const double angle_deg : {8.0, 15.0, 25.0}) {
+        SCOPED_TRACE(angle_deg);
+        const LayerOptions options = options_of_layers();
+        const Rays rays = grow_rays(jagged_geometry(notched_plate(angle_deg)), options, test::growth_of(options));
+        const layers::LayeredRays layered = layers::layered_rays(rays);
+        const std::vector<layers::CleftEnd> ends = layers::cleft_ends(layered);
+        ASSERT_EQ(ends.size(), 1u);
+        const auto [corner, first, last] = ends[0];
+        EXPECT_EQ(corner - first, last - corner - 1) << "both sides are alike";
+        const std::size_t steps = corner - first;
+        // The gap over the length of the front's edge, so many rays from the corner.
+        const auto gap = [&](std::size_t k) {
+            return distance(layered.tip(corner - k), layered.tip(corner + 1 + k)) /
+                   distance(layered.tip(corner - k), layered.tip(corner - k - 1));
+        };
+        EXPECT_GE(gap(steps), 1.9);
+        for (std::size_t k = 0; k < steps; ++k) EXPECT_LT(gap(k), 2.1);
+        const std::vector<Point> front = fronts(rays)[0];
+        EXPECT_EQ(front.size() + 2 * steps, rays.set.lines.size()) << "the front passes their rays by";
+    }
+}
+
+TEST(Clefts, WideOnesStayOpen) {
+    const LayerOptions options = options_of_layers(2);
+    const Rays rays = grow_rays(jagged_geometry(notched_plate(59)), options, test::growth_of(options));
+    EXPECT_EQ(corners_without_rays(rays), 1u);
+    for (const layers::CleftEnd& end : layers::cleft_ends(layers::layered_rays(rays)))
+        EXPECT_LE(end.last - end.first, 7u);
+}
+
+/// Layer cells keep their angles if borders are divided, at the end of a cleft, too.
+TEST(Clefts, TheirEndsMayBeDivided) {
+    for (const double size : {0.02, 0.01, 0.005}) {
+        SCOPED_TRACE(size);
+        const LayerOptions options = options_of_layers();
+        BorderOptions border;
+        border.sources.push_back({.a = {2, 0.3}, .b = {2, 0.3}, .size = size});
+        const Layer layer = test::checked_layer(jagged_geometry(notched_plate(20)), options, border);
+        ASSERT_EQ(layer.clefts.size(), 1u);
+        for (const LayerTopology topology : test::topologies)
+            test::expect_cover(layer, layer.edges, fill_layer(layer, topology));
+    }
+}
+
+/// Another body in the cleft keeps it open.
+TEST(Clefts, AreNotClosedOverOtherBodies) {
+    const LayerOptions options = options_of_layers();
+    Geometry geometry = shapes::geometry({notched_plate(20), shapes::moved(shapes::circle(0.003, 60), 0, 1, {2, 0.33})});
+    geometry.elements[0].resampled = true;
+    const Layer layer = test::checked_layer(geometry, options);
+    EXPECT_EQ(layer.clefts.size(), 0u);
+    test::expect_cover(layer, layer.edges, fill_layer(layer, LayerTopology::layered));
+}
+
+}  // namespace
+}  // namespace lamina
