@@ -21,6 +21,7 @@
 
 #include "core/angles.hpp"
 #include "layers/corner_shifts.hpp"
+#include "layers/short_faces.hpp"
 
 namespace lamina::layers {
 
@@ -54,11 +55,18 @@ std::vector<Column> columns_of(std::span<const RayVertex> outline, std::span<con
     return columns;
 }
 
-/// Returns whether the ray of a vertex stays. On smooth outlines those do that lean by this already, out of a cove or away from the
-/// foot of a step: their columns are as wide as the room there allows.
-bool stays(const WallVertex& vertex, OutlineKind kind) {
-    constexpr double least_lean_deg = 15;
-    return vertex.fan || (kind == OutlineKind::smooth && std::abs(vertex.tilt[0]) > core::radians(least_lean_deg));
+/// Returns, for each vertex, whether its rays stay: those of fans, and on smooth outlines those of short faces, whose columns have been
+/// opened as far as the room there allows.
+std::vector<char> rays_that_stay(std::span<const RayVertex> outline, OutlineKind kind,
+                                 std::span<const WallVertex> vertices) {
+    const std::size_t n = outline.size();
+    std::vector<char> stay(n);
+    for (std::size_t i = 0; i < n; ++i) stay[i] = vertices[i].fan;
+    if (kind != OutlineKind::smooth) return stay;
+    const std::vector<double> openings = openings_on_short_faces(outline, vertices);
+    for (std::size_t i = 0; i < n; ++i)
+        if (openings[i] > 0) stay[i] = stay[(i + 1) % n] = 1;
+    return stay;
 }
 
 /// Returns the largest angle by which the one ray of a vertex may lean to either side, in radians. `between_edges` is that
@@ -85,9 +93,8 @@ void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::spa
     std::vector<Column> columns = columns_of(outline, heights, vertices);
     const auto before = [&](std::size_t i) -> const Column& { return columns[(i + n - 1) % n]; };
     std::vector<double> largest(n), turns(n, 0.0);
-    std::vector<char> fixed(n);
+    const std::vector<char> fixed = rays_that_stay(outline, kind, vertices);
     for (std::size_t i = 0; i < n; ++i) {
-        fixed[i] = stays(vertices[i], kind);
         const double shorter_edge = std::min(before(i).edge, columns[i].edge);
         largest[i] =
             largest_lean(vertices[i], max_tilt_between_edges(vertices[i].turning, kind, first_height, shorter_edge));
