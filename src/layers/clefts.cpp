@@ -70,9 +70,8 @@ private:
     /// Returns whether the cleft may reach beyond a ray, to its neighbour. Neither the first nor the last ray of the element is
     /// passed, so that fronts begin where elements do.
     bool can_pass(std::size_t ray, std::size_t next) const {
-        if (ray == begin_ || ray + 1 == end_ || !has_layers(next)) return false;
-        const auto& lines = rays_.set.lines;
-        return lines[ray].origin != lines[next].origin && !lines[std::min(ray, next)].corner_after;
+        return ray != begin_ && ray + 1 != end_ && has_layers(next) &&
+               !rays_.set.lines[std::min(ray, next)].corner_after;
     }
 
     /// Lets that side of a cleft go on by a ray which lags behind, or both. Returns whether it may.

@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/predicates.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/neighbours.hpp"
 #include "layers/rows.hpp"
@@ -107,6 +108,49 @@ std::vector<double> tapers(const LayeredRays& rays, bool even_ends) {
     return wanted;
 }
 
+/// Returns heights of which each column is tapered up to its number of layers.
+LayerHeights tapered_heights(const LayerHeights& heights, std::span<const std::uint32_t> counts,
+                             std::span<const double> tapers) {
+    std::vector<double> table = heights.table();
+    std::vector<HeightColumn> columns;
+    columns.reserve(tapers.size());
+    for (std::size_t i = 0; i < tapers.size(); ++i) {
+        HeightColumn& column = columns.emplace_back(heights.column(i));
+        if (tapers[i] == 1) continue;
+        const std::span<const double> before = heights.of(i);
+        column.taper = tapers[i];
+        column.first = table.size();
+        table.insert(table.end(), before.begin(), before.end());
+        taper_heights(column.taper, std::span(table).subspan(column.first, counts[i] + std::size_t{1}));
+    }
+    return LayerHeights(std::move(table), std::move(columns));
+}
+
+/// Returns whether a cell between two rays is crossed.
+bool has_crossed_cell(const LayeredRays& rays, std::size_t i, std::size_t j) {
+    const std::uint32_t common = std::min(rays.counts[i], rays.counts[j]);
+    for (std::uint32_t n = 2; n <= common; ++n) {
+        const Point a = rays.point(i, n - 1), b = rays.point(i, n), c = rays.point(j, n), d = rays.point(j, n - 1);
+        const bool sound = core::inline_orient2d(a, b, c) > 0 && core::inline_orient2d(b, c, d) > 0 &&
+                           core::inline_orient2d(c, d, a) > 0 && core::inline_orient2d(d, a, b) > 0;
+        if (!sound) return true;
+    }
+    if (common == 0 || rays.counts[i] == rays.counts[j]) return false;
+    const Point top = rays.point(rays.counts[i] > common ? i : j, common + 1);
+    return !(core::inline_orient2d(rays.point(i, common), top, rays.point(j, common)) > 0);
+}
+
+/// Sets the tapers on both sides of columns with crossed cells to 1: rows rise most where a column is narrower than at the front.
+/// Columns without tapers have no such cells. Returns whether there were any.
+bool leave_crossed_columns(const LayeredRays& rays, std::vector<double>& tapers) {
+    const std::vector<std::size_t> next = rays.set.following();
+    std::vector<std::size_t> crossed;
+    for (std::size_t i = 0; i < next.size(); ++i)
+        if ((tapers[i] != 1 || tapers[next[i]] != 1) && has_crossed_cell(rays, i, next[i])) crossed.push_back(i);
+    for (const std::size_t i : crossed) tapers[i] = tapers[next[i]] = 1;
+    return !crossed.empty();
+}
+
 }  // namespace
 
 void taper_heights(double taper, std::span<double> heights) {
@@ -121,20 +165,11 @@ void taper_heights(double taper, std::span<double> heights) {
 
 void taper_columns(Rays& rays) {
     if (rays.growth.layers) return;
-    const std::vector<double> wanted = tapers(layered_rays(rays), rays.even_ends);
-    std::vector<double> table = rays.fitted.table();
-    std::vector<HeightColumn> columns;
-    columns.reserve(wanted.size());
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        HeightColumn& column = columns.emplace_back(rays.fitted.column(i));
-        if (wanted[i] == 1) continue;
-        const std::span<const double> heights = rays.fitted.of(i);
-        column.taper = wanted[i];
-        column.first = table.size();
-        table.insert(table.end(), heights.begin(), heights.end());
-        taper_heights(column.taper, std::span(table).subspan(column.first, rays.counts[i] + std::size_t{1}));
-    }
-    rays.fitted = LayerHeights(std::move(table), std::move(columns));
+    const LayerHeights untapered = rays.fitted;
+    std::vector<double> wanted = tapers(layered_rays(rays), rays.even_ends);
+    do {
+        rays.fitted = tapered_heights(untapered, rays.counts, wanted);
+    } while (leave_crossed_columns(layered_rays(rays), wanted));
 }
 
 }  // namespace lamina::layers

@@ -5,10 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <lamina/layers.hpp>
+#include <lamina/predicates.hpp>
+
+#include "layers/layered_rays.hpp"
 
 namespace lamina {
 namespace {
@@ -54,12 +59,13 @@ TEST(Taper, LeavesColumnsWithoutRoomAlone) {
     }
 }
 
-/// Returns rays in a row, so far apart, with columns of 60 layers whose last ones are 0.001 high.
+/// Returns rays in a row below a wall, so far apart, with columns of 60 layers whose last ones are 0.001 high. The last ray and the first
+/// one are neighbours as on every element, though all cells between them are crossed.
 Rays columns_apart(const std::vector<double>& widths) {
     Rays rays;
     double x = 0;
     for (const double width : widths) {
-        rays.set.lines.push_back({{x, 0}, {0, 1}});
+        rays.set.lines.push_back({{x, 0}, {0, -1}});
         x += width;
     }
     rays.set.begin.push_back(widths.size());
@@ -131,6 +137,54 @@ TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
     rays.growth.layers = 60;
     layers::taper_columns(rays);
     EXPECT_EQ(rays.fitted.table(), table);
+}
+
+/// Returns whether the cells between two neighbouring rays are positive quadrilaterals, and the triangle at their step, too.
+bool are_sound(const layers::LayeredRays& rays, std::size_t i) {
+    const std::uint32_t common = std::min(rays.counts[i], rays.counts[i + 1]);
+    for (std::uint32_t n = 1; n <= common; ++n) {
+        const Point a = rays.point(i, n - 1), b = rays.point(i, n), c = rays.point(i + 1, n), d = rays.point(i + 1, n - 1);
+        for (const auto& [p, q, r] : {std::array{a, b, c}, std::array{b, c, d}, std::array{c, d, a}, std::array{d, a, b}})
+            if (!(orient2d(p, q, r) > 0)) return false;
+    }
+    if (rays.counts[i] == rays.counts[i + 1]) return true;
+    const Point top = rays.point(rays.counts[i] > common ? i : i + 1, common + 1);
+    return orient2d(rays.point(i, common), top, rays.point(i + 1, common)) > 0;
+}
+
+/// Rows of neighbours that are tapered differently rise, and may do so where fronts and numbers of layers are steep already.
+TEST(Taper, CrossesNoCells) {
+    std::mt19937 random(7);
+    const auto real = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    std::size_t tapered = 0, left = 0;
+    for (int round = 0; round < 5000; ++round) {
+        std::vector<double> widths;
+        double width = 1e-3;
+        for (std::size_t i = 0; i < 30; ++i) widths.push_back(width *= std::exp(real(-1.2, 1.2)));
+        Rays rays = columns_apart(widths);
+        std::vector<double> table;
+        std::vector<HeightColumn> columns;
+        double lean = 0, scale = 1;
+        for (std::size_t i = 0; i < widths.size(); ++i) {
+            columns.push_back({.first = table.size(), .layers = 60});
+            const std::vector<double> heights = heights_with(1e-3, 60);
+            scale += real(-6, 6) * widths[i] / heights.back();
+            for (const double height : heights) table.push_back(scale * height);
+            lean += real(-1, 5) * widths[i] / heights.back();
+            rays.set.lines[i].direction = unit(Point{lean, -1});
+            if (i > 0) rays.counts[i] = std::clamp(rays.counts[i - 1] + std::uint32_t(real(0, 3)) - 1, 40u, 60u);
+        }
+        rays.fitted = LayerHeights(table, columns);
+        const LayerHeights before = rays.fitted;
+        layers::taper_columns(rays);
+        for (std::size_t i = 1; i + 2 < widths.size(); ++i) {
+            if (!are_sound({rays.set, before, rays.counts}, i)) continue;
+            EXPECT_TRUE(are_sound(layers::layered_rays(rays), i)) << "round " << round << ", column " << i;
+            const bool is_tapered = rays.fitted.column(i).taper != 1 || rays.fitted.column(i + 1).taper != 1;
+            (is_tapered ? tapered : left) += 1;
+        }
+    }
+    EXPECT_GT(tapered, 10 * left);
 }
 
 /// Where rows turn at a ray, faces that become shorter become more skewed.
