@@ -148,9 +148,9 @@ struct WallSummary {
     /// Number of edges without a cell of the layer, on walls that have such cells elsewhere or are known to be walls, in a mesh
     /// with a layer.
     std::size_t bare_edges = 0;
-    Point bare_at{};              ///< the wall vertex at the start of one of them
-    std::size_t first_cells = 0;  ///< number of edges with a cell of the first layer; the rest is about these
-    double median_first_height = 0;   ///< height over the wall's edge, in units of the input
+    Point bare_at{};                 ///< the wall vertex at the start of one of them
+    std::size_t first_cells = 0;     ///< number of edges with a cell of the first layer; the rest is about these
+    double median_first_height = 0;  ///< height over the wall's edge, in units of the input
     /// Share of the heights within first_height_tolerance of the height wanted, or else of their marker's median.
     double share_of_kept_heights = 1;
     double worst_first_height = 1;              ///< the height that differs most, over the height wanted

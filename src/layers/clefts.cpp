@@ -1,18 +1,12 @@
 // At the end of a cleft the fronts on both sides are nearer to each other than their edges are long. If triangles outside
-// of the layer had to fit between them, these edges would be divided, and with them the tops of flat cells. So the end is closed
-// by a strip of triangles from front to front, and the front passes it by:
+// of the layer had to fit between them, these edges would be divided, and with them the tops of flat cells. So the end is
+// closed by a strip of triangles from front to front, and the front goes from side to side before it:
 //
-//     wall   o-------o-------o-------o          o  origins of rays; c  the corner without a ray
-//     front  +---+---+---+---+-+-+-+-+ `-._
-//                             .  .  .  .   c    without a strip: edges of the front are divided down to the gap
-//     front  +---+---+---+---+-+-+-+-+ _.-'
-//     wall   o-------o-------o-------o
-//
-//     wall   o-------o-------o-------o
-//     front  +-------+-------+-------+ `-._
-//                            |`-._`-.|     c    with it: the front goes from side to side where it is as far as long
-//     front  +-------+-------+-----`-+ _.-'
-//     wall   o-------o-------o-------o
+//     o-----o-----o-----o-._           o-----o-----o-----o-._          o: vertices of the wall
+//     +-----+--+--+-++-++   `-._       +-----+-----+-----+   `-._      +: vertices of the fronts
+//                               c            |`-._ |`-._ |       c     c: the corner, which has no ray
+//     +-----+--+--+-++-++   _.-'       +-----+----`+----`+   _.-'
+//     o-----o-----o-----o-'            o-----o-----o-----o-'           left: open; right: closed by a strip
 //
 // docs/decisions/0070
 #include "layers/clefts.hpp"

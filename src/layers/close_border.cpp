@@ -108,8 +108,7 @@ std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& op
             if (corners[e][k].cleft) continue;
             if (!is_above_wall(rays, corners[e], k)) continue;
             const double excess = division.excess[e][k] / target_slack;
-            if (wall.a != wall.b && excess > 1)
-                spacings.push_back({e, wall.a, wall.b, margin * wall.edge / excess});
+            if (wall.a != wall.b && excess > 1) spacings.push_back({e, wall.a, wall.b, margin * wall.edge / excess});
         }
     }
     return spacings;

@@ -44,10 +44,10 @@ private:
     const RaySet& set_;
     const std::vector<std::vector<FrontCorner>>& corners_;
     const BorderDivision& division_;
-    std::vector<VertexId> origin_of_ray_;                 ///< the origin of each ray
+    std::vector<VertexId> origin_of_ray_;                    ///< the origin of each ray
     std::vector<std::optional<VertexId>> corner_after_ray_;  ///< RayLine::corner_after of each ray
-    std::vector<std::size_t> first_point_;                ///< Ray::first_point of each ray
-    std::vector<std::vector<VertexId>> base_of_element_;  ///< with its corners; empty without a wake behind it
+    std::vector<std::size_t> first_point_;                   ///< Ray::first_point of each ray
+    std::vector<std::vector<VertexId>> base_of_element_;     ///< with its corners; empty without a wake behind it
     /// For each corner of each front, the division points of the wall edge behind it.
     std::vector<std::vector<std::vector<VertexId>>> wall_divisions_;
     Layer layer_;
@@ -202,8 +202,8 @@ private:
                 if (!corner.cleft) continue;
                 const CleftEnd& end = clefts[*corner.cleft];
                 const std::size_t begin = set_.begin[e];
-                LayerCleft& cleft = layer_.clefts.emplace_back(
-                    LayerCleft{e, end.corner - begin, end.first - begin, end.last - begin});
+                LayerCleft& cleft =
+                    layer_.clefts.emplace_back(LayerCleft{e, end.corner - begin, end.first - begin, end.last - begin});
                 cleft.outer_edge.assign(border.begin() + static_cast<std::ptrdiff_t>(first), border.end());
                 cleft.outer_edge.push_back(vertex_at(after));
             }

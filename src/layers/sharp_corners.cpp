@@ -1,12 +1,13 @@
-// The one ray of a sharp corner is so near to the walls on both sides that each cell beside it has an angle of 180 degrees less
-// half of the corner's, whatever its size. So such a corner has no ray, and the rays beside it are neighbours:
+// The one ray of a sharp corner is so near to the walls on both sides that each cell beside it has an angle of 180 degrees
+// less half of the corner's, whatever its size. So such a corner has no ray, and the rays beside it are neighbours:
 //
-//              _.-o'                  _.-o'
-//          _.-' \/                _.-'\  |
-//      _.-'__.--+             _.-'     +-+    right: without a ray at the corner, the column between the two others
-//     o=--------+-            o-._     |      begins with a triangle that has the corner's angle
-//      `-._    /\               `-._ +-+
-//          `-.o  \                  `-.o
+//                   _.-b
+//              _.-'   /        The column between the rays from a and b begins with three triangles: c, a, a' and b, c, b'
+//         _.-'   _..-b'        have the first height, and c, a', b' has the angle of the corner. Rows go on above a'-b'.
+//     c =:_------    |
+//         `-._  ``--.a'
+//              `-._   \
+//                  `-._a
 //
 // docs/decisions/0070
 #include "layers/sharp_corners.hpp"
@@ -35,7 +36,8 @@ double turning(Point a, Point b, Point c) { return core::angle_between(b - a, c 
 
 /// Returns whether the cells of the first layer fit into a corner at c, between vertices a before it and b behind it.
 bool first_layer_fits(Point a, Point c, Point b, double first_height) {
-    const double largest = std::max(std::abs(core::angle_between(a - c, a - b)), std::abs(core::angle_between(b - c, b - a)));
+    const double largest =
+        std::max(std::abs(core::angle_between(a - c, a - b)), std::abs(core::angle_between(b - c, b - a)));
     return distance(a, b) >= least_width * first_height && largest <= core::radians(largest_at_corner_deg);
 }
 
@@ -48,7 +50,9 @@ void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outlin
     const auto is_sharp = [&](std::size_t i) {
         for (std::size_t k = i + n - 2; k <= i + n + 2; ++k)
             if (vertex(k).place != RayPlace::wall) return false;
-        const auto turning_at = [&](std::size_t k) { return turning(vertex(k - 1).at, vertex(k).at, vertex(k + 1).at); };
+        const auto turning_at = [&](std::size_t k) {
+            return turning(vertex(k - 1).at, vertex(k).at, vertex(k + 1).at);
+        };
         const double beside = std::max(std::abs(turning_at(i + n - 1)), std::abs(turning_at(i + n + 1)));
         return turning_at(i + n) <= -core::radians(180 - largest_sharp_deg) &&
                beside <= core::radians(most_turning_beside_deg) &&

@@ -15,8 +15,8 @@ namespace lamina::layers {
 struct RayVertex {
     Point at;
     RayPlace place = RayPlace::wall;
-    double opening = 1;       ///< RayLine::opening
-    double least_height = 0;  ///< RayLine::least_height
+    double opening = 1;                   ///< RayLine::opening
+    double least_height = 0;              ///< RayLine::least_height
     std::optional<Point> corner_after{};  ///< RayLine::corner_after
 };
 

@@ -93,14 +93,15 @@ void warn_of_first_layer(const MeshResult& result, const Mesh& layer, std::vecto
 void warn_of_bare_walls(const MeshResult& result, std::vector<Warning>& warnings) {
     const WallSummary& walls = result.check.walls;
     if (walls.bare_edges == 0) return;
-    warnings.push_back({.code = WarningCode::first_layer_lost,
-                        .at = walls.bare_at,
-                        .number = static_cast<double>(walls.bare_edges),
-                        .unit = "wall edges",
-                        .message = fmt::format("{} of {} have no layer, as at {}: the room between the walls is narrower "
-                                               "there than first layers are high (--first-height, --surface)",
-                                               walls.bare_edges, counted(walls.edges, "wall edge", "wall edges"),
-                                               place_text(walls.bare_at))});
+    warnings.push_back(
+        {.code = WarningCode::first_layer_lost,
+         .at = walls.bare_at,
+         .number = static_cast<double>(walls.bare_edges),
+         .unit = "wall edges",
+         .message = fmt::format("{} of {} have no layer, as at {}: the room between the walls is narrower "
+                                "there than first layers are high (--first-height, --surface)",
+                                walls.bare_edges, counted(walls.edges, "wall edge", "wall edges"),
+                                place_text(walls.bare_at))});
 }
 
 void warn_of_cut_rays(const MeshResult& result, std::vector<Warning>& warnings) {

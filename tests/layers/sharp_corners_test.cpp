@@ -38,7 +38,9 @@ Geometry jagged_geometry(const Outline& outline) {
     return geometry;
 }
 
-LayerOptions options_of_layers(std::uint32_t layers = 25) { return test::layers_of(first_height_of_layers, 1.2, layers); }
+LayerOptions options_of_layers(std::uint32_t layers = 25) {
+    return test::layers_of(first_height_of_layers, 1.2, layers);
+}
 
 std::size_t corners_without_rays(const Rays& rays) {
     return static_cast<std::size_t>(std::count_if(rays.set.lines.begin(), rays.set.lines.end(),
@@ -69,7 +71,8 @@ void expect_first_heights(const Layer& layer, const LayerCells& cells) {
         for (std::size_t k = 0; k < 3; ++k) {
             const VertexId a = cell[k], b = cell[(k + 1) % 3];
             const Point edge = layer.points[b.index()] - layer.points[a.index()];
-            heights[{a, b}] = cross(edge, layer.points[cell[(k + 2) % 3].index()] - layer.points[a.index()]) / length(edge);
+            heights[{a, b}] =
+                cross(edge, layer.points[cell[(k + 2) % 3].index()] - layer.points[a.index()]) / length(edge);
         }
     });
     for (const Segment& edge : layer.edges.walls[0]) {
@@ -82,10 +85,11 @@ TEST(SharpCorners, HaveNoRayButCellsOfTheFirstHeight) {
     for (const double angle_deg : {8.0, 15.0, 30.0, 45.0, 59.0})
         for (const bool mirrored : {false, true}) {
             SCOPED_TRACE(testing::Message() << angle_deg << " degrees" << (mirrored ? ", mirrored" : ""));
-            const Outline outline =
-                mirrored ? shapes::mirrored(notched_plate(angle_deg)) : notched_plate(angle_deg);
+            const Outline outline = mirrored ? shapes::mirrored(notched_plate(angle_deg)) : notched_plate(angle_deg);
             const Geometry geometry = jagged_geometry(outline);
-            EXPECT_EQ(corners_without_rays(grow_rays(geometry, options_of_layers(), test::growth_of(options_of_layers()))), 1u);
+            EXPECT_EQ(
+                corners_without_rays(grow_rays(geometry, options_of_layers(), test::growth_of(options_of_layers()))),
+                1u);
             const Layer layer = test::checked_layer(geometry, options_of_layers());
             EXPECT_EQ(layer.walls[0].size(), outline.size());
             for (const LayerTopology topology : test::topologies) {
@@ -216,7 +220,8 @@ TEST(Clefts, TheirEndsMayBeDivided) {
 /// Another body in the cleft keeps it open.
 TEST(Clefts, AreNotClosedOverOtherBodies) {
     const LayerOptions options = options_of_layers();
-    Geometry geometry = shapes::geometry({notched_plate(20), shapes::moved(shapes::circle(0.003, 60), 0, 1, {2, 0.33})});
+    Geometry geometry =
+        shapes::geometry({notched_plate(20), shapes::moved(shapes::circle(0.003, 60), 0, 1, {2, 0.33})});
     geometry.elements[0].resampled = true;
     const Layer layer = test::checked_layer(geometry, options);
     EXPECT_EQ(layer.clefts.size(), 0u);

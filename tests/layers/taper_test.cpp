@@ -143,8 +143,10 @@ TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
 bool are_sound(const layers::LayeredRays& rays, std::size_t i) {
     const std::uint32_t common = std::min(rays.counts[i], rays.counts[i + 1]);
     for (std::uint32_t n = 1; n <= common; ++n) {
-        const Point a = rays.point(i, n - 1), b = rays.point(i, n), c = rays.point(i + 1, n), d = rays.point(i + 1, n - 1);
-        for (const auto& [p, q, r] : {std::array{a, b, c}, std::array{b, c, d}, std::array{c, d, a}, std::array{d, a, b}})
+        const Point a = rays.point(i, n - 1), b = rays.point(i, n), c = rays.point(i + 1, n),
+                    d = rays.point(i + 1, n - 1);
+        for (const auto& [p, q, r] :
+             {std::array{a, b, c}, std::array{b, c, d}, std::array{c, d, a}, std::array{d, a, b}})
             if (!(orient2d(p, q, r) > 0)) return false;
     }
     if (rays.counts[i] == rays.counts[i + 1]) return true;
@@ -155,7 +157,9 @@ bool are_sound(const layers::LayeredRays& rays, std::size_t i) {
 /// Rows of neighbours that are tapered differently rise, and may do so where fronts and numbers of layers are steep already.
 TEST(Taper, CrossesNoCells) {
     std::mt19937 random(7);
-    const auto real = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const auto real = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
     std::size_t tapered = 0, left = 0;
     for (int round = 0; round < 5000; ++round) {
         std::vector<double> widths;
