@@ -176,9 +176,9 @@ struct RayLine {
     /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
     /// edges at a corner out of which the ray leans; zero elsewhere (docs/decisions/0064).
     Point shift{};
-    /// The wall's vertex between this ray and the next one, where that is a sharp concave corner without a ray of its own
-    /// (docs/decisions/0070).
-    std::optional<Point> corner_after{};
+    /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near to it
+    /// that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/decisions/0070).
+    std::vector<Point> corner_after{};
 };
 
 /// A stretch makes a column of layers end at a given height: layer n > above is `factor` to the power of n - above
@@ -346,8 +346,8 @@ struct Ray {
     /// The height of the last layer over that which it would have otherwise, 0.4 to 1.5. Those below move so that the ray
     /// keeps its end (docs/decisions/0063). 1 where a number of layers is requested.
     double taper = 1;
-    Point shift{};                           ///< RayLine::shift
-    std::optional<VertexId> corner_after{};  ///< the vertex of RayLine::corner_after
+    Point shift{};                         ///< RayLine::shift
+    std::vector<VertexId> corner_after{};  ///< the vertices of RayLine::corner_after
 
     /// Returns the vertex at the top of layer n; the wall vertex for n = 0. Precondition: n <= layers.
     VertexId vertex(std::uint32_t n) const { return n == 0 ? origin : VertexId(first_point + n - 1); }

@@ -65,14 +65,15 @@ private:
     /// passed, so that fronts begin where elements do.
     bool can_pass(std::size_t ray, std::size_t next) const {
         return ray != begin_ && ray + 1 != end_ && has_layers(next) &&
-               !rays_.set.lines[std::min(ray, next)].corner_after;
+               rays_.set.lines[std::min(ray, next)].corner_after.empty();
     }
 
     /// Lets that side of a cleft go on by a ray which lags behind, or both. Returns whether it may.
     bool go_on(CleftEnd& end) const {
         if (!can_pass(end.first, end.first - 1) || !can_pass(end.last, end.last + 1)) return false;
         if (end.last - end.first > most_rays) return false;
-        const Point corner = *rays_.set.lines[end.corner].corner_after;
+        const std::vector<Point>& corner_after = rays_.set.lines[end.corner].corner_after;
+        const Point corner = corner_after[corner_after.size() / 2];
         const double to_first = distance(corner, rays_.tip(end.first - 1)),
                      to_last = distance(corner, rays_.tip(end.last + 1));
         if (to_first <= as_far * to_last) --end.first;
@@ -156,7 +157,7 @@ std::vector<CleftEnd> cleft_ends(const LayeredRays& rays) {
     for (std::size_t e = 0; e < rays.set.elements(); ++e) {
         const CleftSearch search(rays, rays.set.begin[e], rays.set.begin[e + 1]);
         for (std::size_t i = rays.set.begin[e]; i < rays.set.begin[e + 1]; ++i) {
-            if (!rays.set.lines[i].corner_after) continue;
+            if (rays.set.lines[i].corner_after.empty()) continue;
             if (const std::optional<CleftEnd> end = search.at_corner_after(i)) found.push_back(*end);
         }
     }

@@ -32,7 +32,7 @@ BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corner
         for (std::size_t i = rays.set.begin[e]; i < rays.set.begin[e + 1]; ++i) {
             const RayLine& ray = rays.set.lines[i];
             if (walls[e].empty() || walls[e].back() != ray.origin) walls[e].push_back(ray.origin);
-            if (ray.corner_after) walls[e].push_back(*ray.corner_after);
+            walls[e].insert(walls[e].end(), ray.corner_after.begin(), ray.corner_after.end());
         }
     }
     return divide_borders(fronts, walls, options, least_requests, whole_up_to);
@@ -63,15 +63,20 @@ std::vector<std::vector<double>> whole_tops(const LayeredRays& rays, const Front
 /// The wall between the origins of two rays.
 struct WallPart {
     Point a, b;   ///< its ends
-    double edge;  ///< length of its edge, or the mean length of its two edges where there is a corner between
+    double edge;  ///< length of its edge, or the mean length of its edges where there is a corner between
 };
 
 /// Returns the part of the wall below an edge of a front.
 WallPart wall_below(const Rays& rays, const std::vector<FrontCorner>& corners, std::size_t k) {
     const RayLine &ray = rays.set.lines[corners[k].ray], &next = rays.set.lines[corners[(k + 1) % corners.size()].ray];
     const Point a = ray.origin, b = next.origin;
-    if (!ray.corner_after) return {a, b, distance(a, b)};
-    return {a, b, 0.5 * (distance(a, *ray.corner_after) + distance(*ray.corner_after, b))};
+    Point from = a;
+    double wall = 0;
+    for (const Point p : ray.corner_after) {
+        wall += distance(from, p);
+        from = p;
+    }
+    return {a, b, (wall + distance(from, b)) / static_cast<double>(ray.corner_after.size() + 1)};
 }
 
 /// Returns whether an edge of a front lies above an edge of the wall, rather than of a wake.

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -58,7 +59,7 @@ public:
                 inner = {first.vertex(n), second.vertex(n)};
                 top = inner;
             }
-            if (n == 1 && first.corner_after) {
+            if (n == 1 && !first.corner_after.empty()) {
                 add_cell_at_corner(column, top);
             } else if (n == 1 && divided_sides) {
                 add_cell_between_borders(column, top);
@@ -226,8 +227,9 @@ private:
         return CellSide{a, b, 1 / (3 * (abc + acd)) * sum};
     }
 
-    /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on both edges of the wall
-    /// have the first height, and that between them has the angle of the corner (docs/decisions/0070).
+    /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on the edges of the wall
+    /// beside both rays have the first height, and that at the corner has its angle (docs/decisions/0070). Where no first layer
+    /// fits between its sides, more of the wall's vertices have no rays, and triangles go from side to side.
     ///
     ///     d____        wall d e a; without the first layer on one of the rays, its origin is the end of the top
     ///     |    \___ c
@@ -235,10 +237,16 @@ private:
     ///         `--. b
     ///             a
     void add_cell_at_corner(const CellColumn& column, std::span<const VertexId> top) {
-        const VertexId a = column.second.origin, d = column.first.origin, e = *column.first.corner_after;
-        if (d != top.front()) cells_.triangles.push_back({{e, d, top.front()}});
-        add_strip({&e, 1}, top);
-        if (a != top.back()) cells_.triangles.push_back({{e, top.back(), a}});
+        const std::vector<VertexId>& corner = column.first.corner_after;
+        const VertexId a = column.second.origin, d = column.first.origin;
+        if (d != top.front()) cells_.triangles.push_back({{corner.front(), d, top.front()}});
+        // Both chains go from the top to the corner.
+        const auto middle = corner.begin() + static_cast<std::ptrdiff_t>(corner.size() / 2) + 1;
+        std::vector<VertexId> lower(top.rbegin() + 1, top.rend()), upper{top.back()};
+        lower.insert(lower.end(), corner.begin(), middle);
+        upper.insert(upper.end(), std::make_reverse_iterator(corner.end()), std::make_reverse_iterator(middle));
+        add_strip(lower, upper);
+        if (a != top.back()) cells_.triangles.push_back({{corner.back(), top.back(), a}});
     }
 
     /// Adds the lowest cell of a column beside an empty one. The border divides its sides, too.

@@ -14,7 +14,7 @@ std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
         const std::size_t begin = set.begin[e], end = set.begin[e + 1];
         for (std::size_t i = begin; i < end; ++i) {
             if (cleft < clefts.size() && i == clefts[cleft].first) {
-                fronts[e].push_back({i, counts[i], false, cleft});
+                fronts[e].push_back({i, counts[i], 0, cleft});
                 i = clefts[cleft++].last - 1;
                 continue;
             }
@@ -22,14 +22,15 @@ std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
             const bool one_corner =
                 counts[i] == 0 && counts[next] == 0 && set.lines[i].origin == set.lines[next].origin;
             if (!one_corner) fronts[e].push_back({i, counts[i]});
-            if (set.lines[i].corner_after && counts[i] == 0 && counts[next] == 0) fronts[e].push_back({i, 0, true});
+            if (counts[i] > 0 || counts[next] > 0) continue;
+            for (std::size_t k = 1; k <= set.lines[i].corner_after.size(); ++k) fronts[e].push_back({i, 0, k});
         }
     }
     return fronts;
 }
 
 Point place_of(const LayeredRays& rays, const FrontCorner& corner) {
-    return corner.after ? *rays.set.lines[corner.ray].corner_after : rays.tip(corner.ray);
+    return corner.after > 0 ? rays.set.lines[corner.ray].corner_after[corner.after - 1] : rays.tip(corner.ray);
 }
 
 }  // namespace lamina::layers

@@ -14,7 +14,8 @@ namespace lamina::layers {
 struct FrontCorner {
     std::size_t ray;       ///< the ray whose tip it is; of the rays of a fan that have no layers, the last one
     std::uint32_t layers;  ///< number of layers on that ray; 0: the corner is the ray's origin
-    bool after = false;    ///< whether it is the corner of the wall after that ray (RayLine::corner_after) instead
+    /// 0, or k: it is the k-th of the wall's vertices after that ray instead (RayLine::corner_after).
+    std::size_t after = 0;
     /// The cleft that the edge behind this corner closes, if it does: an index into cleft_ends().
     std::optional<std::size_t> cleft{};
 };

@@ -43,7 +43,7 @@ RaySet insert_rays(const RaySet& set, const std::vector<std::vector<double>>& sh
         for (std::size_t i = set.begin[e]; i < set.begin[e + 1]; ++i) {
             const RayLine &ray = set.lines[i], &after = set.lines[next[i]];
             result.lines.push_back(ray);
-            if (shares[i].empty() || ray.origin == after.origin || ray.corner_after) continue;
+            if (shares[i].empty() || ray.origin == after.origin || !ray.corner_after.empty()) continue;
             // Both sides of a wake have the same vertices.
             if (ray.place != RayPlace::wall || after.place != RayPlace::wall) continue;
             const IntermediateRays between(ray, after);

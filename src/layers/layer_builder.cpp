@@ -2,7 +2,6 @@
 #include "layers/layer_builder.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -44,10 +43,10 @@ private:
     const RaySet& set_;
     const std::vector<std::vector<FrontCorner>>& corners_;
     const BorderDivision& division_;
-    std::vector<VertexId> origin_of_ray_;                    ///< the origin of each ray
-    std::vector<std::optional<VertexId>> corner_after_ray_;  ///< RayLine::corner_after of each ray
-    std::vector<std::size_t> first_point_;                   ///< Ray::first_point of each ray
-    std::vector<std::vector<VertexId>> base_of_element_;     ///< with its corners; empty without a wake behind it
+    std::vector<VertexId> origin_of_ray_;                  ///< the origin of each ray
+    std::vector<std::vector<VertexId>> corner_after_ray_;  ///< RayLine::corner_after of each ray
+    std::vector<std::size_t> first_point_;                 ///< Ray::first_point of each ray
+    std::vector<std::vector<VertexId>> base_of_element_;   ///< with its corners; empty without a wake behind it
     /// For each corner of each front, the division points of the wall edge behind it.
     std::vector<std::vector<std::vector<VertexId>>> wall_divisions_;
     Layer layer_;
@@ -102,12 +101,16 @@ private:
                 } else if (on_wall) {
                     origin_of_ray_[i] = wall.back();
                 }
-                if (k < corners_[e].size() && corners_[e][k].ray == i) divide_wall(e, k++);
-                if (const std::optional<Point> corner = set_.lines[i].corner_after) {
-                    corner_after_ray_[i] = add_point(*corner, 0);
-                    wall.push_back(*corner_after_ray_[i]);
+                const auto divide_edge_behind = [&](std::size_t after) {
+                    if (k < corners_[e].size() && corners_[e][k].ray == i && corners_[e][k].after == after)
+                        divide_wall(e, k++);
+                };
+                divide_edge_behind(0);
+                for (const Point p : set_.lines[i].corner_after) {
+                    corner_after_ray_[i].push_back(add_point(p, 0));
+                    wall.push_back(corner_after_ray_[i].back());
+                    divide_edge_behind(corner_after_ray_[i].size());
                 }
-                if (k < corners_[e].size() && corners_[e][k].ray == i) divide_wall(e, k++);
             }
             for (const WakeCore& core : rays_.cores)
                 if (core.element == e) place_base(core);
@@ -212,7 +215,7 @@ private:
 
     /// Returns the vertex of a front's corner.
     VertexId vertex_at(const FrontCorner& corner) const {
-        if (corner.after) return *corner_after_ray_[corner.ray];
+        if (corner.after > 0) return corner_after_ray_[corner.ray][corner.after - 1];
         return corner.layers == 0 ? origin_of_ray_[corner.ray] : VertexId(first_point_[corner.ray] + corner.layers - 1);
     }
 

@@ -10,7 +10,8 @@ RayNeighbours::RayNeighbours(const RaySet& set) : next(set.following()), previou
 }
 
 WallNeighbours wall_neighbours(const RayLine& before, const RayLine& ray, const RayLine& after) {
-    return {before.corner_after.value_or(before.origin), ray.corner_after.value_or(after.origin)};
+    return {before.corner_after.empty() ? before.origin : before.corner_after.back(),
+            ray.corner_after.empty() ? after.origin : ray.corner_after.front()};
 }
 
 double tangent_of_lean(const RayLine& from, const RayLine& to) {

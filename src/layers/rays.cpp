@@ -123,7 +123,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         const std::size_t next = (i + 1) % outline.size();
         add_vertex_rays(outline[i], vertices[i], max_angle, options.fan_rays, rays);
         rays.back().corner_after = outline[i].corner_after;
-        if (outline[i].corner_after) continue;
+        if (!outline[i].corner_after.empty()) continue;
         if (options.fan_rays || outline[i].place != RayPlace::wall || outline[next].place != RayPlace::wall) continue;
         const RayLine after{.origin = outline[next].at,
                             .direction = first_direction(vertices[next]),

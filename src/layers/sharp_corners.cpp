@@ -6,7 +6,7 @@
 //         _.-'   _..-b'        have the first height, and c, a', b' has the angle of the corner. Rows go on above a'-b'.
 //     c =:_------    |
 //         `-._  ``--.a'
-//              `-._   \
+//              `-._   \  .
 //                  `-._a
 //
 // docs/decisions/0070
@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <utility>
 
 #include "core/angles.hpp"
 
@@ -28,11 +30,25 @@ constexpr double largest_sharp_deg = 60;
 constexpr double most_turning_beside_deg = 30;
 /// The largest angle of the triangle at the corner, in degrees.
 constexpr double largest_at_corner_deg = 140;
-/// The vertices beside the corner are this many first heights apart at least.
+/// The vertices beside the corner that have rays are this many first heights apart at least.
 constexpr double least_width = 3;
+/// So many vertices on either side may be nearer to each other, and have no rays.
+constexpr std::size_t most_vertices = 16;
 
-/// Returns the angle by which an outline turns from a to c at b, in radians; > 0 where the body is convex.
-double turning(Point a, Point b, Point c) { return core::angle_between(b - a, c - b); }
+/// An outline whose vertices are counted round and round.
+class Outline {
+public:
+    explicit Outline(std::span<const RayVertex> vertices) : vertices_(vertices) {}
+
+    std::size_t size() const { return vertices_.size(); }
+    Point at(std::size_t i) const { return vertices_[i % size()].at; }
+    bool is_wall(std::size_t i) const { return vertices_[i % size()].place == RayPlace::wall; }
+    /// Returns the angle by which the outline turns at a vertex, in radians; > 0 where the body is convex.
+    double turning(std::size_t i) const { return core::angle_between(at(i) - at(i + size() - 1), at(i + 1) - at(i)); }
+
+private:
+    std::span<const RayVertex> vertices_;
+};
 
 /// Returns whether the cells of the first layer fit into a corner at c, between vertices a before it and b behind it.
 bool first_layer_fits(Point a, Point c, Point b, double first_height) {
@@ -41,30 +57,45 @@ bool first_layer_fits(Point a, Point c, Point b, double first_height) {
     return distance(a, b) >= least_width * first_height && largest <= core::radians(largest_at_corner_deg);
 }
 
+/// Returns how many vertices away from vertex i, on both sides, rays are to stand, where it is a sharp corner; else 0.
+std::size_t reach_of_corner(const Outline& outline, std::size_t i, double first_height) {
+    const std::size_t n = outline.size();
+    if (!outline.is_wall(i) || outline.turning(i) > -core::radians(180 - largest_sharp_deg)) return 0;
+    for (std::size_t k = 1; k <= std::min({most_vertices, i, n - i}); ++k) {
+        for (const std::size_t beside : {i + n - k, i + k})
+            if (!outline.is_wall(beside + n - 1) || !outline.is_wall(beside) || !outline.is_wall(beside + 1) ||
+                std::abs(outline.turning(beside)) > core::radians(most_turning_beside_deg))
+                return 0;
+        if (first_layer_fits(outline.at(i + n - k), outline.at(i), outline.at(i + k), first_height)) return k;
+    }
+    return 0;
+}
+
 }  // namespace
 
 void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outline) {
-    const std::size_t n = outline.size();
-    if (n < 8) return;
-    const auto vertex = [&](std::size_t i) -> const RayVertex& { return outline[i % n]; };
-    const auto is_sharp = [&](std::size_t i) {
-        for (std::size_t k = i + n - 2; k <= i + n + 2; ++k)
-            if (vertex(k).place != RayPlace::wall) return false;
-        const auto turning_at = [&](std::size_t k) {
-            return turning(vertex(k - 1).at, vertex(k).at, vertex(k + 1).at);
-        };
-        const double beside = std::max(std::abs(turning_at(i + n - 1)), std::abs(turning_at(i + n + 1)));
-        return turning_at(i + n) <= -core::radians(180 - largest_sharp_deg) &&
-               beside <= core::radians(most_turning_beside_deg) &&
-               first_layer_fits(vertex(i + n - 1).at, vertex(i).at, vertex(i + 1).at, first_height);
+    if (outline.size() < 8) return;
+    struct Corner {
+        std::size_t at, reach;
+        bool meets(const Corner& next) const { return at + reach > next.at - next.reach; }
     };
-    std::vector<RayVertex> kept{outline.front()};
-    for (std::size_t i = 1; i < n; ++i) {
-        if (is_sharp(i))
-            kept.back().corner_after = outline[i].at;
-        else
-            kept.push_back(outline[i]);
+    std::vector<Corner> corners;
+    for (std::size_t i = 1; i < outline.size(); ++i)
+        if (const std::size_t reach = reach_of_corner(Outline(outline), i, first_height)) corners.push_back({i, reach});
+    std::vector<RayVertex> kept;
+    std::size_t done = 0;  // up to this vertex
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        const Corner& corner = corners[c];
+        // Corners that are too near to each other stay.
+        if ((c > 0 && corners[c - 1].meets(corner)) || (c + 1 < corners.size() && corner.meets(corners[c + 1])))
+            continue;
+        const auto vertex = [&](std::size_t i) { return outline.begin() + static_cast<std::ptrdiff_t>(i); };
+        const std::size_t before = corner.at - corner.reach, after = corner.at + corner.reach;
+        kept.insert(kept.end(), vertex(done), vertex(before + 1));
+        for (std::size_t i = before + 1; i < after; ++i) kept.back().corner_after.push_back(outline[i].at);
+        done = after;
     }
+    kept.insert(kept.end(), outline.begin() + static_cast<std::ptrdiff_t>(done), outline.end());
     outline = std::move(kept);
 }
 

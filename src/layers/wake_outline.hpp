@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,9 +14,9 @@ namespace lamina::layers {
 struct RayVertex {
     Point at;
     RayPlace place = RayPlace::wall;
-    double opening = 1;                   ///< RayLine::opening
-    double least_height = 0;              ///< RayLine::least_height
-    std::optional<Point> corner_after{};  ///< RayLine::corner_after
+    double opening = 1;                 ///< RayLine::opening
+    double least_height = 0;            ///< RayLine::least_height
+    std::vector<Point> corner_after{};  ///< RayLine::corner_after
 };
 
 /// Returns whether a wake is a part of the outline.
