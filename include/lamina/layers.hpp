@@ -171,7 +171,8 @@ struct RayLine {
     Point origin;                     ///< a point of the wall, or of a wake
     Point direction;                  ///< unit vector
     RayPlace place = RayPlace::wall;  ///< where it stands
-    double opening = 1;               ///< its first height over that on the wall
+    /// Its first height over the one wanted: above 1 along wakes, below 1 where a wall has no room (docs/decisions/0071).
+    double opening = 1;
     double least_height = 0;          ///< that of its column: LayerGrowth::least_heights or WakePoint
     /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
     /// edges at a corner out of which the ray leans; zero elsewhere (docs/decisions/0064).
@@ -341,7 +342,8 @@ struct Ray {
     /// (LayerGrowth::least_heights); infinite elsewhere.
     double max_spacing = HUGE_VAL;
     RayPlace place = RayPlace::wall;  ///< RayLine::place
-    /// The first height on this ray over that on the wall, and that of each layer above: they open along wakes.
+    /// The first height on this ray over the one wanted, and that of each layer above: they open along wakes, and are lower where
+    /// a wall has no room.
     double opening = 1;
     /// The height of the last layer over that which it would have otherwise, 0.4 to 1.5. Those below move so that the ray
     /// keeps its end (docs/decisions/0063). 1 where a number of layers is requested.

@@ -92,6 +92,46 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
     return set;
 }
 
+/// Makes the first layers of these rays on walls lower: share(ray) says how high they become, of what they are. Returns whether
+/// there were any.
+template <class Share>
+bool lower_first_layers(Rays& rays, Share share) {
+    // Below this share of what is wanted a wall is bare: cells would be thinner than anything else on it.
+    constexpr double least_opening = 1e-3;
+    bool changed = false;
+    for (std::size_t i = 0; i < rays.set.lines.size(); ++i) {
+        RayLine& ray = rays.set.lines[i];
+        if (ray.place != RayPlace::wall || rays.heights.of(i).size() < 2) continue;
+        const double lower = ray.opening * share(i);
+        if (!(lower < ray.opening) || lower < least_opening) continue;
+        ray.opening = lower;
+        changed = true;
+    }
+    if (changed) rays.heights = make_heights(rays.set, rays.growth);
+    return changed;
+}
+
+/// Gives rays without room for a first layer a lower one.
+void fit_first_layers(Rays& rays) {
+    constexpr double below_limit = 0.999;  // so that rounding does not take the layer away
+    lower_first_layers(rays, [&](std::size_t i) {
+        const double first = rays.heights.of(i)[1];
+        return rays.limits[i] < first ? below_limit * rays.limits[i] / first : 1;
+    });
+}
+
+/// Counts the layers. Where fronts meet, rays that are left without any get first layers half as high, so that no wall is bare.
+void count_layers_on_all_rays(Rays& rays) {
+    constexpr int max_rounds = 6;
+    for (int round = 0;; ++round) {
+        shift_rays_of_corners(rays.jagged, rays.heights, rays.set);
+        fit_and_count_layers(rays);
+        if (round == max_rounds) return;
+        const auto share = [&](std::size_t i) { return rays.counts[i] == 0 ? 0.5 : 1; };
+        if (!lower_first_layers(rays, share)) return;
+    }
+}
+
 /// Grows the rays of these walls and wakes.
 void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options, Rays& rays) {
     rays.set = rays_of(geometry, wakes, options, rays.growth);
@@ -101,8 +141,8 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
     for (int insertion = 0; insertion < max_insertions && !options.fan_rays; ++insertion)
         if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.jagged, rays.heights, rays.limits), rays))
             break;
-    shift_rays_of_corners(rays.jagged, rays.heights, rays.set);
-    fit_and_count_layers(rays);
+    fit_first_layers(rays);
+    count_layers_on_all_rays(rays);
 }
 
 /// Returns the heights that rays without wakes need: the least heights, or all that they have.

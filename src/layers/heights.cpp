@@ -77,8 +77,9 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
                                     const LayerGrowth& growth) {
     const std::vector<double> least = growth.least_heights.empty() ? std::vector<double>() : least_heights(set);
     const std::vector<double> front = heights_of_isotropy(set, unstretched, least, growth.fineness);
-    const std::vector<double> max_spacings =
-        least.empty() ? std::vector<double>(front.size(), HUGE_VAL) : largest_spacings(set, front, growth.fineness);
+    const std::vector<double> max_spacings = least.empty()
+                                                 ? std::vector<double>(front.size(), HUGE_VAL)
+                                                 : largest_spacings(set, front, unstretched[1], growth.fineness);
     constexpr double fronts = 2;  // so far: narrow columns may keep more layers than their own
     std::vector<std::vector<double>> heights;
     heights.reserve(front.size());
@@ -150,17 +151,34 @@ LayerHeights slanted(const RaySet& set, const LayerHeights& heights) {
     return LayerHeights(std::move(table), std::move(columns));
 }
 
+/// Returns heights of which those on each ray are multiplied by its opening.
+LayerHeights opened(const RaySet& set, const LayerHeights& heights) {
+    std::vector<double> table = heights.table();
+    std::vector<HeightColumn> columns;
+    columns.reserve(set.lines.size());
+    for (std::size_t i = 0; i < set.lines.size(); ++i) {
+        HeightColumn& column = columns.emplace_back(heights.column(i));
+        if (set.lines[i].opening == 1) continue;
+        column.opening = set.lines[i].opening;
+        column.first = table.size();
+        const std::span<const double> before = heights.of(i);
+        table.insert(table.end(), before.begin(), before.end());
+        open_heights(column.opening, std::span(table).subspan(column.first));
+    }
+    return LayerHeights(std::move(table), std::move(columns));
+}
+
 /// Returns the heights above the wall.
 LayerHeights upright_heights(const RaySet& set, const LayerGrowth& growth) {
     const GrowthLawEntry& law = growth_law_entry(growth.law);
-    if (law.by_spacing) return heights_by_spacing(set, growth, law);
+    if (law.by_spacing) return opened(set, heights_by_spacing(set, growth, law));
     const double ray_growth = law.ray_growth(growth);
     std::vector<double> table =
         law.heights(growth.first_height, ray_growth, growth.layers.value_or(max_automatic_layers));
     if (growth.thickness && !law.fills_thickness) cut_at_thickness(*growth.thickness, table);
     if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, table, growth);
     const HeightColumn all{0, layer_count(table), ray_growth};
-    return LayerHeights(std::move(table), std::vector<HeightColumn>(set.lines.size(), all));
+    return opened(set, LayerHeights(std::move(table), std::vector<HeightColumn>(set.lines.size(), all)));
 }
 
 }  // namespace

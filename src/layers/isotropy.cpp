@@ -203,7 +203,8 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
     return front;
 }
 
-std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front, double fineness) {
+std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front, double first_height,
+                                     double fineness) {
     const RayDistances rays(set);
     std::vector<double> spacings(set.lines.size());
     for (std::size_t i = 0; i < spacings.size(); ++i)
@@ -216,7 +217,8 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
                 spacings[i] = std::min(spacings[i], max_tallness_in_fans * rays.between(i, j, front[i]));
     const auto bound_layers = [&] {
         for (std::size_t i = 0; i < spacings.size(); ++i)
-            spacings[i] = std::max(spacings[i], front[i] / (fineness * max_layers_beyond_isotropy));
+            spacings[i] = std::max(
+                {spacings[i], front[i] / (fineness * max_layers_beyond_isotropy), set.lines[i].opening * first_height});
     };
     // Without this bound one very narrow column would ask for low cells on hundreds of columns beside it.
     bound_layers();

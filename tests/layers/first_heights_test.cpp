@@ -137,5 +137,41 @@ TEST(FirstHeights, OutOfRangeAreRefused) {
     EXPECT_THROW(grow({1e-5, 1e-3}), OptionError);
 }
 
+/// Where there is no room for a first layer of the height wanted, it is lower, and all others keep theirs.
+TEST(FirstHeights, AreLowerInSlotsWithoutRoom) {
+    for (const double gap : {0.03, 0.01, 0.001})
+        for (const std::optional<std::uint32_t> layers :
+             {std::optional<std::uint32_t>(8), std::optional<std::uint32_t>()}) {
+            SCOPED_TRACE(testing::Message() << "slots of " << gap << (layers ? "" : ", automatic layers"));
+            LayerOptions options = test::layers_of(1e-2, 1.2, 8);
+            options.layers = layers;
+            const Outline comb = shapes::refined(shapes::comb(4, gap), 20);
+            const Layer layer = layer_with(shapes::geometry({comb}), options, {1e-2});
+            std::size_t lower = 0;
+            for (const Ray& ray : layer.rays[0]) {
+                const Point at = layer.points[ray.origin.index()];
+                EXPECT_GE(ray.layers, 1u) << at.x << ", " << at.y;
+                EXPECT_LE(ray.opening, 1);
+                if (ray.opening < 1) ++lower;
+                const bool is_below_teeth = at.y < -0.1;
+                EXPECT_TRUE(!is_below_teeth || ray.opening == 1) << at.x << ", " << at.y;
+            }
+            EXPECT_GT(lower, 20u);
+        }
+}
+
+/// Walls whose edges are far shorter than the first layer is high have it nevertheless, with the heights of a flow, too.
+TEST(FirstHeights, AreKeptOnShortEdges) {
+    const Outline circle = shapes::circle(0.5, 600);  // edges of 0.0052
+    LayerOptions options = test::layers_of(0.02, 1.1, 1);
+    options.layers.reset();
+    LayerGrowth growth = test::growth_of(options);
+    for (const Point p : circle) growth.least_heights.push_back({0, p, 0.1});
+    const Layer layer = close_border(grow_rays(shapes::geometry({circle}), options, growth));
+    for (const std::string& finding : check_layer(layer, options)) ADD_FAILURE() << finding;
+    for (const Ray& ray : layer.rays[0])
+        EXPECT_NEAR(distance(layer.points[ray.origin.index()], layer.points[ray.vertex(1).index()]), 0.02, 1e-4);
+}
+
 }  // namespace
 }  // namespace lamina

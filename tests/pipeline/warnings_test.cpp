@@ -67,17 +67,18 @@ TEST(Warnings, LostFirstLayer) {
     EXPECT_EQ(std::count(kept.begin(), kept.end(), "first_layer_lost"), 0);
 }
 
-/// No first layer fits into a notch that is narrower than it is high.
+/// No first layer fits into a notch of 2e-6, however much lower it is than wanted.
 TEST(Warnings, WallsWithoutALayer) {
     CaseOptions options = quick_options();
     options.layer.first_height = 0.05;
     options.surface.treatment = SurfaceTreatment::keep;
-    const MeshResult result = mesh_of({shapes::refined(shapes::v_notch(0.1), 10)}, options);
+    const shapes::Outline scratched{{0, 0}, {4, 0}, {4, 1}, {2 + 1e-6, 1}, {2, 1 - 1e-5}, {2 - 1e-6, 1}, {0, 1}};
+    const MeshResult result = mesh_of({scratched}, options);
     EXPECT_GT(result.check.walls.bare_edges, 0u);
     const Warning warning = expect_warning(result, WarningCode::first_layer_lost);
     EXPECT_EQ(warning.number, static_cast<double>(result.check.walls.bare_edges));
     ASSERT_TRUE(warning.at);
-    EXPECT_NEAR(warning.at->x, 2, 0.3);
+    EXPECT_NEAR(warning.at->x, 2, 1e-5);
 }
 
 TEST(Warnings, LayersThickerThanTheRoomRoundTheWall) {
