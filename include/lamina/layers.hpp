@@ -173,7 +173,7 @@ struct RayLine {
     RayPlace place = RayPlace::wall;  ///< where it stands
     /// Its first height over the one wanted: above 1 along wakes, below 1 where a wall has no room (docs/decisions/0071).
     double opening = 1;
-    double least_height = 0;          ///< that of its column: LayerGrowth::least_heights or WakePoint
+    double least_height = 0;  ///< that of its column: LayerGrowth::least_heights or WakePoint
     /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
     /// edges at a corner out of which the ray leans; zero elsewhere (docs/decisions/0064).
     Point shift{};
