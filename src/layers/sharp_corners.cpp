@@ -31,7 +31,7 @@ constexpr double most_turning_beside_deg = 30;
 /// The largest angle of the triangle at the corner, in degrees.
 constexpr double largest_at_corner_deg = 140;
 /// The vertices beside the corner that have rays are this many first heights apart at least.
-constexpr double least_width = 3;
+constexpr double least_chord = 3;
 /// So many vertices on either side may be nearer to each other, and have no rays.
 constexpr std::size_t most_vertices = 16;
 
@@ -54,7 +54,7 @@ private:
 bool first_layer_fits(Point a, Point c, Point b, double first_height) {
     const double largest =
         std::max(std::abs(core::angle_between(a - c, a - b)), std::abs(core::angle_between(b - c, b - a)));
-    return distance(a, b) >= least_width * first_height && largest <= core::radians(largest_at_corner_deg);
+    return distance(a, b) >= least_chord * first_height && largest <= core::radians(largest_at_corner_deg);
 }
 
 /// Returns how many vertices away from vertex i, on both sides, rays are to stand, where it is a sharp corner; else 0.
