@@ -171,14 +171,15 @@ struct RayLine {
     Point origin;                     ///< a point of the wall, or of a wake
     Point direction;                  ///< unit vector
     RayPlace place = RayPlace::wall;  ///< where it stands
-    /// Its first height over the one wanted: above 1 along wakes, below 1 where a wall has no room (docs/decisions/0071).
+    /// Its first height over the one wanted: above 1 along wakes, below 1 where a wall has no room
+    /// (docs/decisions/0071).
     double opening = 1;
     double least_height = 0;  ///< that of its column: LayerGrowth::least_heights or WakePoint
     /// All points of its layers lie beside the line by this vector, so that the first layer has its height above both
     /// edges at a corner out of which the ray leans; zero elsewhere (docs/decisions/0064).
     Point shift{};
-    /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near to it
-    /// that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/decisions/0070).
+    /// The wall's vertices between this ray and the next one, in their order: a sharp concave corner and those so near
+    /// to it that no first layer fits between its sides. They have no rays. Empty elsewhere (docs/decisions/0070).
     std::vector<Point> corner_after{};
 };
 
@@ -262,8 +263,8 @@ struct Rays {
     /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/decisions/0064).
     std::vector<char> jagged;
     bool enabled = true;  ///< LayerOptions::enabled
-    /// Whether last layers are higher where numbers of layers change, so that the ends of columns are even. Faces between
-    /// quadrilaterals would be more skewed for it (docs/decisions/0063).
+    /// Whether last layers are higher where numbers of layers change, so that the ends of columns are even. Faces
+    /// between quadrilaterals would be more skewed for it (docs/decisions/0063).
     bool even_ends = true;
     LayerGrowth growth;                 ///< the growth that was requested
     LayerHeights heights;               ///< as the growth law makes them, along the rays (Ray::slant)
@@ -342,11 +343,11 @@ struct Ray {
     /// (LayerGrowth::least_heights); infinite elsewhere.
     double max_spacing = HUGE_VAL;
     RayPlace place = RayPlace::wall;  ///< RayLine::place
-    /// The first height on this ray over the one wanted, and that of each layer above: they open along wakes, and are lower where
-    /// a wall has no room.
+    /// The first height on this ray over the one wanted, and that of each layer above: they open along wakes, and are
+    /// lower where a wall has no room.
     double opening = 1;
-    /// The height of the last layer over that which it would have otherwise, 0.4 to 1.5. Those below move so that the ray
-    /// keeps its end (docs/decisions/0063). 1 where a number of layers is requested.
+    /// The height of the last layer over that which it would have otherwise, 0.18 to 2. Those below move so that the
+    /// ray keeps its end (docs/decisions/0063). 1 where a number of layers is requested.
     double taper = 1;
     Point shift{};                         ///< RayLine::shift
     std::vector<VertexId> corner_after{};  ///< the vertices of RayLine::corner_after
@@ -418,13 +419,13 @@ struct Layer {
     /// One list per element: the rays, in the order of the wall. The rays of a fan share one origin, and so do those on
     /// both sides of a wake.
     std::vector<std::vector<Ray>> rays;
-    /// One list per element: the closed outer border, counter-clockwise, simple and disjoint from the others. It goes through
-    /// the tips of all rays but those inside closed clefts. Where the
-    /// rays have no layers, the border runs through wall vertices, and along wall edges between two of them. If such an
-    /// edge is divided, its division points belong to the wall, too (without rays).
+    /// One list per element: the closed outer border, counter-clockwise, simple and disjoint from the others. It goes
+    /// through the tips of all rays but those inside closed clefts. Where the rays have no layers, the border runs
+    /// through wall vertices, and along wall edges between two of them. If such an edge is divided, its division points
+    /// belong to the wall, too (without rays).
     std::vector<std::vector<VertexId>> borders;
-    /// One number per point: 0 on the wall and on the line of a wake, n at the top of layer n. Division points have that
-    /// of the lower end of the edge that they divide.
+    /// One number per point: 0 on the wall and on the line of a wake, n at the top of layer n. Division points have
+    /// that of the lower end of the edge that they divide.
     std::vector<std::uint16_t> layer_of_point;
     std::vector<ElementCoverage> coverage;  ///< one per element; empty if the layer is disabled
     LayerGrowth growth;                     ///< the growth that was requested
@@ -471,8 +472,8 @@ struct LayerCells {
     /// LayerTopology::delaunay, and that of the grid cell that the triangle is part of with the others.
     std::vector<std::uint16_t> triangle_layer;
     std::vector<std::uint16_t> quad_layer;  ///< one per quad: its layer from the wall, from 1 on
-    /// One per triangle of a grid: the column that it is part of, between two neighbouring rays, with the
-    /// number of the first of them among the rays of all elements; no_column behind bases and in closed clefts. Empty for
+    /// One per triangle of a grid: the column that it is part of, between two neighbouring rays, with the number of the
+    /// first of them among the rays of all elements; no_column behind bases and in closed clefts. Empty for
     /// LayerTopology::delaunay.
     std::vector<std::uint32_t> triangle_column;
     std::vector<std::uint32_t> quad_column;   ///< the same, one per quad
@@ -499,13 +500,14 @@ struct ObtuseCell {
     std::uint16_t layer;   ///< LayerCells::triangle_layer or quad_layer
 };
 
-/// Returns the cells of a layer that have an angle above this one, which is obtuse, but for those of columns with a ray that
-/// is nearer than its supplement to the walls on both sides: they cannot do without. Cells behind bases and of
+/// Returns the cells of a layer that have an angle above this one, which is obtuse, but for those of columns with a ray
+/// that is nearer than its supplement to the walls on both sides: they cannot do without. Cells behind bases and of
 /// LayerTopology::delaunay have no columns, so none of them is found.
 LAMINA_EXPORT std::vector<ObtuseCell> obtuse_cells(const Layer& layer, const LayerCells& cells, double max_angle_deg);
 
-/// Lowers the limits of the rays beside these cells so that columns end below them, but for the first layer; leads the limits
-/// over to those beside, and finds the numbers of layers anew, as shorten_rays() does. Returns whether it changed any.
+/// Lowers the limits of the rays beside these cells so that columns end below them, but for the first layer; leads the
+/// limits over to those beside, and finds the numbers of layers anew, as shorten_rays() does. Returns whether it
+/// changed any.
 LAMINA_EXPORT bool end_columns_below(std::span<const ObtuseCell> cells, Rays& rays);
 
 /// Returns the defects of a layer that was made with these options, one line each; empty: every promise above holds.

@@ -145,8 +145,8 @@ struct WallSummary {
     double max_ratio = 1;   ///< largest ratio of the lengths of neighbouring edges, but across the corners of bases
     Point max_ratio_at{};   ///< the vertex between the two
     std::size_t uneven_vertices = 0;  ///< number of vertices where this ratio exceeds even_wall_ratio
-    /// Number of edges without a cell of the layer, on walls that have such cells elsewhere or are known to be walls, in a mesh
-    /// with a layer.
+    /// Number of edges without a cell of the layer, on walls that have such cells elsewhere or are known to be walls,
+    /// in a mesh with a layer.
     std::size_t bare_edges = 0;
     Point bare_at{};                 ///< the wall vertex at the start of one of them
     std::size_t first_cells = 0;     ///< number of edges with a cell of the first layer; the rest is about these

@@ -33,8 +33,8 @@ public:
 
 private:
     std::span<const Ray> rays_;
-    /// The outer border, through the tips of all rays, those inside closed clefts included. The first vertex stands at its end
-    /// again.
+    /// The outer border, through the tips of all rays, those inside closed clefts included. The first vertex stands at
+    /// its end again.
     std::vector<VertexId> border_;
     std::vector<std::size_t> tip_;  ///< index of each tip in the border; at the end that of the first one again
 

@@ -1,6 +1,6 @@
-// At the end of a cleft the fronts on both sides are nearer to each other than their edges are long. If triangles outside
-// of the layer had to fit between them, these edges would be divided, and with them the tops of flat cells. So the end is
-// closed by a strip of triangles from front to front, and the front goes from side to side before it:
+// At the end of a cleft the fronts on both sides are nearer to each other than their edges are long. If triangles
+// outside of the layer had to fit between them, these edges would be divided, and with them the tops of flat cells. So
+// the end is closed by a strip of triangles from front to front, and the front goes from side to side before it:
 //
 //     o-----o-----o-----o-._           o-----o-----o-----o-._          o: vertices of the wall
 //     +-----+--+--+-++-++   `-._       +-----+-----+-----+   `-._      +: vertices of the fronts
@@ -61,8 +61,8 @@ private:
         return rays_.counts[ray] > 0 && rays_.set.lines[ray].place == RayPlace::wall;
     }
 
-    /// Returns whether the cleft may reach beyond a ray, to its neighbour. Neither the first nor the last ray of the element is
-    /// passed, so that fronts begin where elements do.
+    /// Returns whether the cleft may reach beyond a ray, to its neighbour. Neither the first nor the last ray of the
+    /// element is passed, so that fronts begin where elements do.
     bool can_pass(std::size_t ray, std::size_t next) const {
         return ray != begin_ && ray + 1 != end_ && has_layers(next) &&
                rays_.set.lines[std::min(ray, next)].corner_after.empty();
@@ -81,7 +81,8 @@ private:
         return true;
     }
 
-    /// Returns the width of the gap between the tips of the outermost rays, over the length of the front's longer edge there.
+    /// Returns the width of the gap between the tips of the outermost rays, over the length of the front's longer edge
+    /// there.
     double relative_gap(const CleftEnd& end) const {
         const double before = end.first == begin_ ? 0 : distance(rays_.tip(end.first), rays_.tip(end.first - 1));
         const double after = end.last + 1 == end_ ? 0 : distance(rays_.tip(end.last), rays_.tip(end.last + 1));
@@ -123,8 +124,8 @@ private:
                });
     }
 
-    /// Returns whether any other front lies in the end of a cleft, or meets the edge that closes it. Fronts do not meet each
-    /// other, so nothing else can come into it.
+    /// Returns whether any other front lies in the end of a cleft, or meets the edge that closes it. Fronts do not meet
+    /// each other, so nothing else can come into it.
     bool is_entered(const CleftEnd& end) const {
         const RaySet& set = rays_.set;
         const Point a = rays_.tip(end.first), b = rays_.tip(end.last);

@@ -15,9 +15,9 @@ struct CleftEnd {
     std::size_t first, last;  ///< the outermost rays
 };
 
-/// Returns the ends of clefts that begin at sharp corners of the wall and in which the fronts on both sides are nearer to each
-/// other than their edges are long, in the order of the rays. Each can be cut into positive triangles between both fronts, and
-/// no other front enters it.
+/// Returns the ends of clefts that begin at sharp corners of the wall and in which the fronts on both sides are nearer
+/// to each other than their edges are long, in the order of the rays. Each can be cut into positive triangles between
+/// both fronts, and no other front enters it.
 std::vector<CleftEnd> cleft_ends(const LayeredRays& rays);
 
 }  // namespace lamina::layers

@@ -102,7 +102,8 @@ public:
         std::vector<VertexId> upper, lower;
         for (std::size_t i = cleft.corner + 1; i-- > cleft.first;) upper.push_back(rays[i].tip());
         for (std::size_t i = cleft.corner + 1; i <= cleft.last; ++i) lower.push_back(rays[i].tip());
-        // The division points of the outer edge would lie in line with both ends of a long chain's counterpart of one corner.
+        // Division points of the outer edge go to the shorter chain: if that has one corner, they are in line with it and
+        // the end of the longer one.
         const std::span<const VertexId> divisions = std::span(cleft.outer_edge).subspan(1, cleft.outer_edge.size() - 2);
         if (upper.size() <= lower.size())
             upper.insert(upper.end(), divisions.begin(), divisions.end());
@@ -227,9 +228,10 @@ private:
         return CellSide{a, b, 1 / (3 * (abc + acd)) * sum};
     }
 
-    /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on the edges of the wall
-    /// beside both rays have the first height, and that at the corner has its angle (docs/decisions/0070). Where no first layer
-    /// fits between its sides, more of the wall's vertices have no rays, and triangles go from side to side.
+    /// Adds the cells of the first layer in a sharp corner of the wall that has no ray. The triangles on the edges of
+    /// the wall beside both rays have the first height, and that at the corner has its angle (docs/decisions/0070).
+    /// Where no first layer fits between its sides, more of the wall's vertices have no rays, and triangles go from
+    /// side to side.
     ///
     ///     d____        wall d e a; without the first layer on one of the rays, its origin is the end of the top
     ///     |    \___ c

@@ -1,6 +1,6 @@
-// The ray of a corner that is tilted, so that it meets its neighbours higher up (normal_smoothing.cpp), is too high above
-// one of the edges beside it and too low above the other. It leaves the corner along the bisector instead, up to the top
-// of the first layer, and leans from there on (docs/decisions/0064):
+// The ray of a corner that is tilted, so that it meets its neighbours higher up (normal_smoothing.cpp), is too high
+// above one of the edges beside it and too low above the other. It leaves the corner along the bisector instead, up to
+// the top of the first layer, and leans from there on (docs/decisions/0064):
 //
 //     \      /           \      /
 //      \    /             \    /      o: top of the first layer. Left: on a ray that leans to the right, too low above
@@ -28,8 +28,8 @@ constexpr double kept_difference = 0.0095;
 /// Largest shift, as a share of the shorter edge at the corner: far from what would make cells cross each other.
 constexpr double most_shift = 0.2;
 
-/// Returns the shift of a ray of its own at a vertex; none where the wall turns by least_turning or less, in radians. along:
-/// first height along the ray; height: above the edges.
+/// Returns the shift of a ray of its own at a vertex; none where the wall turns by least_turning or less, in radians.
+/// along: first height along the ray; height: above the edges.
 Point shift_at_corner(const RayLine& before, const RayLine& ray, const RayLine& after, double along, double height,
                       double least_turning) {
     const WallNeighbours vertices = wall_neighbours(before, ray, after);

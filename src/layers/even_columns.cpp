@@ -1,6 +1,6 @@
 // On outlines such as iced ones corners follow each other at every tenth edge, and edges are short beside the layer's
-// height. Where each ray is normal to its wall, columns on the straight parts between corners are as narrow at the front
-// as their edges, while those at the corners open like wedges:
+// height. Where each ray is normal to its wall, columns on the straight parts between corners are as narrow at the
+// front as their edges, while those at the corners open like wedges:
 //
 //     |||||||      /           \   \  |  /    /
 //     |||||||    /              \  \  |  /  /      front
@@ -10,9 +10,9 @@
 //     -------o /                  -------o /      the wall turns at o
 //              `.                          `.
 //
-// So each ray turns towards the wider one of the columns on both sides, again and again. What a corner has too much spreads
-// over the columns near it, as heat does along a rod. On smooth outlines a few times are enough to even out what is left of
-// slips in the data. docs/decisions/0069
+// So each ray turns towards the wider one of the columns on both sides, again and again. What a corner has too much
+// spreads over the columns near it, as heat does along a rod. On smooth outlines a few times are enough to even out
+// what is left of slips in the data. docs/decisions/0069
 #include "layers/even_columns.hpp"
 
 #include <algorithm>
@@ -55,8 +55,8 @@ std::vector<Column> columns_of(std::span<const RayVertex> outline, std::span<con
     return columns;
 }
 
-/// Returns, for each vertex, whether its rays stay: those of fans, and on smooth outlines those of short faces, whose columns have been
-/// opened as far as the room there allows.
+/// Returns, for each vertex, whether its rays stay: those of fans, and on smooth outlines those of short faces, whose
+/// columns have been opened as far as the room there allows.
 std::vector<char> rays_that_stay(std::span<const RayVertex> outline, OutlineKind kind,
                                  std::span<const WallVertex> vertices) {
     const std::size_t n = outline.size();
@@ -69,8 +69,8 @@ std::vector<char> rays_that_stay(std::span<const RayVertex> outline, OutlineKind
     return stay;
 }
 
-/// Returns the largest angle by which the one ray of a vertex may lean to either side, in radians. `between_edges` is that
-/// at which the first height above both edges can be kept.
+/// Returns the largest angle by which the one ray of a vertex may lean to either side, in radians. `between_edges` is
+/// that at which the first height above both edges can be kept.
 double largest_lean(const WallVertex& vertex, double between_edges) {
     const double from_normals = core::radians(max_lean_from_normals_deg) - 0.5 * std::abs(vertex.turning);
     return std::max(std::min({core::radians(max_lean_to_even_deg), from_normals, between_edges}),

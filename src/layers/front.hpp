@@ -20,8 +20,9 @@ struct FrontCorner {
     std::optional<std::size_t> cleft{};
 };
 
-/// Returns the corners of each element's front, which passes the ends of clefts by (clefts.hpp). The rays of a fan that have no layers share one corner. A corner of the wall
-/// without a ray is one of the front's if neither ray beside it has layers.
+/// Returns the corners of each element's front, which passes the ends of clefts by (clefts.hpp). The rays of a fan that
+/// have no layers share one corner. A corner of the wall without a ray is one of the front's if neither ray beside it
+/// has layers.
 std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays);
 
 /// Returns the place of a front's corner.

@@ -64,8 +64,8 @@ std::vector<double> front_heights(std::span<const RayVertex> outline, std::span<
     return result;
 }
 
-/// Returns whether columns should be wider than their rays' normals make them: where the flow asks for thick layers, and on
-/// jagged outlines where their number is given. Layers up to isotropy end lower over narrow columns.
+/// Returns whether columns should be wider than their rays' normals make them: where the flow asks for thick layers,
+/// and on jagged outlines where their number is given. Layers up to isotropy end lower over narrow columns.
 bool has_wider_columns(OutlineKind kind, const LayerGrowth& growth) {
     const bool jagged = kind == OutlineKind::jagged;
     return (jagged && growth.layers) || (kind != OutlineKind::given && !growth.least_heights.empty());
@@ -92,8 +92,8 @@ RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, con
     return set;
 }
 
-/// Makes the first layers of these rays on walls lower: share(ray) says how high they become, of what they are. Returns whether
-/// there were any.
+/// Makes the first layers of these rays on walls lower: share(ray) says how high they become, of what they are. Returns
+/// whether there were any.
 template <class Share>
 bool lower_first_layers(Rays& rays, Share share) {
     // Below this share of what is wanted a wall is bare: cells would be thinner than anything else on it.
@@ -120,7 +120,8 @@ void fit_first_layers(Rays& rays) {
     });
 }
 
-/// Counts the layers. Where fronts meet, rays that are left without any get first layers half as high, so that no wall is bare.
+/// Counts the layers. Where fronts meet, rays that are left without any get first layers half as high, so that no wall
+/// is bare.
 void count_layers_on_all_rays(Rays& rays) {
     constexpr int max_rounds = 6;
     for (int round = 0;; ++round) {

@@ -27,12 +27,12 @@ constexpr double transition_aspect = 1;
 /// spreading rays never become as high as wide.
 constexpr double max_spread = 2;
 /// Where columns go on beyond isotropy, cells are at most this many times as high as wide, unless the column is so
-/// narrow that it would get many more layers than the last number. Those of fans would be 1.9 times as high as wide with
-/// a growth of 1.2 and rays 5 degrees apart.
+/// narrow that it would get many more layers than the last number. Those of fans would be 1.9 times as high as wide
+/// with a growth of 1.2 and rays 5 degrees apart.
 constexpr double max_tallness = 1.5, max_tallness_in_fans = 1.3;
 constexpr double max_layers_beyond_isotropy = 20;
-/// Widths of a column, in heights of its last layer. Up to the first, numbers of layers do not change across the column:
-/// its last cell would be sheared by 45 degrees and more. From the second on they change by one.
+/// Widths of a column, in heights of its last layer. Up to the first, numbers of layers do not change across the
+/// column: its last cell would be sheared by 45 degrees and more. From the second on they change by one.
 constexpr double no_change = 1, full_change = 1.5;
 /// Largest rise of the front per unit of distance along it.
 constexpr double max_front_slope = 0.25;

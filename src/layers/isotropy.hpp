@@ -20,9 +20,9 @@ inline constexpr double min_adaptive_ratio = 1.05, max_adaptive_ratio = 1.5;
 std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
                                         std::span<const double> least = {}, double fineness = 1);
 
-/// Returns, for each ray, the largest height of a layer on the way to the front: some widths of a cell, but no less than the
-/// first height, which is on the wall. It varies so slowly that columns beside each other need not differ by more than one
-/// layer.
+/// Returns, for each ray, the largest height of a layer on the way to the front: some widths of a cell, but no less
+/// than the first height, which is on the wall. It varies so slowly that columns beside each other need not differ by
+/// more than one layer.
 std::vector<double> largest_spacings(const RaySet& set, std::span<const double> front, double first_height,
                                      double fineness = 1);
 

@@ -61,8 +61,8 @@ private:
         return corners_[element][(k + 1) % corners_[element].size()];
     }
 
-    /// Adds the vertices of a base before a wake, where no rays stand, to the end of the wall that begins and ends at its
-    /// corners.
+    /// Adds the vertices of a base before a wake, where no rays stand, to the end of the wall that begins and ends at
+    /// its corners.
     void place_base(const WakeCore& core) {
         std::vector<VertexId>& wall = layer_.walls[core.element];
         const std::vector<Point>& base = core.chains.front();
@@ -75,7 +75,8 @@ private:
         placed.push_back(wall.front());
     }
 
-    /// Adds the division points of the edge behind a corner of a front to the end of the wall, if that edge is the wall's.
+    /// Adds the division points of the edge behind a corner of a front to the end of the wall, if that edge is the
+    /// wall's.
     void divide_wall(std::size_t element, std::size_t k) {
         if (corners_[element][k].layers > 0 || corner_after(element, k).layers > 0) return;
         std::vector<VertexId>& divisions = wall_divisions_[element][k];

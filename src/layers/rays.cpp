@@ -57,8 +57,9 @@ Point last_direction(const WallVertex& v) { return tilted(v.fan ? v.normal_after
 /// Returns half of the angle between the first and the last ray of a fan, in radians.
 double half_fan(const WallVertex& v) { return 0.5 * (v.turning + v.tilt[1] - v.tilt[0]); }
 
-/// Makes fans that have no angle left for a third ray one ray in their middle. Both of their rays have slants of their own, so that
-/// points of one layer lie far from each other's heights, and cells between them have angles near 180 degrees.
+/// Makes fans that have no angle left for a third ray one ray in their middle. Both of their rays have slants of their
+/// own, so that points of one layer lie far from each other's heights, and cells between them have angles near 180
+/// degrees.
 void close_narrow_fans(double max_angle, std::vector<WallVertex>& vertices) {
     for (WallVertex& v : vertices) {
         if (!v.fan || half_fan(v) < least_half_fan || angle_parts(2 * half_fan(v), max_angle) > 1) continue;
@@ -67,8 +68,8 @@ void close_narrow_fans(double max_angle, std::vector<WallVertex>& vertices) {
     }
 }
 
-/// Adds the ray or the fan of a vertex, which has `fan_rays` rays, or as many as max_angle asks for. The angles of a fan are counted from the bisector, not from one side to the
-/// other, so that mirrored input gives mirrored rays.
+/// Adds the ray or the fan of a vertex, which has `fan_rays` rays, or as many as max_angle asks for. The angles of a
+/// fan are counted from the bisector, not from one side to the other, so that mirrored input gives mirrored rays.
 void add_vertex_rays(const RayVertex& at, const WallVertex& vertex, double max_angle,
                      std::optional<std::uint32_t> fan_rays, std::vector<RayLine>& rays) {
     const auto add = [&](Point direction) {

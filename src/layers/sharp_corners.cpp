@@ -1,12 +1,13 @@
-// The one ray of a sharp corner is so near to the walls on both sides that each cell beside it has an angle of 180 degrees
-// less half of the corner's, whatever its size. So such a corner has no ray, and the rays beside it are neighbours:
+// The one ray of a sharp corner is so near to the walls on both sides that each cell beside it has an angle of 180
+// degrees less half of the corner's, whatever its size. So such a corner has no ray, and the rays beside it are
+// neighbours:
 //
-//                   _.-b
-//              _.-'   /        The column between the rays from a and b begins with three triangles: c, a, a' and b, c, b'
-//         _.-'   _..-b'        have the first height, and c, a', b' has the angle of the corner. Rows go on above a'-b'.
+//                   _.-b       The column between the rays from a and b begins with three triangles:
+//              _.-'   /        c, a, a' and b, c, b' have the first height, and c, a', b' has the
+//         _.-'   _..-b'        angle of the corner. Rows go on above the edge from a' to b'.
 //     c =:_------    |
 //         `-._  ``--.a'
-//              `-._   \  .
+//              `-._   |
 //                  `-._a
 //
 // docs/decisions/0070

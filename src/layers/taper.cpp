@@ -31,19 +31,19 @@ namespace lamina::layers {
 
 namespace {
 
-/// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has the area of
-/// the triangle beyond. They become the second number times as high at least, for 0.6 times the area.
+/// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has the
+/// area of the triangle beyond. They become the second number times as high at least, for 0.6 times the area.
 constexpr double wanted_tallness = 0.9, least_tallness = 0.54;
-/// Where numbers of layers change, fronts rise by up to a quarter of the width of a column. If last layers become this many times
-/// as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow columns near them become
-/// no higher for it than the second number of times.
+/// Where numbers of layers change, fronts rise by up to a quarter of the width of a column. If last layers become this
+/// many times as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow
+/// columns near them become no higher for it than the second number of times.
 constexpr double even_tallness = 0.86, most_tallness = 1.2;
 /// Faces between columns become shorter, and as much more skewed where rows turn at a ray, up to this.
 constexpr double largest_skewness = 0.8;
 /// The heights of so many last layers change.
 constexpr double tapered_layers = 30;
-/// Where neighbours are not tapered alike, rows rise by this much per unit of distance at most. Points move by up to 4 / 27
-/// of the part that changes, if the last layer vanishes.
+/// Where neighbours are not tapered alike, rows rise by this much per unit of distance at most. Points move by up to 4
+/// / 27 of the part that changes, if the last layer vanishes.
 constexpr double most_rise = 0.3, most_moved = 4.0 / 27;
 
 /// Returns the first layer from which on heights change.
@@ -140,8 +140,8 @@ bool has_crossed_cell(const LayeredRays& rays, std::size_t i, std::size_t j) {
     return !(core::inline_orient2d(rays.point(i, common), top, rays.point(j, common)) > 0);
 }
 
-/// Sets the tapers on both sides of columns with crossed cells to 1: rows rise most where a column is narrower than at the front.
-/// Columns without tapers have no such cells. Returns whether there were any.
+/// Sets the tapers on both sides of columns with crossed cells to 1: rows rise most where a column is narrower than at
+/// the front. Columns without tapers have no such cells. Returns whether there were any.
 bool leave_crossed_columns(const LayeredRays& rays, std::vector<double>& tapers) {
     const std::vector<std::size_t> next = rays.set.following();
     std::vector<std::size_t> crossed;

@@ -26,7 +26,8 @@ namespace {
 /// A ray may go up to this share of the height at which it crosses another ray, so that neighbours keep more than half
 /// of their distance.
 constexpr double ray_fraction = 0.45;
-/// First layers may go up to this share, so that walls in clefts are not bare. Neighbours keep a quarter of their distance.
+/// First layers may go up to this share, so that walls in clefts are not bare. Neighbours keep a quarter of their
+/// distance.
 constexpr double first_layer_fraction = 0.75;
 /// Largest rise of the limit per unit of distance between neighbouring rays. Two such slopes in a corner of 90 degrees
 /// leave 60 degrees to the outer region.

@@ -41,10 +41,10 @@ struct DividedWake {
     WakeCore core{};                     ///< what fills the space between the sides; no chains behind a sharp edge
 };
 
-/// Divides the wake lines behind sharp trailing edges and behind bases, up to the distances from these that `ends` says,
-/// one per line of LayerGrowth::wakes. The first edge of a wake is as long as the edges of the wall beside it; each one
-/// after that is longer by the same ratio, up to a share of the line. Towards the end edges become shorter, so that the
-/// layers end in a wedge. Lines that are too short for that get no wake.
+/// Divides the wake lines behind sharp trailing edges and behind bases, up to the distances from these that `ends`
+/// says, one per line of LayerGrowth::wakes. The first edge of a wake is as long as the edges of the wall beside it;
+/// each one after that is longer by the same ratio, up to a share of the line. Towards the end edges become shorter, so
+/// that the layers end in a wedge. Lines that are too short for that get no wake.
 std::vector<DividedWake> divide_wakes(const Geometry& geometry, const LayerGrowth& growth,
                                       std::span<const double> ends);
 

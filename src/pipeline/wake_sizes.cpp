@@ -22,8 +22,8 @@ namespace lamina::pipeline {
 
 namespace {
 
-/// Tops are divided into parts of at least this share of the height of the cell below. Half of a cell that is as wide as
-/// such a part has 1.8 times the area of an equilateral triangle beyond.
+/// Tops are divided into parts of at least this share of the height of the cell below. Half of a cell that is as wide
+/// as such a part has 1.8 times the area of an equilateral triangle beyond.
 constexpr double least_share_of_height = 0.64;
 /// A top has no more parts than are asked for if sizes are this many times as long as the parts: they are divided by it
 /// where borders are (TargetLength), and so is their growth.

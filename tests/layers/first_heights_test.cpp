@@ -160,7 +160,8 @@ TEST(FirstHeights, AreLowerInSlotsWithoutRoom) {
         }
 }
 
-/// Walls whose edges are far shorter than the first layer is high have it nevertheless, with the heights of a flow, too.
+/// Walls whose edges are far shorter than the first layer is high have it nevertheless, with the heights of a flow,
+/// too.
 TEST(FirstHeights, AreKeptOnShortEdges) {
     const Outline circle = shapes::circle(0.5, 600);  // edges of 0.0052
     LayerOptions options = test::layers_of(0.02, 1.1, 1);

@@ -102,8 +102,8 @@ TEST(SharpCorners, HaveNoRayButCellsOfTheFirstHeight) {
         }
 }
 
-/// One ray in such a corner has cells of 180 degrees less half of the corner's angle beside it, and worse ones where borders
-/// divide their tops.
+/// One ray in such a corner has cells of 180 degrees less half of the corner's angle beside it, and worse ones where
+/// borders divide their tops.
 TEST(SharpCorners, WouldHaveLargeAnglesWithOneRay) {
     for (const double angle_deg : {15.0, 30.0, 45.0}) {
         Geometry geometry = jagged_geometry(notched_plate(angle_deg));

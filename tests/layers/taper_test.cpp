@@ -59,8 +59,8 @@ TEST(Taper, LeavesColumnsWithoutRoomAlone) {
     }
 }
 
-/// Returns rays in a row below a wall, so far apart, with columns of 60 layers whose last ones are 0.001 high. The last ray and the first
-/// one are neighbours as on every element, though all cells between them are crossed.
+/// Returns rays in a row below a wall, so far apart, with columns of 60 layers whose last ones are 0.001 high. The last
+/// ray and the first one are neighbours as on every element, though all cells between them are crossed.
 Rays columns_apart(const std::vector<double>& widths) {
     Rays rays;
     double x = 0;
@@ -139,7 +139,8 @@ TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
     EXPECT_EQ(rays.fitted.table(), table);
 }
 
-/// Returns whether the cells between two neighbouring rays are positive quadrilaterals, and the triangle at their step, too.
+/// Returns whether the cells between two neighbouring rays are positive quadrilaterals, and the triangle at their step,
+/// too.
 bool are_sound(const layers::LayeredRays& rays, std::size_t i) {
     const std::uint32_t common = std::min(rays.counts[i], rays.counts[i + 1]);
     for (std::uint32_t n = 1; n <= common; ++n) {
@@ -154,7 +155,8 @@ bool are_sound(const layers::LayeredRays& rays, std::size_t i) {
     return orient2d(rays.point(i, common), top, rays.point(i + 1, common)) > 0;
 }
 
-/// Rows of neighbours that are tapered differently rise, and may do so where fronts and numbers of layers are steep already.
+/// Rows of neighbours that are tapered differently rise, and may do so where fronts and numbers of layers are steep
+/// already.
 TEST(Taper, CrossesNoCells) {
     std::mt19937 random(7);
     const auto real = [&](double low, double high) {
