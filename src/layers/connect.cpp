@@ -102,8 +102,8 @@ public:
         std::vector<VertexId> upper, lower;
         for (std::size_t i = cleft.corner + 1; i-- > cleft.first;) upper.push_back(rays[i].tip());
         for (std::size_t i = cleft.corner + 1; i <= cleft.last; ++i) lower.push_back(rays[i].tip());
-        // Division points of the outer edge go to the shorter chain: if that has one corner, they are in line with it and
-        // the end of the longer one.
+        // Division points of the outer edge go to the shorter chain. If that has one corner, they are in line with it
+        // and with the end of the longer one.
         const std::span<const VertexId> divisions = std::span(cleft.outer_edge).subspan(1, cleft.outer_edge.size() - 2);
         if (upper.size() <= lower.size())
             upper.insert(upper.end(), divisions.begin(), divisions.end());

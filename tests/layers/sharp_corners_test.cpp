@@ -25,7 +25,7 @@ namespace {
 using shapes::Outline;
 
 constexpr double first_height_of_layers = 1e-4;
-constexpr double max_angle_deg = 150;
+constexpr double largest_allowed_deg = 150;
 
 /// Returns a plate with a notch that is 0.8 deep, whose walls meet at this angle.
 Outline notched_plate(double angle_deg, std::size_t parts = 40) {
@@ -96,7 +96,7 @@ TEST(SharpCorners, HaveNoRayButCellsOfTheFirstHeight) {
                 const LayerCells cells = fill_layer(layer, topology);
                 test::expect_cover(layer, layer.edges, cells);
                 if (topology != LayerTopology::layered) continue;
-                EXPECT_LT(largest_angle_in_notch_deg(layer, cells), max_angle_deg);
+                EXPECT_LT(largest_angle_in_notch_deg(layer, cells), largest_allowed_deg);
                 expect_first_heights(layer, cells);
             }
         }
@@ -109,7 +109,7 @@ TEST(SharpCorners, WouldHaveLargeAnglesWithOneRay) {
         Geometry geometry = jagged_geometry(notched_plate(angle_deg));
         geometry.elements[0].resampled = false;
         const Layer layer = test::make_layer(geometry, options_of_layers());
-        EXPECT_GT(largest_angle_in_notch_deg(layer, fill_layer(layer, LayerTopology::layered)), max_angle_deg);
+        EXPECT_GT(largest_angle_in_notch_deg(layer, fill_layer(layer, LayerTopology::layered)), largest_allowed_deg);
     }
 }
 
@@ -155,7 +155,7 @@ TEST(SharpCorners, NarrowOnesReachFarther) {
 }
 
 /// Returns a saw blade with teeth of any depth, whose edges are divided into parts of about one length, or of two.
-Outline random_saw(std::mt19937& random) {
+Outline saw_blade(std::mt19937& random) {
     const auto real = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
@@ -185,7 +185,7 @@ TEST(SharpCorners, OfRandomOutlines) {
     std::size_t corners = 0, clefts = 0;
     for (int round = 0; round < 60; ++round) {
         SCOPED_TRACE(round);
-        const Outline outline = random_saw(random);
+        const Outline outline = saw_blade(random);
         LayerOptions options = test::layers_of(std::exp(real(-10, -4)), real(1.05, 1.4), 20);
         if (round % 3 == 0) options.layers.reset();
         const Geometry geometry = jagged_geometry(outline);
@@ -247,7 +247,7 @@ TEST(Clefts, EndWhereTheFrontsAreAsFarFromEachOtherAsEdgesAreLong) {
         const layers::LayeredRays layered = layers::layered_rays(rays);
         const std::vector<layers::CleftEnd> ends = layers::cleft_ends(layered);
         ASSERT_EQ(ends.size(), 1u);
-        const auto [corner, first, last] = ends[0];
+        const std::size_t corner = ends[0].corner, first = ends[0].first, last = ends[0].last;
         EXPECT_EQ(corner - first, last - corner - 1) << "both sides are alike";
         const std::size_t steps = corner - first;
         // The gap over the length of the front's edge, so many rays from the corner.
