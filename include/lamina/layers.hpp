@@ -401,10 +401,12 @@ struct LayerCore {
 
 /// The end of a cleft, where a strip of triangles joins the fronts on both sides of a sharp corner.
 struct LayerCleft {
-    std::size_t element = 0;             ///< its element
-    std::size_t corner = 0;              ///< the ray before the corner (Ray::corner_after), among those of the element
-    std::size_t first = 0, last = 0;     ///< the outermost rays of the strip
-    std::vector<VertexId> outer_edge{};  ///< the outer border from the tip of `first` to that of `last`, both included
+    std::size_t element = 0;  ///< its element
+    std::size_t corner = 0;   ///< the ray before the corner (Ray::corner_after), among those of the element
+    std::size_t first = 0;    ///< the first ray of the strip
+    std::size_t last = 0;     ///< its last ray
+    /// The outer border from the tip of `first` to that of `last`, both included.
+    std::vector<VertexId> outer_edge{};
 };
 
 /// The points of the layer and its outline.
