@@ -2,6 +2,7 @@
 #include "layers/fill.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include <lamina/error.hpp>
@@ -22,13 +23,14 @@ std::vector<char> used_points(const Layer& layer) {
     return used;
 }
 
-/// Returns the triangles as cells. The layer of a triangle is that of its highest point.
+/// Returns the triangles as cells. The layer of a triangle is that of its highest point, but 1 at least: in a sharp corner
+/// all its points may be on the wall.
 LayerCells cells_of(const Layer& layer, std::vector<Triangle> triangles) {
     LayerCells cells;
     cells.triangle_layer.reserve(triangles.size());
     for (const Triangle& t : triangles) {
         const auto layer_of = [&](int k) { return layer.layer_of_point[t.v[k].index()]; };
-        cells.triangle_layer.push_back(std::max({layer_of(0), layer_of(1), layer_of(2)}));
+        cells.triangle_layer.push_back(std::max({layer_of(0), layer_of(1), layer_of(2), std::uint16_t{1}}));
     }
     cells.triangles = std::move(triangles);
     return cells;

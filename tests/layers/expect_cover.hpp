@@ -45,7 +45,7 @@ inline double doubled_area(const Layer& layer, const std::vector<VertexId>& cell
     return area;
 }
 
-/// Expects cells that cover the layer once: they are convex and positive; each directed edge is used once, and those
+/// Expects cells that cover the layer once: they are convex, positive and numbered from 1 on; each directed edge is used once, and those
 /// without a twin are the edges that bound the layer; all points are used, except wall vertices beside which there is
 /// no layer; area and Euler characteristic are right.
 inline void expect_cover(const Layer& layer, const LayerEdges& edges, const LayerCells& cells) {
@@ -53,8 +53,9 @@ inline void expect_cover(const Layer& layer, const LayerEdges& edges, const Laye
     std::set<VertexId> used;
     std::size_t count = 0;
     double area = 0;
-    for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t) {
+    for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t number) {
         ++count;
+        EXPECT_GE(number, 1u) << "cells outside of the layer have 0";
         EXPECT_TRUE(strictly_convex(layer, cell));
         area += doubled_area(layer, cell);
         for (std::size_t i = 0; i < cell.size(); ++i) {
