@@ -43,6 +43,12 @@ inline double inline_orient2d(Point a, Point b, Point c) {
     return orient2d_after_filter(a, b, c);
 }
 
+/// Returns whether a quadrilateral is counter-clockwise and turns to the left at each of its corners. Exact.
+inline bool is_convex(Point a, Point b, Point c, Point d) {
+    return inline_orient2d(a, b, c) > 0 && inline_orient2d(b, c, d) > 0 && inline_orient2d(c, d, a) > 0 &&
+           inline_orient2d(d, a, b) > 0;
+}
+
 /// The rounded determinant of incircle(), and its permanent.
 struct RoundedIncircle {
     double det, permanent;

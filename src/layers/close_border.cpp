@@ -109,9 +109,8 @@ std::vector<WallSpacing> wall_spacings(const Rays& rays, const BorderOptions& op
     for (std::size_t e = 0; e < corners.size(); ++e) {
         if (!rays.resampled[e]) continue;
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
+            if (corners[e][k].cleft || !is_above_wall(rays, corners[e], k)) continue;
             const WallPart wall = wall_below(rays, corners[e], k);
-            if (corners[e][k].cleft) continue;
-            if (!is_above_wall(rays, corners[e], k)) continue;
             const double excess = division.excess[e][k] / target_slack;
             if (wall.a != wall.b && excess > 1) spacings.push_back({e, wall.a, wall.b, margin * wall.edge / excess});
         }

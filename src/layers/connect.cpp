@@ -133,12 +133,6 @@ private:
 
     Point at(VertexId v) const { return layer_.points[v.index()]; }
 
-    bool is_convex(VertexId a, VertexId b, VertexId c, VertexId d) const {
-        using core::inline_orient2d;
-        return inline_orient2d(at(a), at(b), at(c)) > 0 && inline_orient2d(at(b), at(c), at(d)) > 0 &&
-               inline_orient2d(at(c), at(d), at(a)) > 0 && inline_orient2d(at(d), at(a), at(b)) > 0;
-    }
-
     /// Sets the layer of the triangles from `first` on, which were made for layer `n`. A triangle belongs to the layer
     /// above its lowest corner, but to none above n: all its corners may be at the height of a divided top.
     void number_triangles(std::size_t first, std::uint32_t n) {
@@ -159,7 +153,8 @@ private:
         const auto [a, d] = lower;
         if (a == d) {
             add_strip(std::span(lower).first(1), top);
-        } else if (form_ == GridCells::whole && top.size() == 2 && is_convex(a, top[0], top[1], d)) {
+        } else if (form_ == GridCells::whole && top.size() == 2 &&
+                   core::is_convex(at(a), at(top[0]), at(top[1]), at(d))) {
             cells_.quads.push_back({{a, top[0], top[1], d}});
             cells_.quad_layer.push_back(static_cast<std::uint16_t>(n));
         } else {

@@ -1,8 +1,6 @@
 // The corners of fronts, and the fronts as points.
 #include "layers/front.hpp"
 
-#include "layers/clefts.hpp"
-
 namespace lamina::layers {
 
 std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
@@ -14,7 +12,7 @@ std::vector<std::vector<FrontCorner>> front_corners(const LayeredRays& rays) {
         const std::size_t begin = set.begin[e], end = set.begin[e + 1];
         for (std::size_t i = begin; i < end; ++i) {
             if (cleft < clefts.size() && i == clefts[cleft].first) {
-                fronts[e].push_back({i, counts[i], 0, cleft});
+                fronts[e].push_back({i, counts[i], 0, clefts[cleft]});
                 i = clefts[cleft++].last - 1;
                 continue;
             }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "layers/clefts.hpp"
 #include "layers/layered_rays.hpp"
 
 namespace lamina::layers {
@@ -16,8 +17,7 @@ struct FrontCorner {
     std::uint32_t layers;  ///< number of layers on that ray; 0: the corner is the ray's origin
     /// 0, or k: it is the k-th of the wall's vertices after that ray instead (RayLine::corner_after).
     std::size_t after = 0;
-    /// The cleft that the edge behind this corner closes, if it does: an index into cleft_ends().
-    std::optional<std::size_t> cleft{};
+    std::optional<CleftEnd> cleft{};  ///< the end of the cleft that the edge behind this corner closes, if it does
 };
 
 /// Returns the corners of each element's front, which passes the ends of clefts by (clefts.hpp). The rays of a fan that

@@ -138,34 +138,22 @@ LayerHeights heights_by_spacing(const RaySet& set, const LayerGrowth& growth, co
 /// Makes heights above the wall's edges heights along the rays.
 LayerHeights slanted(const RaySet& set, const LayerHeights& heights) {
     const std::vector<double> factors = slants(set);
-    std::vector<double> table = heights.table();
-    std::vector<HeightColumn> columns;
-    columns.reserve(factors.size());
-    for (std::size_t i = 0; i < factors.size(); ++i) {
-        columns.push_back(heights.column(i));
-        if (factors[i] == 1) continue;
-        columns[i].slant = factors[i];
-        columns[i].first = table.size();
-        for (const double height : heights.of(i)) table.push_back(factors[i] * height);
-    }
-    return LayerHeights(std::move(table), std::move(columns));
+    return changed_columns(
+        heights, factors.size(), [&](std::size_t ray) { return factors[ray] != 1; },
+        [&](std::size_t ray, HeightColumn& column, std::span<double> along) {
+            column.slant = factors[ray];
+            for (double& height : along) height *= column.slant;
+        });
 }
 
 /// Returns heights of which those on each ray are multiplied by its opening.
 LayerHeights opened(const RaySet& set, const LayerHeights& heights) {
-    std::vector<double> table = heights.table();
-    std::vector<HeightColumn> columns;
-    columns.reserve(set.lines.size());
-    for (std::size_t i = 0; i < set.lines.size(); ++i) {
-        HeightColumn& column = columns.emplace_back(heights.column(i));
-        if (set.lines[i].opening == 1) continue;
-        column.opening = set.lines[i].opening;
-        column.first = table.size();
-        const std::span<const double> before = heights.of(i);
-        table.insert(table.end(), before.begin(), before.end());
-        open_heights(column.opening, std::span(table).subspan(column.first));
-    }
-    return LayerHeights(std::move(table), std::move(columns));
+    return changed_columns(
+        heights, set.lines.size(), [&](std::size_t ray) { return set.lines[ray].opening != 1; },
+        [&](std::size_t ray, HeightColumn& column, std::span<double> own) {
+            column.opening = set.lines[ray].opening;
+            open_heights(column.opening, own);
+        });
 }
 
 /// Returns the heights above the wall.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "layers/clefts.hpp"
 
 namespace lamina::layers {
 
@@ -189,7 +188,6 @@ private:
     }
 
     void place_borders() {
-        const std::vector<CleftEnd> clefts = cleft_ends(layered_rays(rays_));
         layer_.borders.resize(set_.elements());
         for (std::size_t e = 0; e < set_.elements(); ++e) {
             std::vector<VertexId>& border = layer_.borders[e];
@@ -204,7 +202,7 @@ private:
                         border.push_back(add_point(p, std::min(corner.layers, after.layers)));
                 }
                 if (!corner.cleft) continue;
-                const CleftEnd& end = clefts[*corner.cleft];
+                const CleftEnd& end = *corner.cleft;
                 const std::size_t begin = set_.begin[e];
                 LayerCleft& cleft =
                     layer_.clefts.emplace_back(LayerCleft{e, end.corner - begin, end.first - begin, end.last - begin});

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "core/predicates.hpp"
+#include "layers/heights.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/neighbours.hpp"
 #include "layers/rows.hpp"
@@ -111,19 +112,12 @@ std::vector<double> tapers(const LayeredRays& rays, bool even_ends) {
 /// Returns heights of which each column is tapered up to its number of layers.
 LayerHeights tapered_heights(const LayerHeights& heights, std::span<const std::uint32_t> counts,
                              std::span<const double> tapers) {
-    std::vector<double> table = heights.table();
-    std::vector<HeightColumn> columns;
-    columns.reserve(tapers.size());
-    for (std::size_t i = 0; i < tapers.size(); ++i) {
-        HeightColumn& column = columns.emplace_back(heights.column(i));
-        if (tapers[i] == 1) continue;
-        const std::span<const double> before = heights.of(i);
-        column.taper = tapers[i];
-        column.first = table.size();
-        table.insert(table.end(), before.begin(), before.end());
-        taper_heights(column.taper, std::span(table).subspan(column.first, counts[i] + std::size_t{1}));
-    }
-    return LayerHeights(std::move(table), std::move(columns));
+    return changed_columns(
+        heights, tapers.size(), [&](std::size_t ray) { return tapers[ray] != 1; },
+        [&](std::size_t ray, HeightColumn& column, std::span<double> own) {
+            column.taper = tapers[ray];
+            taper_heights(column.taper, own.first(counts[ray] + std::size_t{1}));
+        });
 }
 
 /// Returns whether a cell between two rays is crossed.
@@ -131,9 +125,7 @@ bool has_crossed_cell(const LayeredRays& rays, std::size_t i, std::size_t j) {
     const std::uint32_t common = std::min(rays.counts[i], rays.counts[j]);
     for (std::uint32_t n = 2; n <= common; ++n) {
         const Point a = rays.point(i, n - 1), b = rays.point(i, n), c = rays.point(j, n), d = rays.point(j, n - 1);
-        const bool sound = core::inline_orient2d(a, b, c) > 0 && core::inline_orient2d(b, c, d) > 0 &&
-                           core::inline_orient2d(c, d, a) > 0 && core::inline_orient2d(d, a, b) > 0;
-        if (!sound) return true;
+        if (!core::is_convex(a, b, c, d)) return true;
     }
     if (common == 0 || rays.counts[i] == rays.counts[j]) return false;
     const Point top = rays.point(rays.counts[i] > common ? i : j, common + 1);

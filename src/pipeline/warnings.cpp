@@ -104,6 +104,23 @@ void warn_of_bare_walls(const MeshResult& result, std::vector<Warning>& warnings
                                 place_text(walls.bare_at))});
 }
 
+void warn_of_first_heights(const MeshResult& result, std::vector<Warning>& warnings) {
+    constexpr double largest_factor = 2;  // to either side: a y+ that is off by more is another model of the wall
+    const WallSummary& walls = result.check.walls;
+    const double worst = walls.worst_first_height;
+    if (worst <= largest_factor && worst * largest_factor >= 1) return;
+    const double off = std::round(static_cast<double>(walls.first_cells) * (1 - walls.share_of_kept_heights));
+    warnings.push_back(
+        {.code = WarningCode::first_layer_lost,
+         .at = walls.worst_first_height_at,
+         .number = off,
+         .unit = "wall edges",
+         .message = fmt::format("first cells on {:.0f} of {} are not of the height wanted, where there is no room for "
+                                "it; the worst, at {}, has {:.3g} of it (--first-height, --surface)",
+                                off, counted(walls.edges, "wall edge", "wall edges"),
+                                place_text(walls.worst_first_height_at), worst)});
+}
+
 void warn_of_cut_rays(const MeshResult& result, std::vector<Warning>& warnings) {
     // Beside a slot or a cove some rays that count as open are cut, and lack few of their layers.
     constexpr double max_cut_share = 0.25, min_made_share = 0.95;
@@ -279,6 +296,7 @@ std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& 
     warn_of_topology(result, warnings);
     warn_of_first_layer(result, layer, warnings);
     warn_of_bare_walls(result, warnings);
+    warn_of_first_heights(result, warnings);
     warn_of_cut_rays(result, warnings);
     warn_of_thinned_layers(result, warnings);
     warn_of_transition(result, warnings);

@@ -10,6 +10,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "cell_angles.hpp"
 #include "core/angles.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
@@ -20,18 +21,6 @@ namespace {
 using shapes::Outline;
 
 constexpr double max_angle_deg = 150;
-
-template <class Cell>
-double largest_angle_deg(const Layer& layer, const Cell& cell) {
-    double largest = 0;
-    const std::size_t n = std::size(cell.v);
-    for (std::size_t k = 0; k < n; ++k) {
-        const auto at = [&](std::size_t i) { return layer.points[cell.v[i % n].index()]; };
-        const Point u = at(k) - at(k + 1), v = at(k + 2) - at(k + 1);
-        largest = std::max(largest, core::degrees(std::abs(std::atan2(cross(u, v), dot(u, v)))));
-    }
-    return largest;
-}
 
 /// Outlines in whose corners thick layers have cells with angles above 150 degrees.
 std::map<std::string, Outline> awkward_outlines() {
@@ -70,11 +59,12 @@ TEST(ObtuseCells, AreThoseWithALargeAngle) {
             };
             std::vector<std::pair<std::uint32_t, std::uint16_t>> expected, actual;
             for (std::size_t i = 0; i < cells.triangles.size(); ++i)
-                if (largest_angle_deg(layer, cells.triangles[i]) > max_angle_deg &&
+                if (test::largest_angle_deg(layer, cells.triangles[i].v) > max_angle_deg &&
                     !is_excused(cells.triangle_column[i]))
                     expected.emplace_back(cells.triangle_column[i], cells.triangle_layer[i]);
             for (std::size_t i = 0; i < cells.quads.size(); ++i)
-                if (largest_angle_deg(layer, cells.quads[i]) > max_angle_deg && !is_excused(cells.quad_column[i]))
+                if (test::largest_angle_deg(layer, cells.quads[i].v) > max_angle_deg &&
+                    !is_excused(cells.quad_column[i]))
                     expected.emplace_back(cells.quad_column[i], cells.quad_layer[i]);
             for (const ObtuseCell& cell : found) actual.emplace_back(cell.column, cell.layer);
             EXPECT_EQ(actual, expected);

@@ -10,6 +10,7 @@
 
 #include <lamina/layers.hpp>
 
+#include "cell_angles.hpp"
 #include "checked_layer.hpp"
 #include "core/angles.hpp"
 #include "expect_cover.hpp"
@@ -51,14 +52,9 @@ std::size_t corners_without_rays(const Rays& rays) {
 double largest_angle_in_notch_deg(const Layer& layer, const LayerCells& cells) {
     double largest = 0;
     test::for_each_cell(cells, [&](const std::vector<VertexId>& cell, std::uint16_t) {
-        const std::size_t n = cell.size();
         const Point corner = layer.points[cell[0].index()];
         if (std::abs(corner.x - 2) > 0.6 || std::abs(corner.y) < 0.15 || std::abs(corner.y) > 0.9) return;
-        for (std::size_t k = 0; k < n; ++k) {
-            const Point at = layer.points[cell[(k + 1) % n].index()];
-            const Point u = layer.points[cell[k].index()] - at, v = layer.points[cell[(k + 2) % n].index()] - at;
-            largest = std::max(largest, core::degrees(std::abs(core::angle_between(u, v))));
-        }
+        largest = std::max(largest, test::largest_angle_deg(layer, cell));
     });
     return largest;
 }

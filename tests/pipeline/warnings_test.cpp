@@ -67,6 +67,20 @@ TEST(Warnings, LostFirstLayer) {
     EXPECT_EQ(std::count(kept.begin(), kept.end(), "first_layer_lost"), 0);
 }
 
+/// First layers are lower in a notch that is narrower than they are to be high.
+TEST(Warnings, LowerFirstLayers) {
+    CaseOptions options = quick_options();
+    options.layer.first_height = 0.05;
+    options.surface.treatment = SurfaceTreatment::keep;
+    const MeshResult result = mesh_of({shapes::refined(shapes::v_notch(0.1), 10)}, options);
+    EXPECT_EQ(result.check.walls.bare_edges, 0u);
+    const Warning warning = expect_warning(result, WarningCode::first_layer_lost);
+    EXPECT_GT(warning.number, 0);
+    ASSERT_TRUE(warning.at);
+    EXPECT_NEAR(warning.at->x, 2, 0.3);
+    EXPECT_LT(result.check.walls.worst_first_height, 0.5);
+}
+
 /// No first layer fits into a notch of 2e-6, however much lower it is than wanted.
 TEST(Warnings, WallsWithoutALayer) {
     CaseOptions options = quick_options();
