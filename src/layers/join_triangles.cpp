@@ -62,10 +62,7 @@ public:
         : points_(points), triangles_(triangles) {}
 
     bool is_convex(const Quad& quad) const {
-        for (int k = 0; k < 4; ++k)
-            if (!(core::inline_orient2d(at(quad.v[k]), at(quad.v[(k + 1) % 4]), at(quad.v[(k + 2) % 4])) > 0))
-                return false;
-        return true;
+        return core::is_convex(at(quad.v[0]), at(quad.v[1]), at(quad.v[2]), at(quad.v[3]));
     }
 
     /// Returns whether a triangle is counter-clockwise (exact) and has no angle that is too large for a turned one.
