@@ -32,9 +32,9 @@ constexpr double long_side_share = 0.35;
 constexpr double min_turning_of_long_sides = core::radians(1);
 
 /// A nose grows like a parabola: its thickness is the distance from the vertex to a power between these.
-constexpr double min_nose_power = 0.35, max_nose_power = 0.7;
+constexpr double min_nose_power = 0.35, max_nose_power = 0.75;
 /// Beside the foremost sample of a nose the outline turns on, by an angle between these.
-constexpr double min_turning_beside_nose = core::radians(5), max_turning_beside_nose = core::radians(60);
+constexpr double min_turning_beside_nose = core::radians(5), max_turning_beside_nose = core::radians(55);
 /// The first and the last vertex of a file are a trailing edge if they end the chord, but for this share of it, and
 /// turn by more than the angle.
 constexpr double end_share = 1e-3;
@@ -102,10 +102,11 @@ public:
         const double angle = std::abs(turning_[i]);
         if (angle > min_turning_of_long_sides && is_between_long_sides(i)) return true;
         if (angle < min_corner_turning) return false;
-        if (is_polygon_corner_[i] || (is_straight(i, before(i)) && is_straight(i, after(i)))) return true;
-        if (is_chord_end(outline_, i))
-            return is_certain(i) || is_one_sided(i) || (angle > min_turning_of_ends && !is_nose(i));
-        return (is_certain(i) || is_one_sided(i)) && !is_nose(i);
+        if (is_polygon_corner_[i]) return true;
+        const bool is_sharp =
+            is_certain(i) || is_one_sided(i) || (is_straight(i, before(i)) && is_straight(i, after(i)));
+        if (is_chord_end(outline_, i)) return is_sharp || (angle > min_turning_of_ends && !is_nose(i));
+        return is_sharp && !is_nose(i);
     }
 
 private:

@@ -79,13 +79,10 @@ TEST(Resampling, KeepsCorners) {
     EXPECT_TRUE(contains(prepared(kinked, resampling()).points, {0.7, 0}));
 }
 
-/// Returns a section at the stations of old tables, with a camber of this share.
-Outline at_old_stations(double thickness, double camber) {
+/// Returns a section at the stations of old tables, of these ordinates over x on its upper (1) and lower (-1) side.
+Outline at_old_stations(const std::function<double(double x, int side)>& ordinate) {
     const std::vector<double> stations{1,    0.95, 0.9,  0.8, 0.7,   0.6,  0.5,   0.4,    0.3,
                                        0.25, 0.2,  0.15, 0.1, 0.075, 0.05, 0.025, 0.0125, 0};
-    const auto ordinate = [&](double x, int side) {
-        return side * std::max(0.0, naca_half_thickness(thickness, x)) + 4 * camber * x * (1 - x);
-    };
     Outline outline;
     for (const double x : stations) outline.push_back({x, ordinate(x, 1)});
     for (std::size_t k = stations.size() - 1; k-- > 1;) outline.push_back({stations[k], ordinate(stations[k], -1)});
@@ -96,13 +93,38 @@ TEST(Corners, NosesAtTheStationsOfOldTablesAreRound) {
     for (const double thickness : {0.06, 0.09, 0.12, 0.18})
         for (const double camber : {0.0, 0.02, 0.05}) {
             SCOPED_TRACE(std::to_string(thickness) + " " + std::to_string(camber));
-            const Outline outline = at_old_stations(thickness, camber);
+            const Outline outline = at_old_stations([&](double x, int side) {
+                return side * std::max(0.0, naca_half_thickness(thickness, x)) + 4 * camber * x * (1 - x);
+            });
             EXPECT_EQ(surface::find_corners(outline), std::vector<std::size_t>{0});
             Outline mirrored = outline;
             for (Point& p : mirrored) p.x = -p.x;
             std::reverse(mirrored.begin() + 1, mirrored.end());
             EXPECT_EQ(surface::find_corners(mirrored), std::vector<std::size_t>{0});
         }
+}
+
+// Thin noses are round for a few thousandths of the chord and then like wedges, so that the outline hardly turns at the
+// samples beside the foremost one: that of Goe 411 by 14 degrees, and by 95 degrees at the nose.
+TEST(Corners, NosesThatTurnLittleBesideTheirForemostSampleAreRound) {
+    const auto corners_of = [](double round, double straight) {
+        return surface::find_corners(at_old_stations(
+            [&](double x, int side) { return side * (round * std::sqrt(x) + straight * x) * (1 - x); }));
+    };
+    for (const double round : {0.06, 0.068, 0.08})
+        EXPECT_EQ(corners_of(round, 0.3), std::vector<std::size_t>{0}) << round;
+    EXPECT_EQ(corners_of(0.01, 0.6).size(), 2u) << "nearly a wedge";
+}
+
+// As of the Falcon section, an open file whose sides close by 30 degrees over the last hundredth of the chord.
+TEST(Corners, BothEndsOfABluntTailThatClosesAreCorners) {
+    const Outline upper{{1, 0.00145}, {0.9975, 0.0029}, {0.9907, 0.0058}, {0.98, 0.008}, {0.96, 0.01},
+                        {0.9, 0.018}, {0.7, 0.04},      {0.5, 0.055},     {0.3, 0.06},   {0.2, 0.057},
+                        {0.1, 0.045}, {0.05, 0.033},    {0.02, 0.0215},   {0.005, 0.011}};
+    Outline outline = upper;
+    outline.push_back({0, 0});
+    for (std::size_t k = upper.size(); k-- > 0;) outline.push_back({upper[k].x, -upper[k].y});
+    EXPECT_EQ(surface::find_corners(outline), (std::vector<std::size_t>{0, outline.size() - 1}));
 }
 
 TEST(Corners, WedgesAndLensesAreSharpAtBothEnds) {
