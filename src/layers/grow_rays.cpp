@@ -14,6 +14,7 @@
 #include "layers/insert_rays.hpp"
 #include "layers/layered_rays.hpp"
 #include "layers/least_heights.hpp"
+#include "layers/low_fans.hpp"
 #include "layers/rays.hpp"
 #include "layers/sharp_corners.hpp"
 #include "layers/truncation.hpp"
@@ -139,6 +140,8 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
     rays.heights = make_heights(rays.set, rays.growth);
     require_sensible_scale(bounding_box(geometry), rays.growth, rays.heights);
     rays.limits = height_limits(rays.set, rays.heights);
+    if (!options.fan_rays)
+        replace_rays(leave_out_rays_of_low_fans(rays.set, rays.jagged, rays.heights, rays.limits), rays);
     for (int insertion = 0; insertion < max_insertions && !options.fan_rays; ++insertion)
         if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.jagged, rays.heights, rays.limits), rays))
             break;

@@ -41,9 +41,9 @@ bool lower_limits_of_lowered_rays(Rays& rays) {
 
 LayeredRays layered_rays(const Rays& rays) { return {rays.set, rays.fitted, rays.counts}; }
 
-bool replace_rays(RaySet larger, Rays& rays) {
-    if (larger.lines.size() == rays.set.lines.size()) return false;
-    rays.set = std::move(larger);
+bool replace_rays(RaySet changed, Rays& rays) {
+    if (changed.lines.size() == rays.set.lines.size()) return false;
+    rays.set = std::move(changed);
     rays.heights = make_heights(rays.set, rays.growth);
     rays.limits = height_limits(rays.set, rays.heights);
     return true;

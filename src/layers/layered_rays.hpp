@@ -32,9 +32,9 @@ struct LayeredRays {
 /// Returns the rays with their fitted heights.
 LayeredRays layered_rays(const Rays& rays);
 
-/// Replaces the rays by a larger set and finds heights and limits anew. Returns false, and changes nothing, where the
-/// set is no larger.
-bool replace_rays(RaySet larger, Rays& rays);
+/// Replaces the rays by a set with more or fewer and finds heights and limits anew. Returns false, and changes nothing, where
+/// the set has as many.
+bool replace_rays(RaySet changed, Rays& rays);
 
 /// Leads limits that have been lowered over to those beside. No ray loses its first layer for this: `before` holds the limits
 /// before they were lowered.
