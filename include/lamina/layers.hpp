@@ -308,7 +308,8 @@ struct BorderOptions {
     /// halving an edge often forces its neighbours to be halved, and so on all along the border. The ratio is exceeded
     /// only where rounding would make division points cross something.
     double max_ratio = 1.4;
-    /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance.
+    /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance, nor than 1.29 times that over a
+    /// cell that leans by more than it is wide, or over a flat one on a resampled wall: half of its top would make it worse.
     double gradation = 0.1;
     double max_edge = HUGE_VAL;  ///< largest length of an edge, in units of the input
     /// No edge is longer than size + gradation x distance of any of these sources. An edge may exceed that by up to a

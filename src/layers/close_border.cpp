@@ -18,9 +18,11 @@ namespace {
 
 using FrontCorners = std::vector<std::vector<FrontCorner>>;
 
-/// The top of a cell that leans by more than it is wide stays whole up to this many times its target: up to where its
-/// halves would be as much too short as it is too long.
-constexpr double whole_top_of_leaning_cell = std::numbers::sqrt2;
+/// The top of a cell that is flat, or leans by more than it is wide, stays whole up to this many times its target: up
+/// to where its halves would be as much too short as it is too long.
+constexpr double whole_top_of_flat_or_leaning_cell = std::numbers::sqrt2;
+/// A cell is flat that is this many times as wide as high. The angle at the middle of its top would be 127 degrees.
+constexpr double flat_cell = 4;
 
 /// Divides the fronts through these corners. least_requests, whole_up_to: as for divide_borders().
 BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corners, const BorderOptions& options,
@@ -49,13 +51,25 @@ bool leans_by_its_width(const LayeredRays& rays, const FrontCorner& a, const Fro
     return std::min(along_a, along_b) > squared_length(edge) || std::max(along_a, along_b) < -squared_length(edge);
 }
 
-/// Returns what divide_borders() needs to leave the tops of leaning cells whole.
-std::vector<std::vector<double>> whole_tops(const LayeredRays& rays, const FrontCorners& corners) {
+/// Returns whether the cell below the edge between two corners is flat. The angle between the lines from the middle of
+/// its top to its lower corners would be near 180 degrees.
+bool is_flat(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b) {
+    if (a.layers == 0 || b.layers == 0 || a.cleft) return false;
+    const auto last_height = [&](const FrontCorner& corner) {
+        return distance(rays.tip(corner.ray), rays.point(corner.ray, corner.layers - 1));
+    };
+    return distance(rays.tip(a.ray), rays.tip(b.ray)) > flat_cell * std::max(last_height(a), last_height(b));
+}
+
+/// Returns what divide_borders() needs to leave the tops of flat and of leaning cells whole.
+std::vector<std::vector<double>> whole_tops(const LayeredRays& rays, const FrontCorners& corners,
+                                            const std::vector<char>& resampled) {
     std::vector<std::vector<double>> whole_up_to(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e)
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
-            const bool leans = leans_by_its_width(rays, corners[e][k], corners[e][(k + 1) % corners[e].size()]);
-            whole_up_to[e].push_back(leans ? whole_top_of_leaning_cell : target_slack);
+            const FrontCorner &a = corners[e][k], &b = corners[e][(k + 1) % corners[e].size()];
+            const bool whole = (resampled[e] && is_flat(rays, a, b)) || leans_by_its_width(rays, a, b);
+            whole_up_to[e].push_back(whole ? whole_top_of_flat_or_leaning_cell : target_slack);
         }
     return whole_up_to;
 }
@@ -122,7 +136,7 @@ Layer close_border(const Rays& rays, const BorderOptions& options) {
     validate(options);
     const LayeredRays layered = layered_rays(rays);
     const FrontCorners corners = front_corners(layered);
-    const std::vector<std::vector<double>> whole_up_to = whole_tops(layered, corners);
+    const std::vector<std::vector<double>> whole_up_to = whole_tops(layered, corners, rays.resampled);
     Layer layer = build_layer(rays, corners, divide_fronts(layered, corners, options, {}, whole_up_to));
     if (rays.enabled) layer.coverage = layer_coverage(rays.set, rays.heights, rays.counts);
     layer.growth = rays.growth;

@@ -5,6 +5,9 @@
 // Both steps treat the two directions of a front alike.
 #include "layers/divide_borders.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "layers/balance_divisions.hpp"
 #include "layers/edge_division.hpp"
 #include "layers/polygon_edges.hpp"
@@ -15,6 +18,23 @@ namespace lamina::layers {
 
 namespace {
 
+/// Returns whether an edge is longer than a source asks for at its middle.
+bool exceeds_sources(const PolygonEdge& edge, const BorderOptions& options) {
+    const Point middle = midpoint(edge.a, edge.b);
+    return std::any_of(options.sources.begin(), options.sources.end(), [&](const SizeSource& source) {
+        return edge.length > source.size + options.gradation * distance_to(source, middle);
+    });
+}
+
+/// Returns the division of an edge by itself. It may stay whole up to so many times its target, unless sources ask for
+/// less.
+EdgeDivision own_division(const PolygonEdge& edge, std::vector<TargetInterval> target, double whole_up_to,
+                          const BorderOptions& options) {
+    EdgeDivision division(edge.length, target, whole_up_to);
+    const bool spared = !division.divided() && division.excess() > target_slack;
+    return spared && exceeds_sources(edge, options) ? EdgeDivision(edge.length, std::move(target)) : division;
+}
+
 std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges, const BorderOptions& options,
                                              std::span<const std::vector<double>> whole_up_to) {
     const TargetLength target(edges, options);
@@ -23,7 +43,8 @@ std::vector<EdgeDivision> balanced_divisions(std::span<const PolygonEdge> edges,
     slacks.resize(edges.size(), target_slack);
     std::vector<EdgeDivision> divisions;
     divisions.reserve(edges.size());
-    for (std::size_t i = 0; i < edges.size(); ++i) divisions.emplace_back(edges[i].length, target.along(i), slacks[i]);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        divisions.push_back(own_division(edges[i], target.along(i), slacks[i], options));
     balance_divisions(edges, options.max_ratio, divisions);
     return divisions;
 }

@@ -20,7 +20,8 @@ struct BorderDivision {
 /// distance(x, j)) and likewise over options.sources. An edge requests its own length. Where parts of it face another
 /// edge across a gap narrower than the edge, they request the width of the gap.
 /// least_requests holds one length per front and edge, or is empty; no edge requests less than that. whole_up_to holds
-/// one number per front and edge, or is empty: that many times its target length an edge may be long and stay whole.
+/// one number per front and edge, or is empty: that many times its target length an edge may be long and stay whole, but
+/// where it is longer than a source asks for.
 /// Precondition: the fronts are simple and disjoint; they meet walls only in vertices and whole edges of both. The
 /// result is so, too: an edge whose division would cross something by rounding stays whole.
 BorderDivision divide_borders(std::span<const std::vector<Point>> fronts, std::span<const std::vector<Point>> walls,

@@ -337,26 +337,52 @@ TEST(Layer, BorderIsGradedBesideAFineFan) {
     }
 }
 
+/// Returns the rays of a polygon of 160 equal edges, with layers of these heights.
+Rays rays_of_circle(double first_height, std::uint32_t layers, bool resampled) {
+    LayerOptions options = test::thesis_layer();
+    options.first_height = first_height;
+    options.layers = layers;
+    options.max_ray_angle_deg = 10;
+    Geometry geometry = shapes::geometry({shapes::circle(0.5, 160)});
+    geometry.elements[0].resampled = geometry.elements[0].smooth = resampled;
+    return grow_rays(geometry, options, test::growth_of(options));
+}
+
+/// Checks that the front's edges, all equally long, are halved where they are longer than the largest edge of the border
+/// by more than a tenth or, where `stay_whole`, by more than root 2; and by more than a source asks for in any case.
+void expect_halves(const Rays& rays, bool stay_whole) {
+    const std::vector<Point> front = fronts(rays)[0];
+    ASSERT_EQ(front.size(), 160U);
+    for (const double excess : {1.05, 1.2, 1.35, 1.5}) {
+        SCOPED_TRACE(testing::Message() << "excess " << excess);
+        BorderOptions border;
+        border.max_edge = 1.1 * distance(front[0], front[1]) / excess;
+        const bool whole = excess < (stay_whole ? 1.4 : 1.1);
+        EXPECT_EQ(close_border(rays, border).borders[0].size(), whole ? front.size() : 2 * front.size());
+        border.sources = {{.a = {-1, -1}, .b = {1, 1}, .size = border.max_edge, .shape = SizeSource::Shape::box}};
+        EXPECT_EQ(close_border(rays, border).borders[0].size(), excess < 1.1 ? front.size() : 2 * front.size());
+    }
+}
+
 /// Halves of the top of a cell that leans by more than it is wide would have cells below them that are far to the side.
 TEST(Layer, TopsOfCellsThatLeanByTheirWidthStayWhole) {
-    const std::size_t edges = 160;
-    LayerOptions options = test::thesis_layer();
-    options.first_height = 0.02;
-    options.layers = 7;
-    options.max_ray_angle_deg = 10;
     for (const double lean_deg : {-60.0, -40.0, 0.0, 40.0, 60.0}) {
-        Rays rays = grow_rays(shapes::geometry({shapes::circle(0.5, edges)}), options, test::growth_of(options));
+        SCOPED_TRACE(testing::Message() << lean_deg << " degrees");
+        Rays rays = rays_of_circle(0.02, 7, false);
         for (RayLine& ray : rays.set.lines) ray.direction = core::rotated(ray.direction, core::radians(lean_deg));
-        const std::vector<Point> front = fronts(rays)[0];
-        ASSERT_EQ(front.size(), edges);
-        for (const double excess : {1.05, 1.2, 1.35, 1.5}) {
-            BorderOptions border;
-            border.max_edge = 1.1 * distance(front[0], front[1]) / excess;
-            const bool whole = excess < 1.1 || (excess < 1.4 && std::abs(lean_deg) > 50);
-            EXPECT_EQ(close_border(rays, border).borders[0].size(), whole ? edges : 2 * edges)
-                << lean_deg << " degrees, excess " << excess;
-        }
+        expect_halves(rays, std::abs(lean_deg) > 50);
     }
+}
+
+/// Below halves of the top of a flat cell the angle at the middle of the top would be near 180 degrees. Walls that are
+/// kept have no other way to become finer than their borders.
+TEST(Layer, TopsOfFlatCellsOnResampledWallsStayWhole) {
+    const double edge = 2 * 0.5 * std::sin(core::pi / 160);
+    for (const double width_over_height : {2.0, 3.5, 4.5, 20.0, 1000.0})
+        for (const bool resampled : {false, true}) {
+            SCOPED_TRACE(testing::Message() << width_over_height << " times as wide as high, resampled " << resampled);
+            expect_halves(rays_of_circle(edge / width_over_height, 1, resampled), resampled && width_over_height > 4);
+        }
 }
 
 TEST(Layer, RefusesOptionsOutOfRange) {
