@@ -27,10 +27,20 @@ namespace lamina::layers {
 
 namespace {
 
-/// How often each ray turns. What is uneven spreads over twice the square root of this in columns.
-constexpr int jagged_rounds = 200, smooth_rounds = 3;
-/// Columns that are wider than this share of their height have no need of others' width.
-constexpr double wide_enough = 0.15;
+/// How columns become even.
+struct Evening {
+    /// How often each ray turns. What is uneven spreads over twice the square root of this in columns.
+    int rounds;
+    /// Columns that are wider than this share of their height have no need of others' width.
+    double wide_enough;
+    /// Whether columns give no more than what they open by, so that their rays do not meet.
+    bool stay_open;
+};
+constexpr Evening on_jagged{200, 0.15, false}, below_thick_layers{3, 0.15, false};
+/// Layers that end at isotropy are about nine times as high as their columns are wide. Narrower columns are beside corners
+/// and where the data slip, and wider ones need what they have.
+constexpr Evening below_isotropy{3, 0.09, true};
+
 /// No ray leans by more than this for it, unless it did before.
 constexpr double max_lean_to_even_deg = 40;
 
@@ -41,7 +51,12 @@ struct Column {
     double width;   ///< at the front; negative where rays would cross
 
     /// Returns the width that counts where columns are compared.
-    double counted() const { return std::min(width, wide_enough * height); }
+    double counted(const Evening& evening) const { return std::min(width, evening.wide_enough * height); }
+
+    /// Returns the angle by which one of the rays may turn towards the other.
+    double given(const Evening& evening) const {
+        return evening.stay_open ? std::max(0.0, 0.5 * (width - edge) / height) : HUGE_VAL;
+    }
 };
 
 std::vector<Column> columns_of(std::span<const RayVertex> outline, std::span<const double> heights,
@@ -78,17 +93,18 @@ double largest_lean(const WallVertex& vertex, double between_edges) {
 }
 
 /// Returns the angle by which the ray between two columns turns in one round, counter-clockwise, in radians.
-double turn_between(const Column& before, const Column& after, double tilt, double largest) {
+double turn_between(const Column& before, const Column& after, const Evening& evening, double tilt, double largest) {
     const double heights = before.height + after.height;
     if (!(heights > 0)) return 0;
-    const double turn = 0.5 * (after.counted() - before.counted()) / heights;
+    const double even = 0.5 * (after.counted(evening) - before.counted(evening)) / heights;
+    const double turn = std::clamp(even, -before.given(evening), after.given(evening));
     return std::clamp(tilt + turn, -largest, largest) - tilt;
 }
 
 }  // namespace
 
 void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::span<const double> heights,
-                  double first_height, std::vector<WallVertex>& vertices) {
+                  const LayerGrowth& growth, std::vector<WallVertex>& vertices) {
     const std::size_t n = outline.size();
     std::vector<Column> columns = columns_of(outline, heights, vertices);
     const auto before = [&](std::size_t i) -> const Column& { return columns[(i + n - 1) % n]; };
@@ -96,14 +112,15 @@ void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::spa
     const std::vector<char> fixed = rays_that_stay(outline, kind, vertices);
     for (std::size_t i = 0; i < n; ++i) {
         const double shorter_edge = std::min(before(i).edge, columns[i].edge);
-        largest[i] =
-            largest_lean(vertices[i], max_tilt_between_edges(vertices[i].turning, kind, first_height, shorter_edge));
+        largest[i] = largest_lean(vertices[i],
+                                  max_tilt_between_edges(vertices[i].turning, kind, growth.first_height, shorter_edge));
     }
-    const int rounds = kind == OutlineKind::jagged ? jagged_rounds : smooth_rounds;
-    for (int round = 0; round < rounds; ++round) {
+    const bool isotropic = growth.least_heights.empty() && !growth.layers;
+    const Evening& evening = kind == OutlineKind::jagged ? on_jagged : isotropic ? below_isotropy : below_thick_layers;
+    for (int round = 0; round < evening.rounds; ++round) {
         // All turn at once, so that both directions of the wall are treated alike.
         for (std::size_t i = 0; i < n; ++i)
-            if (!fixed[i]) turns[i] = turn_between(before(i), columns[i], vertices[i].tilt[0], largest[i]);
+            if (!fixed[i]) turns[i] = turn_between(before(i), columns[i], evening, vertices[i].tilt[0], largest[i]);
         for (std::size_t i = 0; i < n; ++i) {
             columns[i].width += columns[i].height * (turns[(i + 1) % n] - turns[i]);
             for (double& tilt : vertices[i].tilt) tilt += turns[i];

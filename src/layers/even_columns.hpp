@@ -14,6 +14,6 @@ namespace lamina::layers {
 /// height could not be kept above the edges on both sides, unless it did before. The rays of fans stay, and those of smooth
 /// outlines that lean far already.
 void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::span<const double> heights,
-                  double first_height, std::vector<WallVertex>& vertices);
+                  const LayerGrowth& growth, std::vector<WallVertex>& vertices);
 
 }  // namespace lamina::layers

@@ -65,11 +65,19 @@ std::vector<double> front_heights(std::span<const RayVertex> outline, std::span<
     return result;
 }
 
-/// Returns whether columns should be wider than their rays' normals make them: where the flow asks for thick layers,
-/// and on jagged outlines where their number is given. Layers up to isotropy end lower over narrow columns.
+/// Returns whether columns should be wider than their rays' normals make them. Layers up to isotropy end lower over
+/// narrow columns. On jagged outlines without a flow that asks for thick layers, columns that open wide would need more
+/// rays, and these divide the short edges of the wall.
 bool has_wider_columns(OutlineKind kind, const LayerGrowth& growth) {
-    const bool jagged = kind == OutlineKind::jagged;
-    return (jagged && growth.layers) || (kind != OutlineKind::given && !growth.least_heights.empty());
+    switch (kind) {
+        case OutlineKind::given:
+            return false;
+        case OutlineKind::smooth:
+            return !growth.layers;
+        case OutlineKind::jagged:
+            return growth.layers || !growth.least_heights.empty();
+    }
+    return false;
 }
 
 RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options,

@@ -115,7 +115,7 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
         spread_fans(outline, heights, max_angle, vertices);
         // What leaves the widest column of a stretch alone would leave the wedges at corners of ice.
         if (!jagged) widen_narrow_columns(outline, heights, vertices);
-        even_columns(outline, kind, heights, growth.first_height, vertices);
+        even_columns(outline, kind, heights, growth, vertices);
     }
     if (jagged && !options.fan_rays) close_narrow_fans(max_angle, vertices);
     std::vector<RayLine> rays;

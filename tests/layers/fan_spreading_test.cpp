@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -180,6 +182,29 @@ TEST(FanSpreading, WidensColumnsThatAFanCannotReach) {
         const double lean = core::degrees(core::angle_between(normal, ray.direction));
         EXPECT_LT(std::abs(lean), 56) << ray.origin.x << " " << ray.origin.y;
     }
+}
+
+/// Layers up to isotropy end lower over narrow columns, and those of a given number do not: only the rays of the former
+/// lean far.
+TEST(FanSpreading, IsForLayersUpToIsotropy) {
+    Geometry geometry = shapes::geometry({bulging_tail()});
+    geometry.elements[0].resampled = geometry.elements[0].smooth = true;
+    LayerOptions options;
+    options.first_height = 1e-5;
+    const auto largest_lean = [&](std::optional<std::uint32_t> layers) {
+        options.layers = layers;
+        const std::vector<RayLine> rays = grow_rays(geometry, options, test::growth_of(options)).set.lines;
+        double largest = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const RayLine &ray = rays[i], &next = rays[(i + 1) % rays.size()];
+            if (ray.origin == next.origin || ray.origin.x < 0.9) continue;
+            const Point normal = -perpendicular(unit(next.origin - ray.origin));
+            largest = std::max(largest, std::abs(core::degrees(core::angle_between(normal, ray.direction))));
+        }
+        return largest;
+    };
+    EXPECT_LT(largest_lean(30), 5);
+    EXPECT_GT(largest_lean({}), 20);
 }
 
 /// Expects a mirrored outline to have mirrored rays.
