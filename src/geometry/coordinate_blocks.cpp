@@ -31,7 +31,10 @@ public:
 
     CoordinateDocument read() {
         for (std::size_t i = 0; i < rows_.size(); ++i) {
-            if (rows_[i].kind == RowKind::numbers) {
+            if (is_note_on_a_correction(rows_[i])) {
+                document_.notes.push_back(
+                    fmt::format("line {}: '{}' taken as a note on a correction", rows_[i].line, rows_[i].text));
+            } else if (rows_[i].kind == RowKind::numbers) {
                 read_numbers(i);
             } else {
                 read_other(i);
@@ -50,6 +53,11 @@ private:
     /// Whether a comment, and whether a text or a separator, stands between the last coordinates and this row.
     bool comment_between_ = false, text_between_ = false;
     std::size_t comma_separated_line_ = 0, decimal_comma_line_ = 0;  ///< the last ones; 0: none
+
+    /// Returns whether a row behind the coordinates and other text says what was changed in them.
+    bool is_note_on_a_correction(const TextRow& row) const {
+        return row.has_arrow && has_points_ && text_between_ && !in_run_;
+    }
 
     void read_numbers(std::size_t i) {
         const TextRow& row = rows_[i];

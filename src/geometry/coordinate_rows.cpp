@@ -93,6 +93,14 @@ std::vector<std::string> lower_case_texts(const std::vector<Field>& fields) {
     return texts;
 }
 
+/// Returns whether a line says by an arrow which number was changed: "0.99976 -0.00015 -> 0.99976 -0.000149".
+bool has_arrow_between_numbers(std::string_view line) {
+    const std::size_t arrow = line.find("->");
+    if (arrow == std::string_view::npos) return false;
+    const auto at = line.begin() + static_cast<std::ptrdiff_t>(arrow);
+    return std::any_of(line.begin(), at, is_digit) && std::any_of(at, line.end(), is_digit);
+}
+
 /// Reads the fields of a line that is neither blank nor a comment into `row`.
 void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row) {
     const FieldList list = read_fields(without_comment(line));
@@ -106,6 +114,7 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
         ++row.number_count;
     }
     row.has_remark = row.number_count < fields.size();
+    row.has_arrow = has_arrow_between_numbers(line);
     row.has_separators = list.has_separators;
     row.has_comma_separators = list.has_comma_separators;
     row.has_decimal_commas = list.has_decimal_commas;

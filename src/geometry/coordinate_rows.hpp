@@ -29,6 +29,7 @@ struct TextRow {
     bool has_fractions = false;         ///< one of these numbers is not written as a whole number: "17" and "17." are
     bool has_leading_zeros = false;     ///< one of these numbers is written like "0012"
     bool has_remark = false;            ///< text follows the numbers
+    bool has_arrow = false;             ///< an arrow stands between numbers, as in "0.1 0.02 -> 0.021"
     bool has_decimal_points = false;    ///< both of the first two numbers are written with a decimal point
     bool has_separators = false;        ///< fields are separated by commas or semicolons (CSV)
     bool has_comma_separators = false;  ///< fields are separated by commas

@@ -119,6 +119,20 @@ TEST(Reader, RemarksBehindCoordinatesAreIgnored) {
     EXPECT_EQ(read(content).elements[0].points, fixtures::loop);
 }
 
+/// Authors of tables note behind them what they changed.
+TEST(Reader, NotesOnCorrectionsAreNoCoordinates) {
+    for (const std::string note :
+         {"0.5 0.10 -> 0.5 0.11\n0 0.001 -> 0 0\n", "28/12/2005  1.0007 -->1.0\n", "0.5 0.10->0.11"}) {
+        SCOPED_TRACE(note);
+        const Element behind = read(fixtures::selig + "\nmodified by the author\n" + note).elements[0];
+        EXPECT_EQ(behind.points, fixtures::loop);
+        EXPECT_TRUE(has_repair(behind, "taken as a note on a correction"));
+    }
+    std::string content = fixtures::selig;
+    content.replace(content.find("1.0 0.0"), 7, "1.0 0.0 -> 1.0 0.1");
+    EXPECT_EQ(read(content).elements[0].points, fixtures::loop) << "a remark behind coordinates";
+}
+
 TEST(Reader, RemembersTheLinesOfPoints) {
     const Element e = read(fixtures::lednicer).elements[0];
     // The leading edge stands in line 10 with the lower surface and in line 4 with the upper one, which counts.

@@ -84,6 +84,7 @@ TEST(Refusal, DamagedNumbers) {
     expect_refusal("t\n1 0\n***** 0.1\n0 0\n0.5 -0.1\n1 0\n", 3, "'*****' is not a number");
     expect_refusal("t\n1 0\n0.5 0.1\n0\n0.5 -0.1\n1 0\n", 4, "one number where two are expected");
     expect_refusal("x,y\n1,0\n0.5,,0.1\n0,0\n0.5,-0.1\n", 3, "is not a number");
+    expect_refusal("t\n1 0\n0.5 0.1->0.11\n0 0\n0.5 -0.1\n1 0\n", 3, "'0.1->0.11' is not a number");
     expect_refusal("t\n1 0\n0.5 1e999\n0 0\n0.5 -0.1\n", 3, "beyond the range of numbers");
 }
 
