@@ -172,15 +172,16 @@ void close_sliver(WallVertex& fan) {
 /// Columns that are narrower than this share of their height, though the fan has given its angle, are widened at the
 /// expense of wider ones, which lose up to the second share of their width.
 constexpr double wanted_share = 1.0 / 25, most_lost = 0.25;
-/// No ray leans by more than this angle for it, nor by more than max_tilt_between_edges(). Together with what it
-/// leans by already, it is no farther than max_lean_from_normals_deg from the normals of the edges on both sides.
+/// No ray leans by more than this angle for it. Together with what it leans by already, no ray leans by more than
+/// max_tilt_between_edges(), or is farther than max_lean_from_normals_deg from the normals of the edges on both sides.
 constexpr double max_lean_deg = 25;
 
 /// Returns the largest angle by which the ray of a vertex may lean to either side so that columns widen.
 double largest_lean(const WallVertex& vertex) {
     const double from_normals = std::abs(vertex.tilt[0]) + 0.5 * std::abs(vertex.turning);
     const double left = core::radians(max_lean_from_normals_deg) - from_normals;
-    return std::max(std::min({core::radians(max_lean_deg), max_tilt_between_edges(vertex.turning), left}), 0.0);
+    const double between_edges = max_tilt_between_edges(vertex.turning) - std::abs(vertex.tilt[0]);
+    return std::max(std::min({core::radians(max_lean_deg), between_edges, left}), 0.0);
 }
 
 /// Returns the angles by which rays must lean away from a corner, one for each vertex from it to the end of the columns,

@@ -184,6 +184,30 @@ TEST(FanSpreading, WidensColumnsThatAFanCannotReach) {
     }
 }
 
+/// Rays lean for several reasons, but no farther in all than first heights allow where the wall bends.
+TEST(FanSpreading, KeepsFirstHeightsInConcaveWalls) {
+    for (const double radius : {0.01, 0.02, 0.04, 0.08})
+        for (const int parts : {20, 30, 45}) {
+            SCOPED_TRACE(testing::Message() << "radius " << radius << ", " << parts << " parts");
+            // An L with arms of unequal length, whose inner corner is round.
+            const double step = 0.5 * core::pi / parts, edge = step * radius;
+            Outline outline{{0.5, -0.3}, {0.5, 0}};
+            for (double x = 0.5 - edge; x > radius; x -= edge) outline.push_back({x, 0});
+            for (int k = 0; k <= parts; ++k)
+                outline.push_back(Point{radius, radius} - radius * Point{std::sin(k * step), std::cos(k * step)});
+            for (double y = radius + edge; y < 1; y += edge) outline.push_back({0, y});
+            outline.insert(outline.end(), {{0, 1}, {-0.3, 1}, {-0.3, -0.3}});
+            const std::vector<RayLine> rays = spread_rays(outline, true);
+            for (std::size_t i = 1; i + 1 < rays.size(); ++i) {
+                const RayLine &before = rays[i - 1], &ray = rays[i], &next = rays[i + 1];
+                if (ray.origin.x < 0 || ray.origin.y < 0 || length(ray.origin) > 0.4) continue;
+                const double a = dot(-perpendicular(unit(ray.origin - before.origin)), ray.direction);
+                const double b = dot(-perpendicular(unit(next.origin - ray.origin)), ray.direction);
+                EXPECT_LT(std::abs(a - b) / (a + b), 0.0095) << ray.origin.x << " " << ray.origin.y;
+            }
+        }
+}
+
 /// Layers up to isotropy end lower over narrow columns, and those of a given number do not: only the rays of the former
 /// lean far.
 TEST(FanSpreading, IsForLayersUpToIsotropy) {
