@@ -30,7 +30,8 @@ bool exceeds_sources(const PolygonEdge& edge, const BorderOptions& options) {
 /// less.
 EdgeDivision own_division(const PolygonEdge& edge, std::vector<TargetInterval> target, double whole_up_to,
                           const BorderOptions& options) {
-    EdgeDivision division(edge.length, target, whole_up_to);
+    if (whole_up_to <= target_slack) return {edge.length, std::move(target)};
+    const EdgeDivision division(edge.length, target, whole_up_to);
     const bool spared = !division.divided() && division.excess() > target_slack;
     return spared && exceeds_sources(edge, options) ? EdgeDivision(edge.length, std::move(target)) : division;
 }

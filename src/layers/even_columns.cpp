@@ -55,7 +55,8 @@ struct Column {
 
     /// Returns the angle by which one of the rays may turn towards the other.
     double given(const Evening& evening) const {
-        return evening.stay_open ? std::max(0.0, 0.5 * (width - edge) / height) : HUGE_VAL;
+        if (!evening.stay_open) return HUGE_VAL;
+        return width > edge ? 0.5 * (width - edge) / height : 0;
     }
 };
 
