@@ -137,7 +137,6 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
 }
 
 void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
-    constexpr double max_angle_deg = 150;
     constexpr int max_rounds = 7, max_rounds_without_gain = 3;
     // Cells far from the wall go first: what ends below cells in a cleft can be worse than these, and would hide the gain.
     constexpr std::uint16_t far_from_wall = 10, above_first = 1;
@@ -146,7 +145,8 @@ void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
     const auto obtuse_cells_of = [&](const Rays& rays) {
         const Layer layer =
             close_border(rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
-        return obtuse_cells(layer, fill_layer(layer, options.layer.topology, options.decomposition), max_angle_deg);
+        return obtuse_cells(layer, fill_layer(layer, options.layer.topology, options.decomposition),
+                            largest_layer_angle_deg);
     };
     std::vector<ObtuseCell> fewest = obtuse_cells_of(plan.rays);
     bool is_changed = false;

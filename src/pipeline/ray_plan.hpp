@@ -27,6 +27,9 @@ struct RayPlan {
     std::vector<SizeSource> short_edges{};  ///< further sizes for the edges of borders
 };
 
+/// Columns end below cells of the layer with larger angles than this, and `large_angle` warns of those that are left.
+inline constexpr double largest_layer_angle_deg = 150;
+
 /// Returns whether a background mesh decides on the sizes beyond the layers (SizedMesh::gradation).
 inline bool decides_on_sizes(const SizingOptions& sizing) { return sizing.background && sizing.background->gradation; }
 

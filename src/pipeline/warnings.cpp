@@ -11,6 +11,7 @@
 #include "core/cell_shape.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/walls.hpp"
+#include "pipeline/ray_plan.hpp"
 
 namespace lamina::pipeline {
 
@@ -188,7 +189,7 @@ void warn_of_first_height(const MeshResult& result, const LayerOptions& options,
 
 void warn_of_large_angles(const MeshResult& result, const WorstPlaces& worst, const Mesh& layer,
                           std::vector<Warning>& warnings) {
-    constexpr double max_isotropic = 145, max_layer = 175;
+    constexpr double max_isotropic = 145;
     const auto exceeds = [](const QualitySummary& quality, double bound) {
         return quality.cells > 0 && quality.max_angle_deg > bound;
     };
@@ -201,7 +202,7 @@ void warn_of_large_angles(const MeshResult& result, const WorstPlaces& worst, co
                                                    quality.max_angle_deg, place_text(at))});
     };
     if (exceeds(result.check.isotropic, max_isotropic)) warn(result.check.isotropic, worst.widest, "outside the layer");
-    if (exceeds(result.check.layer, max_layer))
+    if (exceeds(result.check.layer, largest_layer_angle_deg))
         warn(result.check.layer,
              worst_place(layer, Region::layer, [&](std::size_t cell) { return shape_of(layer, cell).max_angle_deg; }),
              "of the layer");

@@ -112,6 +112,18 @@ TEST(Warnings, LayersThickerThanTheRoomRoundTheWall) {
     EXPECT_GT(expect_warning(result, WarningCode::large_angle).number, 175);
 }
 
+/// Angles between the largest that is aimed at and 180 degrees are not kept quiet. Few points that are kept make some, where
+/// the border is divided above long edges.
+TEST(Warnings, LargeAnglesOfTheLayer) {
+    CaseOptions options = quick_options();
+    options.layer = {};
+    options.layer.first_height = 1e-5;
+    EXPECT_EQ(names_of(mesh_of({naca("0012", 200)}, options).warnings), std::vector<std::string>{});
+    const double angle = expect_warning(mesh_of({naca("0012")}, options), WarningCode::large_angle).number;
+    EXPECT_GT(angle, 150);
+    EXPECT_LT(angle, 175);
+}
+
 TEST(Warnings, FirstHeightsOutOfProportion) {
     CaseOptions options = quick_options();
     options.layer = {};
