@@ -268,6 +268,9 @@ struct Rays {
     /// Whether last layers are higher where numbers of layers change, so that the ends of columns are even. Faces
     /// between quadrilaterals would be more skewed for it (docs/decisions/0063).
     bool even_ends = true;
+    /// Whether cells are those of the grid, so that a point on the top of a flat one makes an angle near 180 degrees. A
+    /// Delaunay triangulation joins it to points farther below.
+    bool has_rows = true;
     LayerGrowth growth;                 ///< the growth that was requested
     LayerHeights heights;               ///< as the growth law makes them, along the rays (Ray::slant)
     LayerHeights fitted;                ///< the same, but on rays that are cut short stretched to end at their limits
@@ -309,7 +312,7 @@ struct BorderOptions {
     /// only where rounding would make division points cross something.
     double max_ratio = 1.4;
     /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance, nor than 1.29 times that over a
-    /// cell that leans by more than it is wide, or over a flat one on a resampled wall: half of its top would make it worse.
+    /// cell that leans by more than it is wide, or over a flat one on a resampled wall (Rays::has_rows).
     double gradation = 0.1;
     double max_edge = HUGE_VAL;  ///< largest length of an edge, in units of the input
     /// No edge is longer than size + gradation x distance of any of these sources. An edge may exceed that by up to a

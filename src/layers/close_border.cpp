@@ -21,8 +21,8 @@ using FrontCorners = std::vector<std::vector<FrontCorner>>;
 /// The top of a cell that is flat, or leans by more than it is wide, stays whole up to this many times its target: up
 /// to where its halves would be as much too short as it is too long.
 constexpr double whole_top_of_flat_or_leaning_cell = std::numbers::sqrt2;
-/// A cell is flat that is this many times as wide as high. The angle at the middle of its top would be 127 degrees.
-constexpr double flat_cell = 4;
+/// A cell is flat that is this many times as wide as high. The angle at the middle of its top would be 150 degrees.
+constexpr double flat_cell = 7.46;
 
 /// Divides the fronts through these corners. least_requests, whole_up_to: as for divide_borders().
 BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corners, const BorderOptions& options,
@@ -62,13 +62,13 @@ bool is_flat(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b
 }
 
 /// Returns what divide_borders() needs to leave the tops of flat and of leaning cells whole.
-std::vector<std::vector<double>> whole_tops(const LayeredRays& rays, const FrontCorners& corners,
-                                            const std::vector<char>& resampled) {
+std::vector<std::vector<double>> whole_tops(const Rays& grown, const LayeredRays& rays, const FrontCorners& corners) {
     std::vector<std::vector<double>> whole_up_to(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e)
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
             const FrontCorner &a = corners[e][k], &b = corners[e][(k + 1) % corners[e].size()];
-            const bool whole = (resampled[e] && is_flat(rays, a, b)) || leans_by_its_width(rays, a, b);
+            const bool whole =
+                (grown.has_rows && grown.resampled[e] && is_flat(rays, a, b)) || leans_by_its_width(rays, a, b);
             whole_up_to[e].push_back(whole ? whole_top_of_flat_or_leaning_cell : target_slack);
         }
     return whole_up_to;
@@ -136,7 +136,7 @@ Layer close_border(const Rays& rays, const BorderOptions& options) {
     validate(options);
     const LayeredRays layered = layered_rays(rays);
     const FrontCorners corners = front_corners(layered);
-    const std::vector<std::vector<double>> whole_up_to = whole_tops(layered, corners, rays.resampled);
+    const std::vector<std::vector<double>> whole_up_to = whole_tops(rays, layered, corners);
     Layer layer = build_layer(rays, corners, divide_fronts(layered, corners, options, {}, whole_up_to));
     if (rays.enabled) layer.coverage = layer_coverage(rays.set, rays.heights, rays.counts);
     layer.growth = rays.growth;

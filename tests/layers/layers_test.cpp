@@ -338,8 +338,10 @@ TEST(Layer, BorderIsGradedBesideAFineFan) {
 }
 
 /// Returns the rays of a polygon of 160 equal edges, with layers of these heights.
-Rays rays_of_circle(double first_height, std::uint32_t layers, bool resampled) {
+Rays rays_of_circle(double first_height, std::uint32_t layers, bool resampled,
+                    LayerTopology topology = LayerTopology::layered) {
     LayerOptions options = test::thesis_layer();
+    options.topology = topology;
     options.first_height = first_height;
     options.layers = layers;
     options.max_ray_angle_deg = 10;
@@ -378,11 +380,15 @@ TEST(Layer, TopsOfCellsThatLeanByTheirWidthStayWhole) {
 /// kept have no other way to become finer than their borders.
 TEST(Layer, TopsOfFlatCellsOnResampledWallsStayWhole) {
     const double edge = 2 * 0.5 * std::sin(core::pi / 160);
-    for (const double width_over_height : {2.0, 3.5, 4.5, 20.0, 1000.0})
-        for (const bool resampled : {false, true}) {
-            SCOPED_TRACE(testing::Message() << width_over_height << " times as wide as high, resampled " << resampled);
-            expect_halves(rays_of_circle(edge / width_over_height, 1, resampled), resampled && width_over_height > 4);
-        }
+    for (const double width_over_height : {2.0, 7.0, 8.0, 20.0, 1000.0})
+        for (const bool resampled : {false, true})
+            for (const LayerTopology topology :
+                 {LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads}) {
+                SCOPED_TRACE(testing::Message() << width_over_height << " times as wide as high, resampled "
+                                                << resampled << ", topology " << int(topology));
+                const bool whole = resampled && topology != LayerTopology::delaunay && width_over_height > 7.5;
+                expect_halves(rays_of_circle(edge / width_over_height, 1, resampled, topology), whole);
+            }
 }
 
 TEST(Layer, RefusesOptionsOutOfRange) {
