@@ -60,8 +60,8 @@ public:
                                        width_at_limit(last, last + 1 < end_ ? last + 1 : begin_));
         const double all = static_cast<double>(fan.columns), wanted = least_share_of_width * beside;
         if (!(width < all * wanted)) return fan.columns;
-        constexpr double rounding = 1e-9;
-        const double together = std::floor(core::radians(max_low_fan_angle_deg) / widest_angle + rounding);
+        constexpr double angle_rounding = 1e-9;
+        const double together = std::floor(core::radians(max_low_fan_angle_deg) / widest_angle + angle_rounding);
         const double fitting = std::max(std::floor(width / wanted), std::ceil(all / std::max(together, 1.0)));
         const auto kept = static_cast<std::size_t>(std::max(fitting, 1.0));
         // An odd number of columns cannot become an even one symmetrically.
