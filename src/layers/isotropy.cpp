@@ -222,7 +222,8 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
     };
     // Without this bound one very narrow column would ask for low cells on hundreds of columns beside it.
     bound_layers();
-    // A column has at most front / spacing layers, so that one in (1 + spacing / front) of them is one layer.
+    // A column has at most front / spacing layers, so that one in (1 + spacing / front) of them is one layer. Where the
+    // front rises, numbers would grow with it: there the number itself falls by one.
     lower_to_neighbours(set, spacings, [&](std::size_t from, std::size_t to) {
         const double width = rays.between(from, to, std::min(front[from], front[to]));
         const double widths = width / spacings[from];
@@ -230,7 +231,10 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
         // Rows rise towards `to`. Where rays lean to that side, too, cells would be sheared by both.
         const double lean = std::max(tangent_of_lean(set.lines[from], set.lines[to]), 0.0);
         const double layers = std::min(upright, widths * max_row_slope(lean));
-        return spacings[from] * (1 + layers * spacings[from] / std::max(front[from], front[to]));
+        const double number = front[from] / spacings[from] - layers;
+        if (!(number > 1)) return HUGE_VAL;
+        return std::max(spacings[from] * (1 + layers * spacings[from] / std::max(front[from], front[to])),
+                        front[to] / number);
     });
     bound_layers();
     return spacings;
