@@ -352,7 +352,7 @@ struct Ray {
     /// The first height on this ray over the one wanted, and that of each layer above: they open along wakes, and are
     /// lower where a wall has no room.
     double opening = 1;
-    /// The height of the last layer over that which it would have otherwise, 0.18 to 2. Those below move so that the
+    /// The height of the last layer over that which it would have otherwise, 0.1 to 2. Those below move so that the
     /// ray keeps its end (docs/decisions/0063). 1 where a number of layers is requested.
     double taper = 1;
     Point shift{};                         ///< RayLine::shift

@@ -12,8 +12,9 @@
 //      |   |        |___|
 //
 // A point at the distance x below the front, in lengths of the part that changes, comes to the distance
-// t x + 2 (1 - t) x^2 - (1 - t) x^3, whose slope is t at the front and 1 at the end of the part, so that nothing jumps
-// there. Where columns are far wider than their last layers are high, t is above 1. docs/decisions/0063.
+// x (s + (1 - s) f(x)) with f(x) = x (2 - x), whose slope is s at the front and 1 at the end of the part, so that nothing
+// jumps there. A last layer of the height x becomes s + (1 - s) f(x) times as high. Where columns are far wider than their
+// last layers are high, s is above 1. docs/decisions/0063.
 #include "layers/taper.hpp"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ namespace {
 
 /// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has the
 /// area of the triangle beyond. They become the second number times as high at least, for 0.6 times the area.
-constexpr double wanted_tallness = 0.9, least_tallness = 0.54;
+constexpr double wanted_tallness = 0.91, least_tallness = 0.54;
 /// Where numbers of layers change, fronts rise by up to a quarter of the width of a column. If last layers become this
 /// many times as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow
 /// columns near them become no higher for it than the second number of times.
@@ -44,8 +45,13 @@ constexpr double largest_skewness = 0.8;
 /// The heights of so many last layers change.
 constexpr double tapered_layers = 30;
 /// Where neighbours are not tapered alike, rows rise by this much per unit of distance at most. Points move by up to 4
-/// / 27 of the part that changes, if the last layer vanishes.
-constexpr double most_rise = 0.3, most_moved = 4.0 / 27;
+/// / 27 of the part that changes, if the slope at the front is 0.
+constexpr double most_rise = 0.25, most_moved = 4.0 / 27;
+/// A last layer higher than this share of the part that changes stays as it is: fewer than three layers have no room for
+/// others.
+constexpr double highest_last = 0.37;
+/// A taper that would cross cells comes nearer to 1 by this share at a time, and is 1 from that distance on.
+constexpr double taken_back = 0.3, nearly_one = 0.05;
 
 /// Returns the first layer from which on heights change.
 std::size_t first_tapered(std::span<const double> heights) {
@@ -55,6 +61,10 @@ std::size_t first_tapered(std::span<const double> heights) {
     return std::max(half, static_cast<std::size_t>(above - heights.begin()) - 1);
 }
 
+/// Returns what a last layer of this height, as a share of the part that changes, becomes times as high if the slope at the
+/// front is 0. Columns are tapered no further: with a smaller slope the layer below would be more than three times as high.
+double taper_of_flat_end(double last) { return last * (2 - last); }
+
 /// How far the column of a ray should be tapered, and how far it may be.
 struct TaperBounds {
     double part = 0;         ///< length of the part of the column that changes
@@ -62,6 +72,7 @@ struct TaperBounds {
     double least = 0;        ///< taper below which it would be too low, or faces too skewed
     double even = 0;         ///< taper with which the ends of columns beside are even, where numbers of layers change
     double most = HUGE_VAL;  ///< taper above which it would be too high for the triangles beyond
+    double lowest = 1, highest = 1;  ///< what the column has room for, whatever its neighbours want
 };
 
 TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after) {
@@ -77,12 +88,17 @@ TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_
     };
     const double skewness = skewness_between(row(before, ray), row(ray, after), last);
     const bool changes = rays.counts[before] != n || rays.counts[after] != n;
-    return {.part = heights[n] - heights[first_tapered(heights)],
-            .wanted = std::clamp(wanted_tallness * width / last, least_taper, 1.0),
+    const double part = heights[n] - heights[first_tapered(heights)];
+    if (last > highest_last * part) return {};
+    const double lowest = std::max(taper_of_flat_end(last / part), least_taper);
+    return {.part = part,
+            .wanted = std::clamp(wanted_tallness * width / last, lowest, 1.0),
             .least = std::max(std::min(least_tallness * width / last, most_taper),
                               std::min(skewness / largest_skewness, 1.0)),
             .even = changes ? std::min(even_tallness * width / last, most_taper) : 0,
-            .most = most_tallness * width / last};
+            .most = most_tallness * width / last,
+            .lowest = lowest,
+            .highest = most_taper};
 }
 
 /// Returns the taper of each ray. even_ends: Rays::even_ends.
@@ -105,7 +121,8 @@ std::vector<double> tapers(const LayeredRays& rays, bool even_ends) {
             return (*values)[from] + most_rise * distance(rays.tip(from), rays.tip(to)) / (most_moved * part);
         });
     for (std::size_t i = 0; i < wanted.size(); ++i)
-        wanted[i] = std::max({wanted[i], -least[i], even_ends ? std::min(-even[i], most[i]) : 0.0});
+        wanted[i] = std::clamp(std::max({wanted[i], -least[i], even_ends ? std::min(-even[i], most[i]) : 0.0}),
+                               bounds[i].lowest, bounds[i].highest);
     return wanted;
 }
 
@@ -132,15 +149,23 @@ bool has_crossed_cell(const LayeredRays& rays, std::size_t i, std::size_t j) {
     return !(core::inline_orient2d(rays.point(i, common), top, rays.point(j, common)) > 0);
 }
 
-/// Sets the tapers on both sides of columns with crossed cells to 1: rows rise most where a column is narrower than at
-/// the front. Columns without tapers have no such cells. Returns whether there were any.
-bool leave_crossed_columns(const LayeredRays& rays, std::vector<double>& tapers) {
+/// Takes back a part of the tapers on both sides of columns with crossed cells: rows rise most where a column is narrower
+/// than at the front. Columns without tapers have no such cells. Returns whether there were any.
+bool take_back_in_crossed_columns(const LayeredRays& rays, std::vector<double>& tapers) {
     const std::vector<std::size_t> next = rays.set.following();
-    std::vector<std::size_t> crossed;
-    for (std::size_t i = 0; i < next.size(); ++i)
-        if ((tapers[i] != 1 || tapers[next[i]] != 1) && has_crossed_cell(rays, i, next[i])) crossed.push_back(i);
-    for (const std::size_t i : crossed) tapers[i] = tapers[next[i]] = 1;
-    return !crossed.empty();
+    std::vector<char> crossed(next.size());
+    bool any = false;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        if ((tapers[i] == 1 && tapers[next[i]] == 1) || !has_crossed_cell(rays, i, next[i])) continue;
+        crossed[i] = crossed[next[i]] = 1;
+        any = true;
+    }
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        if (!crossed[i]) continue;
+        const double off = tapers[i] - 1;
+        tapers[i] = std::abs(off) > nearly_one ? 1 + (1 - taken_back) * off : 1;
+    }
+    return any;
 }
 
 }  // namespace
@@ -149,9 +174,11 @@ void taper_heights(double taper, std::span<double> heights) {
     if (taper == 1 || heights.size() < 3) return;
     const std::size_t first = first_tapered(heights);
     const double end = heights.back(), part = end - heights[first];
+    const double flat = taper_of_flat_end((end - heights[heights.size() - 2]) / part);
+    const double slope = (taper - flat) / (1 - flat);
     for (std::size_t k = first + 1; k + 1 < heights.size(); ++k) {
         const double x = (end - heights[k]) / part;
-        heights[k] = end - part * x * (taper + (1 - taper) * x * (2 - x));
+        heights[k] = end - part * x * (slope + (1 - slope) * x * (2 - x));
     }
 }
 
@@ -161,7 +188,7 @@ void taper_columns(Rays& rays) {
     std::vector<double> wanted = tapers(layered_rays(rays), rays.even_ends);
     do {
         rays.fitted = tapered_heights(untapered, rays.counts, wanted);
-    } while (leave_crossed_columns(layered_rays(rays), wanted));
+    } while (take_back_in_crossed_columns(layered_rays(rays), wanted));
 }
 
 }  // namespace lamina::layers
