@@ -60,6 +60,10 @@ constexpr double cost_of_distance = 0.01;
 /// with fewer layers is taken.
 constexpr double cost_of_layer = 1e-6;
 
+/// On narrow columns more layers are wanted, down to last layers this many times as high as wide: the more there are,
+/// the more gradually the last ones become as high as the triangles beyond (taper.cpp).
+constexpr double tallness_of_narrow = 2;
+
 /// What a ray may have.
 struct RayChoices {
     LayerRange range;
@@ -179,6 +183,14 @@ std::vector<char> free_rays(std::span<const RayLine> lines, std::span<const RayC
     return free;
 }
 
+/// Returns the number that is wanted on a ray beside narrow columns: the largest in its range with which the last layer
+/// is still so many times as high as the columns are wide, if that is more than was wanted.
+std::uint32_t number_on_narrow_column(const RayChoices& ray, double width) {
+    std::uint32_t n = ray.wanted;
+    while (n < ray.range.most && last_spacing(*ray.end, n + 1) >= tallness_of_narrow * width) ++n;
+    return n;
+}
+
 }  // namespace
 
 void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
@@ -191,8 +203,12 @@ void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd>
         // Where all are free, one must be held.
         const std::size_t first = held == free.end() ? n - 1 : static_cast<std::size_t>(held - free.begin());
         choices.pop_back();
-        for (std::size_t k = 0; k < n; ++k)
-            if (free[k] && k != first) choices[k].range = choices[k].end->layers;
+        for (std::size_t k = 0; k < n; ++k) {
+            if (!free[k] || k == first) continue;
+            choices[k].range = choices[k].end->layers;
+            const double width = std::sqrt(choices[k].row.width * choices[k + 1 < n ? k + 1 : 0].row.width);
+            choices[k].wanted = number_on_narrow_column(choices[k], width);
+        }
         std::rotate(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(first), choices.end());
         choices.push_back(choices.front());
         const std::vector<std::uint32_t> numbers = cheapest_numbers(choices);

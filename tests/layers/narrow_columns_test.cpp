@@ -1,6 +1,11 @@
 // Numbers of layers on columns that are narrower than their last layer is high, and how they lead over to wide ones.
+#include "layers/narrow_columns.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include <lamina/layers.hpp>
@@ -9,6 +14,9 @@
 
 namespace lamina {
 namespace {
+
+constexpr double height_of_last = 1e-3;
+constexpr std::uint32_t wanted = 35, least = 28, most = 45;
 
 /// Returns rays in a row below a wall, so far apart.
 RaySet rays_apart(const std::vector<double>& widths) {
@@ -20,6 +28,46 @@ RaySet rays_apart(const std::vector<double>& widths) {
     }
     set.begin.push_back(widths.size());
     return set;
+}
+
+/// Returns widths of columns that begin and end wide and lead over to narrow ones in the middle.
+std::vector<double> widths_down_to(double narrow) {
+    std::vector<double> widths;
+    for (double width = 4e-3; width > narrow; width *= 0.95) widths.push_back(width);
+    const std::size_t side = widths.size();
+    widths.insert(widths.end(), 60, narrow);
+    for (std::size_t k = side; k-- > 0;) widths.push_back(widths[k]);
+    return widths;
+}
+
+/// Returns the numbers of layers on these columns, of which each may have the same numbers under a level front. The last
+/// layers of fewer are higher, those of more lower.
+std::vector<std::uint32_t> numbers_on(const std::vector<double>& widths) {
+    const layers::ColumnEnd end{0.02, height_of_last, wanted, {least, most}, 1.4 * height_of_last, 0.7 * height_of_last,
+                                false};
+    std::vector<std::uint32_t> counts(widths.size(), wanted);
+    layers::keep_counts_on_narrow_columns(rays_apart(widths), std::vector<layers::ColumnEnd>(widths.size(), end),
+                                          counts);
+    return counts;
+}
+
+TEST(NarrowColumns, HaveMoreLayersThanWideOnes) {
+    const std::vector<double> widths = widths_down_to(1e-4);
+    const std::vector<std::uint32_t> counts = numbers_on(widths);
+    EXPECT_EQ(counts.front(), wanted);
+    EXPECT_EQ(counts.back(), wanted);
+    EXPECT_GE(counts[counts.size() / 2], wanted + 2) << "last layers are ten times as high as the columns are wide";
+    for (std::size_t i = 0; i + 1 < counts.size(); ++i) {
+        EXPECT_LE(counts[i], most);
+        EXPECT_GE(counts[i], wanted);
+        if (counts[i] == counts[i + 1]) continue;
+        EXPECT_EQ(std::abs(int(counts[i]) - int(counts[i + 1])), 1);
+        EXPECT_GT(widths[i], 0.5 * height_of_last) << "rows are sheared where numbers change on narrow columns";
+    }
+}
+
+TEST(NarrowColumns, KeepTheirNumbersWhereLastLayersAreLittleHigherThanWide) {
+    for (const std::uint32_t n : numbers_on(widths_down_to(0.6 * height_of_last))) EXPECT_EQ(n, wanted);
 }
 
 /// One narrow column asks for low cells. On wide ones beside it numbers of layers fall by one from ray to ray, also where
