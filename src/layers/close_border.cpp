@@ -2,6 +2,7 @@
 // (2015), chapter 3.
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include <lamina/layers.hpp>
 
@@ -18,11 +19,14 @@ namespace {
 
 using FrontCorners = std::vector<std::vector<FrontCorner>>;
 
-/// The top of a cell that is flat, or leans by more than it is wide, stays whole up to this many times its target: up
-/// to where its halves would be as much too short as it is too long.
-constexpr double whole_top_of_flat_or_leaning_cell = std::numbers::sqrt2;
+/// The top of a cell that suits it stays whole up to this many times its target: up to where its halves would be as much
+/// too short as it is too long.
+constexpr double whole_top = std::numbers::sqrt2;
 /// A cell is flat that is this many times as wide as high. The angle at the middle of its top would be 150 degrees.
 constexpr double flat_cell = 7.46;
+/// From this height on, in widths, half of a cell is nearer in area to the equilateral triangle on its whole top than a
+/// quarter of it is to that on half of its top: the root of 3 / 8.
+constexpr double high_cell = 0.6124;
 
 /// Divides the fronts through these corners. least_requests, whole_up_to: as for divide_borders().
 BorderDivision divide_fronts(const LayeredRays& rays, const FrontCorners& corners, const BorderOptions& options,
@@ -51,25 +55,37 @@ bool leans_by_its_width(const LayeredRays& rays, const FrontCorner& a, const Fro
     return std::min(along_a, along_b) > squared_length(edge) || std::max(along_a, along_b) < -squared_length(edge);
 }
 
-/// Returns whether the cell below the edge between two corners is flat. The angle between the lines from the middle of
-/// its top to its lower corners would be near 180 degrees.
-bool is_flat(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b) {
-    if (a.layers == 0 || b.layers == 0 || a.cleft) return false;
+/// The cell of the layer below the edge of a front between two corners: the length of the edge, and the heights of the last
+/// layer at its ends.
+struct TopCell {
+    double width, height_a, height_b;
+};
+
+/// Returns that cell, or nothing where a corner has no layers or the edge lies before a cleft.
+std::optional<TopCell> top_cell(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b) {
+    if (a.layers == 0 || b.layers == 0 || a.cleft) return std::nullopt;
     const auto last_height = [&](const FrontCorner& corner) {
         return distance(rays.tip(corner.ray), rays.point(corner.ray, corner.layers - 1));
     };
-    return distance(rays.tip(a.ray), rays.tip(b.ray)) > flat_cell * std::max(last_height(a), last_height(b));
+    return TopCell{distance(rays.tip(a.ray), rays.tip(b.ray)), last_height(a), last_height(b)};
 }
 
-/// Returns what divide_borders() needs to leave the tops of flat and of leaning cells whole.
+/// Returns whether a cell is flat. The angle between the lines from the middle of its top to its lower corners would be near
+/// 180 degrees.
+bool is_flat(const TopCell& cell) { return cell.width > flat_cell * std::max(cell.height_a, cell.height_b); }
+
+/// Returns whether a cell is so high that its triangles match those beyond better with its whole top than with half of it.
+bool is_high(const TopCell& cell) { return 0.5 * (cell.height_a + cell.height_b) > high_cell * cell.width; }
+
+/// Returns what divide_borders() needs to leave the tops of flat, high and leaning cells whole.
 std::vector<std::vector<double>> whole_tops(const Rays& grown, const LayeredRays& rays, const FrontCorners& corners) {
     std::vector<std::vector<double>> whole_up_to(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e)
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
             const FrontCorner &a = corners[e][k], &b = corners[e][(k + 1) % corners[e].size()];
-            const bool whole =
-                (grown.has_rows && grown.resampled[e] && is_flat(rays, a, b)) || leans_by_its_width(rays, a, b);
-            whole_up_to[e].push_back(whole ? whole_top_of_flat_or_leaning_cell : target_slack);
+            const std::optional<TopCell> cell = top_cell(rays, a, b);
+            const bool suits = cell && grown.has_rows && grown.resampled[e] && (is_flat(*cell) || is_high(*cell));
+            whole_up_to[e].push_back(suits || leans_by_its_width(rays, a, b) ? whole_top : target_slack);
         }
     return whole_up_to;
 }

@@ -376,17 +376,19 @@ TEST(Layer, TopsOfCellsThatLeanByTheirWidthStayWhole) {
     }
 }
 
-/// Below halves of the top of a flat cell the angle at the middle of the top would be near 180 degrees. Walls that are
-/// kept have no other way to become finer than their borders.
-TEST(Layer, TopsOfFlatCellsOnResampledWallsStayWhole) {
+/// Below halves of the top of a flat cell the angle at the middle of the top would be near 180 degrees, and the triangles of a
+/// cell that is about as high as wide would be twice as large as those on the halves. Walls that are kept have no other way
+/// to become finer than their borders.
+TEST(Layer, TopsOfFlatAndHighCellsOnResampledWallsStayWhole) {
     const double edge = 2 * 0.5 * std::sin(core::pi / 160);
-    for (const double width_over_height : {2.0, 7.0, 8.0, 20.0, 1000.0})
+    for (const double width_over_height : {0.5, 1.0, 1.5, 1.8, 2.0, 7.0, 8.0, 20.0, 1000.0})
         for (const bool resampled : {false, true})
             for (const LayerTopology topology :
                  {LayerTopology::delaunay, LayerTopology::layered, LayerTopology::quads}) {
                 SCOPED_TRACE(testing::Message() << width_over_height << " times as wide as high, resampled "
                                                 << resampled << ", topology " << int(topology));
-                const bool whole = resampled && topology != LayerTopology::delaunay && width_over_height > 7.5;
+                const bool suits = width_over_height > 7.5 || width_over_height < 1.6;
+                const bool whole = resampled && topology != LayerTopology::delaunay && suits;
                 expect_halves(rays_of_circle(edge / width_over_height, 1, resampled, topology), whole);
             }
 }

@@ -122,6 +122,20 @@ TEST(Transition, NarrowColumnsAtABaseLeaveTheOthersIsotropic) {
     }
 }
 
+/// Tops of cells about as high as wide were halved where the border asks for edges a little shorter than they are, as beside
+/// thin tails, and triangles with angles of 22 to 110 degrees stood between the halves.
+TEST(Transition, TopsOfHighCellsStayWhole) {
+    for (const char* name : {"naca:4412", "naca:6409"}) {
+        SCOPED_TRACE(name);
+        const CaseOptions options = from_the_flow();
+        const MeshResult result = generate_mesh({name}, options);
+        expect_sound(result, options);
+        EXPECT_GT(result.check.isotropic.min_angle_deg, 28);
+        EXPECT_LT(result.check.isotropic.max_angle_deg, 103);
+        EXPECT_LT(result.check.transition.p99_area_ratio, 1.4);
+    }
+}
+
 /// Columns at the corners of wide bases remain narrow, though their rays lean. Half of their last cells had 2.7 times the
 /// area of the triangles beyond.
 TEST(Transition, NarrowColumnsEndInLowCells) {
