@@ -19,8 +19,8 @@ namespace {
 
 using FrontCorners = std::vector<std::vector<FrontCorner>>;
 
-/// The top of a cell that suits it stays whole up to this many times its target: up to where its halves would be as much
-/// too short as it is too long.
+/// The top of a cell that is flat or high, or leans by more than it is wide, stays whole up to this many times its target:
+/// up to where its halves would be as much too short as it is too long.
 constexpr double whole_top = std::numbers::sqrt2;
 /// A cell is flat that is this many times as wide as high. The angle at the middle of its top would be 150 degrees.
 constexpr double flat_cell = 7.46;
@@ -61,7 +61,7 @@ struct TopCell {
     double width, height_a, height_b;
 };
 
-/// Returns that cell, or nothing where a corner has no layers or the edge lies before a cleft.
+/// Returns the cell below the edge between two corners, or nothing where a corner has no layers or the edge lies before a cleft.
 std::optional<TopCell> top_cell(const LayeredRays& rays, const FrontCorner& a, const FrontCorner& b) {
     if (a.layers == 0 || b.layers == 0 || a.cleft) return std::nullopt;
     const auto last_height = [&](const FrontCorner& corner) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <lamina/layers.hpp>
 
 #include "layers/isotropy.hpp"
+#include "support/layers.hpp"
 
 namespace lamina {
 namespace {
@@ -18,41 +18,19 @@ namespace {
 constexpr double height_of_last = 1e-3;
 constexpr std::uint32_t wanted = 35, least = 28, most = 45;
 
-/// Returns rays in a row below a wall, so far apart.
-RaySet rays_apart(const std::vector<double>& widths) {
-    RaySet set;
-    double x = 0;
-    for (const double width : widths) {
-        set.lines.push_back({{x, 0}, {0, -1}});
-        x += width;
-    }
-    set.begin.push_back(widths.size());
-    return set;
-}
-
-/// Returns widths of columns that begin and end wide and lead over to narrow ones in the middle.
-std::vector<double> widths_down_to(double narrow) {
-    std::vector<double> widths;
-    for (double width = 4e-3; width > narrow; width *= 0.95) widths.push_back(width);
-    const std::size_t side = widths.size();
-    widths.insert(widths.end(), 60, narrow);
-    for (std::size_t k = side; k-- > 0;) widths.push_back(widths[k]);
-    return widths;
-}
-
 /// Returns the numbers of layers on these columns, of which each may have the same numbers under a level front. The last
 /// layers of fewer are higher, those of more lower.
 std::vector<std::uint32_t> numbers_on(const std::vector<double>& widths) {
     const layers::ColumnEnd end{0.02, height_of_last, wanted, {least, most}, 1.4 * height_of_last, 0.7 * height_of_last,
                                 false};
     std::vector<std::uint32_t> counts(widths.size(), wanted);
-    layers::keep_counts_on_narrow_columns(rays_apart(widths), std::vector<layers::ColumnEnd>(widths.size(), end),
-                                          counts);
+    layers::keep_counts_on_narrow_columns(test::rays_in_a_row(widths),
+                                          std::vector<layers::ColumnEnd>(widths.size(), end), counts);
     return counts;
 }
 
 TEST(NarrowColumns, HaveMoreLayersThanWideOnes) {
-    const std::vector<double> widths = widths_down_to(1e-4);
+    const std::vector<double> widths = test::widths_with_narrow_middle(4e-3, 1e-4, 60);
     const std::vector<std::uint32_t> counts = numbers_on(widths);
     EXPECT_EQ(counts.front(), wanted);
     EXPECT_EQ(counts.back(), wanted);
@@ -67,7 +45,8 @@ TEST(NarrowColumns, HaveMoreLayersThanWideOnes) {
 }
 
 TEST(NarrowColumns, KeepTheirNumbersWhereLastLayersAreLittleHigherThanWide) {
-    for (const std::uint32_t n : numbers_on(widths_down_to(0.6 * height_of_last))) EXPECT_EQ(n, wanted);
+    for (const std::uint32_t n : numbers_on(test::widths_with_narrow_middle(4e-3, 0.6 * height_of_last, 60)))
+        EXPECT_EQ(n, wanted);
 }
 
 /// One narrow column asks for low cells. On wide ones beside it numbers of layers fall by one from ray to ray, also where
@@ -80,7 +59,7 @@ TEST(NarrowColumns, LowCellsDoNotSpreadUnderFrontsThatRise) {
         front[0] = 0.02;
         // The front rises from the narrow column at the beginning on both sides, up to the middle of the row.
         for (std::size_t i = 1; i <= 20; ++i) front[i] = front[41 - i] = rise * front[i - 1];
-        const std::vector<double> spacings = layers::largest_spacings(rays_apart(widths), front, 1e-6);
+        const std::vector<double> spacings = layers::largest_spacings(test::rays_in_a_row(widths), front, 1e-6);
         for (std::size_t i = 2; i <= 20; ++i) {
             const double number = front[i] / spacings[i], before = front[i - 1] / spacings[i - 1];
             EXPECT_LE(number, before * (1 + 1e-12)) << i;

@@ -14,6 +14,7 @@
 #include <lamina/predicates.hpp>
 
 #include "layers/layered_rays.hpp"
+#include "support/layers.hpp"
 
 namespace lamina {
 namespace {
@@ -67,12 +68,7 @@ TEST(Taper, LeavesColumnsWithoutRoomAlone) {
 /// ray and the first one are neighbours as on every element, though all cells between them are crossed.
 Rays columns_apart(const std::vector<double>& widths) {
     Rays rays;
-    double x = 0;
-    for (const double width : widths) {
-        rays.set.lines.push_back({{x, 0}, {0, -1}});
-        x += width;
-    }
-    rays.set.begin.push_back(widths.size());
+    rays.set = test::rays_in_a_row(widths);
     const std::vector<double> table = heights_with(1e-3, 60);
     rays.fitted = LayerHeights(table, std::vector<HeightColumn>(widths.size(), {.layers = 60}));
     rays.counts.assign(widths.size(), 60);
@@ -80,16 +76,10 @@ Rays columns_apart(const std::vector<double>& widths) {
 }
 
 /// Returns widths of columns that begin wide, are 4e-4 in the middle, and become wide again.
-std::vector<double> widths_with_narrow_middle() {
-    std::vector<double> widths;
-    for (double width = 2e-3; width > 4e-4; width *= 0.95) widths.push_back(width);
-    widths.insert(widths.end(), 20, 4e-4);
-    for (double width = 4e-4; width < 2e-3; width /= 0.95) widths.push_back(width);
-    return widths;
-}
+std::vector<double> widths_from_wide_to_wide() { return test::widths_with_narrow_middle(2e-3, 4e-4, 20); }
 
 TEST(Taper, LastLayersBecomeAsHighAsColumnsAreWide) {
-    const std::vector<double> widths = widths_with_narrow_middle();
+    const std::vector<double> widths = widths_from_wide_to_wide();
     Rays rays = columns_apart(widths);
     const LayerHeights before = rays.fitted;
     layers::taper_columns(rays);
@@ -160,7 +150,7 @@ TEST(Taper, LayersNeverTripleFromRowToRow) {
 }
 
 TEST(Taper, RequestedNumbersOfLayersKeepTheirHeights) {
-    Rays rays = columns_apart(widths_with_narrow_middle());
+    Rays rays = columns_apart(widths_from_wide_to_wide());
     const std::vector<double> table = rays.fitted.table();
     rays.growth.layers = 60;
     layers::taper_columns(rays);

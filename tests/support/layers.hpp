@@ -1,8 +1,10 @@
 // Layers made in one call, and the growth of their options.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <variant>
+#include <vector>
 
 #include <lamina/layers.hpp>
 
@@ -38,6 +40,29 @@ inline LayerGrowth growth_of(const LayerOptions& options) {
 /// Grows rays and closes the border. All lengths are in units of the shape, whatever its extent is.
 inline Layer make_layer(const Geometry& geometry, const LayerOptions& options = {}, const BorderOptions& border = {}) {
     return close_border(grow_rays(geometry, options, growth_of(options)), border);
+}
+
+/// Returns rays in a row below a wall, so far apart. The last one and the first one are neighbours as on every element.
+inline RaySet rays_in_a_row(const std::vector<double>& widths) {
+    RaySet set;
+    double x = 0;
+    for (const double width : widths) {
+        set.lines.push_back({{x, 0}, {0, -1}});
+        x += width;
+    }
+    set.begin.push_back(widths.size());
+    return set;
+}
+
+/// Returns widths of columns that are wide at first, a twentieth narrower from one to the next, so narrow in the middle, and
+/// become wide again in the same way.
+inline std::vector<double> widths_with_narrow_middle(double wide, double narrow, std::size_t narrow_columns) {
+    std::vector<double> widths;
+    for (double width = wide; width > narrow; width *= 0.95) widths.push_back(width);
+    const std::vector<double> side = widths;
+    widths.insert(widths.end(), narrow_columns, narrow);
+    widths.insert(widths.end(), side.rbegin(), side.rend());
+    return widths;
 }
 
 }  // namespace lamina::test
