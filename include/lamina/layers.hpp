@@ -265,9 +265,9 @@ struct Rays {
     /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/decisions/0064).
     std::vector<char> jagged;
     bool enabled = true;  ///< LayerOptions::enabled
-    /// Whether last layers are higher where numbers of layers change, so that the ends of columns are even. Faces
-    /// between quadrilaterals would be more skewed for it (docs/decisions/0063).
-    bool even_ends = true;
+    /// Whether cells are quadrilaterals. Their last layers are not made higher where rays lean or numbers of layers change,
+    /// since faces between them would be more skewed for it (docs/decisions/0063).
+    bool quads = false;
     /// Whether cells are those of the grid, so that a point on the top of a flat one makes an angle near 180 degrees. A
     /// Delaunay triangulation joins it to points farther below.
     bool has_rows = true;

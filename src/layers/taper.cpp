@@ -33,9 +33,13 @@ namespace lamina::layers {
 
 namespace {
 
-/// Last layers become this many times as high as the front's edges beside them are long: half of such a cell has the
-/// area of the triangle beyond. They become the second number times as high at least, for 0.6 times the area.
+/// Last layers become this many times as high as if their cells had the area of squares on the front's edges: half of
+/// such a cell has the area of the triangle beyond. They become the second number times as high at least, for 0.6 times
+/// the area.
 constexpr double wanted_tallness = 0.91, least_tallness = 0.54;
+/// Rays lean along the front's edges by so much at most, as the sine between them; farther ones count as if they did.
+/// Columns of quadrilaterals count as upright.
+constexpr double least_sine = 0.1, sine_of_upright = 1;
 /// Where numbers of layers change, fronts rise by up to a quarter of the width of a column. If last layers become this
 /// many times as high as wide, the ends of the column differ by less than a third of a cell. But those of narrow
 /// columns near them become no higher for it than the second number of times.
@@ -75,13 +79,27 @@ struct TaperBounds {
     double lowest = 1, highest = 1;  ///< what the column has room for, whatever its neighbours want
 };
 
-TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after) {
+/// Returns the height along a ray up to which a layer with this edge at its end has the area of a square on the edge. It
+/// is the length of the edge, and more where the ray leans:
+///
+///        ._______.
+///       /       /      edge * edge = height * (distance of the edge's other end from the ray)
+///      /_______/
+double height_of_square(Point edge, Point direction, double lowest_sine) {
+    const double width = length(edge);
+    const double across = std::max(std::abs(cross(edge, direction)), lowest_sine * width);
+    return across > 0 ? width * width / across : 0;
+}
+
+TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after, bool quads) {
     const std::uint32_t n = rays.counts[ray], common = std::min({rays.counts[before], n, rays.counts[after]});
     if (n < 2 || common == 0) return {};
     const std::span<const double> heights = rays.heights.of(ray).first(n + std::size_t{1});
     const double last = rays.last_spacing(ray);
-    const Point tip = rays.tip(ray);
-    const double width = std::sqrt(distance(tip, rays.tip(before)) * distance(tip, rays.tip(after)));
+    const Point tip = rays.tip(ray), direction = rays.set.lines[ray].direction;
+    const double sine = quads ? sine_of_upright : least_sine;
+    const double square = std::sqrt(height_of_square(rays.tip(before) - tip, direction, sine) *
+                                    height_of_square(rays.tip(after) - tip, direction, sine));
     const auto row = [&](std::size_t from, std::size_t to) {
         return row_between(rays.set.lines[from], rays.heights.of(from)[common], rays.set.lines[to],
                            rays.heights.of(to)[common]);
@@ -92,22 +110,22 @@ TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_
     if (last > highest_last * part) return {};
     const double lowest = std::max(taper_of_flat_end(last / part), least_taper);
     return {.part = part,
-            .wanted = std::clamp(wanted_tallness * width / last, lowest, 1.0),
-            .least = std::max(std::min(least_tallness * width / last, most_taper),
+            .wanted = std::clamp(wanted_tallness * square / last, lowest, 1.0),
+            .least = std::max(std::min(least_tallness * square / last, most_taper),
                               std::min(skewness / largest_skewness, 1.0)),
-            .even = changes ? std::min(even_tallness * width / last, most_taper) : 0,
-            .most = most_tallness * width / last,
+            .even = changes ? std::min(even_tallness * square / last, most_taper) : 0,
+            .most = most_tallness * square / last,
             .lowest = lowest,
             .highest = most_taper};
 }
 
-/// Returns the taper of each ray. even_ends: Rays::even_ends.
-std::vector<double> tapers(const LayeredRays& rays, bool even_ends) {
+/// Returns the taper of each ray. quads: Rays::quads.
+std::vector<double> tapers(const LayeredRays& rays, bool quads) {
     const RayNeighbours neighbours(rays.set);
     std::vector<TaperBounds> bounds;
     std::vector<double> wanted, most, least, even;  // the latter two negative, so that lowering them raises the bound
     for (std::size_t i = 0; i < rays.counts.size(); ++i) {
-        bounds.push_back(taper_bounds(rays, neighbours.previous[i], i, neighbours.next[i]));
+        bounds.push_back(taper_bounds(rays, neighbours.previous[i], i, neighbours.next[i], quads));
         wanted.push_back(bounds.back().wanted);
         most.push_back(bounds.back().most);
         least.push_back(-bounds.back().least);
@@ -120,9 +138,11 @@ std::vector<double> tapers(const LayeredRays& rays, bool even_ends) {
             if (!(part > 0)) return HUGE_VAL;
             return (*values)[from] + most_rise * distance(rays.tip(from), rays.tip(to)) / (most_moved * part);
         });
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        wanted[i] = std::clamp(std::max({wanted[i], -least[i], even_ends ? std::min(-even[i], most[i]) : 0.0}),
-                               bounds[i].lowest, bounds[i].highest);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        // Low cells of wide columns must not make those of narrow ones too high.
+        const double lowest = quads ? -least[i] : std::min(std::max(-least[i], -even[i]), most[i]);
+        wanted[i] = std::clamp(std::max(wanted[i], lowest), bounds[i].lowest, bounds[i].highest);
+    }
     return wanted;
 }
 
@@ -185,7 +205,7 @@ void taper_heights(double taper, std::span<double> heights) {
 void taper_columns(Rays& rays) {
     if (rays.growth.layers) return;
     const LayerHeights untapered = rays.fitted;
-    std::vector<double> wanted = tapers(layered_rays(rays), rays.even_ends);
+    std::vector<double> wanted = tapers(layered_rays(rays), rays.quads);
     do {
         rays.fitted = tapered_heights(untapered, rays.counts, wanted);
     } while (take_back_in_crossed_columns(layered_rays(rays), wanted));

@@ -105,15 +105,45 @@ TEST(Taper, LowLayersOfWideColumnsBecomeHigher) {
     EXPECT_EQ(wider.fitted.column(50).taper, layers::most_taper);
 }
 
+/// Cells that lean are smaller than their edges say.
+TEST(Taper, CellsOfLeaningColumnsBecomeAsLargeAsUprightOnes) {
+    const Point lean = unit({1, -1});
+    const auto leaning = [&](double width) {
+        Rays rays = columns_apart(std::vector<double>(400, width));
+        for (RayLine& line : rays.set.lines) line.direction = lean;
+        return rays;
+    };
+    Rays narrow = leaning(3e-4), wide = leaning(2e-3), of_quads = narrow;
+    of_quads.quads = true;
+    layers::taper_columns(narrow);
+    layers::taper_columns(wide);
+    layers::taper_columns(of_quads);
+    EXPECT_NEAR(narrow.fitted.column(200).taper, 0.91 * 0.3 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(wide.fitted.column(200).taper, 0.54 * 2 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(of_quads.fitted.column(200).taper, 0.91 * 0.3, 1e-9)
+        << "faces between quadrilaterals would be more skewed";
+}
+
+/// Low cells of wide columns ask narrow ones beside them for higher ones, which would be far higher than wide there.
+TEST(Taper, WideColumnsMakeNoNarrowOnesTooHigh) {
+    std::vector<double> widths(60, 4e-4);
+    widths.insert(widths.end(), 340, 3e-3);
+    Rays rays = columns_apart(widths);
+    layers::taper_columns(rays);
+    EXPECT_GT(rays.fitted.column(90).taper, 1.5);
+    EXPECT_LE(rays.fitted.column(58).taper * 1e-3, 1.2 * 4e-4 + 1e-12);
+}
+
 /// Where numbers of layers change, fronts rise by up to a quarter of the width.
 TEST(Taper, LastLayersAreHigherWhereNumbersOfLayersChange) {
     Rays rays = columns_apart(std::vector<double>(400, 1.5e-3));
     for (std::size_t i = 200; i < 400; ++i) rays.counts[i] = 59;
     layers::taper_columns(rays);
-    // Beside the change the front's edges are level on one side and rise by a layer on the other.
-    const double width = 1e3 * std::sqrt(1.5e-3 * std::sqrt(1.5e-3 * 1.5e-3 + 1e-6));
-    EXPECT_NEAR(rays.fitted.column(199).taper, 0.86 * width, 1e-9);
-    EXPECT_NEAR(rays.fitted.column(200).taper, 0.86 * width, 1e-9);
+    // Beside the change the front's edges are level on one side and rise by a layer on the other, where the cell is as large
+    // as a square on the edge when it is edge * edge / width high.
+    const double rising = (1.5e-3 * 1.5e-3 + 1e-6) / 1.5e-3, square = 1e3 * std::sqrt(1.5e-3 * rising);
+    EXPECT_NEAR(rays.fitted.column(199).taper, 0.86 * square, 1e-9);
+    EXPECT_NEAR(rays.fitted.column(200).taper, 0.86 * square, 1e-9);
     EXPECT_EQ(rays.fitted.column(50).taper, 1);
     // Not where narrow columns beside would have cells far higher than wide.
     std::vector<double> widths(400, 1.5e-3);
@@ -180,41 +210,45 @@ TEST(Taper, CrossesNoCells) {
     const auto real = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
-    std::size_t tapered = 0, left = 0;
-    for (int round = 0; round < 5000; ++round) {
-        std::vector<double> widths;
-        double width = 1e-3;
-        for (std::size_t i = 0; i < 30; ++i) widths.push_back(width *= std::exp(real(-1.2, 1.2)));
-        Rays rays = columns_apart(widths);
-        std::vector<double> table;
-        std::vector<HeightColumn> columns;
-        double lean = 0, scale = 1;
-        for (std::size_t i = 0; i < widths.size(); ++i) {
-            columns.push_back({.first = table.size(), .layers = 60});
-            const std::vector<double> heights = heights_with(1e-3, 60);
-            scale += real(-6, 6) * widths[i] / heights.back();
-            for (const double height : heights) table.push_back(scale * height);
-            lean += real(-1, 5) * widths[i] / heights.back();
-            rays.set.lines[i].direction = unit(Point{lean, -1});
-            if (i > 0) rays.counts[i] = std::clamp(rays.counts[i - 1] + std::uint32_t(real(0, 3)) - 1, 40u, 60u);
+    // Fronts that rise by as much as limits let them, and by so much that nearly all cells are crossed anyway.
+    for (const double steepest : {0.25, 6.0}) {
+        std::size_t tapered = 0, left = 0;
+        for (int round = 0; round < 2500; ++round) {
+            std::vector<double> widths;
+            double width = 1e-3;
+            for (std::size_t i = 0; i < 30; ++i) widths.push_back(width *= std::exp(real(-1.2, 1.2)));
+            Rays rays = columns_apart(widths);
+            std::vector<double> table;
+            std::vector<HeightColumn> columns;
+            double lean = 0, scale = 1;
+            for (std::size_t i = 0; i < widths.size(); ++i) {
+                columns.push_back({.first = table.size(), .layers = 60});
+                const std::vector<double> heights = heights_with(1e-3, 60);
+                scale += real(-steepest, steepest) * widths[i] / heights.back();
+                for (const double height : heights) table.push_back(scale * height);
+                lean += real(-1, 5) * widths[i] / heights.back();
+                rays.set.lines[i].direction = unit(Point{lean, -1});
+                if (i > 0) rays.counts[i] = std::clamp(rays.counts[i - 1] + std::uint32_t(real(0, 3)) - 1, 40u, 60u);
+            }
+            rays.fitted = LayerHeights(table, columns);
+            const LayerHeights before = rays.fitted;
+            layers::taper_columns(rays);
+            for (std::size_t i = 1; i + 2 < widths.size(); ++i) {
+                if (!are_sound({rays.set, before, rays.counts}, i)) continue;
+                EXPECT_TRUE(are_sound(layers::layered_rays(rays), i)) << "round " << round << ", column " << i;
+                const bool is_tapered = rays.fitted.column(i).taper != 1 || rays.fitted.column(i + 1).taper != 1;
+                (is_tapered ? tapered : left) += 1;
+            }
         }
-        rays.fitted = LayerHeights(table, columns);
-        const LayerHeights before = rays.fitted;
-        layers::taper_columns(rays);
-        for (std::size_t i = 1; i + 2 < widths.size(); ++i) {
-            if (!are_sound({rays.set, before, rays.counts}, i)) continue;
-            EXPECT_TRUE(are_sound(layers::layered_rays(rays), i)) << "round " << round << ", column " << i;
-            const bool is_tapered = rays.fitted.column(i).taper != 1 || rays.fitted.column(i + 1).taper != 1;
-            (is_tapered ? tapered : left) += 1;
-        }
+        EXPECT_GT(tapered, (steepest < 1 ? 10 : 2) * left);
     }
-    EXPECT_GT(tapered, 10 * left);
 }
 
 /// Where rows turn at a ray, faces that become shorter become more skewed.
 TEST(Taper, FacesBesideTurningRowsStayLong) {
     const std::vector<double> widths(401, 3e-4);
     Rays rays = columns_apart(widths);
+    rays.quads = true;  // faces are those of quadrilaterals
     Rays turning = rays;
     for (std::size_t i = 0; i < widths.size(); ++i)
         turning.set.lines[i].origin.y = -2 * std::abs(turning.set.lines[i].origin.x - turning.set.lines[200].origin.x);
