@@ -35,11 +35,24 @@ struct Evening {
     double wide_enough;
     /// Whether columns give no more than what they open by, so that their rays do not meet.
     bool stay_open;
+    /// Columns take no more than what lets them open by this angle, in degrees.
+    double most_opening_deg;
 };
-constexpr Evening on_jagged{200, 0.15, false}, below_thick_layers{3, 0.15, false};
+/// No column opens so far that more rays would stand on its edge.
+constexpr double opening_without_rays_deg = 0.95 * max_jagged_ray_angle_deg;
+constexpr Evening on_jagged{200, 0.15, false, HUGE_VAL}, below_thick_layers{3, 0.15, false, HUGE_VAL};
 /// Layers that end at isotropy are about nine times as high as their columns are wide. Narrower columns are beside corners
 /// and where the data slip, and wider ones need what they have.
-constexpr Evening below_isotropy{3, 0.09, true};
+constexpr Evening below_isotropy{3, 0.09, true, HUGE_VAL};
+/// On jagged outlines no column needs more than its neighbours: the tops of wedges would be divided down to those beside
+/// them.
+constexpr Evening below_isotropy_on_jagged{80, 1, false, opening_without_rays_deg};
+
+const Evening& evening_on(OutlineKind kind, const LayerGrowth& growth) {
+    const bool isotropic = growth.least_heights.empty() && !growth.layers;
+    if (kind == OutlineKind::jagged) return isotropic ? below_isotropy_on_jagged : on_jagged;
+    return isotropic ? below_isotropy : below_thick_layers;
+}
 
 /// No ray leans by more than this for it, unless it did before.
 constexpr double max_lean_to_even_deg = 40;
@@ -57,6 +70,11 @@ struct Column {
     double given(const Evening& evening) const {
         if (!evening.stay_open) return HUGE_VAL;
         return width > edge ? 0.5 * (width - edge) / height : 0;
+    }
+
+    /// Returns the angle by which one of the rays may turn away from the other.
+    double taken(const Evening& evening) const {
+        return 0.5 * std::max(core::radians(evening.most_opening_deg) - (width - edge) / height, 0.0);
     }
 };
 
@@ -98,7 +116,8 @@ double turn_between(const Column& before, const Column& after, const Evening& ev
     const double heights = before.height + after.height;
     if (!(heights > 0)) return 0;
     const double even = 0.5 * (after.counted(evening) - before.counted(evening)) / heights;
-    const double turn = std::clamp(even, -before.given(evening), after.given(evening));
+    const double turn = std::clamp(even, -std::min(before.given(evening), after.taken(evening)),
+                                   std::min(after.given(evening), before.taken(evening)));
     return std::clamp(tilt + turn, -largest, largest) - tilt;
 }
 
@@ -116,8 +135,7 @@ void even_columns(std::span<const RayVertex> outline, OutlineKind kind, std::spa
         largest[i] = largest_lean(vertices[i],
                                   max_tilt_between_edges(vertices[i].turning, kind, growth.first_height, shorter_edge));
     }
-    const bool isotropic = growth.least_heights.empty() && !growth.layers;
-    const Evening& evening = kind == OutlineKind::jagged ? on_jagged : isotropic ? below_isotropy : below_thick_layers;
+    const Evening& evening = evening_on(kind, growth);
     for (int round = 0; round < evening.rounds; ++round) {
         // All turn at once, so that both directions of the wall are treated alike.
         for (std::size_t i = 0; i < n; ++i)

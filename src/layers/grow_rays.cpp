@@ -66,18 +66,9 @@ std::vector<double> front_heights(std::span<const RayVertex> outline, std::span<
 }
 
 /// Returns whether columns should be wider than their rays' normals make them. Layers up to isotropy end lower over
-/// narrow columns. On jagged outlines without a flow that asks for thick layers, columns that open wide would need more
-/// rays, and these divide the short edges of the wall.
+/// narrow columns.
 bool has_wider_columns(OutlineKind kind, const LayerGrowth& growth) {
-    switch (kind) {
-        case OutlineKind::given:
-            return false;
-        case OutlineKind::smooth:
-            return !growth.layers;
-        case OutlineKind::jagged:
-            return growth.layers || !growth.least_heights.empty();
-    }
-    return false;
+    return kind == OutlineKind::jagged || (kind == OutlineKind::smooth && !growth.layers);
 }
 
 RaySet rays_of(const Geometry& geometry, std::span<const DividedWake> wakes, const LayerOptions& options,

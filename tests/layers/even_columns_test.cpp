@@ -71,6 +71,34 @@ TEST(EvenColumns, CornersOpenTheColumnsBesideThem) {
     EXPECT_LT(*std::max_element(after.begin(), after.end()), 0.25 * *std::max_element(before.begin(), before.end()));
 }
 
+/// Layers up to isotropy are low, so that columns on short edges would open widely to become as wide as others, and rays
+/// would be added on these edges.
+TEST(EvenColumns, LowColumnsOpenNoFartherThanWithoutOtherRays) {
+    LayerOptions options = test::layers_of(1e-6, 1.2, 30);
+    options.layers = std::nullopt;
+    // Every edge is followed by one that is a twentieth as long.
+    const Outline even = divided_polygon(78);
+    Outline outline;
+    for (std::size_t i = 0; i < even.size(); ++i) {
+        const Point next = even[(i + 1) % even.size()];
+        outline.push_back(even[i]);
+        outline.push_back(even[i] + 0.95 * (next - even[i]));
+    }
+    const double edge = distance(outline[0], outline[1]);
+    for (const double height : {0.25 * edge, 0.5 * edge, edge}) {
+        const std::vector<double> heights(outline.size(), height);
+        const std::vector<RayLine> rays =
+            layers::make_rays(layers::outline_with_wake(outline), layers::OutlineKind::jagged, options,
+                              test::growth_of(options), heights);
+        ASSERT_EQ(rays.size(), outline.size()) << "no ray is added";
+        double largest = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            largest = std::max(largest, core::angle_between(rays[i].direction, rays[(i + 1) % rays.size()].direction));
+        EXPECT_GT(core::degrees(largest), 0.9 * max_jagged_ray_angle_deg);
+        EXPECT_LT(core::degrees(largest), max_jagged_ray_angle_deg);
+    }
+}
+
 TEST(EvenColumns, BothDirectionsOfTheWallAreTreatedAlike) {
     const Outline outline = divided_polygon(18);
     const std::vector<RayLine> rays = jagged_rays(outline, true), others = jagged_rays(shapes::mirrored(outline), true);
