@@ -21,6 +21,8 @@ namespace {
 
 /// Largest number of layers up to isotropy; a growth that needs more is refused as a mistake.
 constexpr std::uint32_t max_automatic_layers = 1000;
+/// Largest rise of the front that slants add, per unit of distance along it.
+constexpr double max_rise_of_slants = 0.35;
 
 /// Removes the layers above `thickness`. A slack of rounding keeps all n layers of a thickness that is exactly their
 /// height.
@@ -71,12 +73,36 @@ std::vector<double> slants(const RaySet& set) {
     return result;
 }
 
+/// Lowers the front where slants, which it is multiplied by, would make it rise steeply. First heights need the slants of
+/// rays as they are, and where the wall turns inwards below rays that lean to one side, slants jump, and rows with them:
+///
+///     \  \  \  \ .___\___.         \  \  \  \   . \___.
+///     .\___\__.\/  \     \        .\___\__.-\--`  \  \      last row
+///       \  \  \  \    \     \         \  \  \  \    \     \
+///
+///       as slants are                lowered; no column ends below its first layer
+void level_slants(const RaySet& set, std::span<const double> slants, double first_height, std::vector<double>& front) {
+    std::vector<double> level(slants.begin(), slants.end());
+    lower_to_neighbours(set, level, [&](std::size_t from, std::size_t to) {
+        const RayLine &a = set.lines[from], &b = set.lines[to];
+        const double height = std::max(front[from], front[to]);
+        const Point apart = b.origin - a.origin + height * (b.direction - a.direction);
+        return height > 0 ? level[from] + max_rise_of_slants * length(apart) / height : HUGE_VAL;
+    });
+    for (std::size_t i = 0; i < front.size(); ++i)
+        if (level[i] < slants[i])
+            front[i] =
+                std::min(front[i], std::max(front[i] * (level[i] / slants[i]), set.lines[i].opening * first_height));
+}
+
 /// Returns columns that end where their ray reaches isotropy, or, where there are any, at the least heights. Whole
 /// layers would make the front a staircase, so columns are stretched to end at its height.
 LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const std::vector<double>& unstretched,
                                     const LayerGrowth& growth) {
     const std::vector<double> least = growth.least_heights.empty() ? std::vector<double>() : least_heights(set);
-    const std::vector<double> front = heights_of_isotropy(set, unstretched, least, growth.fineness);
+    std::vector<double> front = heights_of_isotropy(set, unstretched, least, growth.fineness);
+    const std::vector<double> along = slants(set);
+    if (!least.empty()) level_slants(set, along, unstretched[1], front);
     const std::vector<double> max_spacings = least.empty()
                                                  ? std::vector<double>(front.size(), HUGE_VAL)
                                                  : largest_spacings(set, front, unstretched[1], growth.fineness);
@@ -97,7 +123,6 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
     if (!least.empty()) {
         std::vector<ColumnEnd> ends;
         ends.reserve(front.size());
-        const std::vector<double> along = slants(set);
         for (std::size_t i = 0; i < front.size(); ++i) {
             const std::uint32_t n = layers[i];
             const LayerRange range = layer_range(front[i], heights[i], n);

@@ -11,6 +11,7 @@
 #include "layers/checked_layer.hpp"
 #include "layers/compare_points.hpp"
 #include "layers/growth_laws.hpp"
+#include "layers/heights.hpp"
 #include "support/layers.hpp"
 #include "support/shapes.hpp"
 
@@ -258,6 +259,39 @@ TEST(AutomaticLayers, VarySmoothlyOnAnySection) {
             }
         }
     }
+}
+
+/// Where a wall turns inwards below rays that all lean to one side, heights along them jump, as first heights want it. The
+/// front of thick layers must not.
+TEST(AutomaticLayers, RiseLittleWhereRaysLeanFromTwoWalls) {
+    constexpr std::size_t n = 200, corner = n / 2;
+    constexpr double edge = 1e-3;
+    const Point before{1, 0}, after = unit({4, -1});  // the outside lies below
+    RaySet set;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double along = edge * (static_cast<double>(i) - static_cast<double>(corner));
+        const Point origin = along * (i < corner ? before : after);
+        set.lines.push_back({.origin = origin, .direction = unit({1, -3}), .least_height = 0.02});
+    }
+    set.begin.push_back(n);
+    LayerOptions options = automatic();
+    options.first_height = 1e-5;
+    LayerGrowth growth = test::growth_of(options);
+    growth.least_heights = {WallHeight{}};  // they are those of the rays
+    const LayerHeights heights = layers::make_heights(set, growth);
+    const auto slant = [&](std::size_t i) { return heights.column(i).slant; };
+    const auto tip = [&](std::size_t i) {
+        return set.lines[i].origin + heights.full_height(i) * set.lines[i].direction;
+    };
+    ASSERT_GT(slant(corner + 20) - slant(corner - 20), 0.1);
+    for (std::size_t i = 20; i + 21 < n; ++i) {
+        EXPECT_NEAR(heights.of(i)[1], slant(i) * 1e-5, 1e-12) << "first heights are kept";
+        const double width = distance(set.lines[i].origin, set.lines[i + 1].origin);
+        const double rise = heights.full_height(i + 1) - heights.full_height(i);
+        EXPECT_LT(std::abs(rise), 0.36 * width) << "column " << i;
+        EXPECT_GT(dot(tip(i + 1) - tip(i), before), 0);
+    }
+    EXPECT_NEAR(heights.full_height(n - 40) / heights.full_height(40), slant(n - 40) / slant(40), 0.05);
 }
 
 TEST(AutomaticLayers, EndAtTheThicknessIfThatIsLess) {
