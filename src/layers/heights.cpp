@@ -76,11 +76,15 @@ std::vector<double> slants(const RaySet& set) {
 /// Lowers the front where slants, which it is multiplied by, would make it rise steeply. First heights need the slants of
 /// rays as they are, and where the wall turns inwards below rays that lean to one side, slants jump, and rows with them:
 ///
-///     \  \  \  \ .___\___.         \  \  \  \   . \___.
-///     .\___\__.\/  \     \        .\___\__.-\--`  \  \      last row
-///       \  \  \  \    \     \         \  \  \  \    \     \
+///                      .______                 .______
+///       --..__         |           --..__    .-`
+///             ``--..__ |                 ``.`             last row: as slants are, and lowered
+///                     `|
 ///
-///       as slants are                lowered; no column ends below its first layer
+///       --..__                     --..__
+///             ``--..______               ``--..______     wall, the outside above; all rays lean to the right
+///
+/// No column ends below its first layer.
 void level_slants(const RaySet& set, std::span<const double> slants, double first_height, std::vector<double>& front) {
     std::vector<double> level(slants.begin(), slants.end());
     lower_to_neighbours(set, level, [&](std::size_t from, std::size_t to) {
@@ -92,7 +96,7 @@ void level_slants(const RaySet& set, std::span<const double> slants, double firs
     for (std::size_t i = 0; i < front.size(); ++i)
         if (level[i] < slants[i])
             front[i] =
-                std::min(front[i], std::max(front[i] * (level[i] / slants[i]), set.lines[i].opening * first_height));
+                std::max(front[i] * (level[i] / slants[i]), std::min(front[i], set.lines[i].opening * first_height));
 }
 
 /// Returns columns that end where their ray reaches isotropy, or, where there are any, at the least heights. Whole
