@@ -13,6 +13,11 @@ namespace lamina::app {
 /// When the names of the stages are printed on standard error. `automatic`: where it is a terminal.
 enum class ProgressShown { automatic, always, never };
 
+/// What the help says of INPUT, of every command that reads airfoils.
+inline constexpr const char* input_help =
+    "airfoil files, naca:DIGITS[:POINTS][:blunt|:extended] (POINTS: so many, spaced by cosines; else as many as the "
+    "wall needs), - for standard input, or one case file (.toml)";
+
 struct MeshCase {
     std::string preset = automatic_preset;  ///< the preset that its options began with
     std::string case_file;                  ///< the case file that it was read from; empty: none

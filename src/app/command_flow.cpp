@@ -149,9 +149,7 @@ void flow(const FlowArguments& arguments) {
 void add_flow_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("flow", "compute the flow round airfoils, without a mesh");
     auto arguments = std::make_shared<FlowArguments>();
-    command->add_option(
-        "INPUT", arguments->inputs,
-        "airfoil files, naca:DIGITS[:POINTS][:blunt|:extended], - for standard input, or one case file (.toml)");
+    command->add_option("INPUT", arguments->inputs, input_help);
     for (const char* name : {"alpha", "reynolds", "velocity", "viscosity", "chord"})
         add_table_option(*command, conditions_option_table(), name, arguments->conditions[name]);
     command

@@ -16,9 +16,7 @@ namespace lamina::app {
 void add_info_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "describe airfoils: what was read, repaired and detected");
     auto inputs = std::make_shared<std::vector<std::string>>();
-    command->add_option(
-        "INPUT", *inputs,
-        "airfoil files, naca:DIGITS[:POINTS][:blunt|:extended], - for standard input, or one case file (.toml)");
+    command->add_option("INPUT", *inputs, input_help);
     command->callback([inputs] {
         const MeshCase mesh_case = case_of_inputs(*inputs);
         require_consistent(mesh_case);

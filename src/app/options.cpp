@@ -24,9 +24,7 @@ constexpr std::array<std::string_view, 6> groups{"Files", "Geometry", "Flow", "L
 
 OptionTable<MeshCase> file_options() {
     OptionTableBuilder<MeshCase> table("Files");
-    table.list("input", OptionKind::paths, "INPUT",
-               "airfoil files, naca:DIGITS[:POINTS][:blunt|:extended], - for standard input, or one case file (.toml)",
-               member_at(&MeshCase::inputs));
+    table.list("input", OptionKind::paths, "INPUT", input_help, member_at(&MeshCase::inputs));
     table.list("output", OptionKind::paths, "FILE",
                "mesh file to write; may be given several times; - is standard output, with --format",
                member_at(&MeshCase::outputs));
