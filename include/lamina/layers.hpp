@@ -265,12 +265,10 @@ struct Rays {
     /// stand at its vertices alone, lest neighbouring edges differ by whole factors (docs/decisions/0064).
     std::vector<char> jagged;
     bool enabled = true;  ///< LayerOptions::enabled
-    /// Whether cells are quadrilaterals. Their last layers are not made higher where rays lean or numbers of layers change,
-    /// since faces between them would be more skewed for it (docs/decisions/0063).
-    bool quads = false;
-    /// Whether cells are those of the grid, so that a point on the top of a flat one makes an angle near 180 degrees. A
-    /// Delaunay triangulation joins it to points farther below.
-    bool has_rows = true;
+    /// LayerOptions::topology. Last layers of quadrilaterals are not made higher where rays lean or numbers of layers change,
+    /// since faces between them would be more skewed for it (docs/decisions/0063). Tops of flat cells of the grid stay whole:
+    /// a point on them makes an angle near 180 degrees, where a Delaunay triangulation joins it to points farther below.
+    LayerTopology topology = LayerTopology::layered;
     LayerGrowth growth;                 ///< the growth that was requested
     LayerHeights heights;               ///< as the growth law makes them, along the rays (Ray::slant)
     LayerHeights fitted;                ///< the same, but on rays that are cut short stretched to end at their limits
@@ -312,7 +310,8 @@ struct BorderOptions {
     /// only where rounding would make division points cross something.
     double max_ratio = 1.4;
     /// No edge is longer than 1.1 x (length of any other edge) + gradation x distance, nor than 1.29 times that over a
-    /// cell that leans by more than it is wide, or over a flat one on a resampled wall (Rays::has_rows).
+    /// cell that leans by more than it is wide, or over a flat or high one of the grid on a resampled wall
+    /// (Rays::topology).
     double gradation = 0.1;
     double max_edge = HUGE_VAL;  ///< largest length of an edge, in units of the input
     /// No edge is longer than size + gradation x distance of any of these sources. An edge may exceed that by up to a

@@ -13,7 +13,7 @@ namespace lamina::app {
 /// When the names of the stages are printed on standard error. `automatic`: where it is a terminal.
 enum class ProgressShown { automatic, always, never };
 
-/// What the help says of INPUT, of every command that reads airfoils.
+/// The words of the help for INPUT, which `lamina mesh`, `flow` and `info` share.
 inline constexpr const char* input_help =
     "airfoil files, naca:DIGITS[:POINTS][:blunt|:extended] (POINTS: so many, spaced by cosines; else as many as the "
     "wall needs), - for standard input, or one case file (.toml)";

@@ -79,12 +79,13 @@ bool is_high(const TopCell& cell) { return 0.5 * (cell.height_a + cell.height_b)
 
 /// Returns what divide_borders() needs to leave the tops of flat, high and leaning cells whole.
 std::vector<std::vector<double>> whole_tops(const Rays& grown, const LayeredRays& rays, const FrontCorners& corners) {
+    const bool of_grid = grown.topology != LayerTopology::delaunay;
     std::vector<std::vector<double>> whole_up_to(corners.size());
     for (std::size_t e = 0; e < corners.size(); ++e)
         for (std::size_t k = 0; k < corners[e].size(); ++k) {
             const FrontCorner &a = corners[e][k], &b = corners[e][(k + 1) % corners[e].size()];
             const std::optional<TopCell> cell = top_cell(rays, a, b);
-            const bool suits = cell && grown.has_rows && grown.resampled[e] && (is_flat(*cell) || is_high(*cell));
+            const bool suits = cell && of_grid && grown.resampled[e] && (is_flat(*cell) || is_high(*cell));
             whole_up_to[e].push_back(suits || leans_by_its_width(rays, a, b) ? whole_top : target_slack);
         }
     return whole_up_to;

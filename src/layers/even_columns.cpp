@@ -48,6 +48,7 @@ constexpr Evening below_isotropy{3, 0.09, true, HUGE_VAL};
 /// them.
 constexpr Evening below_isotropy_on_jagged{80, 1, false, opening_without_rays_deg};
 
+/// Returns how columns of this outline become even below layers of this growth.
 const Evening& evening_on(OutlineKind kind, const LayerGrowth& growth) {
     const bool isotropic = growth.least_heights.empty() && !growth.layers;
     if (kind == OutlineKind::jagged) return isotropic ? below_isotropy_on_jagged : on_jagged;

@@ -211,8 +211,7 @@ Rays grow_rays(const Geometry& geometry, const LayerOptions& options, const Laye
     }
     if (!growth.first_heights.empty() && growth.first_heights.size() != geometry.elements.size())
         throw OptionError("first_height", "needs one entry per element where elements have their own");
-    rays.quads = options.topology == LayerTopology::quads;
-    rays.has_rows = options.topology != LayerTopology::delaunay;
+    rays.topology = options.topology;
     rays.growth = growth;
     grow_from(geometry, {}, options, rays);
     if (options.wake_layers && !growth.layers && !growth.wakes.empty()) add_wakes(geometry, options, rays);

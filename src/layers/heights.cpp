@@ -51,7 +51,7 @@ std::vector<double> heights_up_to(double front, double opening, double max_spaci
 ///     h |..o
 ///       | /:
 ///       |/_:____
-std::vector<double> slants(const RaySet& set) {
+std::vector<double> slants_of(const RaySet& set) {
     constexpr double negligible = 1e-3;  // rays share their heights where it makes no difference
     const RayNeighbours neighbours(set);
     std::vector<double> result(set.lines.size(), 1.0);
@@ -101,12 +101,11 @@ void level_slants(const RaySet& set, std::span<const double> slants, double firs
 
 /// Returns columns that end where their ray reaches isotropy, or, where there are any, at the least heights. Whole
 /// layers would make the front a staircase, so columns are stretched to end at its height.
-LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const std::vector<double>& unstretched,
-                                    const LayerGrowth& growth) {
+LayerHeights heights_up_to_isotropy(const RaySet& set, std::span<const double> slants, double ray_growth,
+                                    const std::vector<double>& unstretched, const LayerGrowth& growth) {
     const std::vector<double> least = growth.least_heights.empty() ? std::vector<double>() : least_heights(set);
     std::vector<double> front = heights_of_isotropy(set, unstretched, least, growth.fineness);
-    const std::vector<double> along = slants(set);
-    if (!least.empty()) level_slants(set, along, unstretched[1], front);
+    if (!least.empty()) level_slants(set, slants, unstretched[1], front);
     const std::vector<double> max_spacings = least.empty()
                                                  ? std::vector<double>(front.size(), HUGE_VAL)
                                                  : largest_spacings(set, front, unstretched[1], growth.fineness);
@@ -130,9 +129,9 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, double ray_growth, const 
         for (std::size_t i = 0; i < front.size(); ++i) {
             const std::uint32_t n = layers[i];
             const LayerRange range = layer_range(front[i], heights[i], n);
-            ends.push_back({along[i] * front[i], n > 0 ? along[i] * (heights[i][n] - heights[i][n - 1]) : 0.0, n, range,
-                            along[i] * stretched_last_spacing(front[i], heights[i], range.least),
-                            along[i] * stretched_last_spacing(front[i], heights[i], range.most), false});
+            ends.push_back({slants[i] * front[i], n > 0 ? slants[i] * (heights[i][n] - heights[i][n - 1]) : 0.0, n,
+                            range, slants[i] * stretched_last_spacing(front[i], heights[i], range.least),
+                            slants[i] * stretched_last_spacing(front[i], heights[i], range.most), false});
         }
         keep_counts_on_narrow_columns(set, ends, layers);
         limit_count_differences(set, layers);
@@ -165,12 +164,11 @@ LayerHeights heights_by_spacing(const RaySet& set, const LayerGrowth& growth, co
 }
 
 /// Makes heights above the wall's edges heights along the rays.
-LayerHeights slanted(const RaySet& set, const LayerHeights& heights) {
-    const std::vector<double> factors = slants(set);
+LayerHeights slanted(std::span<const double> slants, const LayerHeights& heights) {
     return changed_columns(
-        heights, factors.size(), [&](std::size_t ray) { return factors[ray] != 1; },
+        heights, slants.size(), [&](std::size_t ray) { return slants[ray] != 1; },
         [&](std::size_t ray, HeightColumn& column, std::span<double> along) {
-            column.slant = factors[ray];
+            column.slant = slants[ray];
             for (double& height : along) height *= column.slant;
         });
 }
@@ -185,15 +183,15 @@ LayerHeights opened(const RaySet& set, const LayerHeights& heights) {
         });
 }
 
-/// Returns the heights above the wall.
-LayerHeights upright_heights(const RaySet& set, const LayerGrowth& growth) {
+/// Returns the heights above the wall, of which heights along the rays are these slants times as much.
+LayerHeights upright_heights(const RaySet& set, std::span<const double> slants, const LayerGrowth& growth) {
     const GrowthLawEntry& law = growth_law_entry(growth.law);
     if (law.by_spacing) return opened(set, heights_by_spacing(set, growth, law));
     const double ray_growth = law.ray_growth(growth);
     std::vector<double> table =
         law.heights(growth.first_height, ray_growth, growth.layers.value_or(max_automatic_layers));
     if (growth.thickness && !law.fills_thickness) cut_at_thickness(*growth.thickness, table);
-    if (!growth.layers) return heights_up_to_isotropy(set, ray_growth, table, growth);
+    if (!growth.layers) return heights_up_to_isotropy(set, slants, ray_growth, table, growth);
     const HeightColumn all{0, layer_count(table), ray_growth};
     return opened(set, LayerHeights(std::move(table), std::vector<HeightColumn>(set.lines.size(), all)));
 }
@@ -220,7 +218,8 @@ LayerHeights make_heights(const RaySet& set, const LayerGrowth& growth) {
         const RaySet own{
             {lines + static_cast<std::ptrdiff_t>(set.begin[e]), lines + static_cast<std::ptrdiff_t>(set.begin[e + 1])},
             {0, set.begin[e + 1] - set.begin[e]}};
-        const LayerHeights heights = slanted(own, upright_heights(own, growth_on_element(growth, e)));
+        const std::vector<double> slants = slants_of(own);
+        const LayerHeights heights = slanted(slants, upright_heights(own, slants, growth_on_element(growth, e)));
         for (std::size_t i = 0; i < own.lines.size(); ++i) {
             columns.push_back(heights.column(i));
             columns.back().first += table.size();

@@ -91,6 +91,7 @@ double height_of_square(Point edge, Point direction, double lowest_sine) {
     return across > 0 ? width * width / across : 0;
 }
 
+/// Returns the bounds for a ray between these two others.
 TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_t ray, std::size_t after, bool quads) {
     const std::uint32_t n = rays.counts[ray], common = std::min({rays.counts[before], n, rays.counts[after]});
     if (n < 2 || common == 0) return {};
@@ -119,7 +120,7 @@ TaperBounds taper_bounds(const LayeredRays& rays, std::size_t before, std::size_
             .highest = most_taper};
 }
 
-/// Returns the taper of each ray. quads: Rays::quads.
+/// Returns the taper of each ray. quads: whether cells are quadrilaterals.
 std::vector<double> tapers(const LayeredRays& rays, bool quads) {
     const RayNeighbours neighbours(rays.set);
     std::vector<TaperBounds> bounds;
@@ -139,7 +140,7 @@ std::vector<double> tapers(const LayeredRays& rays, bool quads) {
             return (*values)[from] + most_rise * distance(rays.tip(from), rays.tip(to)) / (most_moved * part);
         });
     for (std::size_t i = 0; i < wanted.size(); ++i) {
-        // Low cells of wide columns must not make those of narrow ones too high.
+        // Neither low cells of wide columns nor skewed faces may make cells of narrow ones too high.
         const double lowest = quads ? -least[i] : std::min(std::max(-least[i], -even[i]), most[i]);
         wanted[i] = std::clamp(std::max(wanted[i], lowest), bounds[i].lowest, bounds[i].highest);
     }
@@ -205,7 +206,7 @@ void taper_heights(double taper, std::span<double> heights) {
 void taper_columns(Rays& rays) {
     if (rays.growth.layers) return;
     const LayerHeights untapered = rays.fitted;
-    std::vector<double> wanted = tapers(layered_rays(rays), rays.quads);
+    std::vector<double> wanted = tapers(layered_rays(rays), rays.topology == LayerTopology::quads);
     do {
         rays.fitted = tapered_heights(untapered, rays.counts, wanted);
     } while (take_back_in_crossed_columns(layered_rays(rays), wanted));

@@ -114,7 +114,7 @@ TEST(Taper, CellsOfLeaningColumnsBecomeAsLargeAsUprightOnes) {
         return rays;
     };
     Rays narrow = leaning(3e-4), wide = leaning(2e-3), of_quads = narrow;
-    of_quads.quads = true;
+    of_quads.topology = LayerTopology::quads;
     layers::taper_columns(narrow);
     layers::taper_columns(wide);
     layers::taper_columns(of_quads);
@@ -203,60 +203,79 @@ bool are_sound(const layers::LayeredRays& rays, std::size_t i) {
     return orient2d(rays.point(i, common), top, rays.point(i + 1, common)) > 0;
 }
 
-/// Rows of neighbours that are tapered differently rise, and may do so where fronts and numbers of layers are steep
-/// already.
-TEST(Taper, CrossesNoCells) {
+/// Columns between rays with sound cells.
+struct SoundColumns {
+    std::size_t tapered = 0, left = 0;
+};
+
+/// Tapers random columns of this topology, under fronts that rise by up to `steepest` of the width from ray to ray. Expects
+/// that columns with sound cells keep them, and returns how many of these are tapered.
+SoundColumns taper_random_columns(LayerTopology topology, double steepest) {
     std::mt19937 random(7);
     const auto real = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
-    // Fronts that rise by as much as limits let them, and by so much that nearly all cells are crossed anyway.
-    for (const double steepest : {0.25, 6.0}) {
-        std::size_t tapered = 0, left = 0;
-        for (int round = 0; round < 2500; ++round) {
-            std::vector<double> widths;
-            double width = 1e-3;
-            for (std::size_t i = 0; i < 30; ++i) widths.push_back(width *= std::exp(real(-1.2, 1.2)));
-            Rays rays = columns_apart(widths);
-            std::vector<double> table;
-            std::vector<HeightColumn> columns;
-            double lean = 0, scale = 1;
-            for (std::size_t i = 0; i < widths.size(); ++i) {
-                columns.push_back({.first = table.size(), .layers = 60});
-                const std::vector<double> heights = heights_with(1e-3, 60);
-                scale += real(-steepest, steepest) * widths[i] / heights.back();
-                for (const double height : heights) table.push_back(scale * height);
-                lean += real(-1, 5) * widths[i] / heights.back();
-                rays.set.lines[i].direction = unit(Point{lean, -1});
-                if (i > 0) rays.counts[i] = std::clamp(rays.counts[i - 1] + std::uint32_t(real(0, 3)) - 1, 40u, 60u);
-            }
-            rays.fitted = LayerHeights(table, columns);
-            const LayerHeights before = rays.fitted;
-            layers::taper_columns(rays);
-            for (std::size_t i = 1; i + 2 < widths.size(); ++i) {
-                if (!are_sound({rays.set, before, rays.counts}, i)) continue;
-                EXPECT_TRUE(are_sound(layers::layered_rays(rays), i)) << "round " << round << ", column " << i;
-                const bool is_tapered = rays.fitted.column(i).taper != 1 || rays.fitted.column(i + 1).taper != 1;
-                (is_tapered ? tapered : left) += 1;
-            }
+    SoundColumns sound;
+    for (int round = 0; round < 5000; ++round) {
+        std::vector<double> widths;
+        double width = 1e-3;
+        for (std::size_t i = 0; i < 30; ++i) widths.push_back(width *= std::exp(real(-1.2, 1.2)));
+        Rays rays = columns_apart(widths);
+        rays.topology = topology;
+        std::vector<double> table;
+        std::vector<HeightColumn> columns;
+        double lean = 0, scale = 1;
+        for (std::size_t i = 0; i < widths.size(); ++i) {
+            columns.push_back({.first = table.size(), .layers = 60});
+            const std::vector<double> heights = heights_with(1e-3, 60);
+            scale += real(-steepest, steepest) * widths[i] / heights.back();
+            for (const double height : heights) table.push_back(scale * height);
+            lean += real(-1, 5) * widths[i] / heights.back();
+            rays.set.lines[i].direction = unit(Point{lean, -1});
+            if (i > 0) rays.counts[i] = std::clamp(rays.counts[i - 1] + std::uint32_t(real(0, 3)) - 1, 40u, 60u);
         }
-        EXPECT_GT(tapered, (steepest < 1 ? 10 : 2) * left);
+        rays.fitted = LayerHeights(table, columns);
+        const LayerHeights before = rays.fitted;
+        layers::taper_columns(rays);
+        for (std::size_t i = 1; i + 2 < widths.size(); ++i) {
+            if (!are_sound({rays.set, before, rays.counts}, i)) continue;
+            EXPECT_TRUE(are_sound(layers::layered_rays(rays), i)) << "round " << round << ", column " << i;
+            const bool is_tapered = rays.fitted.column(i).taper != 1 || rays.fitted.column(i + 1).taper != 1;
+            (is_tapered ? sound.tapered : sound.left) += 1;
+        }
     }
+    return sound;
+}
+
+/// Rows of neighbours that are tapered differently rise, and may do so where fronts and numbers of layers are steep
+/// already.
+TEST(Taper, CrossesNoCells) {
+    // Limits let fronts rise by a quarter of the width. Six widths are a hard case: columns of triangles are tapered
+    // more differently there, since wide ones do not raise narrow ones, and more tapers are taken back whole.
+    const SoundColumns of_quads = taper_random_columns(LayerTopology::quads, 6);
+    const SoundColumns of_triangles = taper_random_columns(LayerTopology::layered, 0.25);
+    const SoundColumns of_steep_triangles = taper_random_columns(LayerTopology::layered, 6);
+    EXPECT_GT(of_quads.tapered, 10 * of_quads.left);
+    EXPECT_GT(of_triangles.tapered, 10 * of_triangles.left);
+    EXPECT_GT(of_steep_triangles.tapered, 2 * of_steep_triangles.left);
 }
 
 /// Where rows turn at a ray, faces that become shorter become more skewed.
 TEST(Taper, FacesBesideTurningRowsStayLong) {
     const std::vector<double> widths(401, 3e-4);
     Rays rays = columns_apart(widths);
-    rays.quads = true;  // faces are those of quadrilaterals
+    rays.topology = LayerTopology::quads;
     Rays turning = rays;
     for (std::size_t i = 0; i < widths.size(); ++i)
         turning.set.lines[i].origin.y = -2 * std::abs(turning.set.lines[i].origin.x - turning.set.lines[200].origin.x);
-    layers::taper_columns(rays);
-    layers::taper_columns(turning);
+    Rays of_triangles = turning;
+    of_triangles.topology = LayerTopology::layered;
+    for (Rays* each : {&rays, &turning, &of_triangles}) layers::taper_columns(*each);
     EXPECT_NEAR(rays.fitted.column(200).taper, 0.91 * 0.3, 1e-9);
     EXPECT_NEAR(turning.fitted.column(100).taper, 0.91 * 0.3 * std::sqrt(5.0), 1e-9) << "edges of the front are longer";
     EXPECT_NEAR(turning.fitted.column(200).taper, 0.6 / 0.8, 1e-9) << "a skewness of 0.6, made 0.8";
+    // Cells that lean by so much are a fifth as large as squares on their edges.
+    for (const std::size_t i : {100, 200}) EXPECT_EQ(of_triangles.fitted.column(i).taper, 1) << i;
 }
 
 }  // namespace
