@@ -27,7 +27,7 @@ PUBLIC = REPOSITORY / "include" / "lamina"
 
 # The folder that owns each public header; a header that is not listed belongs to the folder of its name.
 OWNERS = {name: "core" for name in ("angle_bounds", "conditions", "error", "export", "files", "ids", "interruption",
-                                    "length", "limits", "option", "option_builders", "point", "predicates", "ranks",
+                                    "length", "limits", "marker_names", "option", "option_builders", "point", "predicates", "ranks",
                                     "suggestion", "threads", "version", "warning")}
 OWNERS["transformation"] = "geometry"
 OWNERS["solution"] = "io"

@@ -38,7 +38,8 @@ struct OutlineFeatures {
 
 /// One closed body.
 struct Element {
-    std::string name;             ///< name of its marker in the mesh: no spaces, at most 32 characters, unique
+    std::string name;             ///< name of its marker in the mesh: as legal_marker_names() makes it
+    std::string given_name;       ///< the name that the options or its file give it, which may be no legal one
     std::string file;             ///< as the user gave it; "naca:0012" for generated sections
     std::string title;            ///< the title line of the file, if it has one
     std::string format;           ///< "selig", "lednicer", "table", "xy", "csv", "naca" or "points"
@@ -76,7 +77,8 @@ LAMINA_EXPORT Box bounding_box(const Geometry& geometry);
 /// Options of read_geometry().
 struct GeometryOptions {
     std::vector<std::string>
-        names{};  ///< marker names, one per element; empty: file stems, or "airfoil" for one element
+        names{};  ///< marker names, one per element; empty: file stems, or "airfoil" for one element. Those that are
+                  ///< not legal are changed (marker_names.hpp), with a warning of the element
     /// Surface points of `naca:` inputs that do not give their number; 0: many samples of the formula, of which
     /// prepare_surfaces() takes as many as a wall needs (Element::samples_of_curve).
     std::size_t naca_points = 0;
@@ -94,7 +96,8 @@ LAMINA_EXPORT void validate(const GeometryOptions& options);
 /// repairs, orients, names, transforms and checks its elements. Coordinates change only as the options ask. Throws
 /// InputError for input that cannot be repaired (no or too few points, NaN, an outline that crosses itself, elements
 /// that cross or contain each other, coordinates outside the exact range of predicates.hpp) or transformed, IoError for
-/// files that cannot be read, UsageError for names that are no markers or that no element has.
+/// files that cannot be read, UsageError for a wrong number of names, for repeated names and for those that no element
+/// has.
 LAMINA_EXPORT Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
 
 /// Reads one input of read_geometry() and repairs its elements, which do not have names yet. Throws as read_geometry()

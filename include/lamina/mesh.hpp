@@ -11,6 +11,7 @@
 #include <lamina/angle_bounds.hpp>
 #include <lamina/export.hpp>
 #include <lamina/ids.hpp>
+#include <lamina/marker_names.hpp>
 #include <lamina/option.hpp>
 #include <lamina/point.hpp>
 
@@ -21,17 +22,6 @@ enum class Region : std::uint8_t {
     layer,     ///< the anisotropic cells next to the walls
     isotropic  ///< all other cells
 };
-
-/// The boundary condition that a marker is meant for.
-enum class MarkerKind : std::uint8_t {
-    wall,       ///< the flow sticks to it
-    far_field,  ///< the outer boundary
-    symmetry,   ///< a line of symmetry
-    other       ///< unknown
-};
-
-/// Returns whether a marker of this kind counts as a wall: unless it is a far field or a symmetry.
-constexpr bool may_be_wall(MarkerKind kind) { return kind == MarkerKind::wall || kind == MarkerKind::other; }
 
 /// A named part of the boundary.
 struct Marker {
@@ -81,6 +71,10 @@ struct MeshView {
           layer(mesh.layer),
           constraints(mesh.constraints) {}
 };
+
+/// Gives markers legal names (marker_names.hpp), and returns a warning of each name that has changed. It is for meshes from
+/// elsewhere: those that lamina makes have legal names.
+LAMINA_EXPORT std::vector<Warning> make_marker_names_legal(std::span<Marker> markers);
 
 /// One way in which a mesh is not valid.
 struct MeshDefect {

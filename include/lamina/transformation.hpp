@@ -49,7 +49,7 @@ inline constexpr const char* every_element = "all";
 
 /// A change of one element, or of all.
 struct Transformation {
-    std::string element;  ///< name of the element, or every_element
+    std::string element;  ///< name of the element, also as it was given, or every_element
     std::variant<Scaling, Rotation, Shift, Mirroring, FlapDeflection> change;  ///< what happens to it
 };
 

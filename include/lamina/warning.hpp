@@ -32,6 +32,7 @@ enum class WarningCode {
     unsuited_to_solver,        ///< the solver that the mesh is written for cannot use its cells
     flow_estimated,            ///< the panel method failed, and the flow is that along flat plates
     unused_seed,               ///< a hole or a region of a triangulation lies where it changes nothing
+    marker_renamed,            ///< a marker has another name than it was given, which not every format takes
 };
 
 /// Returns the stable name of a kind: "first_layer_lost".

@@ -93,9 +93,17 @@ SharedMesh read(const std::string& file, const std::string& format) {
     return shared(read_mesh(file, {.format = format}));
 }
 
-void write(const SharedMesh& mesh, const std::string& file, const std::string& format, bool wall_distance) {
-    const nb::gil_scoped_release unlocked;
-    write_mesh(*mesh, file, {.format = format, .wall_distance = wall_distance});
+/// Writes the mesh, with legal names of markers. Returns the warnings of those that differ from the mesh's own.
+nb::list write(const SharedMesh& mesh, const std::string& file, const std::string& format, bool wall_distance) {
+    std::vector<Marker> markers = (*mesh).markers;
+    const std::vector<Warning> warnings = make_marker_names_legal(markers);
+    MeshView view = *mesh;
+    view.markers = markers;
+    {
+        const nb::gil_scoped_release unlocked;
+        write_mesh(view, file, {.format = format, .wall_distance = wall_distance});
+    }
+    return warnings_of(warnings);
 }
 
 nb::dict check(const SharedMesh& mesh, double min_angle, const std::optional<double>& first_height) {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Mapping
@@ -251,9 +252,11 @@ class Mesh:
 
         The extension of the file says its format, unless `format` names one of `lamina.formats()`. `wall_distance`
         adds the distance to the nearest wall as point data, in VTU files. Raises IoError, UsageError for unknown
-        formats, MeshError for a mesh that the format cannot hold. A failure leaves nothing half-written.
+        formats, MeshError for a mesh that the format cannot hold. A failure leaves nothing half-written. Names of markers
+        that not every format takes are changed in the file, with a MeshWarning: "0012" to "wall_0012".
         """
-        self._data.write(os.fspath(path), format, wall_distance)
+        for warning in self._data.write(os.fspath(path), format, wall_distance):
+            warnings.warn(MeshWarning._from(warning), stacklevel=2)
 
     def write_wall_data(self, path: str | os.PathLike[str]) -> None:
         """Writes the table of `wall` as CSV, as `lamina mesh --wall-data` does."""

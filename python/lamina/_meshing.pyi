@@ -35,7 +35,8 @@ def mesh(
     spacing_max: float | None = None,
     # smooth the points first; none moves by more than this; > 0
     smooth: float | str | None = None,
-    # marker names, one per element; else the stems of the files, or 'airfoil' for a single element
+    # marker names, one per element; else the stems of the files, or 'airfoil' for a single element; names that
+    # not every format takes are changed
     names: str | Sequence[str | float] | None = None,
     # exchange left and right of the whole configuration, for flow that comes from the right; before any
     # --transform

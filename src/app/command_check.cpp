@@ -1,5 +1,4 @@
 // lamina check: checks whether a mesh file is valid, and measures its quality.
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -18,6 +17,7 @@
 #include "app/check_report.hpp"
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
+#include "app/marker_lookup.hpp"
 #include "app/report.hpp"
 #include "app/run_files.hpp"
 #include "app/standard_output.hpp"
@@ -40,9 +40,8 @@ struct CheckArguments {
 /// Gives the marker of this name its kind, whatever the file says. Adds a shortcoming where it is missing or empty.
 void require_marker(std::vector<Marker>& markers, const std::string& name, MarkerKind kind,
                     Shortcomings& shortcomings) {
-    const auto marker =
-        std::find_if(markers.begin(), markers.end(), [&](const Marker& candidate) { return candidate.name == name; });
-    if (marker == markers.end() || marker->edges.empty()) {
+    Marker* const marker = find_marker(markers, name, kind);
+    if (marker == nullptr || marker->edges.empty()) {
         shortcomings.push_back("no marker '" + name + "'");
     } else {
         marker->kind = kind;

@@ -1,5 +1,4 @@
 // lamina convert: converts a mesh from one format to another.
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -15,6 +14,8 @@
 
 #include "app/commands.hpp"
 #include "app/format_help.hpp"
+#include "app/marker_lookup.hpp"
+#include "app/progress.hpp"
 #include "app/run_files.hpp"
 
 namespace lamina::app {
@@ -31,9 +32,8 @@ struct ConvertArguments {
 void set_kind(std::vector<Marker>& markers, const std::vector<std::string>& names, MarkerKind kind,
               const std::string& file) {
     for (const std::string& name : names) {
-        const auto marker = std::find_if(markers.begin(), markers.end(),
-                                         [&](const Marker& candidate) { return candidate.name == name; });
-        if (marker == markers.end()) throw InputError({file, 0, {}}, "no marker '" + name + "'");
+        Marker* const marker = find_marker(markers, name, kind);
+        if (marker == nullptr) throw InputError({file, 0, {}}, "no marker '" + name + "'");
         marker->kind = kind;
     }
 }
@@ -53,6 +53,7 @@ void convert(const ConvertArguments& arguments) {
     set_kind(mesh.markers(), arguments.walls, MarkerKind::wall, name);
     set_kind(mesh.markers(), arguments.far_fields, MarkerKind::far_field, name);
     set_kind(mesh.markers(), arguments.symmetries, MarkerKind::symmetry, name);
+    print_warnings(make_marker_names_legal(mesh.markers()));
     write_mesh(mesh.view(), arguments.to, arguments.options);
 }
 

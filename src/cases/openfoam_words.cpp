@@ -18,6 +18,13 @@ std::string condition(const std::string& type, const std::string& value) {
     return fmt::format("type            {};\n        value           {};", type, value);
 }
 
+/// Returns the key of an entry for these patches. The group `wall`, which OpenFOAM makes of all walls, would not do: it
+/// does not exist where a patch has that name.
+std::string key_of_patches(const std::vector<std::string>& names) {
+    if (names.size() == 1) return names.front();
+    return fmt::format("\"({})\"", fmt::join(names, "|"));
+}
+
 /// Returns the entries that sample the faces of each wall.
 std::string wall_surfaces(const std::vector<std::string>& walls) {
     std::string entries;
@@ -85,12 +92,12 @@ void add_turbulence(const CaseFlow& flow, Words& words) {
 
 Words openfoam_words(const CaseFlow& flow) {
     const double u = flow.velocity * flow.direction.x, v = flow.velocity * flow.direction.y;
-    const std::string far_fields = fmt::format("{}", fmt::join(flow.far_fields, "|"));
     Words words;
     const std::string mach = flow.compressible ? fmt::format("Mach number {}, ", flow.mach) : "";
     words["TITLE"] = fmt::format("Reynolds number {}, {}angle of attack {} degrees, chord {}", flow.reynolds, mach,
                                  flow.alpha_deg, flow.chord);
-    words["FAR_FIELD"] = flow.far_fields.size() > 1 ? "\"(" + far_fields + ")\"" : far_fields;
+    words["FAR_FIELD"] = key_of_patches(flow.far_fields);
+    words["WALL"] = key_of_patches(flow.walls);
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, " "));
     words["SYMMETRIES"] = symmetry_patches(flow.symmetries);

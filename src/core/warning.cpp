@@ -12,8 +12,9 @@ std::string warning_name(WarningCode code) {
         "large_angle",          "small_angle",          "refused_points",          "oversized_triangles",
         "surface_not_as_asked", "layers_thinned",       "topology_not_as_asked",   "swapped_columns",
         "reversed_flow",        "crossing_tail_cut",    "folded_outline",          "ambiguous_section",
-        "no_triangles",         "unsuited_to_solver",   "flow_estimated",          "unused_seed"};
-    static_assert(names.size() == static_cast<std::size_t>(WarningCode::unused_seed) + 1);
+        "no_triangles",         "unsuited_to_solver",   "flow_estimated",          "unused_seed",
+        "marker_renamed"};
+    static_assert(names.size() == static_cast<std::size_t>(WarningCode::marker_renamed) + 1);
     return names[static_cast<std::size_t>(code)];
 }
 

@@ -9,78 +9,70 @@
 #include <fmt/format.h>
 
 #include <lamina/error.hpp>
-
-#include "geometry/characters.hpp"
+#include <lamina/files.hpp>
+#include <lamina/marker_names.hpp>
 
 namespace lamina::geometry {
 
 namespace {
 
-constexpr std::size_t max_name_length = 32;              // the limit of CGNS
-constexpr std::string_view far_field_name = "farfield";  // a marker that every mesh has beside those of its elements
-
-/// Returns a name that may be a marker: characters that are not allowed become underscores, and long names are cut.
-std::string sanitized(const std::string& name) {
-    std::string clean;
-    for (char c : name) {
-        const bool allowed = is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.' || c == '+';
-        clean += allowed ? c : '_';
-    }
-    return clean.empty() ? "element" : clean.substr(0, max_name_length);
-}
-
-/// Returns the stem of the element's file, or "naca" and its digits.
+/// Returns the stem of the element's file, "naca" and its digits, or the name that standard input has.
 std::string base_name(const Element& element) {
-    if (!element.file.starts_with(naca_prefix)) return sanitized(std::filesystem::path(element.file).stem().string());
+    if (element.file == input_name("-")) return "standard_input";
+    if (!element.file.starts_with(naca_prefix)) return std::filesystem::path(element.file).stem().string();
     const std::size_t begin = naca_prefix.size(), end = element.file.find(':', begin);
-    return "naca" + sanitized(element.file.substr(begin, end - begin));
+    return "naca" + element.file.substr(begin, end - begin);
 }
 
-/// Names elements by their base names. Where several elements share one, all of them get a number: main_1, main_2.
-void name_by_file(std::vector<Element>& elements) {
+/// Returns the base names of elements. Where several elements share one, all of them get a number: main_1, main_2.
+std::vector<std::string> names_by_file(const std::vector<Element>& elements) {
     std::vector<std::string> stems;
     stems.reserve(elements.size());
     for (const Element& e : elements) stems.push_back(base_name(e));
     const auto is_unique = [&](const std::string& stem) { return std::count(stems.begin(), stems.end(), stem) == 1; };
-    std::set<std::string> used{std::string(far_field_name)};
+    std::set<std::string> used;
     for (const std::string& stem : stems)
         if (is_unique(stem)) used.insert(stem);
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-        elements[i].name = stems[i];
-        if (is_unique(stems[i]) && stems[i] != far_field_name) continue;
+    std::vector<std::string> names = stems;
+    for (std::size_t i = 0; i < stems.size(); ++i) {
+        if (is_unique(stems[i])) continue;
         for (std::size_t number = 1;; ++number) {
             const std::string suffix = fmt::format("_{}", number);
-            elements[i].name = stems[i].substr(0, max_name_length - suffix.size()) + suffix;
-            if (used.insert(elements[i].name).second) break;
+            names[i] = stems[i].substr(0, max_marker_name - suffix.size()) + suffix;
+            if (used.insert(names[i]).second) break;
         }
     }
+    return names;
 }
 
-void name_as_requested(std::vector<Element>& elements, const std::vector<std::string>& names) {
-    if (names.size() != elements.size())
-        throw UsageError(fmt::format("{} name{} given for {} element{}", names.size(), names.size() == 1 ? "" : "s",
+/// Returns the names that the elements are to have, which differ from each other.
+std::vector<std::string> wanted_names(const std::vector<Element>& elements, const std::vector<std::string>& given) {
+    if (given.empty()) return elements.size() == 1 ? std::vector<std::string>{"airfoil"} : names_by_file(elements);
+    if (given.size() != elements.size())
+        throw UsageError(fmt::format("{} name{} given for {} element{}", given.size(), given.size() == 1 ? "" : "s",
                                      elements.size(), elements.size() == 1 ? "" : "s"));
     std::set<std::string> used;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (names[i].empty() || sanitized(names[i]) != names[i])
-            throw UsageError(
-                fmt::format("the name '{}' must have 1 to {} letters, digits or _ - . +", names[i], max_name_length));
-        if (names[i] == far_field_name)
-            throw UsageError(fmt::format("the name '{}' is that of the outer boundary", names[i]));
-        if (!used.insert(names[i]).second) throw UsageError(fmt::format("the name '{}' is given twice", names[i]));
-        elements[i].name = names[i];
+    for (const std::string& name : given) {
+        if (name.empty()) throw UsageError("names: a name is empty");
+        if (!used.insert(name).second) throw UsageError(fmt::format("the name '{}' is given twice", name));
     }
+    return given;
 }
 
 }  // namespace
 
 void name_elements(std::vector<Element>& elements, const GeometryOptions& options) {
-    if (!options.names.empty()) {
-        name_as_requested(elements, options.names);
-    } else if (elements.size() == 1) {
-        elements[0].name = "airfoil";
-    } else {
-        name_by_file(elements);
+    std::vector<NamedMarker> markers;
+    for (std::string& name : wanted_names(elements, options.names))
+        markers.push_back({std::move(name), MarkerKind::wall});
+    markers.push_back({std::string(far_field_name), MarkerKind::far_field});
+    std::vector<std::string> names = legal_marker_names(markers);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        Element& element = elements[i];
+        element.given_name = markers[i].name;
+        element.name = std::move(names[i]);
+        if (element.name != element.given_name)
+            element.warnings.push_back(renamed_marker_warning(markers[i], element.name));
     }
 }
 

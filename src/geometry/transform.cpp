@@ -90,11 +90,17 @@ struct Change {
     }
 };
 
+/// Returns whether an element has this name, or was given it.
+bool is_named(const Element& e, const std::string& name) { return e.name == name || e.given_name == name; }
+
 void require_known_element(const Geometry& geometry, const std::string& name) {
     std::vector<std::string> names{std::string(every_element)};
-    for (const Element& e : geometry.elements) names.push_back(e.name);
-    if (std::find(names.begin(), names.end(), name) == names.end())
-        throw OptionError("transform", "element " + unknown_choice(name, names));
+    bool is_known = name == every_element;
+    for (const Element& e : geometry.elements) {
+        names.push_back(e.name);
+        is_known = is_known || is_named(e, name);
+    }
+    if (!is_known) throw OptionError("transform", "element " + unknown_choice(name, names));
     if (name == every_element && names.size() > 2 && std::count(names.begin(), names.end(), name) > 1)
         throw OptionError("transform",
                           fmt::format("'{}' means every element, and one has this name: give --names", name));
@@ -113,7 +119,7 @@ Geometry transformed(Geometry geometry, std::span<const Transformation> transfor
         validate(transformation);
         require_known_element(geometry, transformation.element);
         for (Element& e : geometry.elements)
-            if (transformation.element == every_element || transformation.element == e.name)
+            if (transformation.element == every_element || is_named(e, transformation.element))
                 e.transformations.push_back(std::visit(Change{e}, transformation.change));
     }
     return geometry;

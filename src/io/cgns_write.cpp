@@ -11,8 +11,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <lamina/error.hpp>
@@ -168,7 +171,12 @@ std::size_t bytes_needed(const MeshView& mesh, CgnsVariant variant) {
 
 /// Throws UsageError for meshes that a CGNS file cannot hold.
 void require_fit(const MeshView& mesh, const fs::path& file) {
-    require_marker_names(mesh.markers, file, "CGNS", "/", 32);
+    require_marker_names(mesh.markers, file, "CGNS", "/", max_marker_name);
+    constexpr std::array<std::string_view, 4> other_nodes{"Zone", "ZoneType", "ZoneBC", "GridCoordinates"};
+    for (const Marker& marker : mesh.markers)
+        if (std::find(other_nodes.begin(), other_nodes.end(), marker.name) != other_nodes.end())
+            throw UsageError(
+                fmt::format("{}: '{}' is the name of another node, and of a marker", file.string(), marker.name));
     for (const CellBlock& block : cell_blocks(mesh))
         for (const Marker& marker : mesh.markers)
             if (marker.name == section_name(block))

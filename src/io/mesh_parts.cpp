@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 
 #include <lamina/error.hpp>
@@ -41,18 +40,6 @@ bool region_of_name(std::string_view name, Region& region) {
     return name == "layer" || name == "isotropic";
 }
 
-MarkerKind kind_of_name(std::string_view name) {
-    std::string letters;
-    for (const char c : name)
-        if (std::isalpha(static_cast<unsigned char>(c)))
-            letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (letters == "farfield" || letters == "far" || letters == "inlet" || letters == "outlet")
-        return MarkerKind::far_field;
-    if (letters == "symmetry" || letters == "symmetryplane") return MarkerKind::symmetry;
-    if (letters == "wall" || letters == "airfoil") return MarkerKind::wall;
-    return MarkerKind::other;
-}
-
 void require_marker_names(std::span<const Marker> markers, const std::filesystem::path& file, const char* format,
                           std::string_view forbidden, std::size_t max_bytes) {
     std::vector<std::string_view> names;
@@ -68,6 +55,17 @@ void require_marker_names(std::span<const Marker> markers, const std::filesystem
     const auto twice = std::adjacent_find(names.begin(), names.end());
     if (twice != names.end())
         throw UsageError(fmt::format("{}: {} cannot hold two markers named '{}'", file.string(), format, *twice));
+}
+
+void require_legal_marker_names(std::span<const Marker> markers, const std::filesystem::path& file,
+                                const char* format) {
+    std::vector<NamedMarker> named;
+    for (const Marker& marker : markers) named.push_back({marker.name, marker.kind});
+    const std::vector<std::string> legal = legal_marker_names(named);
+    for (std::size_t i = 0; i < legal.size(); ++i)
+        if (legal[i] != named[i].name)
+            throw UsageError(fmt::format("{}: {} cannot hold a marker named '{}' beside the others: call it '{}'",
+                                         file.string(), format, named[i].name, legal[i]));
 }
 
 void orient_markers(const MeshView& mesh, std::vector<Marker>& markers) {

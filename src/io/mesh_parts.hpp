@@ -34,14 +34,14 @@ std::size_t count_marker_edges(const MeshView& mesh);
 /// names.
 bool region_of_name(std::string_view name, Region& region);
 
-/// Returns the kind of a marker that was read from a format without kinds, judged by its name. Case, punctuation and
-/// digits do not count.
-MarkerKind kind_of_name(std::string_view name);
-
 /// Throws UsageError unless every marker has a name of its own of at most `max_bytes` bytes, without control characters
 /// and without those in `forbidden`.
 void require_marker_names(std::span<const Marker> markers, const std::filesystem::path& file, const char* format,
                           std::string_view forbidden, std::size_t max_bytes);
+
+/// Throws UsageError unless every marker has a legal name (marker_names.hpp). It is for formats that programs read which
+/// look for markers by name.
+void require_legal_marker_names(std::span<const Marker> markers, const std::filesystem::path& file, const char* format);
 
 /// Reverses the marker edges that no cell has in their direction but that one has in the other: some programs write
 /// edges of the boundary either way round. Precondition: all indices are in range.

@@ -110,7 +110,7 @@ private:
 }  // namespace
 
 void write_msh_extruded(const MeshView& mesh, const std::filesystem::path& file, std::ostream& out) {
-    require_marker_names(mesh.markers, file, "MSH", "\"", 127);
+    require_legal_marker_names(mesh.markers, file, "MSH for gmshToFoam");
     ExtrudedWriter(mesh, out).write();
 }
 

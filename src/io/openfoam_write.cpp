@@ -256,10 +256,7 @@ void check_openfoam_writable(const fs::path& file) {
 }
 
 void write_openfoam(const MeshView& mesh, const fs::path& file, std::size_t parts) {
-    require_marker_names(mesh.markers, file, "OpenFOAM", " \"'/;{}()$#", 1000);
-    for (const Marker& marker : mesh.markers)
-        if (marker.name == front_and_back)
-            throw UsageError(fmt::format("{}: OpenFOAM needs the name '{}' for the sides", file.string(), marker.name));
+    require_legal_marker_names(mesh.markers, file, "OpenFOAM");
     const PolyMeshWriter writer(mesh, file);
     core::write_folder_atomically(poly_mesh_folder(file), [&](const fs::path& folder) { writer.write(folder); });
     if (parts > 1) write_parts(mesh, parts, openfoam_parts_file(file));

@@ -187,7 +187,7 @@ void write_su2(const MeshView& mesh, const std::filesystem::path& file, std::ost
 }
 
 void require_su2_marker_names(std::span<const Marker> markers, const std::filesystem::path& file) {
-    require_marker_names(markers, file, "SU2", " %", 1000);
+    require_legal_marker_names(markers, file, "SU2");
 }
 
 void write_su2_markers(std::span<const Marker> markers, std::ostream& out) {

@@ -48,11 +48,6 @@ void add_edges(const MeshView& mesh, TriangleOutput& output) {
     }
 }
 
-struct NamedMarker {
-    std::string name;
-    MarkerKind kind = MarkerKind::other;
-};
-
 /// Reads the names and kinds of markers from the comments at the head of a .poly file.
 std::map<long, NamedMarker> read_names(const fs::path& file) {
     std::map<long, NamedMarker> names;

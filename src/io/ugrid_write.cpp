@@ -174,7 +174,7 @@ private:
 };
 
 void write_with_mapbc(const MeshView& mesh, const fs::path& file, bool thick) {
-    require_marker_names(mesh.markers, file, "UGRID", " ", 1000);
+    require_legal_marker_names(mesh.markers, file, "UGRID");
     if (mesh.points.size() > std::numeric_limits<std::int32_t>::max() / 2)
         throw UsageError(fmt::format("{}: UGRID numbers no more than 2^31 nodes", file.string()));
     const std::vector<fs::path> targets = ugrid_files(file);

@@ -33,17 +33,31 @@ std::vector<Segment> take_base(const Element& element, std::span<const Point> po
 
 }  // namespace
 
+std::string wanted_base_name(const Element& element) {
+    constexpr std::string_view ending = "_base";
+    return element.name.substr(0, max_marker_name - ending.size()) + std::string(ending);
+}
+
+std::vector<std::string> base_marker_names(const Geometry& geometry) {
+    std::vector<NamedMarker> markers{{std::string(far_field_name), MarkerKind::far_field}};
+    for (const Element& element : geometry.elements) markers.push_back({element.name, MarkerKind::wall});
+    for (const Element& element : geometry.elements) markers.push_back({wanted_base_name(element), MarkerKind::wall});
+    const std::vector<std::string> names = legal_marker_names(markers);
+    return {names.end() - static_cast<std::ptrdiff_t>(geometry.elements.size()), names.end()};
+}
+
 std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, std::vector<Segment> far_field,
                                  const AssembleOptions& options) {
     std::vector<Marker> markers;
+    const std::vector<std::string> base_names = base_marker_names(geometry);
     for (std::size_t e = 0; e < geometry.elements.size(); ++e) {
         const Element& element = geometry.elements[e];
         std::vector<Segment> wall = layer.edges.walls[e], base;
         if (options.base_marker && element.features.base) base = take_base(element, layer.points, wall);
         markers.push_back({element.name, MarkerKind::wall, std::move(wall)});
-        if (!base.empty()) markers.push_back({element.name + "_base", MarkerKind::wall, std::move(base)});
+        if (!base.empty()) markers.push_back({base_names[e], MarkerKind::wall, std::move(base)});
     }
-    markers.push_back({"farfield", MarkerKind::far_field, std::move(far_field)});
+    markers.push_back({std::string(far_field_name), MarkerKind::far_field, std::move(far_field)});
     return markers;
 }
 

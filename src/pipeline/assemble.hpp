@@ -2,11 +2,18 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include <lamina/pipeline.hpp>
 
 namespace lamina::pipeline {
+
+/// Returns the name that the marker of the base of an element would have by itself: NAME_base.
+std::string wanted_base_name(const Element& element);
+
+/// Returns the name of the marker of each element's base, which no other marker has.
+std::vector<std::string> base_marker_names(const Geometry& geometry);
 
 /// Returns the markers of the walls, element by element, and that of the far field.
 std::vector<Marker> make_markers(const Geometry& geometry, const Layer& layer, std::vector<Segment> far_field,

@@ -11,6 +11,7 @@
 #include "core/cell_shape.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/walls.hpp"
+#include "pipeline/assemble.hpp"
 #include "pipeline/ray_plan.hpp"
 
 namespace lamina::pipeline {
@@ -286,12 +287,27 @@ void add_reader_warnings(const Geometry& geometry, std::vector<Warning>& warning
     }
 }
 
+/// Warns of bases whose markers are not called NAME_base, since others have that name.
+void warn_of_base_markers(const Geometry& geometry, std::vector<Warning>& warnings) {
+    const std::vector<std::string> names = base_marker_names(geometry);
+    for (std::size_t e = 0; e < names.size(); ++e) {
+        const Element& element = geometry.elements[e];
+        const std::string wanted = wanted_base_name(element);
+        if (!element.features.base || names[e] == wanted) continue;
+        Warning warning = renamed_marker_warning({wanted, MarkerKind::wall}, names[e]);
+        warning.element = element.name;
+        warning.message = fmt::format("{}: base: {}", element.name, warning.message);
+        warnings.push_back(std::move(warning));
+    }
+}
+
 }  // namespace
 
 std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& options, const WorstPlaces& worst,
                                    const Mesh& layer) {
     std::vector<Warning> warnings;
     add_reader_warnings(result.geometry, warnings);
+    if (options.assemble.base_marker) warn_of_base_markers(result.geometry, warnings);
     warn_of_surfaces(result.geometry, options.surface, warnings);
     warn_of_first_height(result, options.layer, warnings);
     warn_of_topology(result, warnings);

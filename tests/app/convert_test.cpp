@@ -59,6 +59,34 @@ TEST(Convert, SetsKinds) {
     EXPECT_EQ(read_mesh(folder / "m.vtu").markers[1].kind, MarkerKind::symmetry);
 }
 
+// Names come from other programs, and must suit those that read the file next.
+TEST(Convert, GivesMarkersNamesThatEveryFormatTakes) {
+    const TemporaryFolder folder;
+    Mesh mesh = annulus();
+    mesh.markers[0].name = "1 left wall";
+    mesh.markers[1] = {"2", MarkerKind::other, mesh.markers[1].edges};
+    write_mesh(mesh, folder / "m.vtu");
+    for (const MeshFormat& format : mesh_formats()) {
+        if (!format.readable) continue;
+        std::filesystem::create_directory(folder / format.name);
+        const std::string out = format.name + "/" + file_name(format);
+        const auto run = run_lamina(folder, {"convert", "m.vtu", out, "--format", format.name, "--far", "2"});
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.err,
+                  "lamina: warning: the name '1 left wall' does not begin with a letter: the marker is "
+                  "'wall_1_left_wall'\n"
+                  "lamina: warning: the name '2' does not begin with a letter: the marker is 'far_2'\n");
+        const Mesh back = read_mesh(folder / out, {.format = format.name});
+        EXPECT_EQ(back.markers[0].name, "wall_1_left_wall") << format.name;
+        EXPECT_EQ(back.markers[1].name, "far_2") << format.name;
+        EXPECT_EQ(back.markers[1].kind, MarkerKind::far_field) << format.name;
+        // Markers are found by either name.
+        for (const char* name : {"wall_1_left_wall", "1 left wall"})
+            EXPECT_EQ(run_lamina(folder, {"check", out, "--input-format", format.name, "--wall", name}).exit_code, 0)
+                << format.name << " " << name;
+    }
+}
+
 TEST(Convert, Refuses) {
     const TemporaryFolder folder;
     write_mesh(annulus(), folder / "m.su2");

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -61,6 +63,57 @@ TEST(SolverCaseCommand, WritesSu2WithAFarFieldForAUniformStream) {
     double farthest = 0;
     for (const Point p : mesh.points) farthest = std::max(farthest, std::abs(p.y));
     EXPECT_NEAR(farthest, 500, 1);
+}
+
+/// Returns a word of a text that stands before a list in parentheses, and the words in it: "walls" of "walls (a b);".
+std::vector<std::string> list_behind(const std::string& text, const std::string& beginning, const std::string& end) {
+    const std::size_t at = text.find(beginning);
+    EXPECT_NE(at, std::string::npos) << beginning;
+    const std::size_t from = at + beginning.size();
+    std::istringstream words(text.substr(from, text.find(end, from) - from));
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
+// Markers with names that no solver takes have the same other ones in every file of a run.
+TEST(SolverCaseCommand, NamesOfMarkersAreTheSameInEveryFile) {
+    const TemporaryFolder folder;
+    folder.write("0012.dat", "0012\n1 0\n0.7 0.05\n0.3 0.08\n0 0\n0.3 -0.08\n0.7 -0.05\n1 0\n");
+    folder.write("63-215.dat", "63-215\n1 0\n0.7 0.05\n0.3 0.08\n0 0\n0.3 -0.08\n0.7 -0.05\n1 0\n");
+    const Words names{"wall_0012", "wall_63-215"};
+    const auto case_for = [&](const char* solver) {
+        return run_lamina(folder, {"case",     solver,   "0012.dat",    "63-215.dat", "--transform", "63-215:shift:0,1",
+                                   "-o",       solver,   "--reynolds",  "1e5",        "--use-flow",  "no",
+                                   "--y-plus", "2",      "--gradation", "0.4",        "--growth",    "1.4",
+                                   "--report", "r.json", "--html",      "r.html",     "--wall-data", "w.csv"});
+    };
+    const ProgramRun openfoam = case_for("openfoam");
+    ASSERT_EQ(openfoam.exit_code, 0) << openfoam.err;
+    for (const Words& said : {Words{"0012", names[0]}, Words{"63-215", names[1]}}) {
+        const std::string warning =
+            fmt::format("lamina: warning: {1}: the name '{0}' does not begin with a letter: the marker is '{1}'\n",
+                        said[0], said[1]);
+        EXPECT_EQ(openfoam.err.find(warning), openfoam.err.rfind(warning));
+        EXPECT_NE(openfoam.err.find(warning), std::string::npos) << openfoam.err;
+    }
+    const Mesh mesh = read_mesh(folder / "openfoam");
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(mesh.markers[i].name, names[i]);
+    EXPECT_EQ(list_behind(folder.read("openfoam/Allrun"), "walls=\"", "\""), names);
+    const std::string control = folder.read("openfoam/system/controlDict");
+    EXPECT_EQ(list_behind(control, "patches         (", ")"), names);
+    for (const std::string& name : names)
+        EXPECT_NE(control.find(fmt::format("{0} {{ type patch; patches ({0}); }}", name)), std::string::npos);
+    const auto report = nlohmann::json::parse(folder.read("r.json"));
+    EXPECT_EQ(report["input"][1]["name"], names[1]);
+    EXPECT_EQ(report["quality"]["walls"]["first_heights"][0]["marker"], names[0]);
+    EXPECT_EQ(report["warnings"][0]["code"], "marker_renamed");
+    EXPECT_NE(folder.read("r.html").find("<title>wall_0012, wall_63-215"), std::string::npos);
+    EXPECT_NE(folder.read("w.csv").find("\nwall_63-215,"), std::string::npos);
+    EXPECT_EQ(folder.read("w.csv").find("\n63-215,"), std::string::npos);
+
+    const ProgramRun su2 = case_for("su2");
+    ASSERT_EQ(su2.exit_code, 0) << su2.err;
+    EXPECT_EQ(list_behind(folder.read("su2/case.cfg"), "MARKER_MONITORING= (", ")"), (Words{names[0] + ",", names[1]}));
+    EXPECT_NE(folder.read("su2/mesh.su2").find("MARKER_TAG= wall_63-215\n"), std::string::npos);
 }
 
 TEST(SolverCaseCommand, TunnelsAndGroundAreSlipWallsWithoutAVortex) {

@@ -88,7 +88,7 @@ std::vector<std::string> patches_of(const std::string& text) {
     return names;
 }
 
-/// Returns the names of the fields of a case. Each must have all patches; all walls are in the group `wall`.
+/// Returns the names of the fields of a case. Each must have all patches.
 std::set<std::string> fields_of(const SolverCaseOptions& options) {
     SolverConditions conditions = some_conditions();
     conditions.reference.mach = 0.2;
@@ -109,6 +109,18 @@ TEST(OpenFoamCase, EveryFieldHasEveryPatch) {
     EXPECT_EQ(fields_of({.turbulence = sa, .compressible = true}), (Names{"T", "U", "alphat", "nuTilda", "nut", "p"}));
     EXPECT_EQ(fields_of({.turbulence = sst, .compressible = true}),
               (Names{"T", "U", "alphat", "k", "nut", "omega", "p"}));
+}
+
+// OpenFOAM's group of all walls, `wall`, does not exist where a patch has that name.
+TEST(OpenFoamCase, NamesItsWallsOneByOne) {
+    Mesh mesh = case_mesh();
+    mesh.markers.push_back({"flap-2", MarkerKind::wall, {mesh.markers[0].edges.back()}});
+    mesh.markers[0].edges.pop_back();
+    const auto files = solver_case_files(FlowSolver::openfoam, mesh, some_conditions(), {});
+    for (const char* field : {"0/U", "0/p", "0/nut", "0/nuTilda"})
+        EXPECT_EQ(patches_of(text_of(files, field)),
+                  (std::vector<std::string>{"\"(wall|flap-2)\"", "farfield", "frontAndBack"}));
+    EXPECT_EQ(value_of(text_of(files, "system/controlDict"), "patches"), "(wall flap-2)");
 }
 
 TEST(OpenFoamCase, AGasHasTheMachNumberAndDensityOneUpstream) {

@@ -327,8 +327,9 @@ TEST(Names, ComeFromFileStemsOrTheUser) {
     GeometryOptions options;
     options.names = {"wing", "flap"};
     EXPECT_EQ(read_geometry(inputs, options).elements[1].name, "flap");
-    for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
-             {"wing"}, {"a", "a"}, {"a b", "c"}, {"", "b"}, {"farfield", "b"}, {std::string(33, 'x'), "b"}}) {
+    EXPECT_TRUE(read_geometry(inputs, options).elements[1].warnings.empty());
+    for (const std::vector<std::string>& bad :
+         std::vector<std::vector<std::string>>{{"wing"}, {"a", "a"}, {"", "b"}, {"a", "b", "c"}}) {
         options.names = bad;
         EXPECT_THROW(read_geometry(inputs, options), UsageError);
     }
@@ -338,7 +339,35 @@ TEST(Names, AvoidTheNameOfTheOuterBoundary) {
     const test::TemporaryFolder folder;
     const std::vector<std::string> inputs{folder.write("farfield.dat", fixtures::selig).string(),
                                           folder.write("flap.dat", fixtures::second_body).string()};
-    EXPECT_EQ(read_geometry(inputs).elements[0].name, "farfield_1");
+    EXPECT_EQ(read_geometry(inputs).elements[0].name, "wall_farfield");
+}
+
+TEST(Names, ThatNoMarkerMayHaveAreChangedWithAWarning) {
+    const test::TemporaryFolder folder;
+    std::vector<std::string> inputs{folder.write("0012.dat", fixtures::selig).string(),
+                                    folder.write("63-215.dat", fixtures::second_body).string()};
+    const Geometry geometry = read_geometry(inputs);
+    EXPECT_EQ(geometry.elements[0].name, "wall_0012");
+    EXPECT_EQ(geometry.elements[1].name, "wall_63-215");
+    EXPECT_EQ(geometry.elements[1].given_name, "63-215");
+    ASSERT_EQ(geometry.elements[0].warnings.size(), 1u);
+    EXPECT_EQ(geometry.elements[0].warnings[0].code, WarningCode::marker_renamed);
+
+    GeometryOptions options;
+    options.names = {"a b", std::string(33, 'x')};
+    EXPECT_EQ(read_geometry(inputs, options).elements[0].name, "a_b");
+    EXPECT_EQ(read_geometry(inputs, options).elements[1].name, std::string(32, 'x'));
+    // Transformations know elements by both names.
+    options.names = {"0012", "flap"};
+    for (const char* name : {"0012", "wall_0012"}) {
+        options.transformations = {parse_transformation(std::string(name) + ":shift:-1,0")};
+        EXPECT_EQ(read_geometry(inputs, options).elements[0].points[0], (Point{0, 0})) << name;
+    }
+    // The same file twice, with a stem that is no name.
+    inputs = {inputs[0], inputs[0]};
+    options.names.clear();
+    options.transformations = {parse_transformation("0012_2:shift:3,0")};
+    EXPECT_EQ(read_geometry(inputs, options).elements[1].name, "wall_0012_2");
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ TEST(Cgns, HoldsEverythingThatSolversLookFor) {
 
 TEST(Cgns, RefusesMarkersItCannotName) {
     const TemporaryFolder folder;
-    for (const std::string name : {"", "with/slash", "longer_than_the_thirty-two_letters_there_are", "fluid_quads"}) {
+    for (const std::string name :
+         {"", "with/slash", "longer_than_the_thirty-two_letters_there_are", "fluid_quads", "Zone", "ZoneBC"}) {
         Mesh mesh = tiny();
         mesh.markers[0].name = name;
         EXPECT_THROW(write_mesh(mesh, folder / "m.cgns"), UsageError) << name;

@@ -116,6 +116,11 @@ TEST(OpenFoam, RefusesMeshesThatItCannotHold) {
     expect_refused(mesh, "'main wing'");
     mesh.markers[0].name = "frontAndBack";
     expect_refused(mesh, "'frontAndBack'");
+    // OpenFOAM reads these as numbers, or as nothing.
+    for (const char* name : {"0012", "4412flap", "1e5", ".5", "-1", "+"}) {
+        mesh.markers[0].name = name;
+        expect_refused(mesh, std::string("'") + name + "'");
+    }
     mesh = tiny();
     mesh.markers[0].edges.pop_back();
     expect_refused(mesh, "exactly one marker");

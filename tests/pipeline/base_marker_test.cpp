@@ -1,6 +1,8 @@
 // The option that gives the base of a blunt trailing edge a marker of its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <lamina/io.hpp>
 #include <lamina/pipeline.hpp>
 
@@ -49,6 +51,29 @@ TEST(BaseMarkers, OnlyForABluntTrailingEdge) {
             EXPECT_NEAR(rows[i].arc_length - before.arc_length, distance(rows[i].at, before.at), 1e-14);
         }
     }
+}
+
+TEST(BaseMarkers, HaveNamesThatNoElementHas) {
+    CaseOptions options;
+    options.far_field.size = 5;
+    options.layer.layers = 8;
+    options.layer.first_height = 1e-4;
+    options.assemble.base_marker = true;
+    const std::string longest(32, 'x');
+    options.geometry.names = {"a", "a_base", longest};
+    for (const char* shift : {"a_base:shift:0,1", "a_base:shift:0,1", "xxx:shift:0,-2"})
+        options.geometry.transformations.push_back(parse_transformation(shift));
+    options.geometry.transformations.back().element = longest;
+    const std::vector<std::string> inputs(3, "naca:0012:61:blunt");
+    const MeshResult result = generate_mesh(inputs, options);
+    std::vector<std::string> names;
+    for (const Marker& marker : result.mesh.markers) names.push_back(marker.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"a", "a_base_2", "a_base", "a_base_base", longest,
+                                               longest.substr(5) + "_base", "farfield"}));
+    const auto renamed = std::count_if(result.warnings.begin(), result.warnings.end(), [](const Warning& warning) {
+        return warning.code == WarningCode::marker_renamed;
+    });
+    EXPECT_EQ(renamed, 1);
 }
 
 }  // namespace

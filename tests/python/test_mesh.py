@@ -205,3 +205,16 @@ def test_pyvista(small):
     grid = small.to_pyvista()
     assert grid.n_cells == len(small) and grid.n_points == len(small.points)
     assert np.array_equal(grid.cell_data["layer"], small.layer)
+
+
+def test_files_hold_names_of_markers_that_every_format_takes(small, tmp_path):
+    named = {"1 left" if name == "airfoil" else name: edges for name, edges in small.markers.items()}
+    mesh = lamina.mesh_of_arrays(small.points, small.triangles, named, quads=small.quads,
+                                 marker_kinds={"farfield": "far_field"})
+    for file in ("m.su2", "m.vtu", "case/constant/polyMesh"):
+        with pytest.warns(lamina.MeshWarning, match="the marker is 'wall_1_left'") as caught:
+            mesh.write(tmp_path / file)
+        assert caught[0].message.code == "marker_renamed"
+        assert list(lamina.read(tmp_path / file).markers) == ["wall_1_left", "farfield"]
+    with pytest.warns(lamina.MeshWarning, match="the name '0012'"):
+        assert "wall_0012" in lamina.mesh({"0012": "naca:0012"}, preset="euler").markers

@@ -48,6 +48,16 @@ writeControl timeStep; writeInterval 1; writePrecision 17; writeFormat ascii;
 ddtSchemes {{}} gradSchemes {{}} divSchemes {{}} laplacianSchemes {{}} interpolationSchemes {{}} snGradSchemes {{}}
 """
 
+# Names that some format, solver or shell does not take, or takes for something else, and others near to them. Each row
+# names three elements.
+NAMES = [
+    ["0012", "63-215", "4412flap"], ["-1", "1e5", ".5"], ["+", "-", "_"], ["nan", "Inf", "NONE"],
+    ["frontAndBack", "farfield", "inlet"], ["wall", "empty", "symmetry"], ["default", "FoamFile", "on"],
+    ["a b", "a;b", "a_b"], ["a/b", "$x", "#include"], ['"q"', "'", "List<scalar>"], ["fl\u00fcgel", "Flap", "flap"],
+    ["y0", "Zone", "layer"], ["isotropic_triangles", "ZoneBC", "defaultFaces"], ["x" * 40, "x" * 41, "x" * 32],
+    ["main.flap", "m-1", "all"],
+]
+
 failures = 0
 
 
@@ -270,6 +280,61 @@ def check_openfoam(folder, reference):
            "gmshToFoam makes the same mesh and patches of it", back)
 
 
+def three_named(folder, names, command, *arguments):
+    """Runs a command of lamina on three elements of these names; returns what it says."""
+    return lamina(*command, *three_elements(folder), "--names=" + ",".join(names), *arguments)
+
+
+def check_names(folder, names):
+    """Expects that markers get names that are those of every file, and that all programs read."""
+    folder.mkdir(parents=True, exist_ok=True)
+    said = three_named(folder, names, ["mesh"], *SMALL, "-o", folder / "m.su2", "-o", folder / "m.cgns", "-o",
+                       folder / "m.msh", "-o", folder / "case/constant/polyMesh", "-o", folder / "m.b8.ugrid")
+    edges = edges_of(facts(folder / "m.su2"))
+    made = [name for name in edges if name != "farfield"]
+    legal = all(re.fullmatch(r"[A-Za-z][A-Za-z0-9_.-]{0,31}", name) for name in made)
+    expect(legal and len({name.lower() for name in edges}) == 4, f"names {names} become {made}")
+    told = all(said.count(f"the name '{name}'") == 1 and f"the marker is '{new}'" in said
+               for name, new in zip(names, made) if name != new)
+    expect(told and said.count("the marker is") == sum(a != b for a, b in zip(names, made)), "each is told once", said)
+    for file in ["m.cgns", "m.msh", "case"]:
+        expect(edges_of(facts(folder / file)) == edges, f"{file} has the same names", facts(folder / file))
+    families = [line.split()[2] for line in (folder / "m.mapbc").read_text().splitlines()[1:]]
+    expect(set(edges) < set(families) and len(set(families)) == len(families), "m.mapbc has families of its own", families)
+
+    back = folder / "back.msh"
+    code, said = run("gmsh", folder / "m.msh", "-0", "-format", "msh22", "-o", back)
+    expect(code == 0 and edges_of(facts(back)) == edges, "gmsh gives the names back", said)
+    code, said = run("cgnscheck", "-w3", folder / "m.cgns")
+    expect(code == 0 and not re.search("error|warning", said, re.I), "cgnscheck finds no error and no warning", said)
+    foam_case(folder / "case")
+    code, said = run("checkMesh", "-case", folder / "case", env=OPENFOAM)
+    # Behind names of more than 19 letters checkMesh puts no space.
+    found = all(re.search(rf"^ +{re.escape(name)} *{faces} ", said, re.M) for name, faces in edges.items())
+    expect(code == 0 and found,
+           "checkMesh finds all patches with their faces", said)
+
+
+def check_case(folder, names):
+    """Expects that OpenFOAM runs a case with these names, and that its tables have all walls."""
+    folder.mkdir(parents=True, exist_ok=True)
+    three_named(folder, names, ["case", "openfoam"], "-o", folder / "c", "--overwrite", "--reynolds", "1e5", "--use-flow",
+                "no", "--y-plus", "5", "--growth", "1.4", "--gradation", "0.4", "--far-field", "10", "--quiet")
+    edges = edges_of(facts(folder / "c"))
+    script = folder / "c" / "Allrun"
+    script.write_text(re.sub("first=150 block=200", "first=2 block=2", script.read_text()))
+    run(folder / "c" / "Allclean", env=OPENFOAM)
+    code, said = run(script, env={**OPENFOAM, "ITERATIONS": "4"})
+    expect(code in (0, 2) and "CL" in said, f"OpenFOAM runs the case of {[name for name in edges]}", said)
+    rows = (folder / "c" / "walls.csv").read_text().splitlines()[1:]
+    counts = {}
+    for row in rows:
+        counts[row.split(",")[0]] = counts.get(row.split(",")[0], 0) + 1
+    expect(counts == {name: n for name, n in edges.items() if name != "farfield"}, "walls.csv has all walls", counts)
+    forces = next((folder / "c" / "postProcessing" / "forces").rglob("coefficient.dat")).read_text()
+    expect("#" in forces, "there are forces", forces)
+
+
 def main():
     for name, arguments in MESHES.items():
         print(f"\n{name}")
@@ -295,6 +360,10 @@ def main():
         check_openfoam(folder, reference)
         if name == "single":
             check_sizes(folder, inputs)
+    print("\nnames")
+    for number, names in enumerate(NAMES):
+        check_names(FOLDER / f"names_{number}", names)
+    check_case(FOLDER / "names_case", ["0012", "wall", "main.flap-2"])
     print(f"\n{failures} failures")
     return 1 if failures else 0
 
