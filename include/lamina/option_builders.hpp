@@ -37,6 +37,8 @@ LAMINA_EXPORT std::string as_word(const OptionValue& value, const std::string& o
 LAMINA_EXPORT std::string as_word_or_number(const OptionValue& value, const std::string& option);
 /// Returns several words; a single word counts as a list of one.
 LAMINA_EXPORT std::vector<std::string> as_words(const OptionValue& value, const std::string& option);
+/// Returns several words, or the text of one number, for words that may be numbers.
+LAMINA_EXPORT std::vector<std::string> as_words_or_number(const OptionValue& value, const std::string& option);
 
 /// Returns the value that as_length() reads back: a number of chords, or a word.
 LAMINA_EXPORT OptionValue option_value(Length length);
@@ -194,7 +196,8 @@ public:
                            Member member) {
         const auto set = [=, key = option_key(name)](Options& o, const OptionValue& value) {
             member(o).clear();
-            for (const std::string& text : as_words(value, key)) member(o).push_back(parsed(key, text, parse));
+            for (const std::string& text : as_words_or_number(value, key))
+                member(o).push_back(parsed(key, text, parse));
         };
         const auto get = [=](const Options& o) {
             std::vector<std::string> texts;

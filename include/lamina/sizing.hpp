@@ -151,7 +151,7 @@ struct SizingOptions {
     /// Largest h at the outer border of the layers; empty: the border's own edges decide.
     std::optional<Length> wall_size{};
     std::vector<SizeSource> sources{};  ///< boxes, discs and lines of the user
-    std::optional<WakeOptions> wake{};  ///< empty: no wakes
+    std::vector<WakeOptions> wakes{};   ///< behind every trailing edge all of them
     /// Sizes of the user at the points of a mesh. Inside its triangles h exceeds the linear interpolation nowhere by
     /// more than a tenth plus the relative error of the field.
     std::shared_ptr<const SizedMesh> background{};

@@ -44,7 +44,7 @@ def mesh(
     # change of an element, given by its name, or of all: scale:S[:X,Y], rotate:DEG[:X,Y] (counter-clockwise,
     # about the origin or X,Y), shift:DX,DY, mirror[:Y] (in a horizontal line), flap:DEG:X,Y (a plain flap with
     # its hinge at X,Y, downwards); may be given several times, in order
-    transform: str | Sequence[str] | None = None,
+    transform: str | float | Sequence[str | float] | None = None,
     # reference chord, in units of the input: what lengths in chords count; else the extent in x of the
     # configuration; > 0
     chord: float | None = None,
@@ -109,11 +109,11 @@ def mesh(
     far_size: float | str | None = None,
     # small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, or auto for that of
     # the flow (alpha); LENGTH of the line (2 chords); SIZE at the trailing edge (else the size there without a
-    # wake)
-    wake: str | float | Sequence[float] | None = None,
+    # wake); may be given several times
+    wake: str | float | Sequence[str | float] | None = None,
     # edge length H in and round a shape, box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H, in units of
     # the input; may be given several times
-    refine: str | Sequence[str] | None = None,
+    refine: str | float | Sequence[str | float] | None = None,
     # smallest angle of isotropic triangles, in degrees; > 0 and <= 33 [20.7]
     min_angle: float | None = None,
     # how often all vertices of isotropic triangles move to the means of their neighbours; those of ill-shaped

@@ -61,7 +61,7 @@ def type_of(row: Mapping[str, Any]) -> str:
         return "Literal[" + ", ".join(f'"{word}"' for word in row["metavar"].split("|")) + "]"
     types = {"number": "float", "length": "float | str", "count": "int", "count_or_auto": 'int | Literal["auto"]',
              "flag": "bool", "word": "str | float | Sequence[float]", "words": "str | Sequence[str | float]",
-             "repeated": "str | Sequence[str]", "path": "str | PathLike[str]"}
+             "repeated": "str | float | Sequence[str | float]", "path": "str | PathLike[str]"}
     return types[row["kind"]]
 
 

@@ -1,7 +1,11 @@
 #include "app/arguments.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstring>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include <lamina/error.hpp>
@@ -111,12 +115,44 @@ void require_values(const CLI::App& app, const std::vector<std::string>& argumen
     }
 }
 
+/// Returns whether two texts are the same value: the same text, or the same number.
+bool are_one_value(const std::string& a, const std::string& b) {
+    const auto number_of = [](const std::string& text) {
+        double number = NAN;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        return error == std::errc{} && end == text.data() + text.size() ? number : NAN;
+    };
+    return a == b || number_of(a) == number_of(b);  // NaN equals nothing
+}
+
 /// Makes empty values errors, such as those of shell variables that are not set: no option has an empty value.
-void refuse_empty_values(CLI::App& app) {
+void refuse_empty_values(CLI::Option& option) {
+    option.check([](const std::string& text) { return text.empty() ? "the value is empty" : ""; }, "");
+}
+
+/// Makes it an error where an option that holds one value is given again with another one, of which one would be lost.
+void refuse_second_values(CLI::Option& option) {
+    if (option.get_items_expected_max() > 1 || option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll)
+        return;
+    option.multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    const auto first = std::make_shared<std::optional<std::string>>();
+    option.check(
+        [first](const std::string& text) -> std::string {
+            if (!*first) *first = text;
+            if (are_one_value(**first, text)) return {};
+            return "it holds one value and is given two, '" + **first + "' and '" + text + "'";
+        },
+        "");
+}
+
+/// Adds these checks to all options that take values.
+void check_values(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({}))
-        for (CLI::Option* option : command->get_options())
-            if (option->get_items_expected_max() > 0)
-                option->check([](const std::string& text) { return text.empty() ? "the value is empty" : ""; }, "");
+        for (CLI::Option* option : command->get_options()) {
+            if (option->get_items_expected_max() == 0) continue;
+            refuse_empty_values(*option);
+            refuse_second_values(*option);
+        }
 }
 
 /// Returns the reason of an error of CLI11, which says "Could not convert: --jobs = -1" of values that are no numbers.
@@ -132,7 +168,7 @@ std::string reason_of(const CLI::ParseError& error) {
 
 void run_arguments(CLI::App& app, std::vector<std::string> arguments) {
     arguments = with_options_for_words(std::move(arguments));
-    refuse_empty_values(app);
+    check_values(app);
     require_known_command(app, arguments.front());
     require_values(app, arguments);
     std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes

@@ -69,6 +69,14 @@ Sweep parse_sweep(const std::string& text) {
         fmt::format("option --sweep: there is no option '{}'{}", name, did_you_mean(closest_word(name, names))));
 }
 
+/// Adds an option that is swept, over the value that it may have besides. Throws UsageError where it is swept already.
+void add_sweep(Sweep sweep, std::vector<Sweep>& sweeps) {
+    for (const Sweep& earlier : sweeps)
+        if (earlier.option == sweep.option)
+            throw UsageError(fmt::format("option --sweep: '{}' is swept twice", sweep.option->name));
+    sweeps.push_back(std::move(sweep));
+}
+
 /// The part of the jobs that this run makes: every `of`-th one, from `number` on, which counts from 1.
 struct Shard {
     std::size_t number = 1, of = 1;
@@ -211,7 +219,7 @@ std::string summary_stem(const BatchArguments& arguments, const std::string& out
 void batch(const GivenOptions& options, const BatchArguments& arguments) {
     const Shard shard = parse_shard(arguments.shard);
     std::vector<Sweep> sweeps;
-    for (const std::string& text : arguments.sweeps) sweeps.push_back(parse_sweep(text));
+    for (const std::string& text : arguments.sweeps) add_sweep(parse_sweep(text), sweeps);
     std::vector<BatchJob> all;
     std::string first_output;
     for (const auto& [option, given] : options) {

@@ -107,9 +107,12 @@ std::vector<LengthFact> length_facts(const MeshCase& mesh_case, const MeshResult
     add("wall-size", "wall size", options.sizing.wall_size);
     add("far-size", "far size", options.sizing.far_size);
     if (options.far_field.shape != FarFieldShape::outline) add("far-field", "far field", options.far_field.size);
-    if (const auto& wake = options.sizing.wake; wake) {
-        facts.push_back({"wake_length", "wake length", wake->length, source_of(mesh_case, "wake")});
-        if (wake->size) facts.push_back({"wake_size", "wake size", *wake->size, source_of(mesh_case, "wake")});
+    const std::vector<WakeOptions>& wakes = options.sizing.wakes;
+    for (std::size_t i = 0; i < wakes.size(); ++i) {
+        const std::string number = i == 0 ? "" : fmt::format("_{}", i + 1);
+        facts.push_back({"wake_length" + number, "wake length", wakes[i].length, source_of(mesh_case, "wake")});
+        if (const auto& size = wakes[i].size)
+            facts.push_back({"wake_size" + number, "wake size", *size, source_of(mesh_case, "wake")});
     }
     return facts;
 }

@@ -108,6 +108,12 @@ std::vector<std::string> as_words(const OptionValue& value, const std::string& o
     throw OptionError(option, "must be an array of strings");
 }
 
+std::vector<std::string> as_words_or_number(const OptionValue& value, const std::string& option) {
+    if (std::holds_alternative<double>(value) || std::holds_alternative<std::int64_t>(value))
+        return {as_word_or_number(value, option)};
+    return as_words(value, option);
+}
+
 std::string unknown_choice(const std::string& word, const std::vector<std::string>& names) {
     std::string known;
     for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;

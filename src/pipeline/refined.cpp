@@ -82,7 +82,8 @@ void refine_sizing(double ratio, SizingOptions& sizing) {
     for (std::optional<Length>* size : {&sizing.far_size, &sizing.wall_size})
         if (*size) *size = divided(**size, ratio);
     for (SizeSource& source : sizing.sources) source.size /= ratio;
-    if (sizing.wake && sizing.wake->size) sizing.wake->size = divided(*sizing.wake->size, ratio);
+    for (WakeOptions& wake : sizing.wakes)
+        if (wake.size) wake.size = divided(*wake.size, ratio);
     if (!sizing.background) return;
     auto background = std::make_shared<SizedMesh>(*sizing.background);
     for (double& size : background->sizes) size /= ratio;

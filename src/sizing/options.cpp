@@ -16,11 +16,12 @@ OptionTable<SizingOptions> make_table() {
                  positive_numbers, member_at(&SizingOptions::wall_size));
     table.length("far-size", "H", "largest edge length; else unbounded", positive_numbers,
                  member_at(&SizingOptions::far_size));
-    table.spec("wake", "ANGLE[:LENGTH[:SIZE]]",
-               "small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, or auto for that "
-               "of the flow (alpha); LENGTH of the line (2 chords); SIZE at the trailing edge (else the size there "
-               "without a wake)",
-               parse_wake, wake_text, member_at(&SizingOptions::wake));
+    table.specs(
+        "wake", "ANGLE[:LENGTH[:SIZE]]",
+        "small triangles along a line from each trailing edge: ANGLE in degrees to the x axis, or auto for that "
+        "of the flow (alpha); LENGTH of the line (2 chords); SIZE at the trailing edge (else the size there "
+        "without a wake); may be given several times",
+        parse_wake, wake_text, member_at(&SizingOptions::wakes));
     table.specs("refine", "SHAPE",
                 "edge length H in and round a shape, box:X0,Y0,X1,Y1,H, circle:X,Y,R,H or line:X0,Y0,X1,Y1,H, in units "
                 "of the input; may be given several times",

@@ -104,7 +104,8 @@ SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodie
     const double gradation = field_gradation(options);
     SizeRequests requests;
     append(options.sources, requests.sources);
-    append(given_wake_sources(options, bodies), requests.sources);
+    for (const WakeOptions& wake : options.wakes)
+        append(given_wake_sources(wake, bodies, options.gradation), requests.sources);
     requests.at_borders = requests.sources;
     if (options.background) {
         const std::vector<SizeSource> points = background_sources(*options.background, gradation, domain);
@@ -112,15 +113,20 @@ SizeRequests gather_size_requests(const SizingOptions& options, const SizedBodie
         // Only few points of a background mesh bind at the borders.
         append(binding_sources(points, fronts, border_gradation(options.gradation), frozen_share), requests.at_borders);
     }
-    if (!options.wake || options.wake->size) return requests;
+    if (std::all_of(options.wakes.begin(), options.wakes.end(),
+                    [](const WakeOptions& w) { return w.size.has_value(); }))
+        return requests;
 
     std::vector<SizeSource> without_wakes = border_sources(fronts, options, bodies.chord);
     append(requests.sources, without_wakes);
-    for (const Wake& wake : find_wakes(bodies, *options.wake)) {
-        const double size = size_at(wake.from, without_wakes, gradation);
-        const std::vector<SizeSource> along_wake = wake_sources(wake, size, gradation);
-        append(along_wake, requests.sources);
-        append(along_wake, requests.at_borders);
+    for (const WakeOptions& wake_options : options.wakes) {
+        if (wake_options.size) continue;
+        for (const Wake& wake : find_wakes(bodies, wake_options)) {
+            const double size = size_at(wake.from, without_wakes, gradation);
+            const std::vector<SizeSource> along_wake = wake_sources(wake, size, gradation);
+            append(along_wake, requests.sources);
+            append(along_wake, requests.at_borders);
+        }
     }
     return requests;
 }

@@ -98,11 +98,11 @@ void require_within_limits(const SizingOptions& options, const SizedBodies& bodi
         require_within_limits(
             integral_beside(total_length(bodies.walls), in_units(*size, bodies.chord), gradation, reach), "wall_size",
             length_text(*size), limits);
-    if (options.wake && options.wake->size) {
+    for (const WakeOptions& wake : options.wakes) {
         double integral = 0;
-        for (const SizeSource& source : given_wake_sources(options, bodies))
+        for (const SizeSource& source : given_wake_sources(wake, bodies, gradation))
             integral += integral_round(source, gradation, reach, domain);
-        require_within_limits(integral, "wake", wake_text(*options.wake), limits);
+        require_within_limits(integral, "wake", wake_text(wake), limits);
     }
 }
 

@@ -55,12 +55,12 @@ std::vector<SizeSource> wake_sources(const Wake& wake, double size, double grada
     return sources;
 }
 
-std::vector<SizeSource> given_wake_sources(const SizingOptions& options, const SizedBodies& bodies) {
+std::vector<SizeSource> given_wake_sources(const WakeOptions& options, const SizedBodies& bodies, double gradation) {
     std::vector<SizeSource> sources;
-    if (!options.wake || !options.wake->size) return sources;
-    const double size = in_units(*options.wake->size, bodies.chord);
-    for (const Wake& wake : find_wakes(bodies, *options.wake)) {
-        const std::vector<SizeSource> one = wake_sources(wake, size, options.gradation);
+    if (!options.size) return sources;
+    const double size = in_units(*options.size, bodies.chord);
+    for (const Wake& wake : find_wakes(bodies, options)) {
+        const std::vector<SizeSource> one = wake_sources(wake, size, gradation);
         sources.insert(sources.end(), one.begin(), one.end());
     }
     return sources;

@@ -19,7 +19,8 @@ std::vector<Wake> find_wakes(const SizedBodies& bodies, const WakeOptions& optio
 /// Returns the sources along a wake whose size is `size` at the trailing edge.
 std::vector<SizeSource> wake_sources(const Wake& wake, double size, double gradation);
 
-/// Returns the sources along all wakes if the options give the size at the trailing edge, and none otherwise.
-std::vector<SizeSource> given_wake_sources(const SizingOptions& options, const SizedBodies& bodies);
+/// Returns the sources along the wakes of one line from each trailing edge if the options give the size there, and none
+/// otherwise.
+std::vector<SizeSource> given_wake_sources(const WakeOptions& options, const SizedBodies& bodies, double gradation);
 
 }  // namespace lamina::sizing

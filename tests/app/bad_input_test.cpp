@@ -117,6 +117,33 @@ TEST(BadInput, BackgroundMeshes) {
     expect_refused(folder, {"mesh", "case.toml", "-o", "out.su2"}, io_failed, "missing.msh");
 }
 
+TEST(BadInput, OneValueGivenTwice) {
+    const TemporaryFolder folder;
+    folder.write("a.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
+    for (const auto& [option, first, second] :
+         std::vector<std::array<std::string, 3>>{{"--alpha", "2", "4"},
+                                                 {"--first-height", "1e-5", "1e-4u"},
+                                                 {"--preset", "rans", "euler"},
+                                                 {"--far-field", "50", "-50"},
+                                                 {"--layers", "auto", "30"},
+                                                 {"--html", "a.html", "b.html"}})
+        expect_refused(folder, mesh_naca_with({option, first, option, second}), usage,
+                       option + ": it holds one value and is given two, '" + first + "' and '" + second + "'");
+    expect_refused(folder, mesh_naca_with({"--alpha=2", "--growth", "1.2", "--alpha=4"}), usage, "'2' and '4'");
+    expect_refused(folder, {"info", "naca:0012", "naca:0012", "-o", "x"}, usage, "");
+    expect_refused(folder, {"check", "a.node", "--far", "a", "--far", "b"}, usage, "--far: it holds one value");
+    expect_refused(folder, {"delaunay", "a.node", "--min-angle", "20", "--min-angle", "25"}, usage, "'20' and '25'");
+    expect_refused(folder, {"flow", "naca:0012", "--alpha", "1", "--alpha", "2"}, usage, "--alpha: it holds one value");
+    expect_refused(folder,
+                   {"batch", "naca:0012", "-o", "{name}_{alpha}.su2", "--sweep", "alpha=1,2", "--sweep", "alpha=3"},
+                   usage, "'alpha' is swept twice");
+    // The same value may be given again, however it is written.
+    EXPECT_EQ(run_lamina(folder, {"mesh", "naca:0012", "--alpha", "4", "--alpha", "4", "--alpha", "4.0", "--quiet",
+                                  "--quiet", "--dump-config"})
+                  .exit_code,
+              0);
+}
+
 TEST(BadInput, AFirstHeightGivenTwiceOrByHalf) {
     const TemporaryFolder folder;
     const auto refuse = [&](const std::vector<std::string>& options, const std::string& said) {

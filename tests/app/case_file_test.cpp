@@ -37,11 +37,11 @@ TEST(CaseFile, ADumpReproducesTheRunFromAnyFolder) {
 TEST(CaseFile, HoldsWakesAndSizeSources) {
     const TemporaryFolder folder;
     const ProgramRun dump =
-        run_lamina(folder, {"mesh", "naca:0012", "--far-field-outline", "-9,-9,9,-9.5,0,9", "--wake", "-5:3",
-                            "--refine", "box:1,1,0,-1,0.05", "--refine", "circle:1,2,0.5,0.01", "--refine",
-                            "line:0,-0.5,1e3,1,2", "--dump-config"});
+        run_lamina(folder, {"mesh", "naca:0012", "--far-field-outline", "-9,-9,9,-9.5,0,9", "--wake", "-5:3", "--wake",
+                            "auto:1:0.02", "--refine", "box:1,1,0,-1,0.05", "--refine", "circle:1,2,0.5,0.01",
+                            "--refine", "line:0,-0.5,1e3,1,2", "--dump-config"});
     ASSERT_EQ(dump.exit_code, 0) << dump.err;
-    EXPECT_NE(dump.out.find("wake = '-5:3'\n"), std::string::npos) << dump.out;
+    EXPECT_NE(dump.out.find("wake = [ '-5:3', 'auto:1:0.02' ]\n"), std::string::npos) << dump.out;
     EXPECT_NE(dump.out.find("far_field_outline = '-9,-9,9,-9.5,0,9'\n"), std::string::npos) << dump.out;
     EXPECT_NE(dump.out.find("refine = [ 'box:0,-1,1,1,0.05', 'circle:1,2,0.5,0.01', 'line:0,-0.5,1000,1,2' ]\n"),
               std::string::npos)
@@ -50,7 +50,7 @@ TEST(CaseFile, HoldsWakesAndSizeSources) {
     EXPECT_EQ(run_lamina(folder, {"mesh", "case.toml", "--dump-config"}).out, dump.out);
     folder.write("short.toml", "input = 'naca:0012'\nwake = 10\nrefine = 'circle:1,2,3,4'\n");
     const std::string dumped = run_lamina(folder, {"mesh", "short.toml", "--dump-config"}).out;
-    EXPECT_NE(dumped.find("wake = '10:2'\n"), std::string::npos) << dumped;
+    EXPECT_NE(dumped.find("wake = [ '10:2' ]\n"), std::string::npos) << dumped;
     EXPECT_NE(dumped.find("refine = [ 'circle:1,2,3,4' ]\n"), std::string::npos) << dumped;
 }
 
@@ -91,7 +91,7 @@ TEST(CaseFile, LengthsCountChordsOrUnitsOfTheInput) {
         run_lamina(folder, {"mesh", "case.toml", "-o", "a.su2", "--far-field", "20u", "--dump-config"});
     ASSERT_EQ(dump.exit_code, 0) << dump.err;
     for (const char* line : {"first_height = '2e-05u'\n", "thickness = 0.25\n", "far_size = 3\n", "wall_size = 0.5\n",
-                             "wake = 'auto:3u:0.01'\n", "far_field = '20u'\n"})
+                             "wake = [ 'auto:3u:0.01' ]\n", "far_field = '20u'\n"})
         EXPECT_NE(dump.out.find(line), std::string::npos) << line << dump.out;
     folder.write("dumped.toml", dump.out);
     EXPECT_EQ(run_lamina(folder, {"mesh", "dumped.toml", "--dump-config"}).out, dump.out);

@@ -52,7 +52,7 @@ std::vector<ScaleCase> scale_cases() {
     const auto sizes = [](CaseOptions& o) {
         o.sizing.far_size = 2;
         o.sizing.wall_size = 0.01;
-        o.sizing.wake = WakeOptions{.angle_deg = 5, .length = 3, .size = 0.01};
+        o.sizing.wakes = {WakeOptions{.angle_deg = 5, .length = 3, .size = 0.01}};
         o.far_field.shape = FarFieldShape::circle;
         o.surface.smooth = 1e-5;
     };
@@ -69,7 +69,7 @@ std::vector<ScaleCase> scale_cases() {
     };
     const auto wake_without_layers = [](CaseOptions& o) {
         o.layer.enabled = false;
-        o.sizing.wake = WakeOptions{};
+        o.sizing.wakes = {WakeOptions{}};
         o.conditions.alpha_deg = 4;
     };
     return {{"default options", {naca("4412")}, quick},
@@ -282,20 +282,20 @@ TEST(UnitOfTheInput, LengthsInUnitsAndAGivenChordMeanTheSame) {
     chords.layer.first_height = 1e-4;
     chords.layer.thickness = 0.02;
     chords.sizing.far_size = 3;
-    chords.sizing.wake = WakeOptions{.angle_deg = 2, .length = 2, .size = 0.02};
+    chords.sizing.wakes = {WakeOptions{.angle_deg = 2, .length = 2, .size = 0.02}};
     CaseOptions units = chords;
     units.far_field.size = input_units(40);
     units.layer.first_height = input_units(4e-4);
     units.layer.thickness = input_units(0.08);
     units.sizing.far_size = input_units(12);
-    units.sizing.wake = WakeOptions{.angle_deg = 2, .length = input_units(8), .size = input_units(0.08)};
+    units.sizing.wakes = {WakeOptions{.angle_deg = 2, .length = input_units(8), .size = input_units(0.08)}};
     CaseOptions halved = chords;  // a chord twice as long, and half the numbers
     halved.conditions.chord = 8;
     halved.far_field.size = 5;
     halved.layer.first_height = 5e-5;
     halved.layer.thickness = 0.01;
     halved.sizing.far_size = 1.5;
-    halved.sizing.wake = WakeOptions{.angle_deg = 2, .length = 1, .size = 0.01};
+    halved.sizing.wakes = {WakeOptions{.angle_deg = 2, .length = 1, .size = 0.01}};
     const ScaleCase by_chords{"", {naca("2412")}, chords}, by_units{"", {naca("2412")}, units},
         by_other_chord{"", {naca("2412")}, halved};
     const std::string hash = mesh_hash(mesh_with_chord(by_chords, 4));
@@ -312,8 +312,8 @@ TEST(UnitOfTheInput, TheFlowTurnsWithTheAngleOfAttackAndNotTheSection) {
     EXPECT_EQ(mesh_hash(mesh_with_chord(raised, 1)), mesh_hash(mesh_with_chord(level, 1)));
     // A wake without an angle follows the flow.
     ScaleCase with_angle = level;
-    raised.options.sizing.wake = WakeOptions{};
-    with_angle.options.sizing.wake = WakeOptions{.angle_deg = 6};
+    raised.options.sizing.wakes = {WakeOptions{}};
+    with_angle.options.sizing.wakes = {WakeOptions{.angle_deg = 6}};
     EXPECT_EQ(mesh_hash(mesh_with_chord(raised, 1)), mesh_hash(mesh_with_chord(with_angle, 1)));
 }
 

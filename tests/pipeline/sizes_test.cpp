@@ -129,7 +129,7 @@ TEST(Sizes, TooSmallForAnyMeshAreRefusedByName) {
                    "refine");
     expect_refused(with([](CaseOptions& o) {
                        o.sizing.gradation = 1e-6;
-                       o.sizing.wake = WakeOptions{.angle_deg = 0, .length = 5, .size = 1e-9};
+                       o.sizing.wakes = {WakeOptions{.angle_deg = 0, .length = 5, .size = 1e-9}};
                    }),
                    "wake: 0:5:1e-09");
     expect_refused(with([](CaseOptions& o) {
@@ -148,7 +148,7 @@ TEST(Wake, MakesSmallTrianglesAlongItsLine) {
         SCOPED_TRACE(angle);
         CaseOptions options = quick_options();
         const Point along{std::cos(angle * M_PI / 180), std::sin(angle * M_PI / 180)};
-        options.sizing.wake = WakeOptions{.angle_deg = angle, .length = 3, .size = 0.004};
+        options.sizing.wakes = {WakeOptions{.angle_deg = angle, .length = 3, .size = 0.004}};
         const MeshResult result = mesh_of({naca("0012")}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
@@ -161,11 +161,29 @@ TEST(Wake, MakesSmallTrianglesAlongItsLine) {
     }
 }
 
+TEST(Wake, SeveralLinesAddUp) {
+    const auto triangles_with = [](std::vector<WakeOptions> wakes, const Box& window) {
+        CaseOptions options = quick_options();
+        options.sizing.wakes = std::move(wakes);
+        const MeshResult result = mesh_of({naca("0012")}, options);
+        expect_sound(result, options);
+        return double(isotropic_triangles_in(result.mesh, window));
+    };
+    const Box above{{2, 0.5}, {2.5, 1}}, below{{2, -1}, {2.5, -0.5}};
+    const WakeOptions up{.angle_deg = 30, .length = 3}, down{.angle_deg = -30, .length = 3, .size = 0.004};
+    const double of_up = triangles_with({up}, above), of_down = triangles_with({down}, below);
+    EXPECT_GT(of_up, 3 * triangles_with({down}, above));
+    for (const std::vector<WakeOptions>& both : {std::vector<WakeOptions>{up, down}, {down, up}}) {
+        EXPECT_NEAR(triangles_with(both, above), of_up, 0.1 * of_up);
+        EXPECT_NEAR(triangles_with(both, below), of_down, 0.1 * of_down);
+    }
+}
+
 TEST(Wake, StartsWithTheSizeOfTheBorderUnlessToldOtherwise) {
     CaseOptions options = quick_options();
     const shapes::Outline blunt = naca("4412", 101, TrailingEdge::blunt);
     const MeshResult without = mesh_of({blunt}, options);
-    options.sizing.wake = WakeOptions{.angle_deg = 5};
+    options.sizing.wakes = {WakeOptions{.angle_deg = 5}};
     const MeshResult with = mesh_of({blunt}, options);
     expect_sound(with, options);
     expect_nothing_left_over(with);
@@ -182,7 +200,7 @@ TEST(Wake, EndsAtTheNextBody) {
     const shapes::Outline flap = shapes::moved(naca("0012", 80), -0.5, 0.3, {1.05, -0.03});
     for (const std::optional<double> size : {std::optional<double>{}, std::optional<double>{0.002}}) {
         CaseOptions options = quick_options();
-        options.sizing.wake = WakeOptions{.angle_deg = -10, .size = size};
+        options.sizing.wakes = {WakeOptions{.angle_deg = -10, .size = size}};
         const MeshResult result = mesh_of({naca("0012"), flap}, options);
         expect_sound(result, options);
         expect_nothing_left_over(result);
