@@ -145,12 +145,11 @@ void refuse_second_values(CLI::Option& option) {
         "");
 }
 
-/// Adds these checks to all options that take values.
+/// Adds these checks to all options. A flag has a value, too: --flip=false.
 void check_values(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({}))
         for (CLI::Option* option : command->get_options()) {
-            if (option->get_items_expected_max() == 0) continue;
-            refuse_empty_values(*option);
+            if (option->get_items_expected_max() > 0) refuse_empty_values(*option);
             refuse_second_values(*option);
         }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -11,6 +12,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include <fmt/format.h>
@@ -36,23 +38,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The hash of no text.
+constexpr std::uint64_t no_text = 0xcbf29ce484222325u;
+
 /// Adds the bytes of a text to a hash. Source: G. Fowler, L. C. Noll, K.-P. Vo, the FNV-1a hash (RFC 9923).
-std::uint64_t hashed(std::uint64_t hash, const std::string& text) {
+std::uint64_t hashed(std::uint64_t hash, std::string_view text) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return hash;
 }
+
+std::string text_of(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 /// Returns digits that change where an input does, or an option that changes the outcome of a job.
 std::string fingerprint(MeshCase mesh_case) {
     mesh_case.quiet = false;
     mesh_case.progress = ProgressShown::automatic;
     mesh_case.options.threads = 0;
-    std::uint64_t hash = hashed(0xcbf29ce484222325u, dump_case(mesh_case));
+    std::uint64_t hash = hashed(no_text, dump_case(mesh_case));
     for (const RunFile& file : files_of_case(mesh_case)) {
         std::error_code ignored;
         if (fs::is_regular_file(file.path, ignored)) hash = hashed(hash, read_file(file.path));
     }
-    return fmt::format("{:016x}", hash);
+    return text_of(hash);
 }
 
 /// Returns the text that names a job among those of a batch.
@@ -68,12 +75,59 @@ Json quality_of(const MeshResult& result) {
             {"median_first_height", result.check.walls.median_first_height}};
 }
 
-/// Returns the names of the files that a case asks for.
-Json names_of_files(const MeshCase& mesh_case) {
-    Json files = mesh_case.outputs;
-    for (const auto& [name, option] : files_beside_mesh)
-        if (!(mesh_case.*name).empty()) files.push_back(mesh_case.*name);
-    return files;
+/// The contents of a file in few words.
+struct FileContents {
+    std::uintmax_t bytes = 0;
+    std::uint64_t hash = no_text;
+};
+
+/// Returns the contents of a file; nothing where it cannot be read.
+std::optional<FileContents> contents_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return {};
+    FileContents contents;
+    std::string block(std::size_t{1} << 20, '\0');
+    while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+        const std::string_view read(block.data(), static_cast<std::size_t>(in.gcount()));
+        contents.bytes += read.size();
+        contents.hash = hashed(contents.hash, read);
+    }
+    if (in.bad()) return {};
+    return contents;
+}
+
+/// Adds a file to a list, or the files of a folder in the order of their names.
+void add_files(const fs::path& path, std::vector<fs::path>& files) {
+    if (!fs::is_directory(path)) {
+        files.push_back(path);
+        return;
+    }
+    std::vector<fs::path> inside;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) inside.push_back(entry.path());
+    std::sort(inside.begin(), inside.end());
+    for (const fs::path& file : inside) add_files(file, files);
+}
+
+/// Returns the files that a job has written, with their contents.
+Json files_report(const MeshCase& mesh_case, const MeshDestination& destination) {
+    std::vector<fs::path> files;
+    for (const RunFile& file : files_written(mesh_case, destination)) add_files(file.path, files);
+    Json report = Json::array();
+    for (const fs::path& file : files) {
+        const std::optional<FileContents> contents = contents_of(file);
+        if (!contents) throw IoError(file.string(), "cannot be read back");
+        report.push_back({{"file", file.string()}, {"bytes", contents->bytes}, {"fnv1a", text_of(contents->hash)}});
+    }
+    return report;
+}
+
+/// Returns whether a file still has the contents that an entry of files_report() names.
+bool is_unchanged(const Json& entry) {
+    const fs::path file = entry["file"].get<std::string>();
+    std::error_code failed;
+    if (fs::file_size(file, failed) != entry["bytes"].get<std::uintmax_t>() || failed) return false;
+    const std::optional<FileContents> contents = contents_of(file);
+    return contents && text_of(contents->hash) == entry["fnv1a"].get<std::string>();
 }
 
 /// Makes and writes the mesh of a job, and adds what is known about it to its record.
@@ -90,7 +144,7 @@ void make_mesh(const MeshCase& mesh_case, unsigned jobs, bool strict, Json& reco
     record["warnings"] = warnings_report(result.warnings);
     require_promised_angles(result.check, mesh_case.allow_defects);
     write_outputs(mesh_case, destination, result);
-    record["files"] = names_of_files(mesh_case);
+    record["files"] = files_report(mesh_case, destination);
     record["points"] = result.mesh.points.size();
     record["triangles"] = result.mesh.triangles.size();
     record["quadrilaterals"] = result.mesh.quads.size();
@@ -139,19 +193,55 @@ std::map<std::string, Json> read_journal(const fs::path& journal) {
     return records;
 }
 
-/// Returns whether a record is of a job with this fingerprint, and the files of the job are still there.
-bool still_holds(const Json& record, const std::string& digits) {
-    if (record.value("fingerprint", "") != digits || record.value("outcome", "") != "done") return false;
-    const Json files = record.value("files", Json::array());
-    return std::all_of(files.begin(), files.end(), [](const Json& file) {
-        std::error_code ignored;
-        return file.is_string() && fs::exists(file.get<std::string>(), ignored);
-    });
+// Types of the values of a record.
+bool is_text(const Json& value) { return value.is_string(); }
+bool is_number(const Json& value) { return value.is_number(); }
+bool is_count(const Json& value) { return value.is_number_unsigned(); }
+bool is_list(const Json& value) { return value.is_array(); }
+
+/// Returns whether an object has a value of this type under a key.
+bool holds(const Json& object, const char* key, bool (*is_type)(const Json&)) {
+    const auto found = object.find(key);
+    return found != object.end() && is_type(*found);
 }
 
-/// Returns a field of CSV.
+bool is_file(const Json& value) {
+    return value.is_object() && holds(value, "file", is_text) && holds(value, "bytes", is_count) &&
+           holds(value, "fnv1a", is_text);
+}
+
+/// Returns whether a record has all that a job which is done has, so that it can be read without a look at types. A
+/// journal may come from another version, or from an editor.
+bool is_complete(const Json& record) {
+    for (const char* key : {"fingerprint", "outcome", "error", "hash"})
+        if (!holds(record, key, is_text)) return false;
+    for (const char* key : {"exit_code", "points", "triangles", "quadrilaterals", "seconds"})
+        if (!holds(record, key, is_number)) return false;
+    if (!holds(record, "warnings", is_list) || !holds(record, "files", is_list)) return false;
+    const Json &files = record["files"], quality = record.value("quality", Json());
+    return std::all_of(files.begin(), files.end(), is_file) && quality.is_object() &&
+           std::all_of(quality.begin(), quality.end(), is_number);
+}
+
+/// Returns whether a record is of a job with this fingerprint, and the files of the job are still as they were written.
+bool still_holds(const Json& record, const std::string& digits) {
+    if (!is_complete(record) || record["fingerprint"] != digits || record["outcome"] != "done") return false;
+    return std::all_of(record["files"].begin(), record["files"].end(), is_unchanged);
+}
+
+/// Returns whether a spreadsheet takes a text for a formula. Negative numbers are none.
+bool is_formula(const std::string& text) {
+    if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) return false;
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto read = std::from_chars(text.data() + (text.front() == '+' ? 1 : 0), end, number);
+    return read.ec != std::errc{} || read.ptr != end;
+}
+
+/// Returns a field of CSV. An apostrophe before what would be a formula makes it a text.
 std::string csv_field(std::string text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    if (is_formula(text)) text.insert(0, 1, '\'');
+    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
     for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
     return '"' + text + '"';
 }

@@ -104,12 +104,20 @@ std::string name_of(const std::string& input) {
     return std::filesystem::path(input).stem().string();
 }
 
+/// Returns a text that is a part of a name of a file and never a path, or a part of one that leads elsewhere: "." and
+/// "..".
+std::string part_of_name(std::string text) {
+    std::replace(text.begin(), text.end(), '/', '_');
+    if (text.find_first_not_of('.') == std::string::npos) std::replace(text.begin(), text.end(), '.', '_');
+    return text;
+}
+
 /// Returns the name of a file with {name} and the names of swept options in braces replaced.
 std::string filled_in(std::string text, const BatchJob& job) {
     std::vector<std::pair<std::string, std::string>> marks = job.swept;
     marks.emplace_back("name", job.name);
-    for (const auto& [name, value] : marks) {
-        const std::string mark = "{" + name + "}";
+    for (const auto& [name, given] : marks) {
+        const std::string mark = "{" + name + "}", value = part_of_name(given);
         for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += value.size())
             text.replace(at, mark.size(), value);
     }

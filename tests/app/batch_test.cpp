@@ -195,6 +195,103 @@ TEST(Batch, GoesOnAfterAnInterruption) {
     EXPECT_NE(run_lamina(folder, loud).out.find("16 meshes made, 0 kept"), std::string::npos);
 }
 
+// What a journal says of files holds only while they have the same bytes.
+TEST(Batch, ResumingMakesFilesAnewThatHaveChanged) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments{"naca:0012",       "naca:0015",  "-o",          "{name}.vtu", "-o",
+                                             "{name}/polyMesh", "-o",         "{name}.pvtu", "--parts",    "2",
+                                             "--report",        "{name}.json"};
+    const auto kept = [&] {
+        std::vector<std::string> loud = arguments;
+        loud.insert(loud.begin(), "batch");
+        loud.insert(loud.end(), quick.begin(), quick.end() - 1);
+        const ProgramRun run = run_lamina(folder, loud);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return run.out.substr(run.out.find(','), run.out.find("kept") - run.out.find(','));
+    };
+    EXPECT_EQ(kept(), ", 0 ");
+    EXPECT_EQ(kept(), ", 2 ");
+    for (const char* file : {"naca_0012.vtu", "naca_0012/polyMesh/owner", "naca_0012_1.vtu", "naca_0012.json"}) {
+        SCOPED_TRACE(file);
+        const std::string whole = folder.read(file);
+        folder.write(file, whole.substr(0, whole.size() / 2));
+        EXPECT_EQ(kept(), ", 1 ");
+        if (!std::string(file).ends_with("json")) {  // a report has times
+            EXPECT_EQ(folder.read(file), whole);
+        }
+        std::string changed = folder.read(file);
+        changed[changed.size() / 2] ^= 1;
+        folder.write(file, changed);
+        EXPECT_EQ(kept(), ", 1 ");
+        fs::remove(folder / file);
+        EXPECT_EQ(kept(), ", 1 ");
+        EXPECT_EQ(kept(), ", 2 ");
+    }
+}
+
+TEST(Batch, LinesOfAJournalThatAreNoRecordsDoNotCount) {
+    const TemporaryFolder folder;
+    const std::vector<std::string> arguments{"naca:0012", "-o", "m.su2"};
+    ASSERT_EQ(run_batch(folder, arguments).exit_code, 0);
+    const Json record = Json::parse(folder.read("summary.jsonl"));
+    const auto hash = record["hash"];
+    std::vector<Json> wrong{Json::array(), 5, "text", nullptr, {{"job", 5}}, {{"job", "naca_0012"}}};
+    for (const auto& [key, value] : record.items())
+        for (const Json& other : {Json(nullptr), Json(5), Json("x"), Json::array({1}), Json{{"a", "b"}}, Json(-1.5)}) {
+            Json line = record;
+            line[key] = other;
+            wrong.push_back(line);
+        }
+    for (const char* key : {"file", "bytes", "fnv1a"}) {
+        Json line = record;
+        line["files"][0][key] = {1, "x"};
+        wrong.push_back(line);
+    }
+    for (const Json& line : wrong) {
+        SCOPED_TRACE(line.dump());
+        folder.write("summary.jsonl", line.dump() + "\n");
+        const ProgramRun run = run_batch(folder, arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.err, "");
+        const Json made = Json::parse(lines_of(folder.read("summary.jsonl")).at(0));
+        EXPECT_EQ(made["hash"].type(), hash.type());
+    }
+}
+
+TEST(Batch, NamesStayInTheirFolder) {
+    const TemporaryFolder folder;
+    const std::string wedge = "wedge\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n";
+    fs::create_directory(folder / "in");
+    for (const char* file : {"in/...dat", "in/..dat"}) folder.write(file, wedge);
+    EXPECT_EQ(run_batch(folder, {"in/...dat", "in/..dat", "-o", "out/{name}/m.su2", "--summary", "s"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "out/__/m.su2"));
+    EXPECT_TRUE(fs::exists(folder / "out/_/m.su2"));
+    EXPECT_EQ(run_batch(folder, {"naca:0012", "-o", "out/{names}/m.su2", "--sweep", "names=../a,..", "--summary", "s"})
+                  .exit_code,
+              0);
+    EXPECT_TRUE(fs::exists(folder / "out/.._a/m.su2"));
+    EXPECT_TRUE(fs::exists(folder / "out/__/m.su2"));
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"in", "out", "s.csv", "s.jsonl"}));
+}
+
+// Spreadsheets run what begins like a formula.
+TEST(Batch, TablesHoldNoFormulas) {
+    const TemporaryFolder folder;
+    const std::string wedge = "wedge\n1 0\n0.5 0.1\n0 0\n0.5 -0.1\n1 0\n";
+    const std::vector<std::string> names{"=1+1", "+x", "@SUM(A1)", "-2+3"};
+    std::vector<std::string> arguments;
+    for (const std::string& name : names) {
+        folder.write(name + ".dat", wedge);
+        arguments.push_back("./" + name + ".dat");
+    }
+    arguments.insert(arguments.end(), {"-o", "{name}_{alpha}.su2", "--sweep", "alpha=-4", "--summary", "s"});
+    EXPECT_EQ(run_batch(folder, arguments).exit_code, 0);
+    const std::vector<std::string> table = lines_of(folder.read("s.csv"));
+    ASSERT_EQ(table.size(), 1 + names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+        EXPECT_TRUE(table[i + 1].starts_with("'" + names[i] + ",-4,done,0,")) << table[i + 1];
+}
+
 TEST(Batch, WrongCallsAreRefusedBeforeTheWork) {
     const TemporaryFolder folder;
     folder.write("a.dat", "title\n1 0\n0 0.1\n0 -0.1\n");
