@@ -38,8 +38,8 @@ LAMINA_EXPORT MarkerKind kind_of_name(std::string_view name);
 
 /// A name that a marker is to have, and its kind.
 struct NamedMarker {
-    std::string name;  ///< any bytes
-    MarkerKind kind = MarkerKind::other;
+    std::string name;                     ///< any bytes
+    MarkerKind kind = MarkerKind::other;  ///< the boundary condition that it is meant for
 };
 
 /// Returns the names of markers that every format, solver and shell takes, in the order of the markers. A legal name

@@ -37,7 +37,8 @@ OptionValue with_paths(OptionValue value, Change change) {
     return value;
 }
 
-OptionValue value_of(const toml::node& node, const std::string& origin) {
+/// Returns the value of a key. Numbers in an array become words, unless its entries are paths.
+OptionValue value_of(const toml::node& node, const std::string& origin, bool are_paths) {
     if (const auto* flag = node.as_boolean()) return flag->get();
     if (const auto* count = node.as_integer()) return count->get();
     if (const auto* real = node.as_floating_point()) return real->get();
@@ -45,8 +46,12 @@ OptionValue value_of(const toml::node& node, const std::string& origin) {
     if (const auto* array = node.as_array()) {
         std::vector<std::string> texts;
         for (const toml::node& entry : *array) {
-            if (!entry.is_string()) throw UsageError(origin + ": an array holds strings");
-            texts.push_back(entry.as_string()->get());
+            if (const auto* text = entry.as_string())
+                texts.push_back(text->get());
+            else if (entry.is_number() && !are_paths)
+                texts.push_back(to_text(value_of(entry, origin, are_paths)));
+            else
+                throw UsageError(origin + ": an array holds strings");
         }
         return texts;
     }
@@ -104,7 +109,7 @@ MeshCase read_case_file(const std::filesystem::path& file, const std::optional<s
             std::find_if(options.begin(), options.end(), [name](const Option<MeshCase>& o) { return o.key() == name; });
         if (option == options.end()) throw UsageError(origin + ": no such option" + hint_for_key(name));
 
-        OptionValue value = value_of(node, origin);
+        OptionValue value = value_of(node, origin, holds_paths(*option));
         if (holds_paths(*option)) {
             value = with_paths(std::move(value), [&](const auto& path) { return file.parent_path() / path; });
         }

@@ -9,10 +9,11 @@ namespace {
 
 OptionTable<GeometryOptions> make_table() {
     OptionTableBuilder<GeometryOptions> table("Geometry");
-    table.list("names", OptionKind::words, "A,B,...",
-               "marker names, one per element; else the stems of the files, or 'airfoil' for a single element; names that not "
-               "every format takes are changed",
-               member_at(&GeometryOptions::names));
+    table.list(
+        "names", OptionKind::words, "A,B,...",
+        "marker names, one per element; else the stems of the files, or 'airfoil' for a single element; names that not "
+        "every format takes are changed",
+        member_at(&GeometryOptions::names));
     table.flag("flip",
                "exchange left and right of the whole configuration, for flow that comes from the right; before any "
                "--transform",

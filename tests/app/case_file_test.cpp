@@ -51,6 +51,9 @@ TEST(CaseFile, HoldsWakesAndSizeSources) {
     folder.write("short.toml", "input = 'naca:0012'\nwake = 10\nrefine = 'circle:1,2,3,4'\n");
     const std::string dumped = run_lamina(folder, {"mesh", "short.toml", "--dump-config"}).out;
     EXPECT_NE(dumped.find("wake = [ '10:2' ]\n"), std::string::npos) << dumped;
+    folder.write("list.toml", "input = 'naca:0012'\nwake = [2, -0.5, 'auto:3']\n");
+    const std::string listed = run_lamina(folder, {"mesh", "list.toml", "--dump-config"}).out;
+    EXPECT_NE(listed.find("wake = [ '2:2', '-0.5:2', 'auto:3' ]\n"), std::string::npos) << listed;
     EXPECT_NE(dumped.find("refine = [ 'circle:1,2,3,4' ]\n"), std::string::npos) << dumped;
 }
 
