@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
 #include "core/bounding_box.hpp"
@@ -43,6 +46,17 @@ double room_around(const Box& bodies, const FarField& far_field) {
                       [&](Point a, Point along) { room = std::min(room, cross(along, corner - a) / length(along)); });
     }
     return room;
+}
+
+/// Returns the smallest distance of the far field from the bodies that triangles of a good shape can fill: edges of walls
+/// are up to twice as long (SpacingOptions::max_spacing), and below that angles are too small.
+double least_room(const Box& bodies) { return 0.01 * core::longer_side(bodies); }
+
+/// Returns the option that places the side of the far field that is nearest to the bodies.
+const char* option_of_nearest_side(const FarField& far_field, const Box& bodies) {
+    const double to_walls = std::min(bodies.lower.y - far_field.floor, far_field.ceiling - bodies.upper.y);
+    if (to_walls > room_around(bodies, far_field)) return "far_field";
+    return std::isfinite(far_field.ceiling) ? "tunnel" : "ground";
 }
 
 /// Returns the far field with the slip walls that the options ask for, from upstream to downstream:
@@ -96,13 +110,16 @@ Box inscribed_box(const FarField& far_field) {
 }
 
 bool leaves_room(const FarField& far_field, const Box& bodies) {
-    return room_around(bodies, far_field) > 0.1 * core::longer_side(bodies);
+    return room_around(bodies, far_field) > least_room(bodies);
 }
 
 std::optional<Box> near_body_box(const Box& bodies, const Box& outermost, const FarField& far_field) {
     const double extent = core::longer_side(bodies);
     if (!leaves_room(far_field, bodies))
-        throw OptionError("far_field", "leaves no room around the bodies and their layers");
+        throw OptionError(option_of_nearest_side(far_field, bodies),
+                          fmt::format("leaves {:.3g} units of the input beside the bodies and their layers, but {:.3g} "
+                                      "are needed, a hundredth of their extent",
+                                      std::max(0.0, room_around(bodies, far_field)), least_room(bodies)));
     if (room_between(bodies, outermost) < 1.5 * extent) return std::nullopt;
     const double margin = 0.5 * extent;
     return Box{bodies.lower - Point{margin, margin}, bodies.upper + Point{margin, margin}};

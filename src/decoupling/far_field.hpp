@@ -12,7 +12,7 @@ namespace lamina::decoupling {
 /// of 0.8 times the size of the largest one that fits in.
 Box inscribed_box(const FarField& far_field);
 
-/// Returns whether the far field encloses the bodies with some room.
+/// Returns whether the far field encloses the bodies at a distance of a hundredth of their extent.
 LAMINA_EXPORT bool leaves_room(const FarField& far_field, const Box& bodies);
 
 /// Returns the near-body box, which stands half the extent of `bodies` away from them, inside the outermost box.

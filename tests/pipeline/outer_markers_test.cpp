@@ -130,6 +130,25 @@ TEST(SlipWalls, GroundLiesBelowTheLowestPoint) {
     EXPECT_NEAR(highest, 5, 1e-3);
 }
 
+TEST(SlipWalls, GroundMayBeNearerThanAFiftiethOfTheBody) {
+    CaseOptions options = small_case();
+    options.layer.enabled = true;
+    options.layer.first_height = Length{1e-5};
+    options.layer.layers = 10;
+    for (const double gap : {0.05, 0.0125}) {
+        options.far_field.ground = Length{gap};
+        const Mesh mesh = mesh_of_section(options);
+        EXPECT_GT(check_mesh(mesh).isotropic.min_angle_deg, proved_min_angle_deg) << gap;
+    }
+    options.far_field.ground = Length{0.001};
+    try {
+        mesh_of_section(options);
+        ADD_FAILURE() << "0.1 % of the chord is too little";
+    } catch (const OptionError& error) {
+        EXPECT_EQ(error.option(), "ground");
+    }
+}
+
 TEST(SlipWalls, ATunnelStandsOnTheGround) {
     CaseOptions options = small_case();
     options.far_field.ground = Length{0.5};
