@@ -6,14 +6,17 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
+#include "geometry/characters.hpp"
+#include "geometry/column_names.hpp"
 #include "geometry/join_blocks.hpp"
-#include "geometry/surface_table.hpp"
 
 namespace lamina::geometry {
 
@@ -31,49 +34,30 @@ bool may_be_counts(const RowPoint& row) {
     return row.columns == 2 && a >= 2 && b >= 2 && a == std::floor(a) && b == std::floor(b);
 }
 
+/// Returns whether the header names the coordinates of both surfaces, of which one may end before the other.
+bool names_both_surfaces(const CoordinateDocument& document) {
+    const std::vector<ColumnRole> roles = column_roles(document.column_names);
+    return column_with(roles, ColumnRole::upper_x) && column_with(roles, ColumnRole::lower_x);
+}
+
 /// Returns the rows that hold coordinates. Throws InputError where they differ in their number of columns.
-Rows coordinate_rows(CoordinateSection& section, const std::string& file) {
+Rows coordinate_rows(CoordinateSection& section, const CoordinateDocument& document, const std::string& file) {
     std::size_t most = 0;
     for (const CoordinateBlock& block : section)
         for (const RowPoint& row : block.points) most = std::max(most, row.columns);
+    const bool may_be_short = most > 2 && names_both_surfaces(document);
     Rows rows;
     for (CoordinateBlock& block : section)
         for (RowPoint& row : block.points)
-            if (most == 2 || !may_be_counts(row)) rows.push_back(&row);
+            if (most == 2 || may_be_short || !may_be_counts(row)) rows.push_back(&row);
     for (const RowPoint* row : rows)
-        if (row->columns != rows[0]->columns)
+        if (row->columns != rows[0]->columns && !(may_be_short && row->columns == 2))
             throw InputError({file, row->line, row->at}, fmt::format("{} numbers where line {} has {}", row->columns,
                                                                      rows[0]->line, rows[0]->columns));
     return rows;
 }
 
 // ---- evidence ------------------------------------------------------------------------------------------------------
-
-/// Returns the name of a column without its unit: "x" of "x [m]", "x/c" and "points:0".
-std::string plain_name(const std::string& name) {
-    static constexpr std::array<std::array<std::string_view, 2>, 3> paraview = {
-        {{"points:0", "x"}, {"points:1", "y"}, {"points:2", "z"}}};
-    for (const auto& [written, meant] : paraview)
-        if (name == written) return std::string(meant);
-    std::string plain = name.substr(0, name.find_first_of("[("));
-    if (plain.ends_with("/c")) plain.resize(plain.size() - 2);
-    return plain;
-}
-
-/// Returns the only column of this name, if there is one.
-std::optional<std::size_t> column_named(const std::vector<std::string>& names, std::string_view wanted) {
-    const auto is_wanted = [&](const std::string& name) { return plain_name(name) == wanted; };
-    if (std::count_if(names.begin(), names.end(), is_wanted) != 1) return std::nullopt;
-    return static_cast<std::size_t>(std::find_if(names.begin(), names.end(), is_wanted) - names.begin());
-}
-
-/// Returns the columns that the header names x and y.
-std::optional<Columns> named_columns(const std::vector<std::string>& names, std::size_t columns) {
-    if (names.size() != columns) return std::nullopt;
-    const auto x = column_named(names, "x"), y = column_named(names, "y"), z = column_named(names, "z");
-    if (!x || (!y && !z)) return std::nullopt;
-    return Columns{*x, y ? *y : *z};
-}
 
 /// Returns whether a column counts the rows: whole numbers in steps of one, which may start again after some rows.
 bool counts_rows(const Rows& rows, std::size_t column) {
@@ -111,7 +95,7 @@ PointRun reduced_to(const Rows& rows, const Columns& columns) {
     reduced.reserve(rows.size());
     for (const RowPoint* row : rows) {
         RowPoint& point = reduced.emplace_back(*row);
-        point.columns = columns.size();
+        point.columns = std::min(row->columns, columns.size());
         for (std::size_t c = 0; c < columns.size(); ++c) point.values[c] = row->values[columns[c]];
         point.at = {point.values[0], point.values[1]};
     }
@@ -132,33 +116,83 @@ bool is_table_of_unit_steps(const PointRun& run, const std::string& heading) {
 
 // ---- decision ------------------------------------------------------------------------------------------------------
 
+/// Returns whether the line of names above the coordinates can only be a header: one name for each column, and either x
+/// is among them or all of them are divided by separators, as those of the numbers are.
+bool is_header(const CoordinateDocument& document, const std::vector<ColumnRole>& roles, std::size_t columns) {
+    const std::vector<std::string>& names = document.column_names;
+    const bool is_words = std::all_of(names.begin(), names.end(), [](const std::string& name) {
+        return !name.empty() && (is_letter(name[0]) || static_cast<unsigned char>(name[0]) >= 0x80);
+    });
+    if (names.size() != columns || !is_words) return false;
+    const bool names_x = std::any_of(roles.begin(), roles.end(), [](ColumnRole role) {
+        return role == ColumnRole::x || role == ColumnRole::upper_x;
+    });
+    if (columns == 2) return roles[0] == ColumnRole::x;  // a title of two words may end with x
+    return names_x || (document.names_have_separators && document.csv);
+}
+
 class ColumnChooser {
 public:
-    ColumnChooser(const Rows& rows, const CoordinateDocument& document) : rows_(rows), document_(document) {
+    ColumnChooser(const Rows& rows, const CoordinateDocument& document, const std::string& file)
+        : rows_(rows), document_(document), file_(file) {
         for (std::size_t c = 0; c < rows[0]->columns; ++c) left_.push_back(c);
+        if (document.column_names.size() == left_.size()) roles_ = column_roles(document.column_names);
     }
 
-    /// Returns the columns that are left: x and y, or the three columns of a table.
-    Columns choose() {
-        if (const auto named = named_columns(document_.column_names, left_.size())) {
-            if (*named != Columns{0, 1} || left_.size() > 2)
-                notes_.push_back(
-                    fmt::format("line {}: x and y read from the {} and {} column, as the header names them",
-                                rows_[0]->line, ordinals[(*named)[0]], ordinals[(*named)[1]]));
-            return *named;
-        }
+    /// Decides which columns are read: two, or those of a table. Throws InputError where more are left. `is_complete` says
+    /// whether no row beside them may hold counts, so that they may be a table.
+    void choose(bool is_complete) {
+        if (choose_by_names() || read_table_by_names()) return;
         leave_out_counter();
-        if (!is_table()) leave_out_constants();
-        return left_;
+        if (is_complete && read_table_by_evidence()) return;
+        leave_out_constants();
+        require_known_names();
+        if (left_.size() > 2) refuse_columns();
     }
 
-    std::vector<std::string> notes() { return std::move(notes_); }
+    const Columns& left() const { return left_; }
+
+    ColumnReading take() { return {std::move(notes_), std::move(table_)}; }
 
 private:
     const Rows& rows_;
     const CoordinateDocument& document_;
+    const std::string& file_;
     Columns left_;
+    std::vector<ColumnRole> roles_;  ///< one for each column, or none where the file has no header
     std::vector<std::string> notes_;
+    std::optional<SurfaceTable> table_;
+
+    /// Leaves the columns that the header names x and y. Where it names z, too, x or y may be the constant one.
+    bool choose_by_names() {
+        std::optional<std::size_t> x = column_with(roles_, ColumnRole::x), y = column_with(roles_, ColumnRole::y);
+        const auto z = column_with(roles_, ColumnRole::z);
+        if (!x || (!y && !z)) return false;
+        if (y && z) {
+            const double largest = std::max({span(rows_, *x), span(rows_, *y), span(rows_, *z)});
+            if (is_constant(rows_, *y, largest)) y = z;
+            if (is_constant(rows_, *x, largest)) x = std::exchange(y, z);
+        }
+        const Columns named{*x, y ? *y : *z};
+        if (named != Columns{0, 1} || left_.size() > 2)
+            notes_.push_back(fmt::format("line {}: x and y read from the {} and {} column, as the header names them",
+                                         rows_[0]->line, ordinals[named[0]], ordinals[named[1]]));
+        left_ = named;
+        return true;
+    }
+
+    bool read_table_by_names() {
+        if (!roles_.empty()) table_ = read_named_table(copies(), roles_, file_);
+        return table_.has_value();
+    }
+
+    /// Returns the rows as a run of points.
+    PointRun copies() const {
+        PointRun run;
+        run.reserve(rows_.size());
+        for (const RowPoint* row : rows_) run.push_back(*row);
+        return run;
+    }
 
     void leave_out(std::size_t column, const std::string& reason) {
         std::erase(left_, column);
@@ -182,16 +216,20 @@ private:
         return largest;
     }
 
-    /// Returns whether the columns are a table of both surfaces. A constant ordinate is the flat lower surface of one
-    /// only where the heading says so; else it is z.
-    bool is_table() const {
-        if (left_.size() != 3) return false;
+    /// Reads the columns as a table of both surfaces where their numbers show that they are one. A constant ordinate is
+    /// the flat lower surface of one only where the heading says so; else it is z.
+    bool read_table_by_evidence() {
         const double largest = largest_span();
         const bool has_constant =
             std::any_of(left_.begin(), left_.end(), [&](std::size_t c) { return is_constant(rows_, c, largest); });
         const bool named = document_.heading.find("upper") != std::string::npos &&
                            document_.heading.find("lower") != std::string::npos;
-        return (!has_constant || named) && read_surface_table(reduced_to(rows_, left_), document_.heading).has_value();
+        if (left_.size() == 3 && (!has_constant || named))
+            table_ = read_surface_table(reduced_to(rows_, left_), document_.heading);
+        else if (left_.size() == 4 && !has_constant)
+            table_ = read_paired_table(reduced_to(rows_, left_));
+        if (table_ && !named) require_known_names();
+        return table_.has_value();
     }
 
     void leave_out_constants() {
@@ -201,44 +239,59 @@ private:
             if (left_.size() > 2 && is_constant(rows_, c, largest))
                 leave_out(c, fmt::format("{} throughout", rows_[0]->values[c]));
     }
+
+    /// Throws InputError where a header names columns that are left and its names do not say how to read them.
+    void require_known_names() const {
+        if (!is_header(document_, roles_, rows_[0]->columns)) return;
+        std::vector<std::string> unknown;
+        for (const std::size_t c : left_)
+            if (roles_[c] == ColumnRole::unknown) unknown.push_back("'" + document_.column_names[c] + "'");
+        if (unknown.empty()) return;
+        throw InputError({file_, document_.names_line, {}},
+                         fmt::format("the header names {} column{} {}, whose meaning is unknown; names that are known: "
+                                     "x with y; x with upper and lower; xu, yu, xl, yl; x with thickness and camber",
+                                     unknown.size() == 1 ? "a" : std::to_string(unknown.size()),
+                                     unknown.size() == 1 ? "" : "s", fmt::join(unknown, ", ")));
+    }
+
+    [[noreturn]] void refuse_columns() const {
+        const auto differs = [&](const RowPoint* row) { return row->values[left_[2]] != rows_[0]->values[left_[2]]; };
+        const RowPoint* row = *std::find_if(rows_.begin(), rows_.end(), differs);
+        const std::string reason = left_.size() == 3
+                                       ? " (and no table of x, upper and lower ordinates: x falls, or the "
+                                         "surfaces cross)"
+                                       : "";
+        throw InputError({file_, row->line, row->at},
+                         fmt::format("{} columns that vary, where x and y are expected{}; keep two, or name x and y in "
+                                     "a header line",
+                                     left_.size() == 3 ? "three" : std::to_string(left_.size()), reason));
+    }
 };
 
-[[noreturn]] void refuse_columns(const Rows& rows, const Columns& left, const std::string& file) {
-    const auto differs = [&](const RowPoint* row) { return row->values[left[2]] != rows[0]->values[left[2]]; };
-    const RowPoint* row = *std::find_if(rows.begin(), rows.end(), differs);
-    const std::string reason = left.size() == 3 ? " (and no table of x, upper and lower ordinates: x falls, or the "
-                                                  "surfaces cross)"
-                                                : "";
-    throw InputError({file, row->line, row->at},
-                     fmt::format("{} columns that vary, where x and y are expected{}; keep two, or name x and y in a "
-                                 "header line",
-                                 left.size() == 3 ? "three" : std::to_string(left.size()), reason));
-}
-
-void check_range(const CoordinateSection& section, const std::string& file) {
-    for (const CoordinateBlock& block : section)
-        for (const RowPoint& p : block.points)
-            if (!in_exact_range(p.at))
-                throw InputError({file, p.line, p.at},
-                                 fmt::format("coordinates must be 0 or of a magnitude from {} to {}",
-                                             min_exact_coordinate, max_exact_coordinate));
+void check_range(const PointRun& points, const std::string& file) {
+    for (const RowPoint& p : points)
+        if (!in_exact_range(p.at))
+            throw InputError({file, p.line, p.at}, fmt::format("coordinates must be 0 or of a magnitude from {} to {}",
+                                                               min_exact_coordinate, max_exact_coordinate));
 }
 
 }  // namespace
 
-std::vector<std::string> choose_columns(CoordinateSection& section, const CoordinateDocument& document,
-                                        const std::string& file) {
-    const Rows rows = coordinate_rows(section, file);
+ColumnReading choose_columns(CoordinateSection& section, const CoordinateDocument& document, const std::string& file) {
+    const Rows rows = coordinate_rows(section, document, file);
     if (rows.empty()) return {};
-    ColumnChooser chooser(rows, document);
-    const Columns columns = chooser.choose();
-    PointRun chosen = reduced_to(rows, columns);
-    const bool is_table = columns.size() == 3 && rows.size() == all_points(section).size() &&
-                          read_surface_table(chosen, document.heading);
-    if (columns.size() > 2 && !is_table) refuse_columns(rows, columns, file);
+    ColumnChooser chooser(rows, document, file);
+    chooser.choose(rows.size() == all_points(section).size());
+    const PointRun chosen = reduced_to(rows, chooser.left());
     for (std::size_t i = 0; i < rows.size(); ++i) *rows[i] = chosen[i];
-    check_range(section, file);
-    return chooser.notes();
+    ColumnReading reading = chooser.take();
+    if (reading.table) {
+        check_range(reading.table->upper, file);
+        check_range(reading.table->lower, file);
+    } else {
+        for (const CoordinateBlock& block : section) check_range(block.points, file);
+    }
+    return reading;
 }
 
 }  // namespace lamina::geometry

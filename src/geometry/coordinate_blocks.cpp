@@ -9,6 +9,7 @@
 
 #include "core/text.hpp"
 #include "geometry/characters.hpp"
+#include "geometry/column_names.hpp"
 
 namespace lamina::geometry {
 
@@ -165,11 +166,24 @@ private:
         return count == static_cast<double>(following);
     }
 
+    /// Remembers what may be the names of columns, and the unit beside or below them.
+    void read_names(const TextRow& row) {
+        if (are_units(row.names)) {
+            for (const std::string& name : row.names)
+                if (document_.unit.empty()) document_.unit = unit_of_text(name);
+            return;
+        }
+        document_.column_names = row.names;
+        document_.names_line = row.line;
+        document_.names_have_separators = row.has_separators;
+        document_.unit = unit_of_names(row.names);
+    }
+
     /// Remembers a row without coordinates that may say how to read those that follow.
     void read_heading(const TextRow& row) {
         const std::string text = core::lower_case(row.text);
         document_.heading += text + '\n';
-        if (!row.names.empty()) document_.column_names = row.names;
+        if (!row.names.empty() && !text.starts_with("zone")) read_names(row);  // Tecplot's line below the names
         // OpenVSP writes "1  Sym Flag (0 - No, 1 - Yes)".
         if (text.starts_with("1") && text.find("sym flag") != std::string::npos) document_.symmetry_line = row.line;
     }

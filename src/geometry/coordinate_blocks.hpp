@@ -37,6 +37,9 @@ struct CoordinateDocument {
     std::string first_comment;              ///< the first comment before the first coordinates
     std::string heading;                    ///< all text before the first coordinates, in lower case
     std::vector<std::string> column_names;  ///< fields of the last row before the first coordinates, in lower case
+    std::size_t names_line = 0;             ///< the line of that row
+    bool names_have_separators = false;     ///< commas or semicolons divide these fields
+    std::string unit;                       ///< unit of length that the file names, such as "mm"; empty: none
     std::string first_row;                  ///< the first row of coordinates where it has whole numbers alone
     bool has_leading_zeros = false;         ///< a number of this row is written like "0012", but no later one is
     std::size_t symmetry_line = 0;          ///< the line that says that one surface stands for both; 0 where none does

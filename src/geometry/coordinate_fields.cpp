@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/text.hpp"
 #include "geometry/characters.hpp"
 
 namespace lamina::geometry {
@@ -124,7 +125,37 @@ std::string_view without_outer_quotes(std::string_view line) {
     return trimmed(line.substr(1, line.size() - 2));
 }
 
+/// Returns a text without the quotes round it, if there are any.
+std::string_view without_quotes(std::string_view text) {
+    const bool is_quoted = text.size() > 1 && (text[0] == '"' || text[0] == '\'') && text.back() == text[0];
+    return is_quoted ? trimmed(text.substr(1, text.size() - 2)) : text;
+}
+
 }  // namespace
+
+std::vector<std::string> read_names(std::string_view line) {
+    constexpr std::string_view tecplot = "variables", separators = ";,\t";
+    const std::string lower = core::lower_case(std::string(line));
+    std::string_view rest = trimmed(lower);
+    if (const std::size_t equals = rest.find('='); rest.starts_with(tecplot) && equals != std::string_view::npos)
+        rest = trimmed(rest.substr(equals + 1));
+    const auto separator = std::find_if(separators.begin(), separators.end(),
+                                        [&](char c) { return rest.find(c) != std::string_view::npos; });
+    std::vector<std::string> names;
+    if (separator != separators.end()) {
+        for (const std::string& name : core::split(std::string(rest), *separator))
+            names.emplace_back(without_quotes(trimmed(name)));
+        return names;
+    }
+    for (std::string& text : split(rest, false).texts) {
+        const bool is_unit = !names.empty() && (text[0] == '[' || text[0] == '(');
+        if (is_unit)
+            names.back() += ' ' + text;
+        else
+            names.push_back(std::move(text));
+    }
+    return names;
+}
 
 FieldList read_fields(std::string_view line) {
     line = without_outer_quotes(line);

@@ -36,4 +36,9 @@ struct FieldList {
 /// locale; Fortran's D exponents and a leading + are understood.
 FieldList read_fields(std::string_view line);
 
+/// Splits a line into names of columns, in lower case and without quotes: at semicolons, commas or tabs where there are
+/// any, so that names may hold spaces, else at white space. A unit in brackets belongs to the name before it. Tecplot's
+/// "VARIABLES =" before the names is left out.
+std::vector<std::string> read_names(std::string_view line);
+
 }  // namespace lamina::geometry

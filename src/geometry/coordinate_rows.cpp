@@ -7,7 +7,6 @@
 
 #include <lamina/error.hpp>
 
-#include "core/text.hpp"
 #include "geometry/brackets.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/coordinate_fields.hpp"
@@ -86,13 +85,6 @@ std::string_view without_comment(std::string_view line) {
     return divided ? before : trimmed(line);
 }
 
-std::vector<std::string> lower_case_texts(const std::vector<Field>& fields) {
-    std::vector<std::string> texts;
-    texts.reserve(fields.size());
-    for (const Field& field : fields) texts.push_back(core::lower_case(field.text));
-    return texts;
-}
-
 /// Returns whether a line says by an arrow which number was changed: "0.99976 -0.00015 -> 0.99976 -0.000149".
 bool has_arrow_between_numbers(std::string_view line) {
     const std::size_t arrow = line.find("->");
@@ -126,7 +118,7 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     }
     row.kind = RowKind::text;
     row.text = printable(line);
-    row.names = lower_case_texts(fields);
+    row.names = read_names(line);
     if (fields.empty()) return;
     if (must_be_coordinates(fields, is_first_row)) row.damage = describe_damage(fields);
     if (must_be_coordinates_in_run(fields)) row.damage_in_run = describe_damage(fields);
@@ -137,7 +129,7 @@ void read_comment(std::string_view line, TextRow& row) {
     const std::size_t start = line.find_first_not_of("#!;%/ \t");
     if (start == std::string_view::npos) return;
     row.text = printable(line.substr(start));
-    row.names = lower_case_texts(read_fields(line.substr(start)).fields);
+    row.names = read_names(line.substr(start));
 }
 
 /// Reads one line, which is the first row where only blank lines and comments stand before it. It has several rows

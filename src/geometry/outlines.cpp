@@ -30,8 +30,9 @@ public:
     void assemble() {
         if (section_.empty()) return;
         if (outlines_.empty()) drop_numeric_title();
-        for (std::string& note : choose_columns(section_, document_, file_)) notes_.push_back(std::move(note));
-        if (add_table()) return;
+        ColumnReading columns = choose_columns(section_, document_, file_);
+        for (std::string& note : columns.notes) notes_.push_back(std::move(note));
+        if (columns.table) return add_table(*columns.table);
         while (!section_.empty() && add_counted_surfaces()) {
         }
         join_commented_blocks(section_);
@@ -70,15 +71,11 @@ private:
         section_[0].title = std::move(title);
     }
 
-    /// Adds the outline of a table of both surfaces, and returns whether the section is one.
-    bool add_table() {
-        const PointRun points = all_points(section_);
-        const std::optional<SurfaceTable> table = read_surface_table(points, document_.heading);
-        if (!table) return false;
-        notes_.push_back(fmt::format("line {}: table of x, upper and lower ordinates{}, joined at the first row",
-                                     points[0].line, table->downward ? " (these counted downward)" : ""));
-        add(join_surfaces(table->upper, table->lower), section_[0].title, "table");
-        return true;
+    /// Adds the outline of a table of both surfaces.
+    void add_table(const SurfaceTable& table) {
+        notes_.push_back(fmt::format("line {}: table of {}, joined at the first row",
+                                     std::min(table.upper.front().line, table.upper.back().line), table.contents));
+        add(join_surfaces(table.upper, table.lower), section_[0].title, "table");
     }
 
     /// Adds the outline whose surfaces follow their counts at the start of the section, and removes its blocks. Returns

@@ -2,47 +2,147 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include <lamina/error.hpp>
+
+#include "geometry/point_runs.hpp"
 
 namespace lamina::geometry {
 
 namespace {
 
-/// Returns whether a run has three columns, the first of which rises.
-bool has_rising_x(const PointRun& points) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (points[i].columns != 3) return false;
-        if (i > 0 && !(points[i].at.x > points[i - 1].at.x)) return false;
-    }
-    return true;
+/// Returns whether all rows of a run have so many columns.
+bool has_columns(const PointRun& points, std::size_t columns) {
+    return std::all_of(points.begin(), points.end(), [&](const RowPoint& p) { return p.columns == columns; });
 }
+
+/// Returns the first row whose x does not go on in the direction of the first two; the end where x is monotone.
+PointRun::const_iterator turning_row(const PointRun& points) {
+    if (points.size() < 2) return points.end();
+    const double sign = points[1].at.x > points[0].at.x ? 1 : -1;
+    const auto turn = std::adjacent_find(points.begin(), points.end(), [&](const RowPoint& a, const RowPoint& b) {
+        return !(sign * (b.at.x - a.at.x) > 0);
+    });
+    return turn == points.end() ? turn : turn + 1;
+}
+
+bool is_monotone(const PointRun& points) { return turning_row(points) == points.end(); }
+
+bool rises(const PointRun& points) { return points.front().at.x < points.back().at.x; }
 
 bool names_lower_first(const std::string& heading) {
     const std::size_t upper = heading.find("upper"), lower = heading.find("lower");
     return upper != std::string::npos && lower != std::string::npos && lower < upper;
 }
 
+/// Returns the points of a surface whose coordinates stand in two columns. Rows that end before them have none: the two
+/// surfaces of a table may differ in their number of points.
+PointRun surface_in(const PointRun& rows, std::size_t x, std::size_t y) {
+    PointRun surface;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(surface),
+                 [&](const RowPoint& p) { return p.columns > std::max(x, y); });
+    for (RowPoint& p : surface) p.at = {p.values[x], p.values[y]};
+    return surface;
+}
+
+void run_from_nose(PointRun& surface) {
+    if (!rises(surface)) std::reverse(surface.begin(), surface.end());
+}
+
+void mirror(PointRun& surface) {
+    for (RowPoint& p : surface) p.at.y = -p.at.y;
+}
+
+/// Returns whether two surfaces with the same x, from the nose to the tail, meet at the ends alone. `sign` is -1 if the
+/// ordinates of the lower one count downward, else 1.
+bool are_apart(const PointRun& upper, const PointRun& lower, double sign) {
+    const double chord = upper.back().at.x - upper.front().at.x;
+    const auto thickness = [&](std::size_t i) { return upper[i].at.y - sign * lower[i].at.y; };
+    if (std::abs(thickness(0)) > 0.01 * chord || std::abs(thickness(upper.size() - 1)) > 0.2 * chord) return false;
+    for (std::size_t i = 1; i + 1 < upper.size(); ++i)
+        if (!(thickness(i) > 0)) return false;
+    return true;
+}
+
+/// Returns the table of two surfaces with the same x. Where they would cross otherwise, lower ordinates count downward.
+SurfaceTable table_of_ordinates(PointRun upper, PointRun lower) {
+    const bool downward = !are_apart(upper, lower, 1) && are_apart(upper, lower, -1);
+    if (downward) mirror(lower);
+    return {std::move(upper), std::move(lower),
+            downward ? "x, upper and lower ordinates (these counted downward)" : "x, upper and lower ordinates"};
+}
+
+/// Returns the surfaces at camber +- factor x thickness.
+SurfaceTable table_of_thickness(const PointRun& rows, std::size_t x, std::size_t thickness, double factor,
+                                std::optional<std::size_t> camber) {
+    SurfaceTable table{rows, rows, {}};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& values = rows[i].values;
+        const double middle = camber ? values[*camber] : 0, half = factor * values[thickness];
+        table.upper[i].at = {values[x], middle + half};
+        table.lower[i].at = {values[x], middle - half};
+    }
+    const std::string half = factor == 1 ? "half thickness" : "thickness",
+                      at = factor == 1 ? "+- half thickness" : "+- thickness / 2";
+    table.contents = camber ? "x, " + half + " and camber (surfaces at camber " + at + ")"
+                            : "x and " + half + " of a symmetric section (surfaces at " + at + ")";
+    return table;
+}
+
+/// Returns the table whose columns have these roles, with its rows as they stand.
+std::optional<SurfaceTable> table_by_roles(const PointRun& rows, const std::vector<ColumnRole>& roles) {
+    const auto column = [&](ColumnRole role) { return column_with(roles, role); };
+    const auto x = column(ColumnRole::x), upper = column(ColumnRole::upper), lower = column(ColumnRole::lower),
+               upper_x = column(ColumnRole::upper_x), lower_x = column(ColumnRole::lower_x);
+    if (upper_x && upper && lower_x && lower)
+        return SurfaceTable{surface_in(rows, *upper_x, *upper), surface_in(rows, *lower_x, *lower),
+                            "the coordinates of both surfaces"};
+    if (!x) return std::nullopt;
+    if (upper && lower)
+        return SurfaceTable{surface_in(rows, *x, *upper), surface_in(rows, *x, *lower), "x, upper and lower ordinates"};
+    const auto camber = column(ColumnRole::camber);
+    if (const auto thickness = column(ColumnRole::thickness))
+        return table_of_thickness(rows, *x, *thickness, 0.5, camber);
+    if (const auto half = column(ColumnRole::half_thickness)) return table_of_thickness(rows, *x, *half, 1, camber);
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<SurfaceTable> read_surface_table(const PointRun& points, const std::string& heading) {
-    if (points.size() < 5 || !has_rising_x(points)) return std::nullopt;
-    const double chord = points.back().at.x - points.front().at.x;
+    if (points.size() < 5 || !has_columns(points, 3) || !is_monotone(points) || !rises(points)) return std::nullopt;
     const bool lower_first = names_lower_first(heading);
-    const auto upper_at = [&](const RowPoint& p) { return lower_first ? p.values[2] : p.values[1]; };
-    const auto lower_at = [&](const RowPoint& p) { return lower_first ? p.at.y : p.values[2]; };
-    // Tells whether the surfaces meet at the ends alone; `sign` is -1 if lower ordinates count downward, else 1.
-    const auto are_apart = [&](double sign) {
-        const auto thickness = [&](const RowPoint& p) { return upper_at(p) - sign * lower_at(p); };
-        return std::abs(thickness(points.front())) <= 0.01 * chord &&
-               std::abs(thickness(points.back())) <= 0.2 * chord &&
-               std::all_of(points.begin() + 1, points.end() - 1, [&](const RowPoint& p) { return thickness(p) > 0; });
-    };
-    const bool downward = !are_apart(1);
-    if (downward && !are_apart(-1)) return std::nullopt;
-    SurfaceTable table{points, points, downward};
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        table.upper[i].at.y = upper_at(points[i]);
-        table.lower[i].at.y = downward ? -lower_at(points[i]) : lower_at(points[i]);
-    }
+    PointRun upper = surface_in(points, 0, lower_first ? 2 : 1), lower = surface_in(points, 0, lower_first ? 1 : 2);
+    if (!are_apart(upper, lower, 1) && !are_apart(upper, lower, -1)) return std::nullopt;
+    return table_of_ordinates(std::move(upper), std::move(lower));
+}
+
+std::optional<SurfaceTable> read_paired_table(const PointRun& points) {
+    if (points.size() < 3 || !has_columns(points, 4)) return std::nullopt;
+    SurfaceTable table{surface_in(points, 0, 1), surface_in(points, 2, 3), "the coordinates of both surfaces"};
+    if (!is_monotone(table.upper) || !is_monotone(table.lower) || rises(table.upper) != rises(table.lower))
+        return std::nullopt;
+    run_from_nose(table.upper);
+    run_from_nose(table.lower);
+    return are_two_surfaces(table.upper, table.lower) ? std::optional(std::move(table)) : std::nullopt;
+}
+
+std::optional<SurfaceTable> read_named_table(const PointRun& rows, const std::vector<ColumnRole>& roles,
+                                             const std::string& file) {
+    std::optional<SurfaceTable> table = table_by_roles(rows, roles);
+    if (!table) return std::nullopt;
+    for (const PointRun* surface : {&table->upper, &table->lower})
+        if (const auto turn = turning_row(*surface); turn != surface->end())
+            throw InputError(
+                {file, turn->line, turn->at},
+                "x turns back here, but must rise or fall from row to row in a table of " + table->contents);
+    run_from_nose(table->upper);
+    run_from_nose(table->lower);
+    const std::string ordinates = "x, upper and lower ordinates";
+    if (table->contents == ordinates) return table_of_ordinates(std::move(table->upper), std::move(table->lower));
     return table;
 }
 

@@ -1,9 +1,11 @@
-// Tables of x and the ordinates of both surfaces.
+// Tables of both surfaces of a section, row by row.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "geometry/column_names.hpp"
 #include "geometry/coordinate_blocks.hpp"
 
 namespace lamina::geometry {
@@ -11,7 +13,7 @@ namespace lamina::geometry {
 /// The two surfaces of a table, both from the nose to the tail.
 struct SurfaceTable {
     PointRun upper, lower;
-    bool downward;  ///< the file counts lower ordinates downward
+    std::string contents;  ///< what the columns hold, for a note: "x, upper and lower ordinates"
 };
 
 /// Reads three columns as x, upper and lower ordinate, or as x, lower and upper ordinate where the heading names them
@@ -19,5 +21,17 @@ struct SurfaceTable {
 /// the tail and meet nowhere between. Where the surfaces would cross otherwise, lower ordinates count downward. Returns
 /// nothing for other runs.
 std::optional<SurfaceTable> read_surface_table(const PointRun& points, const std::string& heading);
+
+/// Reads four columns as x and y of one surface, and x and y of the other, in rows that both begin at the nose or both
+/// at the tail. Each x must rise or fall all along, and the two surfaces have both ends in common. Returns nothing for
+/// other runs.
+std::optional<SurfaceTable> read_paired_table(const PointRun& points);
+
+/// Reads the columns of `rows` as the header names them: x with upper and lower ordinates; x and y of each surface; x
+/// with thickness and camber, which give the surfaces at camber +- thickness / 2; x with thickness alone, of a symmetric
+/// section. Rows run either way. Returns nothing where the roles are not those of a table. Throws InputError, which
+/// names `file`, where x turns back.
+std::optional<SurfaceTable> read_named_table(const PointRun& rows, const std::vector<ColumnRole>& roles,
+                                             const std::string& file);
 
 }  // namespace lamina::geometry

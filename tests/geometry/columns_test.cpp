@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <lamina/error.hpp>
@@ -238,6 +239,109 @@ TEST(Columns, NamesDecide) {
         return line.substr(space + 1) + "," + line.substr(0, space);
     });
     expect_same(plain, "y,x\n" + swapped);
+}
+
+/// A section given by its camber line and its thickness, which both surfaces follow.
+struct Stations {
+    std::vector<double> x{0, 0.1, 0.3, 0.6, 0.8, 1}, camber{0, 0.01, 0.02, 0.02, 0.01, 0},
+        thickness{0, 0.08, 0.1, 0.08, 0.04, 0};
+
+    double upper(std::size_t i) const { return camber[i] + thickness[i] / 2; }
+    double lower(std::size_t i) const { return camber[i] - thickness[i] / 2; }
+
+    /// Returns the outline from the tail over the upper surface.
+    std::vector<Point> outline() const {
+        std::vector<Point> points;
+        for (std::size_t i = x.size(); i-- > 0;) points.push_back({x[i], upper(i)});
+        for (std::size_t i = 1; i + 1 < x.size(); ++i) points.push_back({x[i], lower(i)});
+        return points;
+    }
+
+    /// Returns a file with a header and one row for each station, with the columns that `row(i)` returns.
+    std::string file(const std::string& header, const std::function<std::vector<double>(std::size_t)>& row,
+                     bool falling = false) const {
+        std::string text = header + "\n";
+        for (std::size_t k = 0; k < x.size(); ++k)
+            text += fmt::format("{}\n", fmt::join(row(falling ? x.size() - 1 - k : k), ","));
+        return text;
+    }
+};
+
+TEST(NamedTables, OfThicknessAndCamber) {
+    const Stations s;
+    const auto full = [&](std::size_t i) { return std::vector{s.x[i], s.thickness[i], s.camber[i]}; };
+    const auto swapped = [&](std::size_t i) { return std::vector{s.camber[i], s.x[i], s.thickness[i]}; };
+    const auto half = [&](std::size_t i) { return std::vector{s.x[i], s.camber[i], s.thickness[i] / 2}; };
+    for (const bool falling : {false, true}) {
+        for (const std::string header :
+             {"x,thickness,camber", "x/c,t/c,f/c", "X [mm],Thickness [mm],Camber [mm]", "station,t,yc", "x/t,d/t,f/t"})
+            EXPECT_EQ(parsed(s.file(header, full, falling)).elements[0].points, s.outline()) << header;
+        EXPECT_EQ(parsed(s.file("camber,x,thickness", swapped, falling)).elements[0].points, s.outline());
+        for (const std::string header : {"x,yc,yt", "x,y_c,y_t", "# x/c,camber,half-thickness", "x,camber,t/2"})
+            EXPECT_EQ(parsed(s.file(header, half, falling)).elements[0].points, s.outline()) << header;
+    }
+    EXPECT_TRUE(says(parsed(s.file("x,thickness,camber", full)).elements[0],
+                     "line 2: table of x, thickness and camber (surfaces at camber +- thickness / 2)"));
+    EXPECT_TRUE(says(parsed(s.file("x,yc,yt", half)).elements[0], "(surfaces at camber +- half thickness)"));
+}
+
+TEST(NamedTables, OfThicknessAlone) {
+    Stations s;
+    s.camber.assign(s.x.size(), 0);
+    const auto full = [&](std::size_t i) { return std::vector{s.x[i], s.thickness[i]}; };
+    const auto half = [&](std::size_t i) { return std::vector{s.x[i], s.thickness[i] / 2}; };
+    EXPECT_EQ(parsed(s.file("x/c,t/c", full)).elements[0].points, s.outline());
+    EXPECT_EQ(parsed(s.file("x,yt", half)).elements[0].points, s.outline());
+}
+
+// The words upper and lower need not stand in the header, and the lower surface may come first.
+TEST(NamedTables, OfUpperAndLowerOrdinates) {
+    const Stations s;
+    const auto upper_first = [&](std::size_t i) { return std::vector{s.x[i], s.upper(i), s.lower(i)}; };
+    const auto lower_first = [&](std::size_t i) { return std::vector{s.x[i], s.lower(i), s.upper(i)}; };
+    for (const bool falling : {false, true}) {
+        for (const std::string header : {"x,yu,yl", "x,upper,lower", "x/c,yo/c,yu/c", "x,yt,yb", "x,y_top,y_bot"})
+            EXPECT_EQ(parsed(s.file(header, upper_first, falling)).elements[0].points, s.outline()) << header;
+        for (const std::string header : {"x,yl,yu", "x,lower,upper", "x,yb,yt", "x,yu,yo"})
+            EXPECT_EQ(parsed(s.file(header, lower_first, falling)).elements[0].points, s.outline()) << header;
+    }
+    const auto with_slopes = [&](std::size_t i) {
+        const double slope = static_cast<double>(i * i);
+        return std::vector{s.x[i], s.upper(i), slope, s.lower(i), -slope};
+    };
+    EXPECT_EQ(parsed(s.file("x/c,y/c_upper,phi_upper,y/c_lower,phi_lower", with_slopes)).elements[0].points,
+              s.outline());
+}
+
+TEST(NamedTables, OfTheCoordinatesOfBothSurfaces) {
+    const Stations s;
+    const auto both = [&](std::size_t i) { return std::vector{s.x[i], s.upper(i), s.x[i], s.lower(i)}; };
+    const auto lower_first = [&](std::size_t i) { return std::vector{s.x[i], s.lower(i), s.x[i], s.upper(i)}; };
+    for (const bool falling : {false, true}) {
+        for (const std::string header : {"xu,yu,xl,yl", "x_upper,y_upper,x_lower,y_lower", "Xo,Yo,Xu,Yu", "t",
+                                         "station,ordinate,station,ordinate"})
+            EXPECT_EQ(parsed(s.file(header, both, falling)).elements[0].points, s.outline()) << header;
+        EXPECT_EQ(parsed(s.file("xl,yl,xu,yu", lower_first, falling)).elements[0].points, s.outline());
+    }
+    EXPECT_EQ(parsed("xu,yu,xl,yl\n0,0,0,0\n.5,.1,.5,-.1\n.7,.08,1,0\n1,0,,\n").elements[0].points,
+              (std::vector<Point>{{1, 0}, {0.7, 0.08}, {0.5, 0.1}, {0, 0}, {0.5, -0.1}}));
+}
+
+TEST(Columns, AConstantOneOfXAndYAndZIsLeftOut) {
+    const std::string plain = fixtures::loop_lines;
+    const auto at = [](const std::string& line) { return line.find(' '); };
+    expect_same(plain, "X Y Z\n" + with_lines(plain, [&](const std::string& line, std::size_t) {
+                           return with_separator(line, " 1.25 ");
+                       }));
+    expect_same(plain, "x,y,z\n" + with_lines(plain, [&](const std::string& line, std::size_t) {
+                           return "-3," + line.substr(0, at(line)) + "," + line.substr(at(line) + 1);
+                       }));
+    expect_same(plain,
+                "x y z\n" + with_lines(plain, [&](const std::string& line, std::size_t) { return line + " 2"; }));
+}
+
+TEST(Columns, ALineOfUnitsBelowTheNamesIsNone) {
+    expect_same("1 0\n.5 .1\n0 0\n.5 -.1\n1 0\n", "y,x\n[mm],[mm]\n0,1\n.1,.5\n0,0\n-.1,.5\n0,1\n");
 }
 
 TEST(Headers, OfNumbersAloneAreTitlesOrCounts) {

@@ -94,12 +94,22 @@ TEST(Refusal, CoordinatesOutsideTheExactRange) {
 }
 
 TEST(Refusal, Tables) {
-    expect_refusal("x lower upper\n0 0 0\n0.5 0.1 0.2\n1 0 0\n", 3, "three columns that vary", Point{0.5, 0.1});
+    expect_refusal("t\n0 0 0\n0.5 0.1 0.2\n1 0 0\n", 3, "three columns that vary", Point{0.5, 0.1});
+    expect_refusal("x,thickness,camber\n0,0,0\n.5,.1,.02\n.4,.1,.02\n1,0,0\n", 4, "x turns back here");
     expect_refusal("t\n1 0 2 3 4 5\n0 0 2 3 4 5\n1 1 1 1 1 1\n", 4, "6 columns that vary, where x and y are expected");
     expect_refusal("t\n1 2 3 4 5 6 7 8 9\n1 2 3 4 5 6 7 8 8\n", 2, "9 numbers where x and y are expected");
     // A constant third column is z unless a heading says that it is the lower surface.
     expect_refusal("t\n0 0 0\n0.2 0.06 0\n0.5 0.07 0\n1 0 0\n", 5, "the outline is open");
     expect_refusal("t\n1 0\n0.5 0.1 0\n0 0\n0.5 -0.1\n", 3, "3 numbers where line 2 has 2");
+}
+
+// Such columns may look like a table of both surfaces.
+TEST(Refusal, ColumnsOfUnknownNames) {
+    const std::string rows = "0,0,0\n.1,.08,.01\n.3,.1,.02\n.6,.08,.02\n.8,.04,.01\n1,0,0\n";
+    expect_refusal("x,foo,bar\n" + rows, 1, "the header names 2 columns 'foo', 'bar', whose meaning is unknown");
+    expect_refusal("pos,foo,bar\n" + rows, 1, "the header names 3 columns 'pos', 'foo', 'bar'");
+    expect_refusal("# x,upper,bar\n" + rows, 1, "the header names a column 'bar'");
+    expect_refusal("x,cp\n1,0\n0.5,0.1\n0,0\n0.5,-0.1\n1,0\n", 1, "the header names a column 'cp'");
 }
 
 TEST(Refusal, TooFewPoints) {

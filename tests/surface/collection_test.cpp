@@ -34,10 +34,9 @@ protected:
     }
 };
 
-/// Files that are rightly refused, for crossings, folds, half outlines, tables or damaged text.
+/// Files that are rightly refused, for crossings, folds, half outlines or damaged text.
 const std::set<std::string> refused = {"special/ag40d-02r_crossing.dat",
                                        "special/count_mismatch.dat",
-                                       "special/dsma661_table.dat",
                                        "special/flat_plate.dat",
                                        "special/hn1033a_wrong_format.dat",
                                        "special/iced/iced_glc305_08040436.dat",
