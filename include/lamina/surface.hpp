@@ -15,13 +15,13 @@ namespace lamina {
 
 /// The ways to treat the given points.
 enum class SurfaceTreatment {
-    automatic,  ///< coarse samples of a smooth curve are resampled, stretch by stretch; all others are kept
+    automatic,  ///< samples of a smooth curve that are coarser than a wall needs are resampled, others kept
     keep,       ///< kept exactly
     resample,   ///< replaced by new points on a spline through them
 };
 
-/// Options of prepare_surfaces(). Lengths are shares of the element's length, the longer side of its box, unless a
-/// comment says otherwise.
+/// Options of prepare_surfaces(). Lengths are shares of the element's length, the longer side of the tightest box round it,
+/// unless a comment says otherwise.
 struct SurfaceOptions {
     SurfaceTreatment treatment = SurfaceTreatment::automatic;  ///< whether points are kept or replaced
     /// Wall vertices per element, about; all spacings below keep their proportions. Makes `automatic` resample.

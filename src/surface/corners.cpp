@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "core/angles.hpp"
-#include "core/bounding_box.hpp"
 #include "core/reproducible_math.hpp"
+#include "core/tight_box.hpp"
 
 namespace lamina::surface {
 
@@ -21,8 +21,10 @@ constexpr double min_certain_turning = core::radians(125);
 /// A neighbour is straight where it turns by less than this share of the vertex's turning.
 constexpr double max_straight_share = 0.2;
 
-/// Vertices in a row are the corners of a polygon where each turns to the same side by more than this ...
+/// Vertices in a row are the corners of a polygon where each turns by more than this, to the same side or between sides
+/// of about the same length ...
 constexpr double min_polygon_turning = core::radians(40);
+constexpr double max_ratio_of_equal_sides = 1.25;
 /// ... and all together turn by more than any nose does.
 constexpr double max_nose_turning = core::radians(240);
 
@@ -72,17 +74,22 @@ bool is_chord_end(std::span<const Point> outline, std::size_t vertex) {
 }
 
 /// Returns, for each vertex, whether it is a corner of a polygon.
-std::vector<bool> find_polygon_corners(std::span<const double> turning) {
+std::vector<bool> find_polygon_corners(std::span<const Point> outline, std::span<const double> turning) {
     const std::size_t n = turning.size();
     std::vector<bool> is_corner(n, false);
-    const auto are_joined = [&](std::size_t i, std::size_t j) {
-        return std::min(std::abs(turning[i]), std::abs(turning[j])) > min_polygon_turning &&
-               turning[i] * turning[j] > 0;
+    const auto side = [&](std::size_t i) { return distance(outline[i % n], outline[(i + 1) % n]); };
+    const auto are_equal = [](double a, double b) {
+        return std::max(a, b) <= max_ratio_of_equal_sides * std::min(a, b);
+    };
+    const auto is_joined_to_next = [&](std::size_t i) {
+        if (std::min(std::abs(turning[i]), std::abs(turning[(i + 1) % n])) <= min_polygon_turning) return false;
+        return turning[i] * turning[(i + 1) % n] > 0 ||
+               (are_equal(side(i), side(i + 1)) && are_equal(side(i), side(i + n - 1)));
     };
     for (std::size_t i = 0; i < n; ++i) {
         double sum = std::abs(turning[i]);
-        for (std::size_t j = i; j - i < n && are_joined(j % n, (j + 1) % n); ++j) sum += std::abs(turning[(j + 1) % n]);
-        for (std::size_t j = i + n; i + n - j < n && are_joined(j % n, (j - 1) % n); --j)
+        for (std::size_t j = i; j - i < n && is_joined_to_next(j % n); ++j) sum += std::abs(turning[(j + 1) % n]);
+        for (std::size_t j = i + n; i + n - j < n && is_joined_to_next((j - 1) % n); --j)
             sum += std::abs(turning[(j - 1) % n]);
         is_corner[i] = std::abs(turning[i]) > min_polygon_turning && sum > max_nose_turning;
     }
@@ -95,8 +102,8 @@ public:
     explicit CornerFinder(std::span<const Point> outline)
         : outline_(outline),
           turning_(turning_angles(outline)),
-          is_polygon_corner_(find_polygon_corners(turning_)),
-          long_side_(long_side_share * core::longer_side(core::bounding_box(outline))) {}
+          is_polygon_corner_(find_polygon_corners(outline, turning_)),
+          long_side_(long_side_share * core::longer_side_of_tight_box(outline)) {}
 
     bool is_corner(std::size_t i) const {
         const double angle = std::abs(turning_[i]);

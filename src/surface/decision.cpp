@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -15,8 +16,9 @@ namespace lamina::surface {
 
 namespace {
 
-/// Beyond these bounds, samples of a smooth curve are too coarse or too uneven for a mesh.
-constexpr double max_given_ratio = 1.25, max_given_spacing = 0.05;
+/// Beyond this ratio of neighbouring spacings, samples of a smooth curve are too uneven for a mesh, and beyond this ratio of
+/// a given edge to the spacing that the rules for new points ask for there, they are too coarse.
+constexpr double max_given_ratio = 1.25;
 /// So many points are kept, even where they are spaced as a generator of meshes would not ...
 constexpr std::size_t min_dense_points = 1000;
 /// ... unless neighbouring spacings differ by more than this, as where points are random.
@@ -46,17 +48,12 @@ struct Sampling {
     double max_turning = 0;
     double max_ratio = 1;  ///< of neighbouring spacings
     double min_spacing = HUGE_VAL, max_spacing = 0;
-    double first_spacing = 0, last_spacing = 0;
 };
 
-/// Returns the larger values of two ranges, but for the spacings at their ends.
+/// Returns the larger values of two ranges.
 Sampling coarser(const Sampling& a, const Sampling& b) {
-    return {std::max(a.max_turning, b.max_turning),
-            std::max(a.max_ratio, b.max_ratio),
-            std::min(a.min_spacing, b.min_spacing),
-            std::max(a.max_spacing, b.max_spacing),
-            0,
-            0};
+    return {std::max(a.max_turning, b.max_turning), std::max(a.max_ratio, b.max_ratio),
+            std::min(a.min_spacing, b.min_spacing), std::max(a.max_spacing, b.max_spacing)};
 }
 
 /// A closed outline with its measures.
@@ -92,8 +89,6 @@ struct MeasuredOutline {
             s.max_turning = std::max(s.max_turning, std::abs(turning[i]));
             s.max_ratio = std::max(s.max_ratio, ratio_at(i));
         }
-        s.first_spacing = lengths[range.first];
-        s.last_spacing = lengths[(range.first + range.count - 1) % n];
         return s;
     }
 };
@@ -127,9 +122,10 @@ void replace_range(Decision& decision, std::size_t range) {
 std::string coarseness(const Sampling& s, double extent, const ResamplingRequest& request) {
     if (core::degrees(s.max_turning) > request.max_turning_deg())
         return fmt::format("they turn by up to {:.1f} degrees", core::degrees(s.max_turning));
-    if (s.max_spacing > max_given_spacing * extent)
-        return fmt::format("they are up to {:.1f} % of the length apart", 100 * s.max_spacing / extent);
-    if (s.max_ratio > max_given_ratio) return fmt::format("neighbouring spacings differ by up to {:.1f}", s.max_ratio);
+    const double uneven = s.max_ratio / max_given_ratio,
+                 coarse = s.max_spacing / (request.options.max_spacing * extent);
+    if (uneven > 1 && uneven >= coarse) return fmt::format("neighbouring spacings differ by up to {:.1f}", s.max_ratio);
+    if (coarse > 1) return fmt::format("they are up to {:.1f} % of the length apart", 100 * s.max_spacing / extent);
     return "";
 }
 
@@ -151,16 +147,18 @@ Decision decide_jagged(const Element& e, const ResamplingRequest& request) {
 
     const std::vector<EdgeRange> ranges = ranges_between(jags, outline.n);
     Decision decision = keep_all(ranges, outline.n);
+    const double longest = request.options.max_spacing * outline.extent;
     Sampling replaced;
     for (std::size_t r = 0; r < ranges.size(); ++r) {
         const Sampling s = outline.sampling(ranges[r]);
-        decision.is_smooth[r] = is_smooth(s, ranges[r].count, request.options.max_spacing * outline.extent);
+        decision.is_smooth[r] = is_smooth(s, ranges[r].count, longest);
         if (!decision.is_smooth[r] || coarseness(s, outline.extent, request).empty()) continue;
         replace_range(decision, r);
         replaced = coarser(replaced, s);
     }
     for (std::size_t i = 0; i < outline.n; ++i)
-        if (decision.edges[i] == EdgeTreatment::keep && outline.is_long(i)) decision.replace_kept(i);
+        if (decision.edges[i] == EdgeTreatment::keep && (outline.is_long(i) || outline.lengths[i] > longest))
+            decision.replace_kept(i);
 
     const std::string reason = coarseness(replaced, outline.extent, request);
     decision.reason = decision.keeps_all()
@@ -172,18 +170,44 @@ Decision decide_jagged(const Element& e, const ResamplingRequest& request) {
 
 // ---- smooth outlines -----------------------------------------------------------------------------------------------
 
-/// Returns whether the points between two corners obey the rules of new ones, so that they can stay beside new ones. A
+/// Returns whether the points between two corners obey the rules for new ones, so that they can stay beside new ones. A
 /// straight side does not matter: new points lie on it as well.
-bool is_fine(const Sampling& s, EdgeRange range, const MeasuredOutline& outline, const Element& e, std::size_t index,
-             const ResamplingRequest& request) {
-    const auto fits_corner = [&](std::size_t vertex, double spacing) {
-        const std::size_t corner = vertex % outline.n;
-        return spacing <= max_given_ratio * request.corner_spacing(index, outline.turning[corner], outline.extent,
-                                                                   is_given_corner(e, corner));
-    };
+bool is_fine(const Sampling& s, EdgeRange range, std::span<const double> asked, const ResamplingRequest& request) {
+    for (std::size_t k = 0; k < range.count; ++k)
+        if (asked[(range.first + k) % asked.size()] > max_given_ratio) return false;
     return s.max_turning > min_curve_turning && core::degrees(s.max_turning) <= request.max_turning_deg() &&
-           s.max_spacing <= request.options.max_spacing * outline.extent && s.max_ratio <= max_given_ratio &&
-           fits_corner(range.first, s.first_spacing) && fits_corner(range.first + range.count, s.last_spacing);
+           s.max_ratio <= max_given_ratio;
+}
+
+/// Returns the reason why edges are longer than the rules for new points ask for, or nothing where none is. `asked` holds
+/// the number of new edges that would take the place of each.
+std::string excess_length(std::span<const double> asked, std::span<const Point> points) {
+    const auto worst = std::max_element(asked.begin(), asked.end());
+    if (*worst <= max_given_ratio) return "";
+    const auto i = static_cast<std::size_t>(worst - asked.begin());
+    const Point middle = midpoint(points[i], points[(i + 1) % points.size()]);
+    return fmt::format(
+        "they are up to {:.1f} times as far apart as corners, walls nearby and the layer ask for, at "
+        "({:.4g}, {:.4g})",
+        *worst, middle.x, middle.y);
+}
+
+/// Returns why points are kept, and how many would do where that is less than half of them.
+std::string reason_to_keep(std::string reason, std::span<const double> asked) {
+    const double enough = std::ceil(std::accumulate(asked.begin(), asked.end(), 0.0));
+    if (2 * enough >= static_cast<double>(asked.size())) return reason;
+    return reason + fmt::format("; {} would do (--surface resample)", enough);
+}
+
+/// Decides on an element of so many points that their number is a choice. Edges that are too long give way one by one.
+Decision decide_dense(const Element& e, std::span<const double> asked) {
+    std::vector<EdgeRange> single;
+    for (std::size_t i = 0; i < asked.size(); ++i) single.push_back({i, 1});
+    Decision decision = keep_all(single, asked.size());
+    for (std::size_t i = 0; i < asked.size(); ++i)
+        if (asked[i] > max_given_ratio) decision.edges[i] = EdgeTreatment::spline;
+    decision.reason = decision.keeps_all() ? reason_to_keep("they are dense", asked) : excess_length(asked, e.points);
+    return decision;
 }
 
 Decision decide_smooth(const Element& e, std::size_t index, const ResamplingRequest& request) {
@@ -191,25 +215,26 @@ Decision decide_smooth(const Element& e, std::size_t index, const ResamplingRequ
     const std::vector<EdgeRange> ranges = ranges_between(e.features.corners, outline.n);
     Sampling all;
     for (const EdgeRange range : ranges) all = coarser(all, outline.sampling(range));
-    Decision decision = keep_all(ranges, outline.n);
+    const std::vector<double> asked = edges_asked_for(e, index, request);
     const bool are_too_close = all.min_spacing < min_given_spacing * outline.extent;
-    if (outline.n >= min_dense_points && all.max_ratio <= max_dense_ratio && !are_too_close) {
-        decision.reason = "they are dense";
-        return decision;
-    }
+    if (outline.n >= min_dense_points && all.max_ratio <= max_dense_ratio && !are_too_close)
+        return decide_dense(e, asked);
+    Decision decision = keep_all(ranges, outline.n);
     for (const std::size_t corner : e.features.corners)
         all.max_ratio = std::max(all.max_ratio, outline.ratio_at(corner));
     decision.reason = coarseness(all, outline.extent, request);
     if (decision.reason.empty() && are_too_close)
         decision.reason = fmt::format("some are only {:.1g} of the length apart", all.min_spacing / outline.extent);
+    if (decision.reason.empty()) decision.reason = excess_length(asked, e.points);
     if (decision.reason.empty()) {
-        decision.reason =
+        decision.reason = reason_to_keep(
             fmt::format("they turn by at most {:.1f} degrees, and neighbouring spacings differ by at most {:.2f}",
-                        core::degrees(all.max_turning), all.max_ratio);
+                        core::degrees(all.max_turning), all.max_ratio),
+            asked);
         return decision;
     }
     for (std::size_t r = 0; r < ranges.size(); ++r)
-        if (ranges.size() == 1 || !is_fine(outline.sampling(ranges[r]), ranges[r], outline, e, index, request))
+        if (ranges.size() == 1 || !is_fine(outline.sampling(ranges[r]), ranges[r], asked, request))
             replace_range(decision, r);
     return decision;
 }
@@ -226,6 +251,10 @@ void Decision::replace_kept(std::size_t edge) {
     } else {
         edges[edge] = EdgeTreatment::divide;
     }
+}
+
+bool keeps_number_of_points(const Element& e) {
+    return !e.samples_of_curve && (is_jagged(e) || e.points.size() >= min_dense_points);
 }
 
 bool is_jagged(const Element& e) { return e.features.corners.size() > std::max<std::size_t>(8, e.points.size() / 25); }

@@ -245,6 +245,20 @@ std::vector<double> shared_out(std::span<const double> integrals, std::span<cons
 
 }  // namespace
 
+std::vector<std::vector<double>> edges_of_pieces(std::span<const OutlineCurve> curves, const SpacingRule& rule,
+                                                 SampledCurves& known) {
+    SampledOutline outline = sample_spacings(curves, rule, known);
+    limit_gradation(curves, outline.samples, rule.gradation);
+    std::vector<std::vector<double>> edges;
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+        const CurveSamples& samples = outline.samples[c];
+        std::vector<double>& of_pieces = edges.emplace_back(curves[c].curve.pieces(), 0.0);
+        for_each_step(samples,
+                      [&](std::size_t i, double, double, double part) { of_pieces[samples[i + 1].piece] += part; });
+    }
+    return edges;
+}
+
 std::size_t least_edges(std::span<const OutlineCurve> curves) {
     std::size_t sum = 0;
     for (const OutlineCurve& curve : curves) sum += curve.is_kept ? curve.kept_edges : least_edges_of_curve(curves);

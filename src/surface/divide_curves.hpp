@@ -29,6 +29,11 @@ DividedCurves divide_curves(std::span<const OutlineCurve> curves, const SpacingR
 DividedCurves divide_curves_into(std::span<const OutlineCurve> curves, const SpacingRule& rule, SampledCurves& known,
                                  std::size_t edges);
 
+/// Returns, per curve, the integral of ds / spacing along each of its pieces: the number of edges, a real one, that the
+/// rule puts in place of it.
+std::vector<std::vector<double>> edges_of_pieces(std::span<const OutlineCurve> curves, const SpacingRule& rule,
+                                                 SampledCurves& known);
+
 /// Returns the least number of edges that divide_curves_exactly() can divide curves into.
 std::size_t least_edges(std::span<const OutlineCurve> curves);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,10 +13,11 @@
 
 #include <lamina/error.hpp>
 
-#include "core/bounding_box.hpp"
 #include "core/reproducible_math.hpp"
 #include "core/segments.hpp"
+#include "core/tight_box.hpp"
 #include "surface/corners.hpp"
+#include "surface/decision.hpp"
 #include "surface/divide_curves.hpp"
 #include "surface/notes.hpp"
 #include "surface/smooth_run.hpp"
@@ -322,7 +324,26 @@ double ResamplingRequest::corner_spacing(std::size_t element, double turning, do
     return by_fans ? std::clamp(*by_fans, 0.25 * by_options, options.corner_spacing * extent) : by_options;
 }
 
-double extent(std::span<const Point> outline) { return core::longer_side(core::bounding_box(outline)); }
+double extent(std::span<const Point> outline) { return core::longer_side_of_tight_box(outline); }
+
+std::vector<double> edges_asked_for(const Element& given, std::size_t index, const ResamplingRequest& request) {
+    const std::size_t n = given.points.size();
+    const std::vector<EdgeTreatment> treatment(n, EdgeTreatment::spline);
+    CorneredOutline outline{given.points, given.features.corners, std::vector<std::size_t>(n)};
+    std::iota(outline.origins.begin(), outline.origins.end(), std::size_t{0});
+    OutlineCurves curves;
+    for (const Stretch& stretch : stretches_of(outline)) append_curves(stretch, treatment, curves);
+    const ChordEnds ends = find_chord_ends(given.points);
+    limit_at_corners(curves, outline, given, index, request, ends);
+    SampledCurves sampled;
+    const SpacingRule rule = make_spacing_rule(request, ends, extent(given.points), index);
+    const std::vector<std::vector<double>> of_pieces = edges_of_pieces(curves.curves, rule, sampled);
+    std::vector<double> edges(n);
+    for (std::size_t c = 0; c < of_pieces.size(); ++c)
+        for (std::size_t piece = 0; piece < of_pieces[c].size(); ++piece)
+            edges[curves.knots[c][piece]] = of_pieces[c][piece];
+    return edges;
+}
 
 ResampledElement resample(const Element& given, std::size_t index, const ResamplingRequest& request,
                           std::span<const EdgeTreatment> treatment, const std::string& reason, SampledCurves& known) {
@@ -343,10 +364,10 @@ ResampledElement resample(const Element& given, std::size_t index, const Resampl
 
     const std::vector<OutlineCurve>& curves = outline_curves.curves;
     DividedCurves divided = divide_into_requested(outline_curves, given, options, rule, known);
-    // Where lamina decides by itself, it never takes points away from a fine outline.
+    // Where lamina decides by itself, it takes no points away from an outline whose number of them matters.
     const bool decides_alone = options.treatment == SurfaceTreatment::automatic && !options.points &&
                                !options.leading_edge_spacing && !options.trailing_edge_spacing;
-    if (decides_alone && !given.samples_of_curve && divided.points.size() < given.points.size())
+    if (decides_alone && keeps_number_of_points(given) && divided.points.size() < given.points.size())
         divided = divide_curves_into(curves, rule, known, given.points.size());
 
     std::vector<GivenEdges> origins = origins_of(outline_curves, divided, given.points.size());

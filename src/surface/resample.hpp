@@ -13,7 +13,7 @@
 
 namespace lamina::surface {
 
-/// Returns the longer side of the box round an outline.
+/// Returns the length of an element: the longer side of the tightest box round its outline, which turns with it.
 double extent(std::span<const Point> outline);
 
 /// The requests that the new points of all elements have to meet.
@@ -40,6 +40,10 @@ enum class EdgeTreatment {
 struct GivenEdges {
     std::size_t first, count;
 };
+
+/// Returns, per given edge, the integral of ds / spacing along it: how many edges, a real number, the rules for new points
+/// put in its place. Arguments as for resample().
+std::vector<double> edges_asked_for(const Element& given, std::size_t index, const ResamplingRequest& request);
 
 /// An element with new points.
 struct ResampledElement {

@@ -180,6 +180,13 @@ TEST(BadInput, FarFieldsThatAreTooSmallOrTooLarge) {
                    "--far-field-outline: is more than 1e12 times");
 }
 
+TEST(BadInput, NewPointsWhereTheGivenOnesAreKept) {
+    const TemporaryFolder folder;
+    for (const std::string option : {"spacing-max", "spacing-le", "spacing-te"})
+        expect_refused(folder, mesh_naca_with({"--surface", "keep", "--" + option, "0.01"}), usage, option);
+    expect_refused(folder, mesh_naca_with({"--surface", "keep", "--surface-points", "300"}), usage, "surface-points");
+}
+
 TEST(BadInput, OptionsThatAreNotKnown) {
     const TemporaryFolder folder;
     expect_refused(folder, mesh_naca_with({"--frist-height", "1e-5"}), usage, "--frist-height");

@@ -1,8 +1,10 @@
 // The surface stage decides stretch by stretch what becomes of the given points, and follows requested spacings.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -222,6 +224,126 @@ TEST(AutomaticSurface, KeepsAStretchThatIsFineBesideOneThatIsCoarse) {
     EXPECT_EQ(count_notes(e, "given edges kept"), 1u) << e.surface_notes.back();
     EXPECT_GT(e.points.size(), given.size() + 40);
     EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+}
+
+/// Returns a section with a base of this height, whose `points` points stand equally far apart on its surfaces.
+Outline section_with_base(double base, std::size_t points) {
+    Outline fine;
+    for (int k = 0; k <= 4000; ++k) {
+        const double x = 0.5 + 0.5 * std::cos(shapes::full_turn * k / 4000);
+        const double half = naca_half_thickness(0.24, x, -0.1036) + 0.5 * base * x;
+        fine.push_back({x, k <= 2000 ? half : -half});
+    }
+    std::vector<double> s{0};
+    for (std::size_t i = 1; i < fine.size(); ++i) s.push_back(s.back() + distance(fine[i - 1], fine[i]));
+    Outline even;
+    for (std::size_t k = 0, i = 0; k < points; ++k) {
+        const double at = s.back() * static_cast<double>(k) / static_cast<double>(points - 1);
+        while (i + 2 < s.size() && s[i + 1] < at) ++i;
+        even.push_back(fine[i] + (at - s[i]) / (s[i + 1] - s[i]) * (fine[i + 1] - fine[i]));
+    }
+    return even;
+}
+
+/// Returns the length of the longest edge at a corner of the base of an element.
+double longest_at_base(const Element& e) {
+    const std::size_t n = e.points.size();
+    double longest = 0;
+    for (const std::size_t corner : {e.features.base->first, e.features.base->last})
+        for (const std::size_t i : {corner, (corner + n - 1) % n})
+            longest = std::max(longest, distance(e.points[i], e.points[(i + 1) % n]));
+    return longest;
+}
+
+/// A base of one edge as long as its neighbours was kept, and areas of neighbouring cells differed by 187,408 there, while
+/// the next section of the blade was resampled.
+TEST(AutomaticSurface, JudgesBasesAsWellAsNoses) {
+    for (const double base : {0.0035, 0.011, 0.0125, 0.016, 0.0213})
+        for (const std::size_t points : {200u, 300u, 1500u}) {
+            const Element e = prepared(section_with_base(base, points), {});
+            ASSERT_TRUE(e.features.base) << base;
+            EXPECT_LE(longest_at_base(e), 0.00125) << base << ' ' << points << ' ' << e.surface_notes.back();
+            EXPECT_LE(max_spacing_ratio(e.points), 1.25);
+            EXPECT_GE(e.points.size(), points == 1500 ? points : 0) << "so many points are a choice";
+        }
+}
+
+TEST(AutomaticSurface, HoldsTheSpacingsThatTheLayerAsksFor) {
+    const Outline fine = shapes::circle(0.5, 400), dense = shapes::circle(0.5, 2000);
+    for (const Outline& outline : {fine, dense}) {
+        const Geometry given = shapes::geometry({outline});
+        ASSERT_EQ(prepare_surfaces(given, {}).elements[0].points, outline);
+        SpacingLimits limits;
+        limits.walls = {{0, {0.5, 0}, {0.5, 0}, 4e-4}};
+        const Outline points = prepare_surfaces(given, {}, limits).elements[0].points;
+        double shortest = HUGE_VAL;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            shortest = std::min(shortest, distance(points[i], points[(i + 1) % points.size()]));
+        EXPECT_LE(shortest, 5e-4);
+        EXPECT_LE(max_spacing_ratio(points), 1.25);
+        if (outline.size() == dense.size()) {
+            for (const Point p : dense) EXPECT_TRUE(p.x > 0.4 || contains(points, p)) << p.x << ' ' << p.y;
+        }
+    }
+}
+
+TEST(AutomaticSurface, TakesAsManyPointsAsTheWallNeedsWhereItReplacesThem) {
+    Outline cosine = naca_airfoil("0012", 800).points;
+    const Element e = prepared(cosine, {});
+    EXPECT_TRUE(e.resampled);
+    EXPECT_LT(e.points.size(), 250u) << e.surface_notes.back();
+}
+
+/// Returns Koch's snowflake of 12 x 4^(level - 1) sides between its tips at a distance of 1 from the origin.
+Outline snowflake(int level) {
+    Outline sides{{1, 0}, {-0.5, std::sqrt(0.75)}, {-0.5, -std::sqrt(0.75)}};
+    for (int k = 0; k < level; ++k) {
+        Outline finer;
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            const Point a = sides[i], b = sides[(i + 1) % sides.size()], third = (1.0 / 3) * (b - a);
+            const Point tip = midpoint(a, b) - std::sqrt(0.75) * perpendicular(third);
+            for (const Point p : {a, a + third, tip, b - third}) finer.push_back(p);
+        }
+        sides = std::move(finer);
+    }
+    return sides;
+}
+
+/// Sides of 1, 2 and 8 edges, of up to 9.6 % of the body, in spite of the largest spacing of 2 %.
+TEST(AutomaticSurface, DividesTheSidesOfASnowflakeAlike) {
+    for (const int level : {2, 3})
+        for (const double max_spacing : {0.02, 0.005}) {
+            const Outline given = snowflake(level);
+            SurfaceOptions options;
+            options.max_spacing = max_spacing;
+            const Element e = prepared(given, options);
+            ASSERT_EQ(e.features.corners.size(), given.size());
+            EXPECT_LE(max_edge_length(e.points), 2 * max_spacing * (1 + 1e-9));
+            // A side between two tips and notches has as many edges as each other one between such.
+            std::map<std::pair<bool, bool>, std::size_t> edges;
+            const std::vector<double> turning = surface::turning_angles(given);
+            for (std::size_t k = 0; k < given.size(); ++k) {
+                const std::size_t next = (k + 1) % given.size();
+                const std::size_t end = next == 0 ? e.points.size() : e.features.corners[next];
+                const bool a = turning[k] > 0, b = turning[next] > 0;
+                const std::size_t count = end - e.features.corners[k];
+                EXPECT_EQ(edges.emplace(std::pair{std::min(a, b), std::max(a, b)}, count).first->second, count) << k;
+            }
+        }
+}
+
+/// The shares were of the longer side of the box along the axes, so that a section turned by 45 degrees had 300 edges
+/// instead of 276.
+TEST(AutomaticSurface, TurnsWithTheSection) {
+    for (const std::string digits : {"0012", "2412", "0030"}) {
+        const Outline given = naca_airfoil(digits, 60).points;
+        const std::size_t points = prepared(given, {}).points.size();
+        for (double angle_deg = 5; angle_deg < 90; angle_deg += 10) {
+            const Outline turned = shapes::moved(given, shapes::full_turn * angle_deg / 360, 1, {0, 0});
+            EXPECT_NEAR(static_cast<double>(prepared(turned, {}).points.size()), static_cast<double>(points), 2)
+                << digits << ' ' << angle_deg;
+        }
+    }
 }
 
 TEST(AutomaticSurface, BendsTheCurvedSideOfAPolygonOnly) {

@@ -385,7 +385,7 @@ TEST(AutomaticSurface, KeepsFineAndExactOutlines) {
     const std::vector<std::string> naca{"naca:0012:40"};
     EXPECT_EQ(prepare_surfaces(read_geometry(naca), automatic).elements[0].points.size(), 40u);
     for (const Outline& outline :
-         {shapes::circle(1, 90), shapes::joukowski(0.1, 0.05, 4000), shapes::ellipse(1, 0.05, 3000)})
+         {shapes::circle(1, 240), shapes::joukowski(0.1, 0.05, 4000), shapes::ellipse(1, 0.05, 3000)})
         EXPECT_EQ(prepared(outline, automatic).points, outline);
 }
 
