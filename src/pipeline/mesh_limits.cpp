@@ -7,6 +7,9 @@
 
 #include <lamina/threads.hpp>
 
+#include "core/bounding_box.hpp"
+#include "surface/clearance.hpp"
+
 namespace lamina::pipeline {
 
 namespace {
@@ -37,6 +40,40 @@ RunEstimate estimate_mesh(const RefineOptions& refine, const Layer& layer, const
     return estimate;
 }
 
+/// The layer's border above walls, by estimate.
+struct BorderForecast {
+    double edges = 0;             ///< number of edges
+    double narrowest = HUGE_VAL;  ///< width of the narrowest gap that asks for more edges than the wall has
+    Point narrowest_at{};         ///< on the wall
+};
+
+/// Estimates the number of edges that the border gets above one element.
+BorderForecast forecast_border(const Geometry& walls, std::size_t element, const surface::ClearanceSearch& search,
+                               double min_spacing) {
+    // Measured in slots of 1e-4 to 1e-6 chords: opposing layers leave about a quarter of a gap to isotropic triangles,
+    // and edges of the border are about as long as that.
+    constexpr double edge_over_gap = 0.28;
+    // The parts that gaps divide an edge of the border into, at most (layers/gap_sources.cpp).
+    constexpr double max_parts = 128;
+    const Element& wall = walls.elements[element];
+    const std::vector<Point>& p = wall.points;
+    const double shortest = min_spacing * core::longer_side(core::bounding_box(p));
+    BorderForecast forecast;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Point a = p[i], b = p[(i + 1) % p.size()];
+        const double length = distance(a, b);
+        const double gap =
+            search.clearance(element, midpoint(a, b), unit(-perpendicular(b - a)), 0, length / edge_over_gap);
+        // Walls of resampled elements become finer below their borders.
+        const double least = (wall.resampled ? std::min(length, shortest) : length) / max_parts;
+        forecast.edges += length / std::clamp(edge_over_gap * gap, least, length);
+        if (gap >= forecast.narrowest || edge_over_gap * gap >= length) continue;
+        forecast.narrowest = gap;
+        forecast.narrowest_at = midpoint(a, b);
+    }
+    return forecast;
+}
+
 }  // namespace
 
 void require_surface_points_within(const CaseOptions& options, std::size_t elements, const WorkCost& cost) {
@@ -59,6 +96,42 @@ void require_options_within(const CaseOptions& options, const LayerGrowth& growt
     if (triangles > certain * allowed_triangles(options.limits, cost))
         throw_limit_error(options.limits, estimate_run(triangles, cost, thread_count()), "layers",
                           fmt::format("{} on {} wall vertices", *growth.layers, vertices));
+}
+
+void require_walls_within(const CaseOptions& options, const Geometry& prepared, const WorkCost& cost) {
+    // A million rays of any number of layers, or edges above them, are far more than any section needs, and minutes of
+    // work before the run could be estimated.
+    constexpr double max_edges = 1e6;
+    // Gaps are estimated within a factor of two.
+    constexpr double certain = 0.5;
+    if (!options.layer.enabled) return;
+    const surface::ClearanceSearch search(prepared);
+    double vertices = 0;
+    BorderForecast border;
+    for (std::size_t e = 0; e < prepared.elements.size(); ++e) {
+        vertices += static_cast<double>(prepared.elements[e].points.size());
+        const BorderForecast own = forecast_border(prepared, e, search, options.surface.min_spacing);
+        border.edges += own.edges;
+        if (own.narrowest >= border.narrowest) continue;
+        border.narrowest = own.narrowest;
+        border.narrowest_at = own.narrowest_at;
+    }
+    const bool by_gaps = border.edges > 2 * vertices;
+    const std::string request = by_gaps ? fmt::format("the gap of {:.2g} between walls at ({:.6g}, {:.6g})",
+                                                      border.narrowest, border.narrowest_at.x, border.narrowest_at.y)
+                                        : fmt::format("the walls' {} vertices", vertices);
+    const char* const option = by_gaps ? "transform" : "surface";
+    RunEstimate estimate = estimate_run(2 * vertices + certain * border.edges, cost, thread_count(),
+                                        seconds_per_border_edge * certain * border.edges);
+    estimate.memory_bytes += bytes_per_border_edge * certain * border.edges;
+    require_within(options.limits, estimate, option, request);
+    if (const double edges = std::max(vertices, border.edges); edges > max_edges)
+        throw LimitError(option,
+                         fmt::format("{} asks for about {:.2g} million edges of the layer's border, and no more than a "
+                                     "million are made: {}",
+                                     request, 1e-6 * edges,
+                                     by_gaps ? "move the elements apart, or close the gap" : "give fewer points"),
+                         estimate);
 }
 
 RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,

@@ -21,6 +21,11 @@ void require_surface_points_within(const CaseOptions& options, std::size_t eleme
 void require_options_within(const CaseOptions& options, const LayerGrowth& growth, const SizedBodies& bodies,
                             const Box& domain, const WorkCost& cost);
 
+/// Throws LimitError where these walls, which the layer is to grow from, ask for more than the limits allow, or for more
+/// than a million rays or edges of the layer's border: where walls are near to each other, these edges are shorter than
+/// the gap. Takes less than a second.
+void require_walls_within(const CaseOptions& options, const Geometry& prepared, const WorkCost& cost);
+
 /// Estimates the run from the layer and the size field beyond it. Throws LimitError where it would exceed the limits.
 RunEstimate estimate_within_limits(const CaseOptions& options, const Layer& layer, const SizeField& size,
                                    const FarField& far_field, const WorkCost& cost);

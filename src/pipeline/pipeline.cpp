@@ -453,7 +453,9 @@ void make_room(const CaseOptions& options, const Destination& destination, RayPl
     int rounds_without_gain = 0;
     for (int round = 0; round < max_rounds && rounds_without_gain < max_rounds_without_gain; ++round) {
         const StageSeconds seconds = last->result.seconds;
-        if (!make_room_at_narrow_triangles(last->unexcused, options, plan)) return;
+        // In a slot with one row of triangles, thinner layers move a triangle that misses the bound along the slot.
+        const bool thin = rounds_without_gain == 0;
+        if (!make_room_at_narrow_triangles(last->unexcused, thin, options, plan)) return;
         next = {};  // so that no more than two meshes are held
         clock.begin("layers, thinned");
         try {
@@ -543,6 +545,7 @@ MadeMesh run(const Geometry& given, const CaseOptions& given_options, const Dest
     require_options_within(options, growth, sized_bodies(prepared, conditions),
                            place_far_field(bounding_box(prepared), conditions.chord, options.far_field).box(),
                            destination.cost());
+    require_walls_within(options, prepared, destination.cost());
     seconds.geometry = geometry_seconds + clock.lap();
 
     clock.begin("layers");

@@ -170,13 +170,14 @@ void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
     renew_requests(options, plan);
 }
 
-bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, const CaseOptions& options,
+bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, const CaseOptions& options,
                                    RayPlan& plan) {
-    // Where no layer is left to be thinned, the borders' edges become this share of the circles' radii.
+    // Where no layer is thinned, the borders' edges become this share of the circles' radii.
     constexpr double edge_share = 0.3;
     if (!options.layer.enabled || narrow.empty()) return false;
     const std::vector<Circle> places = circles_round_unexcused(narrow);
-    const std::vector<std::size_t> ends = shorten_rays(places, plan.rays);
+    std::vector<std::size_t> ends(places.size(), 0);
+    if (thin) ends = shorten_rays(places, plan.rays);
     for (std::size_t k = 0; k < places.size(); ++k) {
         const Point at = places[k].middle;
         if (ends[k] == 0) plan.short_edges.push_back({.a = at, .b = at, .size = edge_share * places[k].radius});

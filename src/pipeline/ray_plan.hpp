@@ -48,9 +48,9 @@ void refine_walls_below_borders(const Geometry& given, const CaseOptions& option
 void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan);
 
 /// If there are isotropic triangles whose angle is below the bound, and which no sharp corner excuses: shortens the
-/// rays that end beside them or, where no layer is left, the edges of the borders there. Returns whether it changed the
-/// plan.
-bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, const CaseOptions& options,
+/// rays that end beside them (`thin`), or, where no layer is left and elsewhere, the edges of the borders there. Returns
+/// whether it changed the plan.
+bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow, bool thin, const CaseOptions& options,
                                    RayPlan& plan);
 
 }  // namespace lamina::pipeline
