@@ -7,7 +7,7 @@ FOLDER/lamina_delaunay.hpp holds the public headers of triangulation; FOLDER/lam
 the calling thread alone. A second pair, lamina_delaunay_queries, adds connectivity, queries and Voronoi diagrams to the
 first one, and a third, lamina_delaunay_dynamic, triangulations that change to both. Refinement is left out: it needs
 size fields. Points are triangulated in one piece. The sources are to be compiled with -ffp-contract=off where the
-compiler would contract (GCC on machines with fused multiply-add), and without -ffast-math: the predicates have to be
+compiler would contract (GCC on machines with fused multiply-add). The headers refuse -ffast-math: the predicates have to be
 exact.
 """
 
@@ -91,10 +91,17 @@ def amalgamate():
                 if (SOURCE / code).exists() and SOURCE / code not in source.seen and str(code) not in pending:
                     pending.append(str(code))
         sources |= {path for path in source.seen if path.suffix == ".cpp"}
-        files[f"{name}.hpp"] = notice() + "#pragma once\n\n" + includes + header.text()
+        files[f"{name}.hpp"] = notice() + "#pragma once\n\n" + refuse_fast_math() + includes + header.text()
         includes = f'#include "{name}.hpp"\n\n'
         files[f"{name}.cpp"] = notice() + includes + source.text()
     return files
+
+
+def refuse_fast_math():
+    """Returns the lines that stop compilers which were told to compute inexactly."""
+    return ("#ifdef __FAST_MATH__\n"
+            "#error \"lamina needs exact arithmetic: compile without -ffast-math (and -Ofast)\"\n"
+            "#endif\n\n")
 
 
 def notice():

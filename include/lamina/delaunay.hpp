@@ -178,12 +178,16 @@ LAMINA_EXPORT SizeFunction sizes_of_areas(std::span<const Point> points, std::sp
                                           std::span<const double> areas, double max_area_ratio);
 
 /// Returns a triangulation from elsewhere as one that refine() takes (Triangle's -r): edges that are no segments are
-/// flipped until the triangulation is constrained Delaunay. Triangles keep their number, not their order. Throws
-/// InputError for points as triangulate() does, for triangles as half_edges() does and for those that are not
-/// counter-clockwise (place().triangles), and for segments that are no edges of triangles (place().segments).
+/// flipped until the triangulation is constrained Delaunay. Triangles keep their number, not their order. `merged_into`
+/// says which point stands for which (ConstrainedTriangulation), and ends of segments may be points that others stand
+/// for; where it is empty, equal points stand for ends that are in no triangle. Throws InputError for points as
+/// triangulate() does, for triangles as half_edges() does and for those that are not counter-clockwise
+/// (place().triangles), for segments that are no edges of triangles (place().segments), and where `merged_into` is
+/// neither empty nor one index for each point.
 LAMINA_EXPORT ConstrainedTriangulation constrain_triangles(std::span<const Point> points,
                                                            std::span<const Triangle> triangles,
-                                                           std::span<const Segment> segments = {});
+                                                           std::span<const Segment> segments = {},
+                                                           std::span<const std::uint32_t> merged_into = {});
 
 /// The triangles that a refinement of a constrained triangulation will make, by estimate (docs/decisions/0020).
 struct RefinementEstimate {

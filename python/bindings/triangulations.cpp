@@ -75,14 +75,14 @@ nb::tuple constrained_delaunay(const PointsArgument& given, const SegmentsArgume
 
 /// Returns (triangles, segments, parents).
 nb::tuple adopt_triangles(const PointsArgument& given, const TrianglesArgument& given_triangles,
-                          const SegmentsArgument& given_segments) {
+                          const SegmentsArgument& given_segments, const ListArgument<std::uint32_t>& given_merged) {
     const std::vector<Point> points = points_of(given);
     const std::vector<Triangle> triangles = cells_of<Triangle, 3>(given_triangles);
     const std::vector<Segment> segments = cells_of<Segment, 2>(given_segments);
     ConstrainedTriangulation result;
     {
         const nb::gil_scoped_release unlocked;
-        result = constrain_triangles(points, triangles, segments);
+        result = constrain_triangles(points, triangles, segments, {given_merged.data(), given_merged.shape(0)});
     }
     raise_signals();
     return nb::make_tuple(owning_array<std::uint32_t>(std::move(result.triangles)),

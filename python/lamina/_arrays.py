@@ -30,3 +30,19 @@ def index_array(indices, columns: int, name: str) -> np.ndarray:
     if array.min() < 0 or array.max() >= 2**32 - 1:
         raise InputError(f"{name} must lie between 0 and 2^32 - 2")
     return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def immutable(array: np.ndarray) -> np.ndarray:
+    """Returns an array of the same numbers that nobody can write to: itself where its memory is that of bytes or of the
+    C++ part, and a copy otherwise. An array that is only marked as read-only may be marked as writable again."""
+    owner: object = array
+    is_marked = True
+    while isinstance(owner, np.ndarray):
+        is_marked = is_marked and not owner.flags.writeable
+        owner = owner.base
+    from_cpp = isinstance(owner, memoryview) and type(owner.obj).__module__ == "nanobind"
+    if is_marked and (from_cpp or isinstance(owner, bytes)):
+        return array
+    if array.size == 0:
+        return array.copy()
+    return np.frombuffer(array.tobytes(), dtype=array.dtype).reshape(array.shape)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Mapping
+from types import MappingProxyType
+from typing import Any, Mapping, NoReturn
 
 import numpy as np
 
 from . import _lamina
-from ._arrays import index_array, points_array
+from ._arrays import immutable, index_array, points_array
 from ._errors import MeshWarning
 
 #: The kinds of markers, in the order of the C++ enumeration.
@@ -122,7 +124,8 @@ class WallVertices:
 
 
 class Mesh:
-    """A valid mesh of triangles and quadrilaterals. It never changes; its arrays are read-only and are no copies.
+    """A valid mesh of triangles and quadrilaterals. It never changes: its arrays and mappings are read-only, and nothing
+    can be assigned. Its arrays are no copies.
 
     Vertices of the walls come first, in the order of the input, then those of the layer, then the rest. Arrays per cell
     hold one entry per triangle, followed by one per quadrilateral; they are empty for meshes from files that do not
@@ -136,11 +139,26 @@ class Mesh:
     def _from(cls, data: _lamina.Mesh, warnings: list[MeshWarning] | None = None,
               facts: dict[str, Any] | None = None, columns: tuple[np.ndarray, np.ndarray] | None = None) -> Mesh:
         mesh = cls.__new__(cls)
-        mesh._data = data
-        mesh._warnings = warnings or []
-        mesh._facts = facts or {}
-        mesh._columns = columns or (np.empty(0, dtype=np.uint32), np.empty(0, dtype=np.uint32))
+        mesh._set(data, warnings or [], facts or {},
+                  columns or (np.empty(0, dtype=np.uint32), np.empty(0, dtype=np.uint32)))
         return mesh
+
+    def _set(self, data: _lamina.Mesh, warnings: list[MeshWarning], facts: dict[str, Any],
+             columns: tuple[np.ndarray, np.ndarray]) -> None:
+        self.__dict__.update(_data=data, _warnings=tuple(warnings), _facts=facts,
+                             _columns=tuple(immutable(part) for part in columns))
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"a mesh never changes: '{name}' cannot be assigned")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"a mesh never changes: '{name}' cannot be deleted")
+
+    def __copy__(self) -> Mesh:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Mesh:
+        return self
 
     @cached_property
     def points(self) -> np.ndarray:
@@ -165,12 +183,12 @@ class Mesh:
     def markers(self) -> Mapping[str, np.ndarray]:
         """The edges of each marker by its name: (k, 2) indices into `points`, with the mesh on the left of each edge.
         Together they are all edges of the boundary."""
-        return {name: edges for name, _, edges in self._markers}
+        return MappingProxyType({name: edges for name, _, edges in self._markers})
 
     @cached_property
     def marker_kinds(self) -> Mapping[str, str]:
         """The kind of each marker by its name: "wall", "far_field", "symmetry" or "other"."""
-        return {name: _KINDS[kind] for name, kind, _ in self._markers}
+        return MappingProxyType({name: _KINDS[kind] for name, kind, _ in self._markers})
 
     @cached_property
     def region(self) -> np.ndarray:
@@ -190,13 +208,13 @@ class Mesh:
         Empty for meshes from files, without layers, and with layer_topology="delaunay"."""
         of_layer = self._columns[0].astype(np.int64)
         if len(of_layer) == 0:
-            return np.empty(0, dtype=np.int64)
+            return of_layer
         of_layer[of_layer == 2**32 - 1] = -1
         triangles = len(of_layer) - len(self.quads)
         column = np.full(len(self), -1)
         column[:triangles] = of_layer[:triangles]
         column[len(self.triangles):] = of_layer[triangles:]
-        return column
+        return immutable(column)
 
     @property
     def column_origin(self) -> np.ndarray:
@@ -218,9 +236,13 @@ class Mesh:
         """Per point: the distance to the nearest edge of a wall, in units of the input. Computed on demand."""
         return self._data.wall_distances()
 
-    @cached_property
+    @property
     def wall(self) -> WallVertices:
         """The vertices of the walls in order, with arc length, normal and first height. Computed on demand."""
+        return replace(self._wall, bodies=list(self._wall.bodies))
+
+    @cached_property
+    def _wall(self) -> WallVertices:
         vertex, marker, arc_length, normal, first_height, first = self._data.walls()
         bodies = [slice(a, b) for a, b in zip(first[:-1], first[1:])]
         return WallVertices(vertex, marker, arc_length, normal, first_height, bodies)
@@ -240,7 +262,7 @@ class Mesh:
     def facts(self) -> dict[str, Any]:
         """What the run that made the mesh says beside it: chord, Reynolds number, elements, first heights, estimate,
         seconds. Empty for a mesh from a file."""
-        return dict(self._facts)
+        return copy.deepcopy(self._facts)
 
     def quality(self, *, min_angle: float | None = None, first_height: float | None = None) -> MeshCheck:
         """Checks the mesh exactly and measures its quality: `lamina.check(mesh)`."""
@@ -316,14 +338,11 @@ class Mesh:
             name: np.array(getattr(self, name))
             for name in ("points", "triangles", "quads", "region", "piece", "layer", "constraints")}
         arrays["markers"] = [(name, kind, np.array(edges)) for name, kind, edges in self._markers]
-        return {"arrays": arrays, "warnings": self._warnings, "facts": self._facts,
+        return {"arrays": arrays, "warnings": list(self._warnings), "facts": self._facts,
                 "columns": tuple(np.array(part) for part in self._columns)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._data = _data_of_arrays(**state["arrays"])
-        self._warnings = state["warnings"]
-        self._facts = state["facts"]
-        self._columns = state["columns"]
+        self._set(_data_of_arrays(**state["arrays"]), state["warnings"], state["facts"], state["columns"])
 
 
 def _data_of_arrays(points, triangles, quads, markers, region, piece, layer, constraints) -> _lamina.Mesh:

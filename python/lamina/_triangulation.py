@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from . import _lamina
-from ._arrays import index_array, points_array
+from ._arrays import immutable, index_array, points_array
 from ._errors import InputError, OptionError
 
 
+@dataclass(frozen=True, eq=False)
 class IndexLists(Sequence):
     """Lists of different lengths in one array: list i is `items[starts[i]:starts[i + 1]]`."""
 
-    def __init__(self, starts: np.ndarray, items: np.ndarray):
-        self.starts = starts
-        self.items = items
+    starts: np.ndarray  #: (n + 1,) where the lists begin, and the end of the last one
+    items: np.ndarray  #: those of all lists
 
     def __len__(self) -> int:
         return len(self.starts) - 1
@@ -43,18 +44,47 @@ class VoronoiDiagram:
     directions: np.ndarray  #: (h, 2) the directions of the rays
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Triangulation:
-    """A triangulation of points. Indices refer to `points`: those handed in, followed by Steiner points."""
+    """A triangulation of points. Indices refer to `points`: those handed in, followed by Steiner points.
+
+    It never changes: its arrays are its own, and cannot be written to. It can be pickled. Two are equal if their arrays
+    of points, triangles and segments are.
+    """
 
     points: np.ndarray  #: (n, 2) coordinates
     triangles: np.ndarray  #: (m, 3), counter-clockwise
     segments: np.ndarray  #: (k, 2) edges that are parts of segments, in their direction; of a plain one: none
     parents: np.ndarray  #: (k,) for each of them the index of the segment that it is a part of
     given_points: int  #: number of the points handed in
-    stats: dict[str, int] = field(default_factory=dict)  #: of a refinement: what could not be refined as asked
+    stats: Mapping[str, int] = field(default_factory=dict)  #: of a refinement: what could not be refined as asked
     #: (given_points,) for each point that was handed in the one that stands for it; empty unless points were merged
     merged_into: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.uint32))
+
+    def __post_init__(self) -> None:
+        for name in ("points", "triangles", "segments", "parents", "merged_into"):
+            object.__setattr__(self, name, immutable(getattr(self, name)))
+        object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Triangulation):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, name), getattr(other, name))
+                   for name in ("points", "triangles", "segments"))
+
+    def __hash__(self) -> int:
+        return hash((len(self.points), self.triangles.tobytes()))
+
+    def __copy__(self) -> Triangulation:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Triangulation:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # What queries have prepared is left out, and made anew where it is asked for.
+        return Triangulation, (self.points, self.triangles, self.segments, self.parents, self.given_points,
+                               dict(self.stats), self.merged_into)
 
     @cached_property
     def half_edges(self) -> np.ndarray:
@@ -73,11 +103,15 @@ class Triangulation:
         return IndexLists(*_lamina.half_edges_at_points(len(self.points), self.triangles,
                                                         self.half_edges.view(np.uint32)))
 
-    @cached_property
+    @property
     def boundary(self) -> list[np.ndarray]:
         """The loops of the boundary as indices of points: counter-clockwise round triangles, clockwise round holes."""
         corners = self.triangles.reshape(-1)
-        return [corners[loop] for loop in IndexLists(*_lamina.boundary_loops(self.half_edges.view(np.uint32)))]
+        return [corners[loop] for loop in self._boundary_loops]
+
+    @cached_property
+    def _boundary_loops(self) -> IndexLists:
+        return IndexLists(*_lamina.boundary_loops(self.half_edges.view(np.uint32)))
 
     @cached_property
     def _index(self) -> _lamina.TriangulationIndex:
@@ -158,16 +192,18 @@ def constrained_delaunay(points, segments, *, keep: str = "convex_hull", crossin
     return Triangulation(_joined(array, steiner), triangles, edges, parents, len(array), merged_into=merged_into)
 
 
-def constrain_triangles(points, triangles, segments=()) -> Triangulation:
+def constrain_triangles(points, triangles, segments=(), merged_into=()) -> Triangulation:
     """Returns a triangulation from elsewhere as one that refine() takes: edges are flipped until it is constrained
     Delaunay.
 
     triangles: (m, 3), counter-clockwise; without overlaps. segments: (k, 2) edges of triangles that stay.
+    merged_into: that of the triangulation whose triangles these are; segments may then end at points that others stand
+    for. Where it is empty, equal points stand for ends that are in no triangle.
     """
-    array = points_array(points)
+    array, merged = points_array(points), index_array(merged_into, 1, "merged_into")
     result, edges, parents = _lamina.constrain_triangles(array, index_array(triangles, 3, "triangles"),
-                                                         index_array(segments, 2, "segments"))
-    return Triangulation(array, result, edges, parents, len(array))
+                                                         index_array(segments, 2, "segments"), merged)
+    return Triangulation(array, result, edges, parents, len(array), merged_into=merged)
 
 
 def merge_points(points, distance: float) -> np.ndarray:
@@ -208,7 +244,7 @@ def refine(triangulation: Triangulation, size, *, gradation: float = 0.1, min_an
     steiner, triangles, edges, parents, stats = _lamina.refine(
         t.points, t.triangles, t.segments, t.parents, size_argument, float(gradation), float(bound), split_segments,
         smoothing, max_triangles)
-    return Triangulation(_joined(t.points, steiner), triangles, edges, parents, t.given_points, stats)
+    return Triangulation(_joined(t.points, steiner), triangles, edges, parents, t.given_points, stats, t.merged_into)
 
 
 def _joined(points: np.ndarray, steiner: np.ndarray) -> np.ndarray:

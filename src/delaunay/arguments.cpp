@@ -39,4 +39,14 @@ void require_counter_clockwise(std::span<const Point> points, std::span<const Tr
         throw InputError({.triangles = {*first}}, core::concat("triangle ", *first, " is not counter-clockwise"));
 }
 
+std::vector<Segment> segments_between(std::span<const std::uint32_t> stand_in, std::span<const Segment> segments) {
+    constexpr std::size_t grain = 50'000;
+    std::vector<Segment> merged(segments.size());
+    core::parallel_for(segments.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            merged[i] = {VertexId{stand_in[segments[i].a.index()]}, VertexId{stand_in[segments[i].b.index()]}};
+    });
+    return merged;
+}
+
 }  // namespace lamina::delaunay

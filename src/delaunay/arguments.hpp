@@ -1,7 +1,9 @@
 // Checks of the arguments of triangulation and refinement.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include <lamina/triangulation.hpp>
 
@@ -15,5 +17,8 @@ void check_points_and_segments(std::span<const Point> points, std::span<const Se
 
 /// Throws InputError for triangles that are not counter-clockwise. Precondition: their corners are among the points.
 void require_counter_clockwise(std::span<const Point> points, std::span<const Triangle> triangles);
+
+/// Returns the segments between the points that stand for their ends.
+std::vector<Segment> segments_between(std::span<const std::uint32_t> stand_in, std::span<const Segment> segments);
 
 }  // namespace lamina::delaunay

@@ -41,6 +41,43 @@ void flip_to_delaunay(std::span<const Point> points, Tris& tris) {
     }
 }
 
+/// The edges of triangles.
+class EdgeKeys {
+public:
+    EdgeKeys(std::span<const Triangle> triangles, std::span<const std::uint32_t> twins) {
+        keys_.reserve(twins.size());
+        for (std::uint32_t h = 0; h < twins.size(); ++h)
+            keys_.push_back(undirected_key(origin(triangles, h).value, origin(triangles, next_half_edge(h)).value));
+        std::sort(keys_.begin(), keys_.end());
+    }
+
+    /// Returns the index of the first segment that is no edge, and not from a point to itself; their number if all are.
+    std::size_t first_other(std::span<const Segment> segments) const {
+        const auto is_other = [&](const Segment& s) {
+            return s.a != s.b && !std::binary_search(keys_.begin(), keys_.end(), undirected_key(s.a.value, s.b.value));
+        };
+        return static_cast<std::size_t>(std::find_if(segments.begin(), segments.end(), is_other) - segments.begin());
+    }
+
+private:
+    std::vector<std::uint64_t> keys_;
+};
+
+/// Returns for each point the one that stands for it where segments end: itself if a triangle has it, and else the first
+/// equal one that a triangle has.
+std::vector<Index> stand_ins_of_equal_points(std::span<const Point> points, std::span<const Triangle> triangles) {
+    std::vector<char> used(points.size(), 0);
+    for (const Triangle& t : triangles)
+        for (const VertexId v : t.v) used[v.index()] = 1;
+    const std::vector<Index> first = merge_points(points, 0);
+    std::vector<Index> used_one(points.size(), no_index), stand_in(points.size());
+    for (Index i = 0; i < points.size(); ++i)
+        if (used[i] && used_one[first[i]] == no_index) used_one[first[i]] = i;
+    for (Index i = 0; i < points.size(); ++i)
+        stand_in[i] = used[i] || used_one[first[i]] == no_index ? i : used_one[first[i]];
+    return stand_in;
+}
+
 /// Returns the segments that are parts of the result, each once.
 void list_distinct_segments(std::span<const Segment> segments, ConstrainedTriangulation& result) {
     std::vector<std::uint64_t> seen;
@@ -73,26 +110,34 @@ namespace lamina {
 using namespace delaunay;
 
 ConstrainedTriangulation constrain_triangles(std::span<const Point> points, std::span<const Triangle> triangles,
-                                             std::span<const Segment> segments) {
+                                             std::span<const Segment> segments,
+                                             std::span<const std::uint32_t> merged_into) {
     check_points_and_segments(points, segments);
+    if (!merged_into.empty()) {
+        core::require_count(merged_into.size(), "merged_into", points.size(), "points");
+        for (std::size_t i = 0; i < merged_into.size(); ++i)
+            if (merged_into[i] >= points.size())
+                throw InputError({.points = {i}}, core::concat("merged_into: ", merged_into[i], " is none of the ",
+                                                               points.size(), " points"));
+    }
     const std::vector<std::uint32_t> twins = half_edges(points.size(), triangles);
     require_counter_clockwise(points, triangles);
-    std::vector<std::uint64_t> edges;
-    edges.reserve(twins.size());
-    for (std::uint32_t h = 0; h < twins.size(); ++h)
-        edges.push_back(undirected_key(origin(triangles, h).value, origin(triangles, next_half_edge(h)).value));
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        const Segment s = segments[i];
-        if (s.a != s.b && !std::binary_search(edges.begin(), edges.end(), undirected_key(s.a.value, s.b.value)))
-            throw InputError({.segments = {i}},
-                             core::concat(core::segment_name(segments, i), " is no edge of the triangles"));
-    }
-    Tris tris = link_triangles(triangles, segments);
+    const EdgeKeys edges(triangles, twins);
+    std::vector<Segment> merged;
+    if (!merged_into.empty())
+        merged = segments_between(merged_into, segments);
+    else if (edges.first_other(segments) < segments.size())
+        merged = segments_between(stand_ins_of_equal_points(points, triangles), segments);
+    const std::span<const Segment> parts = merged.empty() ? segments : merged;
+    if (const std::size_t i = edges.first_other(parts); i < parts.size())
+        throw InputError({.segments = {i}},
+                         core::concat(core::segment_name(segments, i), " is no edge of the triangles"));
+    Tris tris = link_triangles(triangles, parts);
     flip_to_delaunay(points, tris);
     ConstrainedTriangulation result;
     result.triangles = without_ghosts(tris).triangles;
-    list_distinct_segments(segments, result);
+    list_distinct_segments(parts, result);
+    result.merged_into.assign(merged_into.begin(), merged_into.end());
     return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/arguments.hpp"
 #include "core/parallel.hpp"
+#include "delaunay/arguments.hpp"
 #include "delaunay/beside_edges.hpp"
 #include "delaunay/constrained_pieces.hpp"
 #include "delaunay/insert_segments.hpp"
@@ -228,16 +229,6 @@ bool stand_for_themselves(std::span<const Index> stand_in) {
     return std::all_of(stand_in.begin(), stand_in.end(), [&](Index first) { return first == i++; });
 }
 
-/// Returns the segments between the points that stand for their ends.
-std::vector<Segment> between(std::span<const Index> stand_in, std::span<const Segment> segments) {
-    std::vector<Segment> merged(segments.size());
-    core::parallel_for(segments.size(), segment_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            merged[i] = {VertexId{stand_in[segments[i].a.index()]}, VertexId{stand_in[segments[i].b.index()]}};
-    });
-    return merged;
-}
-
 /// Counts the segments that change nothing: those from a point to itself, and those that lie on earlier ones.
 void count_idle_segments(std::span<const Segment> segments, const std::vector<SegmentPiece>& pieces,
                          ConstrainedTriangulation& result) {
@@ -269,7 +260,7 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
         core::require_indices_below(points.size(), segments);
         if (!stand_for_themselves(result.merged_into)) {
             stand_in = result.merged_into;
-            merged_segments = between(stand_in, segments);
+            merged_segments = segments_between(stand_in, segments);
             segments = merged_segments;
         }
     }

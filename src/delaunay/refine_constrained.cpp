@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <lamina/delaunay.hpp>
@@ -155,9 +156,20 @@ struct SeamEdges {
     std::vector<std::uint32_t> fields;
 };
 
+/// Returns for each point itself, or no_index if it is one of the input that no triangle has, as where
+/// equal points were merged.
+std::vector<Index> stand_ins(const ConstrainedInput& input, std::size_t points) {
+    std::vector<Index> stand_in(points);
+    std::iota(stand_in.begin(), stand_in.end(), Index{0});
+    std::fill_n(stand_in.begin(), input.points.size(), no_index);
+    for (const Tri& t : input.tris)
+        for (const Index v : t.v) stand_in[v] = v;
+    return stand_in;
+}
+
 /// Triangulates the seam inside its edges.
-void triangulate_seam(const SeamEdges& edges, SplittableDomain& domain) {
-    Tris tris = triangulate_points(domain.points);
+void triangulate_seam(const SeamEdges& edges, std::span<const Index> stand_in, SplittableDomain& domain) {
+    Tris tris = triangulate_points(domain.points, stand_in);
     insert_segments(domain.points, edges.edges, tris);
     const std::vector<Index> at_vertex = triangle_at_vertex(tris, domain.points.size());
     std::vector<ValueSeed> seeds;
@@ -189,7 +201,7 @@ SeamDomain make_seam(const ConstrainedInput& input, const FieldPatches& filled) 
             edges.fields.push_back(field);
         }
     }
-    triangulate_seam(edges, seam.domain);
+    triangulate_seam(edges, stand_ins(input, seam.domain.points.size()), seam.domain);
     if (input.fields.empty()) seam.domain.fields.clear();
     return seam;
 }

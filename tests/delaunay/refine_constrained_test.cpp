@@ -418,5 +418,46 @@ TEST(RefineConstrained, StopsAtTheLimitOfPoints) {
     EXPECT_THROW(refine_and_check(strip, SizeField(1e10), {.refine = {.max_points = 20'000}}), MeshError);
 }
 
+/// A square with a square hole as GeoJSON has it: each ring repeats its first point.
+struct RepeatedRings {
+    std::vector<Point> points{{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}};
+    std::vector<std::size_t> starts{0, 5};
+    std::vector<Segment> segments = ring_segments(points.size(), starts);
+};
+
+TEST(ConstrainedRefinement, TakesTriangulationsOfMergedPoints) {
+    RepeatedRings rings;
+    for (const double shift : {0.0, 1e-7}) {
+        rings.points[4].x = shift;
+        const ConstrainedOptions options{
+            .keep = KeptRegion::even_odd, .crossings = Crossings::insert, .merge_distance = 2 * shift};
+        const auto t = triangulate(rings.points, rings.segments, options);
+        // Lattices fill the first refinement; the second one, to the sizes of a function, has none.
+        const auto by_field = refine(rings.points, t, SizeField(0.05));
+        const auto by_function = refine(rings.points, t, [](Point) { return 0.05; });
+        for (const ConstrainedRefinement& r : {by_field, by_function}) {
+            std::vector<Point> points = rings.points;
+            points.insert(points.end(), r.steiner_points.begin(), r.steiner_points.end());
+            expect_valid(points, r.triangles, r.segments);
+            EXPECT_NEAR(covered_area(points, r.triangles), 8, 1e-6);
+            EXPECT_EQ(r.stats.below_bound, 0u);
+        }
+        // Segments end at merged points, too, where merged_into says so, or where the points are equal.
+        const auto adopted = constrain_triangles(rings.points, t.triangles, rings.segments, t.merged_into);
+        EXPECT_EQ(adopted.segments.size(), 8u);
+        EXPECT_EQ(adopted.zero_length_segments, 2u);
+        EXPECT_EQ(adopted.merged_into, t.merged_into);
+        EXPECT_EQ(refine(rings.points, adopted, SizeField(0.05)).triangles.size(), by_field.triangles.size());
+        if (shift == 0)
+            EXPECT_EQ(constrain_triangles(rings.points, t.triangles, rings.segments).segments, adopted.segments);
+        else
+            EXPECT_THROW(constrain_triangles(rings.points, t.triangles, rings.segments), InputError);
+        EXPECT_THROW(constrain_triangles(rings.points, t.triangles, rings.segments, std::vector<std::uint32_t>(3)),
+                     InputError);
+        EXPECT_THROW(constrain_triangles(rings.points, t.triangles, rings.segments, std::vector<std::uint32_t>(10, 10)),
+                     InputError);
+    }
+}
+
 }  // namespace
 }  // namespace lamina::test

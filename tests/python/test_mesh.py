@@ -1,5 +1,6 @@
 """The mesh as an object: arrays, files, check, pictures, other packages."""
 
+import copy
 import importlib.util
 import pickle
 
@@ -138,6 +139,36 @@ def test_pickle(small):
     assert again == small and again.facts == small.facts and again.marker_kinds == small.marker_kinds
     for name in ("points", "triangles", "quads", "region", "layer", "piece", "constraints"):
         assert np.array_equal(getattr(again, name), getattr(small, name))
+
+
+def test_never_changes(small):
+    hash_before, walls = small.hash, len(small.markers["airfoil"])
+    with pytest.raises(AttributeError):
+        small.markers.clear()
+    with pytest.raises(TypeError):
+        small.markers["airfoil"] = small.constraints
+    with pytest.raises(TypeError):
+        del small.marker_kinds["airfoil"]
+    for name in ("points", "markers", "hash", "warnings", "_data", "other"):
+        with pytest.raises(AttributeError, match="never changes"):
+            setattr(small, name, None)
+    with pytest.raises(AttributeError, match="never changes"):
+        del small.points
+    again = pickle.loads(pickle.dumps(small))
+    for mesh in (small, again):
+        for array in (mesh.points, mesh.triangles, mesh.layer, mesh.column, mesh.column_origin, mesh.wall.normal,
+                      mesh.wall_distance, mesh.markers["airfoil"]):
+            with pytest.raises(ValueError):
+                array[...] = 0
+            with pytest.raises(ValueError):
+                array.flags.writeable = True
+    small.wall.bodies.clear(), small.facts.clear(), small.warnings.clear()
+    for value in small.facts.values():
+        if isinstance(value, (list, dict)):
+            value.clear()
+    assert small.facts == again.facts and small.wall.bodies and small.hash == hash_before
+    assert len(small.markers["airfoil"]) == walls
+    assert copy.copy(small) == small and copy.deepcopy(small) == small
 
 
 def test_meshes_of_arrays():

@@ -1,5 +1,8 @@
 """Connectivity, queries, Voronoi diagrams, merged input and triangulations that change."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -110,6 +113,85 @@ def test_rings_and_duplicates():
         lamina.merge_points([[0, 0]], -1)
     with pytest.raises(lamina.InputError):
         lamina.constrained_delaunay(points, segments, keep="even_odd")
+
+
+@pytest.mark.parametrize("distance", [0, 1e-6])
+def test_refinement_of_merged_points(distance):
+    outer = [[0, 0], [3, 0], [3, 3], [0, 3], [0.5 * distance, 0]]
+    inner = [[1, 1], [1, 2], [2, 2], [2, 1], [1, 1]]
+    points, segments = lamina.ring_segments([outer, inner])
+    t = lamina.constrained_delaunay(points, segments, keep="even_odd", merge_distance=distance)
+    fine = lamina.refine(t, 0.1)
+    assert fine.stats["below_bound"] == 0 and fine.merged_into.tolist() == t.merged_into.tolist()
+    assert sum(polygon_area(fine.points[row]) for row in fine.triangles) == pytest.approx(8, abs=1e-5)
+    adopted = lamina.constrain_triangles(points, t.triangles, segments, t.merged_into)
+    assert len(lamina.refine(adopted, 0.1).triangles) == len(fine.triangles)
+    if distance == 0:
+        assert len(lamina.constrain_triangles(points, t.triangles, segments).segments) == 8
+
+
+def make_plain(points):
+    return lamina.delaunay(points)
+
+
+def make_constrained(points):
+    return lamina.constrained_delaunay(points, [[0, 1]], crossings="insert", merge_distance=0)
+
+
+def make_refined(points):
+    return lamina.refine(make_constrained(points), 0.2)
+
+
+@pytest.mark.parametrize("make", [make_plain, make_constrained, make_refined])
+@pytest.mark.parametrize("given", ["owned", "view", "column-major", "marked", "buffer"])
+def test_arrays_belong_to_the_triangulation(make, given, generator):
+    numbers = generator.random((100, 2))
+    points = {"owned": numbers, "view": np.vstack([numbers, numbers])[:100], "column-major": np.asfortranarray(numbers),
+              "marked": numbers.copy(),
+              "buffer": np.frombuffer(memoryview(bytearray(numbers.tobytes())).toreadonly()).reshape(-1, 2)}[given]
+    if given == "marked":
+        points.flags.writeable = False
+    t = make(points)
+    before, place = t.locate([[0.5, 0.5]]), np.array(t.points)
+    if given == "buffer":
+        points.base.base.obj[:] = bytes(1600)
+    else:
+        points.flags.writeable = True
+        points += 1
+    assert np.array_equal(t.points, place) and np.array_equal(make(place[:100]).locate([[0.5, 0.5]]), before)
+    for array in (t.points, t.triangles, t.segments, t.parents, t.merged_into, t.half_edges, t.neighbours,
+                  t.half_edges_at_points.items):
+        if array.size == 0:
+            continue
+        with pytest.raises(ValueError):
+            array[...] = 0
+        while isinstance(array, np.ndarray):
+            with pytest.raises(ValueError):
+                array.flags.writeable = True
+            array = array.base
+    t.boundary.clear()
+    assert len(t.boundary) == 1
+    for name in ("points", "triangles", "stats"):
+        with pytest.raises(AttributeError):
+            setattr(t, name, getattr(t, name))
+    with pytest.raises(AttributeError):
+        t.half_edges_at_points.items = t.parents
+    with pytest.raises(TypeError):
+        t.stats["refused"] = 3
+
+
+@pytest.mark.parametrize("make", [make_plain, make_constrained, make_refined])
+def test_pickles_and_copies(make, generator):
+    t = make(generator.random((100, 2)))
+    for _ in range(2):
+        for again in (pickle.loads(pickle.dumps(t)), copy.copy(t), copy.deepcopy(t), copy.deepcopy([t])[0]):
+            assert again == t and hash(again) == hash(t) and again.given_points == t.given_points
+            assert again.stats == t.stats and np.array_equal(again.merged_into, t.merged_into)
+            assert np.array_equal(again.parents, t.parents) and not again.points.flags.writeable
+            assert np.array_equal(again.locate([[0.5, 0.5]]), t.locate([[0.5, 0.5]]))
+            assert np.array_equal(again.boundary, t.boundary)
+        t.locate([[0.5, 0.5]]), t.neighbours, t.half_edges_at_points  # which prepares the triangulation
+    assert t != make(generator.random((100, 2))) and t != 3
 
 
 def test_refinement_of_given_triangles():
