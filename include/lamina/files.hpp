@@ -41,11 +41,12 @@ LAMINA_EXPORT std::vector<std::filesystem::path> missing_folders(const std::file
 /// Creates the folders above this file that do not exist. Throws IoError.
 LAMINA_EXPORT void create_folders_above(const std::filesystem::path& file);
 
-/// Removes what this process leaves behind if it is ended while it writes these files or folders: temporary files. An
-/// old folder that was to be replaced gets its name back. Returns whether there was anything to remove. Never throws.
-LAMINA_EXPORT bool remove_temporaries(std::span<const std::filesystem::path> targets) noexcept;
+/// Returns the folders that hold temporary files while this process writes these files or folders.
+LAMINA_EXPORT std::vector<std::filesystem::path> folders_of_temporaries(std::span<const std::filesystem::path> targets);
 
-/// Returns the names of the temporary files that this process writes the new content of these files to.
-LAMINA_EXPORT std::vector<std::filesystem::path> temporaries_of(std::span<const std::filesystem::path> targets);
+/// Removes what this process would leave in a folder if it ended while it writes: temporary files. An old folder that was
+/// to be replaced gets its name back. Returns whether there was anything to remove. On Linux it needs neither memory nor
+/// locks from the second call on. Never throws.
+LAMINA_EXPORT bool remove_temporaries_in(const char* folder) noexcept;
 
 }  // namespace lamina

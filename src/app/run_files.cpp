@@ -3,8 +3,6 @@
 #include <pthread.h>
 #include <unistd.h>
 #ifdef __linux__
-#include <dirent.h>
-#include <fcntl.h>
 #include <sys/syscall.h>
 #endif
 
@@ -131,11 +129,13 @@ std::vector<RunFile> files_of_case(const MeshCase& mesh_case) {
 }
 
 SignalGuard::SignalGuard(std::span<const RunFile> outputs) {
+    std::vector<fs::path> paths;
     for (const RunFile& output : outputs) {
-        outputs_.push_back(output.path);
+        paths.push_back(output.path);
         const std::vector<fs::path> missing = missing_folders(output.path);
         missing_folders_.insert(missing_folders_.end(), missing.rbegin(), missing.rend());
     }
+    folders_ = folders_of_temporaries(paths);
     sigemptyset(&signals_);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction action {};
@@ -189,30 +189,17 @@ void stop_other_threads() {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-/// Removes a file, or a folder of files, by system calls alone.
-void remove_without_memory(const char* path) {
-    const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
-    if (folder < 0) {
-        ::unlink(path);
-        return;
-    }
-    alignas(dirent64) char entries[4096];
-    for (long bytes; (bytes = ::syscall(SYS_getdents64, folder, entries, sizeof entries)) > 0;)
-        for (long at = 0; at < bytes;) {
-            const auto* entry = reinterpret_cast<const dirent64*>(entries + at);
-            ::unlinkat(folder, entry->d_name, 0);  // fails for the folder itself and the one above
-            at += entry->d_reclen;
-        }
-    ::close(folder);
-    ::rmdir(path);
-}
-
 }  // namespace
 #else
 // Elsewhere a file that is created in the last microseconds may stay.
 static void stop_other_threads() {}
-static void remove_without_memory(const char* path) { ::unlink(path); }
 #endif
+
+bool SignalGuard::remove_temporaries() const {
+    bool found = false;
+    for (const fs::path& folder : folders_) found = remove_temporaries_in(folder.c_str()) || found;
+    return found;
+}
 
 void SignalGuard::wait_for_signals() {
     constexpr int max_passes = 1000;
@@ -222,15 +209,13 @@ void SignalGuard::wait_for_signals() {
         if (ended_) return;
     } while (signal == SIGRTMIN);
     // The run goes on meanwhile, and may make one file after another; so the last pass finds nothing.
-    remove_temporaries(outputs_);
-    for (int more = max_passes; more > 0 && remove_temporaries(outputs_); --more) continue;
+    for (int more = max_passes; more > 0 && remove_temporaries(); --more) continue;
     std::error_code ignored;
     for (const fs::path& folder : missing_folders_) fs::remove(folder, ignored);  // fails unless it is empty
     // A file that the run has created since the last pass would stay.
     try {
-        const std::vector<fs::path> temporaries = temporaries_of(outputs_);
         stop_other_threads();
-        for (const fs::path& temporary : temporaries) remove_without_memory(temporary.c_str());
+        remove_temporaries();
     } catch (...) {
         // Where memory is lacking, the passes before have to do.
     }

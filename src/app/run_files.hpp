@@ -57,7 +57,7 @@ public:
     SignalGuard& operator=(const SignalGuard&) = delete;
 
 private:
-    std::vector<std::filesystem::path> outputs_;
+    std::vector<std::filesystem::path> folders_;          ///< those of temporary files
     std::vector<std::filesystem::path> missing_folders_;  ///< folders above the outputs, inner ones before outer ones
     sigset_t signals_;                                    ///< those that the thread waits for
     sigset_t mask_before_;                                ///< those that were blocked before
@@ -65,6 +65,7 @@ private:
     std::thread thread_;
 
     void wait_for_signals();
+    bool remove_temporaries() const;
 };
 
 }  // namespace lamina::app

@@ -15,6 +15,7 @@
 
 #include "cases/templates.hpp"
 #include "cases/words.hpp"
+#include "core/atomic_file.hpp"
 #include "core/reproducible_math.hpp"
 
 namespace lamina::cases {
@@ -115,7 +116,6 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
 
 void write_case_file(const SolverCaseFile& file, const fs::path& folder) {
     const fs::path path = folder / file.name;
-    create_folders_above(path);
     write_file(path, file.text);
     if (!file.executable) return;
     std::error_code failed;
@@ -202,10 +202,21 @@ void write_solver_case(FlowSolver solver, const Mesh& mesh, const SolverConditio
     check_solver_case_writable(solver, folder, options);
     const std::vector<SolverCaseFile> files = solver_case_files(solver, mesh, conditions, options);
     const SolverEntry& entry = entry_of(solver);
-    const fs::path file = mesh_file(entry, folder);
-    create_folders_above(output_files(file, {.format = entry.format}).front());
-    write_mesh(mesh, file, {.format = entry.format});
-    for (const SolverCaseFile& part : files) write_case_file(part, folder);
+    core::NewFolders folders;
+    std::vector<fs::path> fresh;  // what a failure must not leave
+    std::error_code ignored;
+    for (const fs::path& output : solver_case_outputs(solver, folder, options)) {
+        if (!fs::exists(output, ignored)) fresh.push_back(output);
+        folders.create_above(output);
+    }
+    try {
+        write_mesh(mesh, mesh_file(entry, folder), {.format = entry.format});
+        for (const SolverCaseFile& part : files) write_case_file(part, folder);
+    } catch (...) {
+        for (const fs::path& output : fresh) fs::remove_all(output, ignored);
+        throw;
+    }
+    folders.keep();
 }
 
 }  // namespace lamina

@@ -1,13 +1,17 @@
 #include "core/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -15,49 +19,25 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 
+#include "core/temporary_folder.hpp"
+
 namespace lamina::core {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-/// The purposes of temporary files: the new content, the old folder, and a trial of the room on the disk.
-constexpr const char *new_purpose = "tmp", *replaced_purpose = "old", *room_purpose = "room";
-
-/// Returns a hidden name beside the target, which is on the same file system and can hence be renamed to it. The
-/// extension stays last, since some writers choose the format by it.
-fs::path temporary_beside(const fs::path& target, const char* purpose = new_purpose) {
-    // fs::path::replace_filename() of GCC 12's library crashes where it finds no memory.
-    const std::string& path = target.native();
-    return path.substr(0, path.rfind('/') + 1) + "." + target.stem().string() + "." + purpose +
-           std::to_string(::getpid()) + target.extension().string();
-}
-
-/// Removes a file or a folder with all that is in it. It tries again where it finds no memory, since an exception that
-/// is on its way frees more.
-void remove_quietly(const fs::path& path) noexcept {
-    for (int attempt = 0; attempt < 3; ++attempt) {
-        try {
-            std::error_code failed;
-            fs::remove_all(path, failed);
-            if (!failed) return;
-        } catch (...) {
-            // The next attempt may succeed.
-        }
-    }
-}
-
-/// Calls work(). If it fails, calls undo() and throws; failures of the file system become an IoError about `target`.
-void work_or_undo(const fs::path& target, const std::function<void()>& work, const std::function<void()>& undo) {
+/// Calls work(); failures of the file system become an IoError about `target`.
+void work_on(const fs::path& target, const std::function<void()>& work) {
     try {
         work();
     } catch (const fs::filesystem_error& e) {
-        undo();
         throw IoError(target.string(), "cannot write: " + e.code().message());
-    } catch (...) {
-        undo();
-        throw;
     }
+}
+
+[[noreturn]] void fail_to_write(const fs::path& target, int reason) {
+    throw IoError(target.string(), std::string("cannot write: ") + std::strerror(reason));
 }
 
 /// Returns the file that a symbolic link stands for, so that this file is replaced and not the link. It need not exist
@@ -70,6 +50,42 @@ fs::path behind_links(fs::path file) {
     return file;
 }
 
+/// Gives a new file or folder the owner and the permissions of the one that it will replace, if there is one. Where the
+/// group cannot be kept, its members may do what others may.
+void keep_permissions(const fs::path& target, const fs::path& replacement) {
+    struct stat old {
+    }, made{};
+    if (::stat(target.c_str(), &old) != 0 || ::stat(replacement.c_str(), &made) != 0) return;
+    constexpr mode_t all = 0777, others = 07;
+    constexpr unsigned group_shift = 3;
+    mode_t mode = old.st_mode & all;
+    const bool same_owners = old.st_uid == made.st_uid && old.st_gid == made.st_gid;
+    if (!same_owners && ::chown(replacement.c_str(), old.st_uid, old.st_gid) != 0 && old.st_gid != made.st_gid &&
+        ::chown(replacement.c_str(), static_cast<uid_t>(-1), old.st_gid) != 0)
+        mode &= ~(others << group_shift) | (mode & others) << group_shift;
+    // A file system without permissions may refuse; then there are none to keep.
+    static_cast<void>(::chmod(replacement.c_str(), mode));
+}
+
+/// Lets a folder take the place of another one, which goes into `temporary`.
+void put_in_place(const fs::path& folder, const fs::path& target, const fs::path& temporary) {
+    constexpr int max_attempts = 100;  // other processes may write the same folder
+    for (int attempt = 0; attempt < max_attempts; ++attempt) {
+        if (::rename(folder.c_str(), target.c_str()) == 0) return;  // there is none, or an empty one
+        if (errno != EEXIST && errno != ENOTEMPTY && errno != ENOTDIR) break;
+#ifdef RENAME_EXCHANGE
+        if (::renameat2(AT_FDCWD, folder.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0) return;
+        if (errno == ENOENT) continue;
+        if (errno != EINVAL && errno != ENOSYS && errno != EOPNOTSUPP) break;
+#endif
+        const fs::path old = temporary / "old";
+        fs::remove_all(old);
+        fs::create_directory(old);
+        if (::rename(target.c_str(), (old / target.filename()).c_str()) != 0 && errno != ENOENT) break;
+    }
+    fail_to_write(target, errno);
+}
+
 }  // namespace
 
 bool is_device(const fs::path& file) {
@@ -78,25 +94,40 @@ bool is_device(const fs::path& file) {
     return type == fs::file_type::character || type == fs::file_type::block || type == fs::file_type::fifo;
 }
 
+NewFolders::~NewFolders() {
+    std::error_code ignored;
+    for (; !created_.empty(); created_.pop_back()) fs::remove(created_.back(), ignored);  // fails unless it is empty
+}
+
+void NewFolders::create_above(const fs::path& file) {
+    for (const fs::path& folder : missing_folders(file)) {
+        std::error_code failed;
+        if (fs::create_directory(folder, failed)) created_.push_back(folder);
+        if (failed) throw IoError(folder.string(), "cannot be created: " + failed.message());
+    }
+}
+
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
 void write_files_atomically(std::span<const fs::path> targets,
                             const std::function<void(std::span<const fs::path>)>& write) {
     std::vector<fs::path> files, temporaries;
+    std::map<fs::path, TemporaryFolder> folders;
     for (const fs::path& target : targets) {
         if (is_device(target)) throw IoError(target.string(), "cannot write: not a file");
         files.push_back(behind_links(target));
-        temporaries.push_back(temporary_beside(files.back()));
+        const fs::path beside = folder_of(files.back());
+        if (!folders.contains(beside)) clear_folders_of_dead_processes(files.back());
+        temporaries.push_back(folders.try_emplace(beside, target).first->second.path() / files.back().filename());
     }
-    const auto work = [&] {
+    work_on(targets.front(), [&] {
         write(temporaries);
+        for (std::size_t i = 0; i < files.size(); ++i) keep_permissions(files[i], temporaries[i]);
+        // Of two processes that write the same files, the later one leaves all of its own.
+        std::optional<ExchangeLock> lock;
+        if (files.size() > 1) lock.emplace(files.front());
         for (std::size_t i = 0; i < files.size(); ++i) fs::rename(temporaries[i], files[i]);
-    };
-    const auto undo = [&] {
-        std::error_code ignored;
-        for (const fs::path& temporary : temporaries) fs::remove(temporary, ignored);
-    };
-    work_or_undo(targets.front(), work, undo);
+    });
 }
 
 void write_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
@@ -104,24 +135,20 @@ void write_atomically(const fs::path& target, const std::function<void(const fs:
 }
 
 void write_folder_atomically(const fs::path& target, const std::function<void(const fs::path&)>& write) {
-    const fs::path temporary = temporary_beside(target), replaced = temporary_beside(target, replaced_purpose);
-    std::vector<fs::path> created;  // missing folders above the target, the outermost one first
-    const auto work = [&] {
-        created = missing_folders(target);
-        for (const fs::path& folder : created) fs::create_directory(folder);
-        fs::create_directory(temporary);
-        write(temporary);
-        if (fs::exists(target)) fs::rename(target, replaced);
-        fs::rename(temporary, target);
-    };
-    const auto undo = [&] {
-        std::error_code ignored;
-        remove_quietly(temporary);
-        if (fs::exists(replaced, ignored)) fs::rename(replaced, target, ignored);
-        for (; !created.empty(); created.pop_back()) fs::remove(created.back(), ignored);
-    };
-    work_or_undo(target, work, undo);
-    remove_quietly(replaced);
+    NewFolders created;
+    work_on(target, [&] {
+        created.create_above(target);
+        clear_folders_of_dead_processes(target);
+        const TemporaryFolder temporary(target);
+        const fs::path folder = temporary.path() / "new";
+        fs::create_directory(folder);
+        write(folder);
+        for (const fs::directory_entry& file : fs::directory_iterator(folder))
+            keep_permissions(target / file.path().filename(), file.path());
+        keep_permissions(target, folder);
+        put_in_place(folder, target, temporary.path());
+    });
+    created.keep();
 }
 
 #ifdef __linux__
@@ -131,19 +158,10 @@ void reserve_room(const fs::path& file, const fs::path& target, std::size_t byte
         opened >= 0 && (::fallocate(opened, 0, 0, static_cast<off_t>(bytes)) == 0 || errno == EOPNOTSUPP);
     const int reason = errno;
     if (opened >= 0) ::close(opened);
-    if (!has_room) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(reason));
-}
-
-void require_room(const fs::path& target, std::size_t bytes) {
-    const fs::path trial = temporary_beside(target, room_purpose);
-    const auto remove = [&] { ::unlink(trial.c_str()); };
-    work_or_undo(
-        target, [&] { reserve_room(trial, target, bytes); }, remove);
-    remove();
+    if (!has_room) fail_to_write(target, reason);
 }
 #else
 // Elsewhere nothing reserves room without writing, so a full disk shows only while the file is written.
-void require_room(const fs::path&, std::size_t) {}
 void reserve_room(const fs::path& file, const fs::path& target, std::size_t) {
     write_stream(file, target, [](std::ostream&) {});
 }
@@ -154,7 +172,7 @@ void write_stream(const fs::path& file, const fs::path& target, const std::funct
     std::ofstream out(file, std::ios::binary);
     if (out) write(out);
     out.close();
-    if (!out) throw IoError(target.string(), std::string("cannot write: ") + std::strerror(errno ? errno : EIO));
+    if (!out) fail_to_write(target, errno ? errno : EIO);
 }
 
 namespace {
@@ -163,8 +181,7 @@ void write_standard_output(const std::function<void(std::ostream&)>& write) {
     errno = 0;
     write(std::cout);
     std::cout.flush();
-    if (!std::cout || std::fflush(stdout) != 0)
-        throw IoError("standard output", std::string("cannot write: ") + std::strerror(errno ? errno : EIO));
+    if (!std::cout || std::fflush(stdout) != 0) fail_to_write("standard output", errno ? errno : EIO);
 }
 
 }  // namespace
@@ -181,44 +198,17 @@ namespace lamina {
 
 using namespace core;
 
-namespace {
-
-/// Returns whether there were any.
-bool remove_temporaries_of(const fs::path& target) {
-    std::error_code ignored;
-    bool found = false;
-    for (const fs::path& temporary :
-         {temporary_beside(behind_links(target)), temporary_beside(target), temporary_beside(target, room_purpose)}) {
-        const auto removed = fs::remove_all(temporary, ignored);
-        found = found || (!ignored && removed > 0);
-    }
-    const fs::path replaced = temporary_beside(target, replaced_purpose);
-    if (!fs::exists(replaced, ignored)) return found;
-    if (fs::exists(target, ignored))
-        fs::remove_all(replaced, ignored);
-    else
-        fs::rename(replaced, target, ignored);
-    return true;
-}
-
-}  // namespace
-
-std::vector<fs::path> temporaries_of(std::span<const fs::path> targets) {
-    std::vector<fs::path> temporaries;
-    for (const fs::path& target : targets) temporaries.push_back(temporary_beside(behind_links(target)));
-    return temporaries;
-}
-
-bool remove_temporaries(std::span<const fs::path> targets) noexcept {
-    bool found = false;
+std::vector<fs::path> folders_of_temporaries(std::span<const fs::path> targets) {
+    std::vector<fs::path> folders;
     for (const fs::path& target : targets) {
-        try {
-            found = remove_temporaries_of(target) || found;
-        } catch (...) {
-            // Only a lack of memory throws here. The other targets may still be cleaned.
-        }
+        folders.push_back(folder_of(target));
+        folders.push_back(folder_of(behind_links(target)));
     }
-    return found;
+    std::sort(folders.begin(), folders.end());
+    folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
+    return folders;
 }
+
+bool remove_temporaries_in(const char* folder) noexcept { return remove_own_temporary_folders(folder); }
 
 }  // namespace lamina

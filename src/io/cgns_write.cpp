@@ -191,8 +191,8 @@ void require_fit(const MeshView& mesh, const fs::path& file) {
 
 void write_cgns(const MeshView& mesh, const fs::path& file, CgnsVariant variant) {
     require_fit(mesh, file);
-    core::require_room(file, bytes_needed(mesh, variant));
     core::write_atomically(file, [&](const fs::path& temporary) {
+        core::reserve_room(temporary, file, bytes_needed(mesh, variant));
         const std::lock_guard lock(cgns_lock());
         CgnsWriter(mesh, variant, file).write(temporary);
     });

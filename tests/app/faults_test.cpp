@@ -92,6 +92,12 @@ TEST(Faults, AFullFileSystem) {
     const Words openfoam{"mesh", "naca:0012", "--far-field", "4", "-o", "disk/a/case", "--format", "openfoam"};
     expect_failed(folder, run_lamina(folder, openfoam), io_failed, {"disk"});
     EXPECT_TRUE(is_empty());
+    for (const char* solver : {"openfoam", "su2"}) {
+        const Words solve{"case", solver,          "naca:0012",  "--far-field", "4",
+                          "-o",   "disk/a/b/case", "--reynolds", "1e6",         "--quiet"};
+        expect_failed(folder, run_lamina(folder, solve), io_failed, {"disk"});
+        EXPECT_TRUE(is_empty()) << solver;
+    }
     EXPECT_EQ(umount2((folder / "disk").c_str(), MNT_DETACH), 0);
 }
 
