@@ -70,7 +70,7 @@ struct LayerOptions {
     GrowthLaw growth_law = GrowthLaw::geometric;  ///< the law by which heights grow
     /// Number of layers on each ray. Empty: each ray gets layers up to isotropy, where the spacing reaches the distance
     /// to the neighbouring rays.
-    std::optional<std::uint32_t> layers = 30;
+    std::optional<std::uint32_t> layers{};
     std::optional<Length> thickness{};  ///< height above the wall beyond which no layer goes; T of the exponential law
     /// Largest angle between neighbouring rays. On jagged walls (Rays::jagged) it may be max_jagged_ray_angle_deg, in
     /// fans that are cut short max_low_fan_angle_deg, and more where rays converge.

@@ -103,20 +103,26 @@ struct QualitySummary {
     std::size_t exempt = 0;
     /// Returns the number of angles below the bound that are not exempt.
     std::size_t unexcused() const { return angles_below_bound - exempt; }
-    double max_neighbour_area_ratio = 0;   ///< over edges between two isotropic cells; 0 for the layer
-    double p999_neighbour_area_ratio = 0;  ///< 99.9th percentile, within 0.2 %
+    /// Largest ratio of the areas of two neighbours: of the isotropic region over edges between two of its cells, of the
+    /// layer over edges that at least one of its cells has.
+    double max_neighbour_area_ratio = 0;
+    Point max_neighbour_area_ratio_at{};   ///< the middle of this edge; of the layer alone
+    double p999_neighbour_area_ratio = 0;  ///< 99.9th percentile, within 0.2 %; 0 for the layer
     /// Longest edge over the height on it; for a quad, squared longest edge over area.
     double max_aspect_ratio = 0;
     std::array<std::size_t, 18> angle_histogram{};  ///< number of smallest angles in [0, 5), [5, 10), ... degrees
 };
 
 /// The transition from the layer to the isotropic region. The area ratio at an edge between the two is the area of the
-/// layer's cell divided by the area of the isotropic cell; 1 is ideal. All numbers are 0 where there is no edge.
+/// layer's cell divided by the area of the isotropic cell; 1 is ideal. The height ratio is the height of the isotropic
+/// cell over the edge divided by that of the layer's cell; above 1 the mesh jumps to larger cells at the layer's end. All
+/// numbers are 0 where there is no edge.
 struct TransitionSummary {
     std::size_t edges = 0;         ///< number of edges between the two regions
     double p01_area_ratio = 0;     ///< 1st percentile
     double median_area_ratio = 0;  ///< median
     double p99_area_ratio = 0;     ///< 99th percentile
+    double p90_height_ratio = 0;   ///< 90th percentile
 };
 
 /// Neighbouring wall edges are even where the ratio of their lengths is at most this.

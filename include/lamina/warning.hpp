@@ -33,6 +33,7 @@ enum class WarningCode {
     flow_estimated,            ///< the panel method failed, and the flow is that along flat plates
     unused_seed,               ///< a hole or a region of a triangulation lies where it changes nothing
     marker_renamed,            ///< a marker has another name than it was given, which not every format takes
+    area_jump,                 ///< the areas of neighbouring cells of the layer differ far too much
 };
 
 /// Returns the stable name of a kind: "first_layer_lost".

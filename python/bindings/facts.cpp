@@ -61,6 +61,7 @@ nb::dict quality_of(const QualitySummary& quality) {
     result["angles_below_bound"] = quality.angles_below_bound;
     result["exempt"] = quality.exempt;
     result["max_neighbour_area_ratio"] = quality.max_neighbour_area_ratio;
+    result["max_neighbour_area_ratio_at"] = to_python(quality.max_neighbour_area_ratio_at);
     result["p999_neighbour_area_ratio"] = quality.p999_neighbour_area_ratio;
     result["max_aspect_ratio"] = quality.max_aspect_ratio;
     result["angle_histogram"] = quality.angle_histogram;
@@ -73,6 +74,7 @@ nb::dict transition_of(const TransitionSummary& transition) {
     result["p01_area_ratio"] = transition.p01_area_ratio;
     result["median_area_ratio"] = transition.median_area_ratio;
     result["p99_area_ratio"] = transition.p99_area_ratio;
+    result["p90_height_ratio"] = transition.p90_height_ratio;
     return result;
 }
 

@@ -33,7 +33,8 @@ class QualitySummary:
     share_below_40: float  #: share of the cells whose smallest angle is below 40 degrees
     angles_below_bound: int  #: cells whose smallest angle is below the bound of the check
     exempt: int  #: those of them at sharp corners, which no refinement could mend
-    max_neighbour_area_ratio: float  #: over edges between two isotropic cells
+    max_neighbour_area_ratio: float  #: of areas, over edges between isotropic cells, or those of cells of the layer
+    max_neighbour_area_ratio_at: tuple[float, float]  #: the middle of this edge; of the layer alone
     p999_neighbour_area_ratio: float  #: 99.9th percentile of the same
     max_aspect_ratio: float  #: longest edge over the height on it
     angle_histogram: list[int]  #: numbers of smallest angles in [0, 5), [5, 10), ... degrees
@@ -47,6 +48,7 @@ class TransitionSummary:
     p01_area_ratio: float  #: 1st percentile
     median_area_ratio: float  #: median
     p99_area_ratio: float  #: 99th percentile
+    p90_height_ratio: float  #: height of isotropic cells over that of layer cells at their edges, 90th percentile
 
 
 @dataclass(frozen=True)

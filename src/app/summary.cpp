@@ -36,6 +36,10 @@ std::string layer_lines(const MeshCheck& check) {
         fmt::format("{} cells in the boundary layer: aspect ratios up to {:.4g}, angles up to {:.2f} deg, mean "
                     "largest angle {:.2f} deg",
                     layer.cells, layer.max_aspect_ratio, layer.max_angle_deg, layer.mean_max_angle_deg));
+    const Point at = layer.max_neighbour_area_ratio_at;
+    text += summary_line("layer", fmt::format("areas of neighbours differ by a factor of at most {:.4g}, at ({:.6g}, "
+                                              "{:.6g})",
+                                              layer.max_neighbour_area_ratio, at.x, at.y));
     if (check.edges_without_first_layer > 0)
         text += summary_line("layer", fmt::format("the first height is not kept on {} wall edges (--layer-topology "
                                                   "layered or quads keeps it on all)",
@@ -79,6 +83,18 @@ std::string element_lines(const Element& element) {
     return text;
 }
 
+/// Returns what makes neighbours differ less where rays fan out, if they differ much and no warning says why.
+std::string fan_line(const MeshResult& result) {
+    constexpr double much = 50;
+    const bool is_warned_of = std::any_of(result.warnings.begin(), result.warnings.end(),
+                                          [](const Warning& w) { return w.code == WarningCode::area_jump; });
+    if (result.check.layer.max_neighbour_area_ratio <= much || is_warned_of) return {};
+    return summary_line("layer",
+                        "where rays fan out from a corner, first cells are as small as a first height is beside "
+                        "an edge of the wall (--spacing-te, or --wake-layers yes behind a trailing edge, for "
+                        "less)");
+}
+
 std::string coverage_line(const ElementCoverage& coverage) {
     const LayerCoverage& all = coverage.all;
     return summary_line(
@@ -112,8 +128,10 @@ std::string quality_summary(const MeshCheck& check) {
         text += summary_line(
             "transition",
             fmt::format("area ratio between the last layer cell and the first outer cell (ideal 1): "
-                        "{:.2f} (1st percentile), {:.2f} (median), {:.2f} (99th percentile)",
-                        transition.p01_area_ratio, transition.median_area_ratio, transition.p99_area_ratio));
+                        "{:.2f} (1st percentile), {:.2f} (median), {:.2f} (99th percentile); the outer cell is {:.2f} "
+                        "times as high (90th percentile)",
+                        transition.p01_area_ratio, transition.median_area_ratio, transition.p99_area_ratio,
+                        transition.p90_height_ratio));
     return text + summary_line("delaunay",
                                fmt::format("{} of {} edges between isotropic triangles violate the Delaunay property",
                                            check.delaunay_violations, check.interior_edges));
@@ -128,6 +146,7 @@ std::string mesh_summary(const MeshCase& mesh_case, const MeshResult& result, co
                         counts.quads > 0 ? fmt::format("{} quads, ", counts.quads) : "",
                         result.layer_pieces + result.inviscid_pieces);
     text += quality_summary(result.check);
+    text += fan_line(result);
     if (const ElementCoverage coverage = total_coverage(result); coverage.all.requested_cells > 0)
         text += coverage_line(coverage) + border_line(result.border_steps);
     text += summary_line(

@@ -7,14 +7,29 @@ namespace lamina {
 
 std::string warning_name(WarningCode code) {
     // In the order of the enumerators.
-    constexpr std::array names{
-        "first_layer_lost",     "rays_cut_in_the_open", "transition_out_of_range", "first_height_implausible",
-        "large_angle",          "small_angle",          "refused_points",          "oversized_triangles",
-        "surface_not_as_asked", "layers_thinned",       "topology_not_as_asked",   "swapped_columns",
-        "reversed_flow",        "crossing_tail_cut",    "folded_outline",          "ambiguous_section",
-        "no_triangles",         "unsuited_to_solver",   "flow_estimated",          "unused_seed",
-        "marker_renamed"};
-    static_assert(names.size() == static_cast<std::size_t>(WarningCode::marker_renamed) + 1);
+    constexpr std::array names{"first_layer_lost",
+                               "rays_cut_in_the_open",
+                               "transition_out_of_range",
+                               "first_height_implausible",
+                               "large_angle",
+                               "small_angle",
+                               "refused_points",
+                               "oversized_triangles",
+                               "surface_not_as_asked",
+                               "layers_thinned",
+                               "topology_not_as_asked",
+                               "swapped_columns",
+                               "reversed_flow",
+                               "crossing_tail_cut",
+                               "folded_outline",
+                               "ambiguous_section",
+                               "no_triangles",
+                               "unsuited_to_solver",
+                               "flow_estimated",
+                               "unused_seed",
+                               "marker_renamed",
+                               "area_jump"};
+    static_assert(names.size() == static_cast<std::size_t>(WarningCode::area_jump) + 1);
     return names[static_cast<std::size_t>(code)];
 }
 

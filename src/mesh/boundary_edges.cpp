@@ -2,23 +2,9 @@
 
 #include <algorithm>
 
+#include "mesh/check_cells.hpp"
+
 namespace lamina::mesh {
-
-namespace {
-
-/// Returns the height of a cell over one of its edges: the mean distance of its other corners from the edge's line.
-double height_over(const MeshView& mesh, const CellEdges& edges, std::uint32_t edge) {
-    const Point a = mesh.points[edges.origin(edge).index()], b = mesh.points[edges.target(edge).index()];
-    const std::size_t cell = edges.cell_of(edge), corners = edges.corners(cell), first = edge - edges.first(cell);
-    double sum = 0;
-    for (std::size_t i = 2; i < corners; ++i) {
-        const Point p = mesh.points[edges.corner(cell, (first + i) % corners).index()];
-        sum += cross(b - a, p - a);
-    }
-    return sum / (distance(a, b) * static_cast<double>(corners - 2));
-}
-
-}  // namespace
 
 std::vector<BoundaryEdge> find_boundary_edges(const MeshView& mesh, std::span<const std::uint32_t> edges_of_one_cell) {
     const CellEdges edges(mesh);

@@ -77,7 +77,7 @@ MeshCheck check_mesh(const MeshView& mesh, const MeshCheckOptions& options) {
     subtract_constraints(mesh, constraints, cells.delaunay, defects);
     check.interior_edges = cells.delaunay.edges;
     check.delaunay_violations = cells.delaunay.violations;
-    check.transition = summarize_transition(std::move(cells.transition));
+    check.transition = summarize_transition(cells.transition);
     check.layer = cells.layer.summary();
     check.isotropic = cells.isotropic.summary();
     const std::size_t narrow = cells.narrow.size();

@@ -92,14 +92,19 @@ void check_edge(const MeshView& mesh, const CellEdges& edges, EdgePair pair, Are
                 CellsSummary& summary, VertexMarks& frozen) {
     const std::size_t cell = edges.cell_of(pair.edge), other = edges.cell_of(pair.twin);
     const bool isotropic = is_isotropic(mesh, cell), other_isotropic = is_isotropic(mesh, other);
-    if (!isotropic && !other_isotropic) return;
     const double area = area_of_cell(cell), other_area = area_of_cell(other);
+    if (!isotropic || !other_isotropic)
+        summary.layer.add_to_largest_ratio(area, other_area, mesh.points[edges.origin(pair.edge).index()],
+                                           mesh.points[edges.target(pair.edge).index()]);
+    if (!isotropic && !other_isotropic) return;
     const auto freeze = [&] {
         frozen.add(edges.origin(pair.edge));
         frozen.add(edges.target(pair.edge));
     };
     if (isotropic != other_isotropic) {
-        summary.transition.push_back(isotropic ? other_area / area : area / other_area);
+        const auto [inner, outer] = isotropic ? std::pair{other_area, area} : std::pair{area, other_area};
+        const auto [from, to] = isotropic ? std::pair{pair.twin, pair.edge} : std::pair{pair.edge, pair.twin};
+        summary.transition.push_back({inner / outer, height_over(mesh, edges, to) / height_over(mesh, edges, from)});
         const std::size_t edge = isotropic ? pair.edge : pair.twin;
         summary.outline.push_back({edges.origin(edge), edges.target(edge)});
         freeze();
@@ -155,6 +160,17 @@ double area_of(const MeshView& mesh, const CellEdges& edges, std::size_t cell) {
                                     : 0.5 * cross(corner(2) - corner(0), corner(3) - corner(1));
 }
 
+double height_over(const MeshView& mesh, const CellEdges& edges, std::size_t edge) {
+    const Point a = mesh.points[edges.origin(edge).index()], b = mesh.points[edges.target(edge).index()];
+    const std::size_t cell = edges.cell_of(edge), corners = edges.corners(cell), first = edge - edges.first(cell);
+    double sum = 0;
+    for (std::size_t i = 2; i < corners; ++i) {
+        const Point p = mesh.points[edges.corner(cell, (first + i) % corners).index()];
+        sum += cross(b - a, p - a);
+    }
+    return sum / (distance(a, b) * static_cast<double>(corners - 2));
+}
+
 void CellsSummary::append(CellsSummary&& part) {
     area += part.area;
     layer.append(part.layer);
@@ -199,14 +215,19 @@ CheckedCells check_cells(const MeshView& mesh, double min_angle_deg, std::option
     return checked;
 }
 
-TransitionSummary summarize_transition(std::vector<double> area_ratios) {
-    if (area_ratios.empty()) return {};
-    const auto percentile = [&](std::size_t percent) {
-        const auto at = area_ratios.begin() + static_cast<std::ptrdiff_t>((area_ratios.size() - 1) * percent / 100);
-        std::nth_element(area_ratios.begin(), at, area_ratios.end());
+TransitionSummary summarize_transition(std::span<const TransitionRatios> ratios) {
+    if (ratios.empty()) return {};
+    std::vector<double> areas, heights;
+    for (const TransitionRatios& at_edge : ratios) {
+        areas.push_back(at_edge.area);
+        heights.push_back(at_edge.height);
+    }
+    const auto percentile = [](std::vector<double>& values, std::size_t percent) {
+        const auto at = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * percent / 100);
+        std::nth_element(values.begin(), at, values.end());
         return *at;
     };
-    return {area_ratios.size(), percentile(1), percentile(50), percentile(99)};
+    return {ratios.size(), percentile(areas, 1), percentile(areas, 50), percentile(areas, 99), percentile(heights, 90)};
 }
 
 }  // namespace lamina::mesh

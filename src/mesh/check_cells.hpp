@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <lamina/mesh.hpp>
@@ -17,14 +18,19 @@
 
 namespace lamina::mesh {
 
+/// The ratios at an edge between the regions.
+struct TransitionRatios {
+    double area;    ///< that of the layer's cell over that of the isotropic cell
+    double height;  ///< of the isotropic cell over the edge, over that of the layer's cell
+};
+
 struct CellsSummary {
     double area = 0;
     QualityCollector layer, isotropic;
-    std::vector<std::uint32_t> narrow;  ///< isotropic cells with an angle below the bound
-    DelaunayCount delaunay;             ///< over all edges between isotropic triangles, constraints included
-    /// For each edge between the regions, the area of the layer's cell divided by the area of the isotropic cell.
-    std::vector<double> transition;
-    std::vector<Segment> outline;  ///< these edges, directed as the isotropic cell has them
+    std::vector<std::uint32_t> narrow;         ///< isotropic cells with an angle below the bound
+    DelaunayCount delaunay;                    ///< over all edges between isotropic triangles, constraints included
+    std::vector<TransitionRatios> transition;  ///< for each edge between the regions
+    std::vector<Segment> outline;              ///< these edges, directed as the isotropic cell has them
     DefectList defects;
 
     explicit CellsSummary(double min_angle_bound_deg = 0)
@@ -46,7 +52,10 @@ CheckedCells check_cells(const MeshView& mesh, double min_angle_deg, std::option
 /// Returns the area of a cell, rounded.
 double area_of(const MeshView& mesh, const CellEdges& edges, std::size_t cell);
 
-/// Summarizes the area ratios at the edges between the regions.
-TransitionSummary summarize_transition(std::vector<double> area_ratios);
+/// Returns the height of a cell over one of its edges: the mean distance of its other corners from the edge's line.
+double height_over(const MeshView& mesh, const CellEdges& edges, std::size_t edge);
+
+/// Summarizes the ratios at the edges between the regions.
+TransitionSummary summarize_transition(std::span<const TransitionRatios> ratios);
 
 }  // namespace lamina::mesh

@@ -62,8 +62,11 @@ void PiecewiseCheck::add_layer(const Mesh& layer, std::span<const Segment> const
     cells_ += edges.cells();
     inner_edges_ += checked.edges.edges - checked.edges.boundary.size();
     layer_edges_ = find_boundary_edges(layer, checked.edges.boundary);
-    for (std::size_t i = 0; i < layer_edges_.size(); ++i)
-        seams_.add_layer_edge(layer_edges_[i].ends, area_of(layer, edges, edges.cell_of(checked.edges.boundary[i])));
+    for (std::size_t i = 0; i < layer_edges_.size(); ++i) {
+        const std::uint32_t edge = checked.edges.boundary[i];
+        seams_.add_layer_edge(layer_edges_[i].ends, area_of(layer, edges, edges.cell_of(edge)),
+                              height_over(layer, edges, edge));
+    }
     is_layer_constraint_.clear();
     for (const std::uint32_t e : find_edges(layer, constraints)) is_layer_constraint_.push_back(e != no_edge);
 }
@@ -116,7 +119,7 @@ MeshCheck PiecewiseCheck::finish(std::span<const Marker> markers, std::span<cons
     subtract_constraints(constraints, defects);
     check.interior_edges = pieces_.delaunay.edges;
     check.delaunay_violations = pieces_.delaunay.violations;
-    check.transition = summarize_transition(std::move(pieces_.transition));
+    check.transition = summarize_transition(pieces_.transition);
     check.layer = layer_.layer.summary();
     check.isotropic = pieces_.isotropic.summary();
     find_unexcused(first_triangle);
@@ -225,6 +228,7 @@ void PiecewiseCheck::measure_across(std::span<const Segment> constraints) {
     pieces_.delaunay.edges += measures.delaunay.edges;
     pieces_.delaunay.violations += measures.delaunay.violations;
     pieces_.isotropic.append(measures.ratios);
+    layer_.layer.append(measures.of_layer);
     pieces_.transition.insert(pieces_.transition.end(), measures.transition.begin(), measures.transition.end());
 }
 

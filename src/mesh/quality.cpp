@@ -104,6 +104,21 @@ void QualityCollector::add_neighbours(double area, double other_area) {
     add_area_ratios({&ratio, 1});
 }
 
+void QualityCollector::add_to_largest_ratio(double area, double other_area, Point a, Point b) {
+    const double smaller = std::min(area, other_area), larger = std::max(area, other_area);
+    if (smaller > 0 && larger >= totals_.max_area_ratio * smaller)
+        raise_largest_ratio(larger / smaller, midpoint(a, b));
+}
+
+/// Of equal ratios, as on both sides of a symmetric body, the lexicographically first place stays: the order in which
+/// threads come does not matter.
+void QualityCollector::raise_largest_ratio(double ratio, Point at) {
+    if (ratio < totals_.max_area_ratio) return;
+    if (ratio == totals_.max_area_ratio && !lexicographically_less(at, totals_.max_area_ratio_at)) return;
+    totals_.max_area_ratio = ratio;
+    totals_.max_area_ratio_at = at;
+}
+
 void QualityCollector::add_even_neighbours(std::size_t pairs) {
     if (pairs == 0) return;
     if (area_ratios_.empty()) area_ratios_.assign(ratio_bins, 0);
@@ -124,7 +139,7 @@ void QualityCollector::append(const QualityTotals& part) {
     totals_.max_angle_sum += part.max_angle_sum;
     totals_.mean_ratio_sum += part.mean_ratio_sum;
     totals_.max_aspect = std::max(totals_.max_aspect, part.max_aspect);
-    totals_.max_area_ratio = std::max(totals_.max_area_ratio, part.max_area_ratio);
+    raise_largest_ratio(part.max_area_ratio, part.max_area_ratio_at);
     for (std::size_t i = 0; i < part.angle_histogram.size(); ++i) totals_.angle_histogram[i] += part.angle_histogram[i];
 }
 
@@ -169,6 +184,7 @@ QualitySummary QualityCollector::summary() const {
         std::accumulate(totals_.angle_histogram.begin(), totals_.angle_histogram.begin() + 8, std::size_t{0});
     summary.share_below_40_deg = static_cast<double>(below_40) / static_cast<double>(totals_.cells);
     summary.max_neighbour_area_ratio = totals_.max_area_ratio;
+    summary.max_neighbour_area_ratio_at = totals_.max_area_ratio_at;
     summary.p999_neighbour_area_ratio = area_ratio_percentile_999();
     return summary;
 }

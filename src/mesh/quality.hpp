@@ -32,6 +32,7 @@ struct QualityTotals {
     std::size_t cells = 0, below_bound = 0;
     double min_angle = 180, max_angle = 0, min_angle_sum = 0, max_angle_sum = 0, mean_ratio_sum = 0, max_aspect = 0;
     double max_area_ratio = 0;
+    Point max_area_ratio_at{};                      ///< where it is known
     std::array<std::size_t, 18> angle_histogram{};  ///< smallest angles in bins of 5 degrees
 };
 
@@ -48,6 +49,8 @@ public:
     void add_area_ratios(std::span<const double> ratios);
     /// Adds the areas of two cells with a common edge.
     void add_neighbours(double area, double other_area);
+    /// Adds two cells with a common edge to the largest ratio of areas alone, and keeps the middle of the edge.
+    void add_to_largest_ratio(double area, double other_area, Point a, Point b);
     /// Adds pairs of neighbours whose ratios of areas are below area_ratio_exceeded_by() of some share.
     void add_even_neighbours(std::size_t pairs);
     void append(const QualityCollector& part);
@@ -70,6 +73,7 @@ public:
 
 private:
     double area_ratio_percentile_999() const;
+    void raise_largest_ratio(double ratio, Point at);
 
     double bound_;
     QualityTotals totals_;

@@ -11,9 +11,10 @@ void Seams::expect(std::size_t border_edges) {
     shape_classes_.reserve(border_edges);
 }
 
-void Seams::add_layer_edge(Segment ends, double area) {
+void Seams::add_layer_edge(Segment ends, double area, double height) {
     edges_of_layer_.push_back(ends);
     areas_in_layer_.push_back(area);
+    heights_in_layer_.push_back(height);
 }
 
 void Seams::add(std::span<const PieceBorderEdge> border) {
@@ -85,7 +86,11 @@ SeamMeasures Seams::measure(const std::function<bool(Segment)>& is_constraint) c
         const std::uint32_t twin = pairs_.twin[e];
         if (twin == no_edge || twin < e || twin < layer_edges()) continue;
         if (e < layer_edges()) {
-            measures.transition.push_back(areas_in_layer_[e] / area_behind(twin));
+            const double area = area_behind(twin);
+            const Point a = points_[edges_[e].a.index()], b = points_[edges_[e].b.index()];
+            measures.transition.push_back(
+                {areas_in_layer_[e] / area, 2 * area / (distance(a, b) * heights_in_layer_[e])});
+            measures.of_layer.add_to_largest_ratio(areas_in_layer_[e], area, a, b);
             continue;
         }
         ++measures.delaunay.edges;

@@ -13,6 +13,7 @@
 #include <lamina/mesh.hpp>
 
 #include "mesh/adjacency.hpp"
+#include "mesh/check_cells.hpp"
 #include "mesh/delaunay_count.hpp"
 #include "mesh/piece_check.hpp"
 #include "mesh/quality.hpp"
@@ -21,10 +22,10 @@ namespace lamina::mesh {
 
 /// The numbers that pairs of edges which fit together add to the check of a mesh.
 struct SeamMeasures {
-    DelaunayCount delaunay;      ///< of the edges between two pieces
-    QualityCollector ratios{0};  ///< of the areas on both sides of these
-    std::vector<double>
-        transition{};  ///< for each edge between the layer and a piece: area of its cell over that of the triangle
+    DelaunayCount delaunay;                      ///< of the edges between two pieces
+    QualityCollector ratios{0};                  ///< of the areas on both sides of these
+    std::vector<TransitionRatios> transition{};  ///< for each edge between the layer and a piece
+    QualityCollector of_layer{0};                ///< the largest ratio of areas at these
 };
 
 /// Returns a ratio of areas that the 99.9th percentile reaches at least, from the least ratios that are possible:
@@ -39,8 +40,8 @@ public:
 
     /// Makes room for so many edges of pieces.
     LAMINA_EXPORT void expect(std::size_t border_edges);
-    /// Adds an edge of one cell of the layer, which has this area.
-    LAMINA_EXPORT void add_layer_edge(Segment ends, double area);
+    /// Adds an edge of one cell of the layer, which has this area, and this height over the edge.
+    LAMINA_EXPORT void add_layer_edge(Segment ends, double area, double height);
     /// Adds the border of a piece.
     LAMINA_EXPORT void add(std::span<const PieceBorderEdge> border);
 
@@ -78,7 +79,7 @@ private:
     std::span<const Point> points_;
     std::vector<Segment> edges_of_layer_, border_;  ///< until they are matched
     std::vector<Segment> edges_;                    ///< all of them, from then on
-    std::vector<double> areas_in_layer_;
+    std::vector<double> areas_in_layer_, heights_in_layer_;
     std::vector<Point> apexes_;                      ///< of the triangles behind the edges of pieces
     std::vector<std::uint8_t> shape_classes_;        ///< of these triangles
     std::unordered_map<std::size_t, double> areas_;  ///< behind edges of pieces whose apex is not known

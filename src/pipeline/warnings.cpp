@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "core/cell_shape.hpp"
+#include "layers/growth_laws.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/walls.hpp"
+#include "pipeline/area_jumps.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/ray_plan.hpp"
 
@@ -159,19 +161,72 @@ void warn_of_thinned_layers(const MeshResult& result, std::vector<Warning>& warn
                                 counted(result.thinned_rays, "ray", "rays"), place_text(result.thinned_at))});
 }
 
-void warn_of_transition(const MeshResult& result, std::vector<Warning>& warnings) {
-    constexpr double min_ratio = 0.1, max_ratio = 5;
+/// Returns what makes the last cells of the layer higher or lower, as they fit the triangles beyond.
+std::string better_layers(const LayerOptions& options, bool are_too_low) {
+    const std::string amount = are_too_low ? "more" : "fewer";
+    if (options.thickness && are_too_low) return "a larger --thickness";
+    if (!options.layers) return fmt::format("a {} --growth", are_too_low ? "larger" : "smaller");
+    const bool needs_number = layers::growth_law_entry(options.growth_law).min_layers > 0;
+    return needs_number ? amount + " --layers" : "--layers auto, or " + amount + " layers,";
+}
+
+void warn_of_transition(const MeshResult& result, const LayerOptions& options, std::vector<Warning>& warnings) {
+    // Solvers lose an order of accuracy where a cell is twice as high as the one before.
+    constexpr double min_ratio = 0.1, max_ratio = 5, max_height_ratio = 2;
     const TransitionSummary& transition = result.check.transition;
-    const double median = transition.median_area_ratio;
-    if (transition.edges == 0 || (median >= min_ratio && median <= max_ratio)) return;
-    warnings.push_back(
-        {.code = WarningCode::transition_out_of_range,
-         .number = median,
-         .unit = "area ratio",
-         .message =
-             fmt::format("the last cells of the layer have {:.2g} times the area of the "
-                         "triangles beyond (median): {} would match them better",
-                         median, median < 1 ? "more layers, or --layers auto," : "fewer layers, or --layers auto,")});
+    if (transition.edges == 0) return;
+    const auto warn = [&](double number, const std::string& unit, const std::string& what, bool are_too_low) {
+        warnings.push_back(
+            {.code = WarningCode::transition_out_of_range,
+             .number = number,
+             .unit = unit,
+             .message = fmt::format("{}: {} would match them better", what, better_layers(options, are_too_low))});
+    };
+    const double median = transition.median_area_ratio, height = transition.p90_height_ratio;
+    if (median < min_ratio || median > max_ratio)
+        warn(median, "area ratio",
+             fmt::format("the last cells of the layer have {:.2g} times the area of the triangles beyond (median)",
+                         median),
+             median < 1);
+    else if (height > max_height_ratio)
+        warn(height, "height ratio",
+             fmt::format("the triangles beyond the layer are {:.2g} times as high as its last cells (90th percentile)",
+                         height),
+             true);
+}
+
+void warn_of_areas(const MeshResult& result, const LayerOptions& options, const Mesh& layer,
+                   std::vector<Warning>& warnings) {
+    constexpr double max_ratio = 50;
+    // Where a fan turns round a corner, its first cell is a triangle as high as the first layer, and the next cell is as
+    // long as the wall's edge: 70 to 5,000 times as large on ordinary sections, up to 18,000 at a y+ of 0.5. More comes
+    // from edges beside corners that are out of proportion, as bases of one edge in files.
+    constexpr double max_beside_fans = 2e4;
+    const QualitySummary& quality = result.check.layer;
+    if (quality.max_neighbour_area_ratio <= max_ratio) return;
+    const AreaJumps jumps = find_area_jumps(layer, result.columns, result.column_origins);
+    const auto warn = [&](const AreaJump& jump, const std::string& text) {
+        warnings.push_back({.code = WarningCode::area_jump,
+                            .at = jump.at,
+                            .number = jump.ratio,
+                            .unit = "area ratio",
+                            .message = fmt::format(fmt::runtime(text), jump.ratio, place_text(jump.at))});
+    };
+    if (jumps.beside_fans.ratio > max_beside_fans)
+        warn(jumps.beside_fans,
+             "the first cells round a corner are {:.3g} times smaller than those on the wall beside it, at {}: shorter "
+             "edges there even them out (--surface resample, --spacing-te)");
+    AreaJump elsewhere = jumps.elsewhere;
+    // The search above sees no neighbours outside of the layer, and no fans in layers without rows.
+    const bool knows_fans = options.topology != LayerTopology::delaunay && !result.layer_grid_refused;
+    if (quality.max_neighbour_area_ratio > std::max(elsewhere.ratio, jumps.beside_fans.ratio))
+        elsewhere = {quality.max_neighbour_area_ratio, quality.max_neighbour_area_ratio_at};
+    if (elsewhere.ratio > (knows_fans ? max_ratio : max_beside_fans))
+        warn(elsewhere,
+             std::string("neighbouring cells of the layer differ in area by a factor of {:.3g}, at {}: ") +
+                 (options.layers
+                      ? "--layers auto, or a finer wall, evens them out (--spacing-max)"
+                      : "a finer or smoother wall evens them out (--surface resample, --spacing-max, --smooth)"));
 }
 
 void warn_of_first_height(const MeshResult& result, const LayerOptions& options, std::vector<Warning>& warnings) {
@@ -316,7 +371,8 @@ std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& 
     warn_of_first_heights(result, warnings);
     warn_of_cut_rays(result, warnings);
     warn_of_thinned_layers(result, warnings);
-    warn_of_transition(result, warnings);
+    warn_of_transition(result, options.layer, warnings);
+    warn_of_areas(result, options.layer, layer, warnings);
     warn_of_large_angles(result, worst, layer, warnings);
     warn_of_refinement(result, options, worst, warnings);
     return warnings;

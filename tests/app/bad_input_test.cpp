@@ -165,9 +165,11 @@ TEST(BadInput, AFirstHeightGivenTwiceOrByHalf) {
 TEST(BadInput, GrowthLawsThatLackSomething) {
     const TemporaryFolder folder;
     expect_refused(folder, mesh_naca_with({"--layers", "many"}), usage, "layers");
-    expect_refused(folder, mesh_naca_with({"--growth-law", "exponential"}), usage, "thickness");
+    expect_refused(folder, mesh_naca_with({"--growth-law", "exponential"}), usage, "number of layers");
+    expect_refused(folder, mesh_naca_with({"--growth-law", "exponential", "--layers", "30"}), usage, "thickness");
     expect_refused(folder, mesh_naca_with({"--growth-law", "adaptive", "--layers", "auto"}), usage, "adaptive");
-    expect_refused(folder, mesh_naca_with({"--growth-law", "exponential", "--thickness", "1e-4"}), usage, "thickness");
+    expect_refused(folder, mesh_naca_with({"--growth-law", "exponential", "--layers", "30", "--thickness", "1e-4"}),
+                   usage, "thickness");
     expect_refused(folder, mesh_naca_with({"--growth", "1.0001", "--layers", "auto"}), usage, "1000 layers");
 }
 

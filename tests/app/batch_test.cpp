@@ -56,7 +56,8 @@ TEST(Batch, MeshesForOpenFoamHaveQuadsUnlessToldOtherwise) {
     EXPECT_EQ(run_batch(folder, layered).exit_code, 0);
     const Json record = Json::parse(lines_of(folder.read("s.jsonl")).back());
     EXPECT_EQ(record["quadrilaterals"], 0);
-    EXPECT_EQ(record["warnings"].at(0).at("code"), "unsuited_to_solver");
+    const auto is_unsuited = [](const Json& warning) { return warning.at("code") == "unsuited_to_solver"; };
+    EXPECT_EQ(std::count_if(record["warnings"].begin(), record["warnings"].end(), is_unsuited), 1);
 }
 
 TEST(Batch, MissingFoldersAreCreatedUnlessTheCallIsWrong) {
@@ -101,7 +102,7 @@ TEST(Batch, NoFileReplacesAnInput) {
 
 TEST(Batch, WarningsAreLinesAlsoUnderQuiet) {
     const TemporaryFolder folder;
-    const ProgramRun run = run_batch(folder, {"naca:63012", "naca:0012", "-o", "{name}.su2", "--quiet"});
+    const ProgramRun run = run_lamina(folder, {"batch", "naca:63012", "naca:0012", "-o", "{name}.su2", "--quiet"});
     EXPECT_EQ(run.exit_code, 0);
     ASSERT_EQ(lines_of(run.err).size(), 1u) << run.err;
     EXPECT_EQ(run.err.find("lamina: warning: naca_63012: airfoil: naca:63012 is the five-digit section"), 0u)

@@ -188,11 +188,11 @@ TEST(Hints, HelpAndVersionInEveryForm) {
 // The bodies would fit into the far field: it is the layers that do not.
 TEST(Hints, ALayerBeyondTheFarFieldBlamesTheHeights) {
     const TemporaryFolder folder;
-    expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--first-height", "0.1"}, usage,
+    expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--first-height", "0.1", "--layers", "30"}, usage,
                    "option --first-height: a first height of 0.1 and 30 layers make a layer that is 118");
     expect_refused(folder,
                    {"mesh", "naca:0012", "-o", "a.su2", "--y-plus", "300", "--reynolds", "1e4", "--far-field", "20",
-                    "--preset", "none"},
+                    "--preset", "none", "--layers", "30"},
                    usage, "option --y-plus: a first height of");
     expect_refused(folder, {"mesh", "naca:0012", "-o", "a.su2", "--far-field", "0.2"}, usage, "option --far-field");
 }

@@ -17,9 +17,9 @@ using WarningsJson = nlohmann::json;
 
 constexpr int not_to_the_standard = 4;
 
-const std::vector<std::string> coarse_section{"mesh", "naca:4412:40", "--layer-topology", "delaunay", "--far-field",
-                                              "10",   "--quiet",      "--report",         "r.json",   "-o",
-                                              "m.su2"};
+const std::vector<std::string> coarse_section{
+    "mesh", "naca:4412:40", "--layer-topology", "delaunay", "--layers", "30",   "--far-field",
+    "10",   "--quiet",      "--report",         "r.json",   "-o",       "m.su2"};
 
 TEST(WarningsOfTheProgram, AreLinesAndDataAlsoUnderQuiet) {
     const TemporaryFolder folder;

@@ -24,6 +24,7 @@ using shapes::Outline;
 
 LayerOptions layers_as_high_as(double height) {
     LayerOptions options;
+    options.layers = 30;
     options.first_height =
         height / layer_height(test::growth_of(options), *options.layers) * test::first_height(options);
     return options;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <lamina/mesh.hpp>
@@ -74,10 +75,31 @@ TEST(CheckMesh, TellsRegionsApart) {
     EXPECT_EQ(check.interior_edges, 24u * (3 + 3 + 2));
     const double trapezoid_growth = 1.2 * 1.2;
     EXPECT_NEAR(check.isotropic.max_neighbour_area_ratio, trapezoid_growth, 0.3);
-    EXPECT_EQ(check.layer.max_neighbour_area_ratio, 0);
+    // The trapezoid inside the border and the half of the one outside have a common edge.
+    EXPECT_NEAR(check.layer.max_neighbour_area_ratio, (1 + 1 / 1.2) / 1.2, 1e-9);
+    const Point at = check.layer.max_neighbour_area_ratio_at;
+    EXPECT_NEAR(std::hypot(at.x, at.y), 1.2 * 1.2 * std::cos(std::numbers::pi / 24), 1e-9);
+    EXPECT_NEAR(check.transition.median_area_ratio, (1 + 1 / 1.2) / 1.2, 1e-9);
+    EXPECT_NEAR(check.transition.p90_height_ratio, 1.2, 1e-9);
     // 24 trapezoids make a circle, so their corners are 7.5 degrees off a right angle.
     EXPECT_NEAR(check.layer.mean_max_angle_deg, 97.5, 1e-9);
     EXPECT_EQ(check.edges_without_first_layer, 0u);
+}
+
+/// A corner of the outline is pulled out, so that its cells are far larger than those beside it.
+TEST(CheckMesh, FindsTheLargestRatioOfAreas) {
+    for (const bool quads : {false, true}) {
+        Mesh mesh = annulus({.around = 24, .rings = 3, .layer_rings = 3, .quads_in_layer = quads});
+        mesh.points[3 * 24] = 100 * mesh.points[3 * 24];
+        for (const unsigned seed : {0u, 1u, 2u}) {
+            const MeshCheck check = check_mesh(seed == 0 ? mesh : shuffled(mesh, seed));
+            EXPECT_EQ(check.isotropic.cells, 0u);
+            EXPECT_GT(check.layer.max_neighbour_area_ratio, quads ? 50 : 100);
+            // Across the inner edge of one of the cells, or across the side that they have in common with others.
+            const Point at = check.layer.max_neighbour_area_ratio_at;
+            EXPECT_NEAR(std::hypot(at.x, at.y), 1.4, 0.4);
+        }
+    }
 }
 
 TEST(CheckMesh, CountsEdgesWhoseCellSkipsTheFirstLayer) {

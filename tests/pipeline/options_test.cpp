@@ -98,7 +98,12 @@ TEST(CaseOptions, ValidateFindsTheOptionOfAnyStage) {
     EXPECT_EQ(refused([](CaseOptions& o) { o.conditions.viscosity = 1e-5; }), "viscosity");
     EXPECT_EQ(refused([](CaseOptions& o) { o.conditions = {.reynolds = 1e6, .velocity = 30, .viscosity = 1e-5}; }),
               "reynolds");
-    EXPECT_EQ(refused([](CaseOptions& o) { o.layer.growth_law = GrowthLaw::exponential; }), "thickness");
+    EXPECT_EQ(refused([](CaseOptions& o) { o.layer.growth_law = GrowthLaw::exponential; }), "layers");
+    EXPECT_EQ(refused([](CaseOptions& o) {
+                  o.layer.growth_law = GrowthLaw::exponential;
+                  o.layer.layers = 30;
+              }),
+              "thickness");
     EXPECT_EQ(refused([](CaseOptions& o) { o.layer.max_ray_angle_deg = 0; }), "max_ray_angle");
     EXPECT_EQ(refused([&](CaseOptions& o) { o.sizing.gradation = nan; }), "gradation");
     EXPECT_EQ(refused([](CaseOptions& o) { o.far_field.size = 0; }), "far_field");

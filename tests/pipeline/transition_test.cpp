@@ -27,14 +27,19 @@ CaseOptions from_the_flow() {
     return options;
 }
 
-/// Returns, for all edges between the regions, the area of the layer's cell over that of the isotropic cell, sorted.
-std::vector<double> area_ratios(const Mesh& mesh) {
+/// The ratios at the edges between the regions, each sorted.
+struct Ratios {
+    std::vector<double> areas;    ///< that of the layer's cell over that of the isotropic cell
+    std::vector<double> heights;  ///< of the isotropic cell over that of the layer's cell, over the edge
+};
+
+Ratios ratios_of(const Mesh& mesh) {
     struct EdgeSide {
         bool layer;
         double area;
     };
     std::map<Segment, EdgeSide> sides;
-    std::vector<double> ratios;
+    Ratios ratios;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const VertexId* v = mesh.triangles[t].v;
         const Point a = mesh.points[v[0].index()], b = mesh.points[v[1].index()], c = mesh.points[v[2].index()];
@@ -43,10 +48,13 @@ std::vector<double> area_ratios(const Mesh& mesh) {
             const VertexId p = v[i], q = v[(i + 1) % 3];
             const auto [other, is_first] = sides.emplace(Segment{std::min(p, q), std::max(p, q)}, side);
             if (is_first || other->second.layer == side.layer) continue;
-            ratios.push_back(side.layer ? side.area / other->second.area : other->second.area / side.area);
+            const double ratio = side.layer ? side.area / other->second.area : other->second.area / side.area;
+            ratios.areas.push_back(ratio);
+            ratios.heights.push_back(1 / ratio);  // of two triangles with a common base
         }
     }
-    std::sort(ratios.begin(), ratios.end());
+    std::sort(ratios.areas.begin(), ratios.areas.end());
+    std::sort(ratios.heights.begin(), ratios.heights.end());
     return ratios;
 }
 
@@ -54,7 +62,7 @@ std::vector<double> area_ratios(const Mesh& mesh) {
 void expect_good_transition(std::initializer_list<shapes::Outline> bodies, const CaseOptions& options) {
     const MeshResult result = mesh_of(bodies, options);
     expect_sound(result, options);
-    const std::vector<double> ratios = area_ratios(result.mesh);
+    const auto [ratios, heights] = ratios_of(result.mesh);
     const TransitionSummary& summary = result.check.transition;
     ASSERT_GT(ratios.size(), 50u);
     ASSERT_EQ(summary.edges, ratios.size());
@@ -62,6 +70,8 @@ void expect_good_transition(std::initializer_list<shapes::Outline> bodies, const
     EXPECT_NEAR(summary.p01_area_ratio / percentile(1), 1, 1e-9);
     EXPECT_NEAR(summary.median_area_ratio / percentile(50), 1, 1e-9);
     EXPECT_NEAR(summary.p99_area_ratio / percentile(99), 1, 1e-9);
+    EXPECT_NEAR(summary.p90_height_ratio / heights[(heights.size() - 1) * 90 / 100], 1, 1e-9);
+    EXPECT_LT(summary.p90_height_ratio, 2);
     EXPECT_GT(percentile(50), 0.4);
     EXPECT_LT(percentile(50), 2.5);
     EXPECT_GT(percentile(1), 0.15);

@@ -42,12 +42,13 @@ shapes::Outline scaled(shapes::Outline outline, double factor) {
 }
 
 TEST(Warnings, GoodMeshesHaveNone) {
-    CaseOptions automatic = quick_options();
+    CaseOptions isotropic = quick_options(), automatic = quick_options();
+    isotropic.layer.layers.reset();
     automatic.layer = {};
     automatic.layer.layers.reset();
     automatic.layer.first_height = YPlus{1};
     automatic.conditions.reynolds = 6e6;
-    for (const CaseOptions& options : {quick_options(), automatic})
+    for (const CaseOptions& options : {isotropic, CaseOptions{}, automatic})
         for (const char* digits : {"0012", "4412"})
             EXPECT_EQ(names_of(mesh_of({naca(digits, 200)}, options).warnings), std::vector<std::string>{}) << digits;
 }
@@ -55,6 +56,7 @@ TEST(Warnings, GoodMeshesHaveNone) {
 TEST(Warnings, LostFirstLayer) {
     CaseOptions options = quick_options();
     options.layer = {};
+    options.layer.layers = 30;
     options.layer.topology = LayerTopology::delaunay;
     const MeshResult result = mesh_of({naca("4412", 40)}, options);
     const Warning warning = expect_warning(result, WarningCode::first_layer_lost);
@@ -112,13 +114,59 @@ TEST(Warnings, LayersThickerThanTheRoomRoundTheWall) {
     EXPECT_GT(expect_warning(result, WarningCode::large_angle).number, 175);
 }
 
+/// The triangles beyond 30 layers are many times as high as the last of them; layers up to isotropy are the remedy.
+TEST(Warnings, HeightsThatJumpAtTheEndOfTheLayer) {
+    CaseOptions options = quick_options();
+    const Warning warning = expect_warning(mesh_of({naca("0012", 200)}, options), WarningCode::transition_out_of_range);
+    EXPECT_EQ(warning.unit, "height ratio");
+    EXPECT_GT(warning.number, 2);
+    EXPECT_NE(warning.message.find("--layers auto"), std::string::npos) << warning.message;
+    options.layer.thickness = 1e-3;
+    const Warning thin = expect_warning(mesh_of({naca("0012", 200)}, options), WarningCode::transition_out_of_range);
+    EXPECT_NE(thin.message.find("--thickness"), std::string::npos) << thin.message;
+    options.layer.thickness.reset();
+    options.layer.layers.reset();
+    const MeshResult mended = mesh_of({naca("0012", 200)}, options);
+    EXPECT_LT(mended.check.transition.p90_height_ratio, 1.5);
+    EXPECT_EQ(names_of(mended.warnings), std::vector<std::string>{});
+}
+
+/// The first cells of a fan are as small as a first height is beside the wall's edge. Fewer layers than up to isotropy join
+/// divided borders to flat cells.
+TEST(Warnings, AreasOfNeighboursThatJump) {
+    CaseOptions options;
+    options.surface.treatment = SurfaceTreatment::keep;
+    const auto jump_of = [&](double first_height) {
+        options.layer.first_height = first_height;
+        return mesh_of({naca("0012", 200, TrailingEdge::blunt)}, options);
+    };
+    const std::vector<std::string> names = names_of(jump_of(1e-6).warnings);
+    EXPECT_EQ(std::count(names.begin(), names.end(), "area_jump"), 0);
+    const MeshResult low = jump_of(1e-9);
+    const Warning warning = expect_warning(low, WarningCode::area_jump);
+    EXPECT_GT(warning.number, 2e4);
+    EXPECT_EQ(warning.number, low.check.layer.max_neighbour_area_ratio);
+    ASSERT_TRUE(warning.at);
+    EXPECT_NEAR(warning.at->x, 1, 1e-3);
+    options.layer.layers = 12;
+    options.layer.first_height = 1e-6;
+    shapes::Outline thick_base;
+    for (const Point p : naca("0012", 200, TrailingEdge::blunt))
+        thick_base.push_back({p.x, p.y + (p.y > 0 ? 0.01 : -0.01) * p.x});
+    const Warning flat = expect_warning(mesh_of({thick_base}, options), WarningCode::area_jump);
+    EXPECT_GT(flat.number, 50);
+    EXPECT_NE(flat.message.find("--layers auto"), std::string::npos) << flat.message;
+}
+
 /// Angles between the largest that is aimed at and 180 degrees are not kept quiet. Few points that are kept make some, where
 /// the border is divided above long edges.
 TEST(Warnings, LargeAnglesOfTheLayer) {
     CaseOptions options = quick_options();
     options.layer = {};
     options.layer.first_height = 1e-5;
-    EXPECT_EQ(names_of(mesh_of({naca("0012", 200)}, options).warnings), std::vector<std::string>{});
+    options.layer.layers = 30;
+    const std::vector<std::string> names = names_of(mesh_of({naca("0012", 200)}, options).warnings);
+    EXPECT_EQ(std::count(names.begin(), names.end(), "large_angle"), 0);
     const double angle = expect_warning(mesh_of({naca("0012")}, options), WarningCode::large_angle).number;
     EXPECT_GT(angle, 150);
     EXPECT_LT(angle, 175);
