@@ -222,11 +222,9 @@ void warn_of_areas(const MeshResult& result, const LayerOptions& options, const 
     if (quality.max_neighbour_area_ratio > std::max(elsewhere.ratio, jumps.beside_fans.ratio))
         elsewhere = {quality.max_neighbour_area_ratio, quality.max_neighbour_area_ratio_at};
     if (elsewhere.ratio > (knows_fans ? max_ratio : max_beside_fans))
-        warn(elsewhere,
-             std::string("neighbouring cells of the layer differ in area by a factor of {:.3g}, at {}: ") +
-                 (options.layers
-                      ? "--layers auto, or a finer wall, evens them out (--spacing-max)"
-                      : "a finer or smoother wall evens them out (--surface resample, --spacing-max, --smooth)"));
+        warn(elsewhere, std::string("neighbouring cells of the layer differ in area by a factor of {:.3g}, at {}: ") +
+                            (options.layers ? "--layers auto, or a finer wall, evens them out (--spacing-max)"
+                                            : "a higher first layer evens them out (--y-plus, --first-height)"));
 }
 
 void warn_of_first_height(const MeshResult& result, const LayerOptions& options, std::vector<Warning>& warnings) {
