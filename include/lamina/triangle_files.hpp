@@ -39,11 +39,15 @@ struct TriangleInput {
     std::vector<std::size_t> hole_lines;     ///< per hole: its line in segment_file
 };
 
+/// Whether files may hold equal points.
+enum class EqualPoints { refuse, accept };
+
 /// Reads a .poly or .node file; `format`, "poly" or "node", says which it is where the extension does not. A .poly file
 /// without vertices takes those of the .node file with its stem; on standard input ("-") it must hold them. Blank lines
 /// and comments, from # to the end of the line, are skipped. Segments from a vertex to itself are kept. Throws IoError,
 /// InputError with file and line, UsageError for other extensions and formats.
-LAMINA_EXPORT TriangleInput read_triangle_files(const std::filesystem::path& file, const std::string& format = {});
+LAMINA_EXPORT TriangleInput read_triangle_files(const std::filesystem::path& file, const std::string& format = {},
+                                                EqualPoints equal = EqualPoints::refuse);
 
 /// The contents of the files to write.
 struct TriangleOutput {

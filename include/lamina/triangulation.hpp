@@ -96,7 +96,9 @@ struct ConstrainedOptions {
     /// outside the hull have no effect; a point on a vertex or a segment is an InputError.
     std::vector<Point> holes{};
     /// Points at most this far from an earlier one are taken for the same (merge_points()); segments that join two of
-    /// these have no length. 0 merges equal points. Empty: equal points are an InputError.
+    /// these have no length. 0 merges equal points. Empty: equal points are an InputError. With Crossings::insert segments
+    /// are led through points at most this far from them, too, which merges those that nearly coincide; they bend by at
+    /// most four times this distance, and where they would have to bend further, that is an InputError.
     std::optional<double> merge_distance{};
     /// The pieces that points are divided into; empty: as triangulate() of points does without DecompositionOptions.
     std::optional<DecompositionOptions> decomposition{};

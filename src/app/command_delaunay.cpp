@@ -11,7 +11,9 @@
 #include <lamina/error.hpp>
 #include <lamina/files.hpp>
 #include <lamina/mesh.hpp>
+#include <lamina/option_builders.hpp>
 #include <lamina/pipeline.hpp>
+#include <lamina/predicates.hpp>
 #include <lamina/threads.hpp>
 #include <lamina/triangle_files.hpp>
 #include <lamina/version.hpp>
@@ -36,6 +38,7 @@ struct DelaunayArguments {
     std::string file, format;
     std::string stem;
     std::string min_angle, max_area, threads, max_triangles, max_memory;
+    CLI::Option* merge = nullptr;
     std::string report;
     bool quiet = false, strict = false;
     DelaunaySettings settings;  ///< the flags
@@ -85,6 +88,13 @@ DelaunaySettings settings_of(const DelaunayArguments& arguments) {
         if (!positive_numbers.contains(settings.max_area))
             throw UsageError("option --max-area: must be " + positive_numbers.text());
     }
+    if (!arguments.merge->empty()) {
+        // Without a distance, the option holds what a switch does.
+        const std::string text = arguments.merge->results().front();
+        settings.merge_distance = text.empty() || text == "true" ? 0 : parse_real(text, "option --merge");
+        if (!numbers_from_to(0, max_exact_coordinate).contains(*settings.merge_distance))
+            throw UsageError("option --merge: must be " + numbers_from_to(0, max_exact_coordinate).text());
+    }
     return settings;
 }
 
@@ -125,6 +135,7 @@ Json delaunay_report(const DelaunayResult& result, const DelaunayRunFacts& facts
                    {"refused_points", result.refinement.refused},
                    {"warnings", warnings_report(result.warnings)},
                    {"estimate", estimate_report(result.estimate)},
+                   {"merged_points", result.merged_points},
                    {"zero_length_segments", result.zero_length_segments},
                    {"repeated_segments", result.repeated_segments},
                    {"seconds",
@@ -151,6 +162,8 @@ std::string delaunay_summary(const DelaunayResult& result, const DelaunayRunFact
             "  {} triangles have an angle below the bound ({} of them in sharp corners of the input, or "
             "within rounding of a segment, where no triangulation can keep it)\n",
             stats.below_bound, stats.exempt);
+    if (result.merged_points > 0)
+        text += fmt::format("  {} points were merged with earlier ones; no triangle has them\n", result.merged_points);
     if (result.zero_length_segments > 0)
         text += fmt::format("  {} segments from a vertex to itself were left out\n", result.zero_length_segments);
     if (result.repeated_segments > 0)
@@ -174,7 +187,8 @@ void run(const DelaunayArguments& arguments) {
     ProgressPrinter progress(ProgressShown::automatic, arguments.quiet);
     Stopwatch watch, total;
     progress.begin({"reading"});
-    TriangleInput input = read_triangle_files(arguments.file, arguments.format);
+    TriangleInput input = read_triangle_files(arguments.file, arguments.format,
+                                              settings.merge_distance ? EqualPoints::accept : EqualPoints::refuse);
     facts.with_poly = !input.segment_file.empty();
     facts.read_seconds = watch.lap();
     DelaunayResult result;
@@ -222,6 +236,14 @@ void add_delaunay_command(CLI::App& app) {
         "--insert-crossings", arguments->settings.insert_crossings,
         "add a vertex where segments cross, which is an error otherwise, and lead segments through vertices "
         "that they miss by rounding alone");
+    arguments->merge =
+        command
+            ->add_option(
+                "--merge",
+                "take points at most TOL apart, in units of the input, for the same, equal ones where TOL is left "
+                "out, and with --insert-crossings lead segments through vertices at most TOL away")
+            ->expected(0, 1)
+            ->type_name("[TOL]");
     add_table_option(*command, case_option_table(), "threads", arguments->threads);
     add_table_option(*command, case_option_table(), "max-triangles", arguments->max_triangles);
     add_table_option(*command, case_option_table(), "max-memory", arguments->max_memory);

@@ -61,12 +61,17 @@ ConstrainedTriangulation triangulate_points(const TriangleInput& input, Delaunay
 
 ConstrainedTriangulation triangulate_input(const TriangleInput& input, const DelaunaySettings& settings,
                                            DelaunayResult& result) {
-    if (input.segments.empty() && input.holes.empty()) return triangulate_points(input, result);
+    if (input.segments.empty() && input.holes.empty() && !settings.merge_distance)
+        return triangulate_points(input, result);
     ConstrainedOptions options;
     options.holes = input.holes;
+    options.merge_distance = settings.merge_distance;
     options.crossings = settings.insert_crossings ? Crossings::insert : Crossings::refuse;
     if (!input.segments.empty() && !settings.keep_hull) options.keep = KeptRegion::inside_segments;
-    return triangulate(input.points, input.segments, options);
+    ConstrainedTriangulation triangulation = triangulate(input.points, input.segments, options);
+    for (std::size_t i = 0; i < triangulation.merged_into.size(); ++i)
+        result.merged_points += triangulation.merged_into[i] != i;
+    return triangulation;
 }
 
 /// Areas are bounded exactly, and the fewest triangles are wanted, so this is nearer to 1 than the default.
@@ -306,6 +311,7 @@ std::vector<Warning> find_warnings(const TriangleOutput& output, const RefineSta
 }  // namespace
 
 DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& settings, const Progress& progress) {
+    if (input.points.empty()) throw InputError({.file = input.point_file.string()}, "the file holds no points");
     DelaunayResult result;
     Stopwatch watch;
     require_triangulation_within(input, settings, progress, result);

@@ -55,24 +55,48 @@ Point BorderLines::division_point(std::span<const Point> points, Index a, Index 
     return corner + (std::ldexp(0.5, exponent) / whole) * (far - corner);
 }
 
-Index BorderLines::sharp_apex(std::span<const Point> points, Index a, Index b) const {
-    const Index line_a = line_of_vertex(a), line_b = line_of_vertex(b);
-    if (line_a == no_index || line_b == no_index || line_a == line_b) return no_index;
-    const Segment p = lines_[line_a], q = lines_[line_b];
-    VertexId apex = p.a;
-    if (apex != q.a && apex != q.b) apex = p.b;
-    if (apex != q.a && apex != q.b) return no_index;
-    const Point u = points[a] - points[apex.index()], v = points[b] - points[apex.index()];
-    return core::encloses_sharp_angle(u, v) || core::encloses_sharp_angle(v, u) ? apex.value : no_index;
+Index BorderLines::line_from(Index corner, Index v) const {
+    const Index line = line_of_edge(corner, v);
+    if (line == no_index) return no_index;
+    return lines_[line].a.value == corner || lines_[line].b.value == corner ? line : no_index;
 }
 
-bool BorderLines::join_sharp_lines(std::span<const Point> points, Index a, Index b) const {
-    return sharp_apex(points, a, b) != no_index;
+bool BorderLines::is_sharp_apex(std::span<const Point> points, Index corner, Index a, Index b) const {
+    if (corner == a || corner == b) return false;
+    const Index line_a = line_from(corner, a);
+    if (line_a == no_index) return false;
+    const Index line_b = line_from(corner, b);
+    if (line_b == no_index || line_b == line_a) return false;
+    const Point u = points[a] - points[corner], v = points[b] - points[corner];
+    return core::encloses_sharp_angle(u, v) || core::encloses_sharp_angle(v, u);
 }
 
-bool BorderLines::join_shells(std::span<const Point> points, Index a, Index b) const {
-    const Index apex = sharp_apex(points, a, b);
+Index BorderLines::sharp_apex(std::span<const Point> points, const SidedEdge& edge) const {
+    for (const Index v : {edge.opposite, edge.a, edge.b}) {
+        const Index line = line_of_vertex(v);
+        const Index first = line == no_index ? v : lines_[line].a.value;
+        const Index second = line == no_index ? v : lines_[line].b.value;
+        for (const Index corner : {first, second})
+            if (is_sharp_apex(points, corner, edge.a, edge.b)) return corner;
+    }
+    return no_index;
+}
+
+bool BorderLines::join_sharp_lines(std::span<const Point> points, const SidedEdge& edge) const {
+    return sharp_apex(points, edge) != no_index;
+}
+
+Index BorderLines::facing_corner(std::span<const Point> points, Index line, Index p) const {
+    const Segment s = lines_[line];
+    if (is_sharp_apex(points, s.a.value, s.b.value, p)) return s.a.value;
+    return is_sharp_apex(points, s.b.value, s.a.value, p) ? s.b.value : no_index;
+}
+
+bool BorderLines::join_shells(std::span<const Point> points, const SidedEdge& edge) const {
+    const Index apex = sharp_apex(points, edge);
     if (apex == no_index) return false;
+    if (apex == edge.opposite) return true;
+    const auto [a, b, opposite] = edge;
     // Radii of different shells differ by a factor of two, those of one shell by rounding.
     constexpr double tolerance = 0.001;
     const double to_a = distance(points[apex], points[a]), to_b = distance(points[apex], points[b]);

@@ -42,6 +42,11 @@ struct SharpCorner {
     Index u, v, w;
 };
 
+/// An edge a-b of a triangle, and the vertex opposite.
+struct SidedEdge {
+    Index a, b, opposite;
+};
+
 /// The lines, and the vertices that split them. Vertices have the numbers of the triangulation that is refined.
 class BorderLines {
 public:
@@ -72,12 +77,16 @@ public:
     /// Returns whether lines meet at vertex v at less than 90 degrees.
     bool is_acute(Index v) const { return v < acute_.size() && acute_[v] != 0; }
 
-    /// Returns whether vertices a and b split lines that meet at less than 60 degrees.
-    bool join_sharp_lines(std::span<const Point> points, Index a, Index b) const;
-    /// Returns whether vertices a and b split lines that meet at less than 60 degrees, both at the same distance from
-    /// the corner. A narrow triangle whose shortest edge is a-b is then left as it is. Source: G. Miller, S. Pav, N.
+    /// Returns whether the edge joins lines, which its vertices split or end, that meet at less than 60 degrees at a
+    /// corner that is opposite, or where the line of one of the three vertices ends.
+    bool join_sharp_lines(std::span<const Point> points, const SidedEdge& edge) const;
+    /// Returns whether the edge joins such lines, and its vertices are at the same distance from the corner, or the corner
+    /// is opposite. A narrow triangle whose shortest edge this is is then left as it is. Source: G. Miller, S. Pav, N.
     /// Walkington, Int. J. Comput. Geom. Appl. 15 (2005).
-    bool join_shells(std::span<const Point> points, Index a, Index b) const;
+    bool join_shells(std::span<const Point> points, const SidedEdge& edge) const;
+    /// Returns the end of a line at which it meets, at less than 60 degrees, a line that vertex p splits or ends;
+    /// no_index if there is none.
+    Index facing_corner(std::span<const Point> points, Index line, Index p) const;
     /// Returns whether p lies between the lines of a sharp corner at vertex u. Exact.
     bool in_sharp_corner(std::span<const Point> points, Index u, Point p) const;
 
@@ -86,8 +95,12 @@ public:
 
 private:
     void find_corners(std::span<const Point> points, const Tris& tris);
-    /// Returns the vertex at which the lines of a and b meet at less than 60 degrees; no_index if there is none.
-    Index sharp_apex(std::span<const Point> points, Index a, Index b) const;
+    /// Returns the line that ends at this corner and that v splits or ends; no_index if there is none.
+    Index line_from(Index corner, Index v) const;
+    /// Returns whether lines of a and b meet at this corner at less than 60 degrees.
+    bool is_sharp_apex(std::span<const Point> points, Index corner, Index a, Index b) const;
+    /// Returns the corner that join_sharp_lines() speaks of; no_index if there is none.
+    Index sharp_apex(std::span<const Point> points, const SidedEdge& edge) const;
 
     std::vector<Segment> lines_;                            ///< the ends of each line
     std::vector<double> unresolved_distances_;              ///< from each line

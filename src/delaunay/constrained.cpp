@@ -36,6 +36,7 @@ struct MergedInput {
     std::span<const Segment> segments;        ///< between points that stand for themselves
     std::span<const std::uint32_t> stand_in;  ///< empty where all do
     std::optional<DecompositionOptions> decomposition{};
+    double snap = 0;  ///< segments that may cross are led through points this near
 
     bool stands_for_itself(std::size_t i) const { return stand_in.empty() || stand_in[i] == i; }
 };
@@ -126,9 +127,9 @@ std::optional<TriangulatedPieces> try_planar(const MergedInput& input) {
 
 /// Returns planarize() of the points that stand for themselves.
 PlanarSegments planarize_merged(const MergedInput& input) {
-    if (input.stand_in.empty()) return planarize(input.points, input.segments);
+    if (input.stand_in.empty()) return planarize(input.points, input.segments, input.snap);
     const DistinctInput distinct = distinct_input(input);
-    PlanarSegments planar = planarize(distinct.points, distinct.segments);
+    PlanarSegments planar = planarize(distinct.points, distinct.segments, input.snap);
     const auto renumber = [&](VertexId& v) {
         const std::size_t i = v.index();
         const std::size_t count = distinct.points.size();
@@ -144,8 +145,9 @@ PlanarSegments planarize_merged(const MergedInput& input) {
 /// Triangulates points and segments that may cross. `steiner_points` receives the crossing points.
 TriangulatedPieces triangulate_crossing(const MergedInput& input, std::vector<Point>& steiner_points) {
     // Most segments do not cross after all, and the insertion of those is quicker than the search for crossings.
-    if (auto planar = try_planar(input); planar && !may_pass_beside_vertex(input.points, input.segments, *planar))
-        return std::move(*planar);
+    if (input.snap == 0)
+        if (auto planar = try_planar(input); planar && !may_pass_beside_vertex(input.points, input.segments, *planar))
+            return std::move(*planar);
     PlanarSegments planar = planarize_merged(input);
     steiner_points = std::move(planar.steiner_points);
     std::vector<Point> all(input.points.begin(), input.points.end());
@@ -153,7 +155,7 @@ TriangulatedPieces triangulate_crossing(const MergedInput& input, std::vector<Po
     std::vector<std::uint32_t> stand_in(input.stand_in.begin(), input.stand_in.end());
     while (!stand_in.empty() && stand_in.size() < all.size()) stand_in.push_back(static_cast<Index>(stand_in.size()));
     const std::vector<Segment> parts = segments_of(planar.pieces);
-    TriangulatedPieces result = triangulate_planar({all, parts, stand_in, input.decomposition});
+    TriangulatedPieces result = triangulate_planar({all, parts, stand_in, input.decomposition, 0});
     assert(result.pieces.size() == parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) planar.pieces[i].repeats = result.pieces[i].repeats;
     result.pieces = std::move(planar.pieces);
@@ -268,7 +270,7 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
         core::require_indices_below(points.size(), segments);
         check_closed_loops(segments, points.size(), *rule);
     }
-    const MergedInput input{points, segments, stand_in, options.decomposition};
+    const MergedInput input{points, segments, stand_in, options.decomposition, options.merge_distance.value_or(0)};
     const TriangulatedPieces triangulated = options.crossings == Crossings::insert
                                                 ? triangulate_crossing(input, result.steiner_points)
                                                 : triangulate_planar(input);

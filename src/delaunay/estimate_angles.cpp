@@ -69,7 +69,6 @@ private:
     double between(Place from, Place to, int depth);
     double distance_from(Point p);
     double distance_to_border(Point p, Index a, Index b) const;
-    bool faces_in_corner(Point p, Index corner, Index far) const;
 };
 
 double ChannelSurvey::along(Index t, unsigned e) {
@@ -130,27 +129,10 @@ double ChannelSurvey::distance_from(Point p) {
     return std::max(nearest, shortest_edge(magnitude(p), length_));
 }
 
-/// Returns the distance from p to a constrained edge; infinite if that is another side of a corner, and does not count.
+/// Returns the distance from p to a constrained edge; infinite if that is another side of a corner: edges that meet are
+/// split at the same distances from their corner, and what lies between is not divided further.
 double ChannelSurvey::distance_to_border(Point p, Index a, Index b) const {
-    const double d = core::distance_to_segment(p, point(a), point(b));
-    if (!is_end(a) && !is_end(b)) return d;
-    return (is_end(a) ? faces_in_corner(p, a, b) : faces_in_corner(p, b, a)) ? d : HUGE_VAL;
-}
-
-/// Returns whether the edge from `corner`, an end of this edge, to `far` counts as opposite to the place p. In sharp
-/// corners edges are split on common circles, between which angles are exempt. But the outermost part of the shorter
-/// edge, a third at least, has no counterpart on the longer one, unless their lengths match.
-bool ChannelSurvey::faces_in_corner(Point p, Index corner, Index far) const {
-    constexpr double outermost = 2.0 / 3, cos_60_degrees = 0.5, min_mismatch = 0.1;
-    if (is_end(far)) return false;  // the edge itself, seen round one of its ends
-    const Point other = point(far) - point(corner), own = corner == ends_[0] ? extent_ : -extent_;
-    const auto [shorter, longer] = std::minmax({length_, length(other)});
-    const double from_corner = distance(point(corner), p);
-    if (from_corner < outermost * shorter || from_corner > shorter) return false;
-    if (dot(own, other) < cos_60_degrees * shorter * longer) return false;
-    // Radii of circles are powers of two, so lengths match, too, if their ratio is one.
-    const double matching = shorter * std::exp2(std::round(std::log2(longer / shorter)));
-    return std::abs(matching - longer) * longer > min_mismatch * std::abs(cross(own, other));
+    return is_end(a) || is_end(b) ? HUGE_VAL : core::distance_to_segment(p, point(a), point(b));
 }
 
 /// The two nearest neighbours of a vertex.

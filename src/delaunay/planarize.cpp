@@ -51,10 +51,15 @@ constexpr int max_planarize_rounds = 1000;
 /// Pieces are led through vertices within this many roundings of a segment's largest coordinate: four ulps.
 constexpr double tolerance_roundings = 8;
 constexpr double max_bend_roundings = 32;
+/// How far pieces may stand from their segments, in tolerances that the caller asks for: as for roundings.
+constexpr double max_bend_snaps = max_bend_roundings / tolerance_roundings;
 
 /// Edges are led through vertices beside them that stand further from both ends than this many tolerances, so that they
 /// turn by less than 30 degrees there: nearer to an end, it is two vertices that rounding hardly tells apart.
 constexpr double end_tolerances = 4;
+/// The same for tolerances that the caller asks for: no two points of the input are nearer to each other than these, so
+/// where a vertex is beside an edge, but nearer to an end, there are angles of more than 45 degrees.
+constexpr double end_snaps = 0.7;
 /// Such vertices stand within this many tolerances of the whole segment. Edges that are bent already may so bend a
 /// little more, and max_bend() leaves room.
 constexpr double beside_tolerances = 2;
@@ -94,8 +99,8 @@ double roundings_of(Point a, Point b, double roundings) {
 /// Splits segments in rounds.
 class Planarizer {
 public:
-    Planarizer(std::span<const Point> points, std::span<const Segment> segments)
-        : segments_(segments), input_count_(points.size()), points_(points.begin(), points.end()) {
+    Planarizer(std::span<const Point> points, std::span<const Segment> segments, double snap)
+        : segments_(segments), snap_(snap), input_count_(points.size()), points_(points.begin(), points.end()) {
         pieces_.reserve(segments.size());
         for (std::size_t i = 0; i < segments.size(); ++i)
             if (segments[i].a != segments[i].b) pieces_.push_back({segments[i], static_cast<Index>(i)});
@@ -149,7 +154,7 @@ private:
     }
     double tolerance(Index segment) const {
         const auto [a, b] = ends_of(segment);
-        return roundings_of(a, b, tolerance_roundings);
+        return std::max(roundings_of(a, b, tolerance_roundings), snap_);
     }
     double distance_from(Index segment, Point p) const {
         const auto [a, b] = ends_of(segment);
@@ -185,6 +190,7 @@ private:
     }
 
     std::span<const Segment> segments_;
+    double snap_;  ///< tolerance that the caller asks for
     std::size_t input_count_;
     std::vector<Point> points_;  ///< of the input, then the crossings
     std::vector<SegmentPiece> pieces_;
@@ -211,7 +217,8 @@ bool Planarizer::passes_beside(std::size_t edge, Index v) const {
     const double reach = tolerances_[edge], length = std::sqrt(squared_length(along));
     if (!(std::abs(cross(along, to_v)) <= reach * length)) return false;
     const double at = dot(to_v, along) / length;
-    if (!(at > end_tolerances * reach) || !(length - at > end_tolerances * reach)) return false;
+    const double from_ends = (reach > snap_ ? end_tolerances : end_snaps) * reach;
+    if (!(at > from_ends) || !(length - at > from_ends)) return false;
     if (!shortens(points_[a], points_[b], points_[v])) return false;
     const auto parents = edges_.parents_of(edge);
     return std::all_of(parents.begin(), parents.end(),
@@ -429,7 +436,7 @@ void Planarizer::refuse_bends(const std::vector<SegmentPiece>& pieces) const {
         const VertexId v = piece.segment.b;
         const Point at = points_[v.index()];
         const auto [a, b] = ends_of(piece.parent);
-        if (distance_from(piece.parent, at) <= max_bend(a, b)) continue;
+        if (distance_from(piece.parent, at) <= std::max(max_bend(a, b), max_bend_snaps * snap_)) continue;
         const auto other = std::find_if(pieces.begin(), pieces.end(), [&](const SegmentPiece& o) {
             return o.parent != piece.parent && (o.segment.a == v || o.segment.b == v);
         });
@@ -451,8 +458,8 @@ void Planarizer::fail(const EdgeCrossing& c) const {
 
 }  // namespace
 
-PlanarSegments planarize(std::span<const Point> points, std::span<const Segment> segments) {
-    return Planarizer(points, segments).run();
+PlanarSegments planarize(std::span<const Point> points, std::span<const Segment> segments, double snap) {
+    return Planarizer(points, segments, snap).run();
 }
 
 double max_bend(Point a, Point b) { return roundings_of(a, b, max_bend_roundings); }

@@ -21,7 +21,9 @@ struct PlanarSegments {
 /// points depend on neither the order nor the direction of the segments. Segments from a point to itself have no
 /// pieces. Throws InputError, with two segments, where rounding would bend a segment further; in trials only one of a
 /// thousand inputs whose coordinates spread over a hundred decades did.
-PlanarSegments planarize(std::span<const Point> points, std::span<const Segment> segments);
+/// Segments are also led through vertices at most `snap` away, where these stand apart from the ends of what is led
+/// through them; pieces then stay within four times this distance of their segment, if that is more than max_bend().
+PlanarSegments planarize(std::span<const Point> points, std::span<const Segment> segments, double snap = 0);
 
 /// Returns how far pieces may stand from the segment a-b that they are parts of: 16 units in the last place of its
 /// largest coordinate, or 4e-60 if that is more, since coordinates below 1e-60 are rounded to 0 or 1e-60.

@@ -124,7 +124,7 @@ bool SplittingRefiner::must_mend(Index t) const {
     const Tri& tri = tris_[t];
     if (is_within_rounding(tri)) return false;
     const unsigned e = shape_of(tri).shortest();
-    return !lines_.join_shells(points_, tri.v[next(e)], tri.v[previous(e)]);
+    return !lines_.join_shells(points_, {tri.v[next(e)], tri.v[previous(e)], tri.v[e]});
 }
 
 void SplittingRefiner::vertex_inserted(Index t, std::size_t) {
@@ -149,9 +149,31 @@ Point SplittingRefiner::division_point(Index t, Index a, Index b) const {
         const double parts = std::ceil(distance(points_[a], points_[b]) / (border_share * h));
         if (parts < 0x1p20) return points_[a] + (std::floor(0.5 * parts) / parts) * (points_[b] - points_[a]);
     }
-    if (const double share = share_at_split(t, edge_between(tris_[t], a, b)); share > 0)
+    const unsigned e = edge_between(tris_[t], a, b);
+    const double mirrored = share_in_corner(a, b, tris_[t].v[e]);
+    if (const double share = mirrored > 0 ? mirrored : share_at_split(t, e); share > 0)
         return points_[a] + share * (points_[b] - points_[a]);
     return lines_.division_point(points_, a, b);
+}
+
+/// Returns at which share to split the edge a-b of a line opposite vertex p on another line of the same sharp corner: as
+/// far from the corner as p is; 0 if p is on no such line, or a part would be shorter than the distance from p.
+///
+///                 .--p------       Wherever vertices of one line come to stand, the same radii split the other. What
+///       corner --------o----       lies between has its shortest edges across, which are left as they are, so that
+///                                  vertices that the lines' outer sides ask for do not fill the corner.
+///
+/// The new vertex is nearest to p, and so is not the begin of ever shorter edges. Source: circles round corners: J.
+/// Ruppert, J. Algorithms 18 (1995), "corner lopping"; which edges may be shorter: J. R. Shewchuk, Comput. Geom. 22 (2002),
+/// section 4.
+double SplittingRefiner::share_in_corner(Index a, Index b, Index p) const {
+    const Index line = lines_.line_of_edge(a, b), corner = lines_.facing_corner(points_, line, p);
+    if (corner == no_index) return 0;
+    const double to_a = distance(points_[corner], points_[a]), to_b = distance(points_[corner], points_[b]);
+    const double share = (distance(points_[corner], points_[p]) - to_a) / (to_b - to_a);
+    const double across = distance(points_[a] + share * (points_[b] - points_[a]), points_[p]);
+    const double shorter = std::min(share, 1 - share) * std::abs(to_b - to_a);
+    return shorter >= across && across >= unresolved_distance(line) ? share : 0;
 }
 
 /// Returns at which share of edge e of triangle t, which is part of a line, to split it so that its parts become no
@@ -436,7 +458,8 @@ RefineStats SplittingRefiner::count_leftovers(double min_angle_deg) const {
         const Point middle = (1.0 / 3) * (points_[tri.v[0]] + points_[tri.v[1]] + points_[tri.v[2]]);
         const Index v = tri.v[next(e)], w = tri.v[previous(e)];
         stats.exempt +=
-            within_rounding || is_unresolved(points_[v], points_[w]) || lines_.join_sharp_lines(points_, v, w) ||
+            within_rounding || is_unresolved(points_[v], points_[w]) ||
+            lines_.join_sharp_lines(points_, {v, w, tri.v[e]}) ||
             std::any_of(tri.v, tri.v + 3, [&](Index u) { return lines_.in_sharp_corner(points_, u, middle); });
     }
     count_refused(stats);

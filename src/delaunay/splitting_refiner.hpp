@@ -96,6 +96,7 @@ private:
     bool is_within_rounding(const Tri& tri) const;
     bool is_too_long(Index t, Index a, Index b) const;
     Point division_point(Index t, Index a, Index b) const;
+    double share_in_corner(Index a, Index b, Index p) const;
     double share_at_split(Index t, unsigned e) const;
     void queue_edges(Index t);
     std::optional<QueuedEdge> first_on_way(Index t, Point p) const;

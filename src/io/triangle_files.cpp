@@ -116,8 +116,8 @@ void refuse_duplicates(const TriangleInput& input) {
         const std::size_t first = order[i - 1], second = order[i];
         if (input.points[first] == input.points[second])
             throw InputError({input.point_file.string(), input.lines[second], input.points[second]},
-                             fmt::format("vertices {} and {} (line {}) are the same", second + input.first_index,
-                                         first + input.first_index, input.lines[first]));
+                             fmt::format("vertices {} and {} (line {}) are the same, which --merge takes for one",
+                                         second + input.first_index, first + input.first_index, input.lines[first]));
     }
 }
 
@@ -271,7 +271,7 @@ namespace lamina {
 
 using namespace io;
 
-TriangleInput read_triangle_files(const fs::path& file, const std::string& format) {
+TriangleInput read_triangle_files(const fs::path& file, const std::string& format, EqualPoints equal) {
     const bool has_segments = is_poly(file, format);
     TriangleInput input;
     const std::string bytes = read_file(file);
@@ -292,7 +292,7 @@ TriangleInput read_triangle_files(const fs::path& file, const std::string& forma
     } else if (in.next()) {
         in.fail("something follows the last vertex");
     }
-    refuse_duplicates(input);
+    if (equal == EqualPoints::refuse) refuse_duplicates(input);
     return input;
 }
 

@@ -189,5 +189,50 @@ TEST(DelaunayCommand, SegmentsThatChangeNothingAreCounted) {
     EXPECT_EQ(read_triangle_files(folder / "a.1.poly").segments.size(), 4u);
 }
 
+TEST(DelaunayCommand, MergesEqualAndClosePointsOnRequest) {
+    const TemporaryFolder folder;
+    folder.write("ring.poly",
+                 "5 2 0 0\n1 0 0\n2 2 0\n3 2 2\n4 0 2\n5 0 0\n5 0\n1 1 2\n2 2 3\n3 3 4\n4 4 5\n5 5 1\n0\n");
+    folder.write("near.poly", "4 2 0 0\n1 0 0\n2 2 0\n3 1 1e-7\n4 1 1\n2 0\n1 1 2\n2 3 4\n0\n");
+    folder.write("same.node", "4 2 0 0\n1 0 0\n2 1 0\n3 0 1\n4 1 0\n");
+    const ProgramRun refused = run_lamina(folder, {"delaunay", "ring.poly"});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.err.find("--merge"), std::string::npos) << refused.err;
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--merge"}, {"--merge", "0"}, {"--merge", "1e-9", "--min-angle", "25"}}) {
+        std::vector<std::string> words{"delaunay", "ring.poly", "-o", "out", "--report", "r.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramRun run = run_lamina(folder, words);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        const auto report = nlohmann::json::parse(folder.read("r.json"));
+        EXPECT_EQ(report["merged_points"], 1);
+        EXPECT_EQ(report["zero_length_segments"], 1);
+        EXPECT_EQ(report["angles_below_bound"], 0);
+    }
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "same.node", "--merge"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "same.node", "--merge", "-1"}).exit_code, 2);
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "same.node", "--merge", "wide"}).exit_code, 2);
+    // Segments are led through points that are that near.
+    const ProgramRun near = run_lamina(
+        folder, {"delaunay", "near.poly", "--keep-hull", "--insert-crossings", "--merge", "1e-6", "-o", "out"});
+    EXPECT_EQ(near.exit_code, 0) << near.err;
+    EXPECT_EQ(read_triangle_files(folder / "out.poly").segments.size(), 3u);
+}
+
+TEST(DelaunayCommand, FilesWithoutPointsAreRefusedByThatName) {
+    const TemporaryFolder folder;
+    folder.write("empty.node", "0 2 0 0\n");
+    folder.write("empty.poly", "0 2 0 0\n0 0\n0\n");
+    for (const std::string file : {"empty.node", "empty.poly"}) {
+        for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--min-angle", "20"}}) {
+            std::vector<std::string> words{"delaunay", file};
+            words.insert(words.end(), more.begin(), more.end());
+            const ProgramRun run = run_lamina(folder, words);
+            EXPECT_EQ(run.exit_code, 3);
+            EXPECT_NE(run.err.find("the file holds no points"), std::string::npos) << run.err;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lamina::test

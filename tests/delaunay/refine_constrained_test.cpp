@@ -459,5 +459,103 @@ TEST(ConstrainedRefinement, TakesTriangulationsOfMergedPoints) {
     }
 }
 
+/// Adds a segment that may meet others; its ends may be points that are there already.
+void add_any_segment(PlanarGraph& graph, Point a, Point b) {
+    const auto number_of = [&](Point p) {
+        const auto found = std::find(graph.points.begin(), graph.points.end(), p);
+        const auto number = static_cast<std::size_t>(found - graph.points.begin());
+        if (found == graph.points.end()) graph.points.push_back(p);
+        return VertexId{number};
+    };
+    const VertexId from = number_of(a);
+    graph.segments.push_back({from, number_of(b)});
+}
+
+/// Returns the result of a refinement to angles of 20.7 degrees, and checks that it is valid.
+ConstrainedRefinement refine_near_coincident(const PlanarGraph& graph, const ConstrainedOptions& options) {
+    const auto t = triangulate(graph.points, graph.segments, options);
+    ConstrainedRefinement r =
+        refine(graph.points, t, SizeField(1e6), ConstrainedRefineOptions{.refine = {.min_angle_deg = 20.7}});
+    std::vector<Point> points = graph.points;
+    points.insert(points.end(), r.steiner_points.begin(), r.steiner_points.end());
+    expect_valid(points, r.triangles, r.segments);
+    EXPECT_EQ(r.stats.below_bound, r.stats.exempt);
+    return r;
+}
+
+/// Three segments: the last one passes the ends of the first one by 2e-7 and 9e-7, and crosses it at 1e-6 rad.
+PlanarGraph near_coincident_segments() {
+    PlanarGraph graph;
+    add_any_segment(graph, {17.064112, -17.96008}, {16.249594, -17.145563});
+    add_any_segment(graph, {-25.290726, -24.435482}, {-5.6608872, -24.435482});
+    add_any_segment(graph, {17.878626, -18.774595}, {15.435078, -16.331045});
+    return graph;
+}
+
+/// Four segments that enclose a sliver of 1.15 x 1.3e-6.
+PlanarGraph four_near_parallel_segments() {
+    PlanarGraph graph;
+    add_any_segment(graph, {15.435077667236328, 16.331045150756836}, {20.322175979614258, 21.218143463134766});
+    add_any_segment(graph, {18.69314193725586, 19.589109420776367}, {19.507659912109375, 20.40362548828125});
+    add_any_segment(graph, {19.507659912109375, 21.218143463134766}, {19.507659912109375, 20.40362548828125});
+    add_any_segment(graph, {17.878625869750977, 18.774595260620117}, {19.507659912109375, 20.40362548828125});
+    return graph;
+}
+
+TEST(ConstrainedRefinement, LeavesTheSliversOfSharpCornersAlone) {
+    const auto inside = refine_near_coincident(four_near_parallel_segments(),
+                                               {.keep = KeptRegion::inside_segments, .crossings = Crossings::insert});
+    EXPECT_LE(inside.triangles.size(), 60u);
+    const auto hull = refine_near_coincident(near_coincident_segments(), {.crossings = Crossings::insert});
+    EXPECT_LE(hull.triangles.size(), 60u);
+    // Two segments of any lengths that meet at any small angle, in a square: their outer sides ask for vertices.
+    for (const double angle : {1e-2, 1e-4, 1e-6, 1e-8}) {
+        for (const double length : {0.3, 0.71, 1.0, 1.5}) {
+            PlanarGraph graph;
+            graph.add_loop({{-1, -2}, {3, -2}, {3, 2}, {-1, 2}});
+            add_any_segment(graph, {0, 0}, {1, 0});
+            add_any_segment(graph, {0, 0}, {length, angle * length});
+            const auto r = refine_near_coincident(graph, {});
+            EXPECT_LE(r.triangles.size(), 1500u) << angle << " " << length;
+        }
+    }
+}
+
+TEST(ConstrainedRefinement, NearCoincidentInputSnapsWithinATolerance) {
+    const ConstrainedOptions snapping{.crossings = Crossings::insert, .merge_distance = 1e-5};
+    for (const PlanarGraph& graph : {four_near_parallel_segments(), near_coincident_segments()}) {
+        EXPECT_LE(refine_near_coincident(graph, snapping).triangles.size(), 60u);
+    }
+    // Random segments, each with a copy whose ends are up to half a tolerance, or up to five tolerances, away.
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Random random(seed);
+        constexpr double tolerance = 1e-3;
+        const double shift = (seed % 2 == 0 ? 0.35 : 5) * tolerance;
+        PlanarGraph graph;
+        const auto moved = [&](Point p) {
+            return p + Point{shift * (2 * random.real() - 1), shift * (2 * random.real() - 1)};
+        };
+        for (int i = 0; i < 12; ++i) {
+            const Point a{random.real(), random.real()}, b{random.real(), random.real()};
+            add_any_segment(graph, a, b);
+            add_any_segment(graph, moved(a), moved(b));
+        }
+        const auto t =
+            triangulate(graph.points, graph.segments, {.crossings = Crossings::insert, .merge_distance = tolerance});
+        std::vector<Point> points = graph.points;
+        points.insert(points.end(), t.steiner_points.begin(), t.steiner_points.end());
+        expect_valid(points, t.triangles, t.segments);
+        for (std::size_t i = 0; i < t.segments.size(); ++i) {
+            const Segment parent = graph.segments[t.parents[i]];
+            const Point a = points[parent.a.index()], b = points[parent.b.index()];
+            for (const VertexId v : {t.segments[i].a, t.segments[i].b}) {
+                const Point p = points[v.index()], along = b - a;
+                const double share = std::clamp(dot(p - a, along) / squared_length(along), 0.0, 1.0);
+                EXPECT_LE(distance(p, a + share * along), 5 * tolerance) << seed;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lamina::test
