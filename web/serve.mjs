@@ -19,9 +19,10 @@ export const isolation = {"cross-origin-opener-policy": "same-origin", "cross-or
 export function serve(folder, port = 0, isolated = true) {
   const root = resolve(folder);
   const server = createServer(async (request, response) => {
-    const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
-    const file = join(root, normalize(path.endsWith("/") ? `${path}index.html` : path));
+    // What is no address throws, too, and must not end the server.
     try {
+      const path = decodeURIComponent(new URL(request.url, "http://localhost").pathname);
+      const file = join(root, normalize(path.endsWith("/") ? `${path}index.html` : path));
       if (!file.startsWith(root)) throw new Error("outside");
       const bytes = await readFile(file);
       response.writeHead(200, {

@@ -58,8 +58,53 @@ OptionValue value_of(const toml::node& node, const std::string& origin, bool are
     throw UsageError(origin + ": must be a number, a string, true, false or an array of strings");
 }
 
+/// Returns the position behind the TOML string that begins at `at`, or where it is not closed, behind its line or the text.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+    const char quote = text[at];
+    const bool multi_line = text.substr(at).starts_with(std::string(3, quote));
+    for (at += multi_line ? 3 : 1; at < text.size(); ++at) {
+        if (text[at] == '\\' && quote == '"') {
+            ++at;
+        } else if (!multi_line && (text[at] == quote || text[at] == '\n')) {
+            return at + 1;
+        } else if (multi_line && text.substr(at).starts_with(std::string(3, quote))) {
+            return at + 3;
+        }
+    }
+    return text.size();
+}
+
+/// Throws InputError where a key has more parts ("a.b.c") than any could have. The library makes a table of each part and
+/// destroys nested tables by recursion, which exhausts the stack; what brackets nest it limits itself.
+void require_shallow_keys(std::string_view text, const std::filesystem::path& file) {
+    constexpr std::size_t max_dots = 8;
+    constexpr std::string_view ends_key = "\n=,[]{}";
+    std::size_t line = 1, dots = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at];
+        if (c == '"' || c == '\'') {
+            const std::size_t end = end_of_string(text, at);
+            line += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
+                                                        text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+            at = end;
+            continue;
+        }
+        if (c == '#') {
+            at = std::min(text.find('\n', at), text.size());
+            continue;
+        }
+        if (c == '\n') ++line;
+        dots = ends_key.find(c) != std::string_view::npos ? 0 : dots + (c == '.' ? 1 : 0);
+        if (dots > max_dots)
+            throw InputError({file.string(), line, std::nullopt},
+                             fmt::format("a key of more than {} parts: options have one", max_dots));
+        ++at;
+    }
+}
+
 toml::table parse(const std::filesystem::path& file) {
     const std::string text = read_file(file, max_text_bytes);
+    require_shallow_keys(text, file);
     try {
         return toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {

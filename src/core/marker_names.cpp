@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include "core/text.hpp"
@@ -103,7 +104,8 @@ MarkerKind kind_of_name(std::string_view name) {
 
 std::vector<std::string> legal_marker_names(std::span<const NamedMarker> markers) {
     std::vector<std::string> names(markers.size());
-    std::set<std::string> used;  // in lower case
+    std::set<std::string> used;                // in lower case
+    std::map<std::string, std::size_t> tried;  // the last number behind each stem
     for (std::size_t i = 0; i < markers.size(); ++i)
         if (defect_of(markers[i]).empty() && used.insert(lower_case(markers[i].name)).second)
             names[i] = markers[i].name;
@@ -111,8 +113,8 @@ std::vector<std::string> legal_marker_names(std::span<const NamedMarker> markers
         if (!names[i].empty()) continue;
         const std::string stem = changed(markers[i]);
         names[i] = stem;
-        for (std::size_t number = 2; !used.insert(lower_case(names[i])).second; ++number) {
-            const std::string suffix = concat("_", number);
+        while (!used.insert(lower_case(names[i])).second) {
+            const std::string suffix = concat("_", ++tried.try_emplace(stem, 1).first->second);
             names[i] = stem.substr(0, max_marker_name - suffix.size()) + suffix;
         }
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -164,16 +165,20 @@ void check_side_by_side(const std::vector<Element>& elements) {
     std::vector<Box> boxes;
     boxes.reserve(elements.size());
     for (const Element& e : elements) boxes.push_back(core::bounding_box(e.points));
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-        const Element& inner = elements[i];
-        for (std::size_t j = 0; j < elements.size(); ++j) {
-            if (i == j || !boxes[j].contains(inner.points[0]) || !contains(elements[j], inner.points[0])) continue;
-            throw InputError(
-                {inner.file, line_near(inner, 0, true), inner.points[0]},
-                fmt::format("'{}' lies inside '{}' ({}); elements must lie side by side{}", inner.name,
-                            elements[j].name, elements[j].file, advice_on_separate_sections(inner, elements[j])));
-        }
-    }
+    std::optional<std::pair<std::size_t, std::size_t>> first;  // the first element that lies inside, and round it
+    const auto look = [&](std::size_t i, std::size_t j) {
+        const Point p = elements[i].points[0];
+        if (boxes[j].contains(p) && contains(elements[j], p)) first = std::min(first.value_or(std::pair(i, j)), {i, j});
+    };
+    core::BoxTree(boxes).overlapping_pairs([&](std::size_t i, std::size_t j) {
+        look(i, j);
+        look(j, i);
+    });
+    if (!first) return;
+    const Element &inner = elements[first->first], &outer = elements[first->second];
+    throw InputError({inner.file, line_near(inner, 0, true), inner.points[0]},
+                     fmt::format("'{}' lies inside '{}' ({}); elements must lie side by side{}", inner.name, outer.name,
+                                 outer.file, advice_on_separate_sections(inner, outer)));
 }
 
 }  // namespace

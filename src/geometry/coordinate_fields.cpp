@@ -88,7 +88,7 @@ SplitLine split(std::string_view s, bool comma_separates) {
     const auto is_separator = [&](char c) { return c == ';' || (comma_separates && c == ','); };
     bool after_separator = false;
     std::size_t i = 0;
-    while (i < s.size()) {
+    while (i < s.size() && result.texts.size() < max_fields) {
         if (is_space(s[i])) {
             ++i;
         } else if (is_separator(s[i])) {

@@ -1,6 +1,7 @@
 // One line of an airfoil file -> fields: numbers and words.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,7 +31,10 @@ struct FieldList {
     bool has_decimal_commas = false;    ///< commas were read as decimal points
 };
 
-/// Splits a line into fields. White space separates fields; so does one comma or semicolon with white space round it.
+/// How many fields of a line are looked at. No row of a table has as many; a file without line breaks would have millions.
+inline constexpr std::size_t max_fields = 1000;
+
+/// Splits a line into fields, of which there are at most `max_fields`. White space separates fields; so does one comma or semicolon with white space round it.
 /// Two separators in a row enclose an empty field. Quotes round a field, or round the whole line, are removed. Where
 /// all fields fit, commas are decimal signs instead. Numbers are decimal, correctly rounded and independent of the
 /// locale; Fortran's D exponents and a leading + are understood.

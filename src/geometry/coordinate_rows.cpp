@@ -151,6 +151,29 @@ void read_line(std::string_view line, std::size_t number, bool is_first_row, std
     }
 }
 
+/// Leaves out rows without numbers where more than `max_rows_between` of them follow each other: only the first ones and the
+/// last text tell anything, and a file of empty lines or words must not take many times its size.
+class RowThinner {
+public:
+    /// Looks at the rows from `first` on, which were just added.
+    void thin(std::vector<TextRow>& rows, std::size_t first) {
+        if (rows.size() - first != 1 || rows.back().kind == RowKind::numbers) {
+            between_ = 0;
+            return;
+        }
+        if (++between_ <= max_rows_between) return;
+        TextRow& before = rows[first - 1];
+        const bool replaces = rows.back().kind == RowKind::text && before.damage.empty();
+        if (replaces && before.kind != RowKind::text) return;
+        if (replaces) before = std::move(rows.back());
+        rows.pop_back();
+    }
+
+private:
+    static constexpr std::size_t max_rows_between = 1000;
+    std::size_t between_ = 0;  ///< rows since the last numbers
+};
+
 }  // namespace
 
 std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
@@ -158,6 +181,7 @@ std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
         throw InputError({file, 1, {}}, "the text is UTF-16; save it as UTF-8 or ASCII");
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of UTF-8
     std::vector<TextRow> rows;
+    RowThinner thinner;
     bool is_first_row = true;
     std::size_t number = 0;
     while (!text.empty()) {
@@ -166,7 +190,9 @@ std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
         ++number;
         if (line.find('\0') != std::string_view::npos)
             throw InputError({file, number, {}}, "not a text file (NUL byte)");
+        const std::size_t before = rows.size();
         read_line(with_plain_signs(line), number, is_first_row, rows);
+        thinner.thin(rows, before);
         if (rows.back().kind != RowKind::blank && rows.back().kind != RowKind::comment) is_first_row = false;
         if (end == std::string_view::npos) break;
         text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);

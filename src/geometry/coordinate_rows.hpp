@@ -43,7 +43,8 @@ struct TextRow {
     std::string damage_in_run;
 };
 
-/// Returns the rows of a text: one for each line, or several for a line that lists points in brackets. Lines end in LF,
+/// Returns the rows of a text: one for each line, or several for a line that lists points in brackets. Of very long runs of
+/// rows without numbers only the first ones and the last text stay. Lines end in LF,
 /// CR LF or CR. Throws InputError, which names `file`, for NUL bytes.
 std::vector<TextRow> read_rows(std::string_view text, const std::string& file);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 
@@ -29,15 +30,17 @@ std::vector<std::string> names_by_file(const std::vector<Element>& elements) {
     std::vector<std::string> stems;
     stems.reserve(elements.size());
     for (const Element& e : elements) stems.push_back(base_name(e));
-    const auto is_unique = [&](const std::string& stem) { return std::count(stems.begin(), stems.end(), stem) == 1; };
+    std::map<std::string, std::size_t> count, tried;  // elements of a stem, and numbers that were tried for them
+    for (const std::string& stem : stems) ++count[stem];
+    const auto is_unique = [&](const std::string& stem) { return count[stem] == 1; };
     std::set<std::string> used;
     for (const std::string& stem : stems)
         if (is_unique(stem)) used.insert(stem);
     std::vector<std::string> names = stems;
     for (std::size_t i = 0; i < stems.size(); ++i) {
         if (is_unique(stems[i])) continue;
-        for (std::size_t number = 1;; ++number) {
-            const std::string suffix = fmt::format("_{}", number);
+        for (;;) {
+            const std::string suffix = fmt::format("_{}", ++tried[stems[i]]);
             names[i] = stems[i].substr(0, max_marker_name - suffix.size()) + suffix;
             if (used.insert(names[i]).second) break;
         }

@@ -216,14 +216,22 @@ std::size_t VtkXmlFile::start_of(const ArrayHeader& array, const std::string& na
     return appended_start_ + array.at;
 }
 
-/// Returns the data of a binary array, decoded and decompressed.
-std::string VtkXmlFile::plain_bytes(const std::string& name) const {
-    const ArrayHeader& stored = header_of(name);
-    ByteStream stream(*this, name, start_of(stored, name), stored.appended ? appended_encoding_ : stored.encoding);
-    return compressed_ ? inflated_bytes(stream, name) : std::string(stream.read(stream.read_number()));
+/// Returns how many values an array may have whose number the file does not announce: names, constraints, the vertices of
+/// cells. Of the last ones a cell has at most four, but for those that are ignored.
+std::size_t VtkXmlFile::most_values(const std::string& name) const {
+    constexpr std::size_t each = 4, of_file = 2;  // numbers of a point or cell; bytes of a compressed byte
+    return std::max(each * (std::min(points_, bytes_.size()) + std::min(cells_, bytes_.size())),
+                    of_file * bytes_.size() / stored_bytes(name));
 }
 
-std::string VtkXmlFile::inflated_bytes(ByteStream& stream, const std::string& name) const {
+/// Returns the data of a binary array, decoded and decompressed. Fails where it is compressed and larger than `most` bytes.
+std::string VtkXmlFile::plain_bytes(const std::string& name, std::size_t most) const {
+    const ArrayHeader& stored = header_of(name);
+    ByteStream stream(*this, name, start_of(stored, name), stored.appended ? appended_encoding_ : stored.encoding);
+    return compressed_ ? inflated_bytes(stream, name, most) : std::string(stream.read(stream.read_number()));
+}
+
+std::string VtkXmlFile::inflated_bytes(ByteStream& stream, const std::string& name, std::size_t most) const {
     const std::size_t blocks = stream.read_number();
     if (blocks == 0) return {};
     const std::size_t block = stream.read_number(), last = stream.read_number();
@@ -231,14 +239,18 @@ std::string VtkXmlFile::inflated_bytes(ByteStream& stream, const std::string& na
         if (!sound) fail(fmt::format("array '{}' has a broken header", name));
     };
     require_sound(blocks <= bytes_.size() / header_bytes_ && last <= block);
+    // The whole size is known before anything is decompressed.
+    if (blocks > 1 ? block > most / (blocks - 1) : (last > 0 ? last : block) > most)
+        fail(fmt::format("array '{}' would unpack to more values than the file announces", name));
     std::vector<std::size_t> sizes(blocks);
     for (std::size_t& compressed : sizes) compressed = stream.read_number();
     std::string whole;
     for (std::size_t i = 0; i < blocks; ++i) {
         const std::size_t expected = i + 1 == blocks && last > 0 ? last : block;
         const std::string_view compressed = stream.read(sizes[i]);
-        // zlib compresses nothing to less than a thousandth, so a damaged size is refused before memory is asked for.
-        require_sound(expected / 2000 <= compressed.size());
+        // Deflate makes at most this many bytes of one, so a damaged size is refused before memory is asked for.
+        constexpr std::size_t most_of_a_byte = 1032;
+        require_sound(expected / most_of_a_byte <= compressed.size());
         const std::size_t so_far = whole.size();
         whole.resize(so_far + expected);
         uLongf length = expected;
@@ -306,10 +318,16 @@ std::vector<T> VtkXmlFile::values_of(std::string_view plain, const std::string& 
 }
 
 template <class T>
-std::vector<T> VtkXmlFile::values(const std::string& name) const {
+std::vector<T> VtkXmlFile::values_up_to(const std::string& name, std::size_t most) const {
     const ArrayHeader& stored = header_of(name);
     if (stored.encoding == ArrayEncoding::ascii && !stored.appended) return ascii_values<T>(name);
-    return is_raw(name) ? values_of<T>(raw_bytes(name), name) : values_of<T>(plain_bytes(name), name);
+    if (is_raw(name)) return values_of<T>(raw_bytes(name), name);
+    return values_of<T>(plain_bytes(name, most * stored_bytes(name)), name);
+}
+
+template <class T>
+std::vector<T> VtkXmlFile::values(const std::string& name) const {
+    return values_up_to<T>(name, most_values(name));
 }
 
 bool VtkXmlFile::is_raw(const std::string& name) const {
@@ -358,7 +376,7 @@ std::vector<T> VtkXmlFile::part(const std::string& name, std::size_t first, std:
 
 template <class T>
 std::vector<T> VtkXmlFile::values(const std::string& name, std::size_t expected) const {
-    std::vector<T> result = values<T>(name);
+    std::vector<T> result = values_up_to<T>(name, expected);
     if (result.size() != expected)
         fail(fmt::format("array '{}' has {} values where {} are announced", name, result.size(), expected));
     return result;

@@ -34,10 +34,11 @@ public:
     /// Returns the number of components of an array. Fails where there is no such array.
     std::size_t components(const std::string& name) const;
     /// Returns the values of an array, converted from the type that they are stored in. Fails for integers that T
-    /// cannot hold.
+    /// cannot hold, and for compressed arrays of more values than a file of this size and of so many points and cells
+    /// can mean.
     template <class T>
     std::vector<T> values(const std::string& name) const;
-    /// Fails unless the array has this number of values.
+    /// Fails unless the array has this number of values. No more are decompressed.
     template <class T>
     std::vector<T> values(const std::string& name, std::size_t expected) const;
 
@@ -74,8 +75,11 @@ private:
 
     const ArrayHeader& header_of(const std::string& name) const;
     std::size_t start_of(const ArrayHeader& array, const std::string& name) const;
-    std::string plain_bytes(const std::string& name) const;
-    std::string inflated_bytes(ByteStream& stream, const std::string& name) const;
+    std::string plain_bytes(const std::string& name, std::size_t most) const;
+    std::string inflated_bytes(ByteStream& stream, const std::string& name, std::size_t most) const;
+    std::size_t most_values(const std::string& name) const;
+    template <class T>
+    std::vector<T> values_up_to(const std::string& name, std::size_t most) const;
     template <class T>
     std::vector<T> ascii_values(const std::string& name) const;
     template <class T, class Stored>

@@ -43,13 +43,14 @@ class ValuesInOrder {
 public:
     /// The file must outlive this object.
     ValuesInOrder(const VtkXmlFile& file, std::string name) : file_(&file), name_(std::move(name)) {
-        whole_ = !file.is_raw(name_);
-        if (whole_) window_ = file.values<T>(name_);
-        size_ = whole_ ? window_.size() : file.size(name_);
+        if (!file.is_raw(name_)) window_ = file.values<T>(name_);
+        size_ = file.is_raw(name_) ? file.size(name_) : window_.size();
     }
     /// Fails unless the array has this number of values.
     ValuesInOrder(const VtkXmlFile& file, std::string name, std::size_t expected)
-        : ValuesInOrder(file, std::move(name)) {
+        : file_(&file), name_(std::move(name)) {
+        if (!file.is_raw(name_)) window_ = file.values<T>(name_, expected);
+        size_ = file.is_raw(name_) ? file.size(name_) : expected;
         if (size_ != expected)
             file.fail(fmt::format("array '{}' has {} values where {} are announced", name_, size_, expected));
     }
@@ -66,7 +67,6 @@ public:
 private:
     const VtkXmlFile* file_;
     std::string name_;
-    bool whole_ = false;
     std::size_t first_ = 0, size_ = 0;
     std::vector<T> window_;
 };
