@@ -2,14 +2,23 @@
 // have any names. An edge belongs to the boundary condition that lists it; an edge in none belongs to a marker that its
 // section makes. Source: CGNS Standard Interface Data Structures 3.4; the CGNS mid-level library.
 #include <cgnslib.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -260,12 +269,55 @@ private:
     Mesh mesh_;
 };
 
+/// Returns whether a file is one of ADF, the older kind of CGNS files.
+bool is_adf(const fs::path& file) {
+    constexpr std::string_view name = "ADF Database";
+    constexpr std::streamoff name_at = 4;
+    std::string found(name.size(), '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.seekg(name_at);
+    in.read(found.data(), static_cast<std::streamsize>(found.size()));
+    return in.good() && found == name;
+}
+
+/// Reads the file, or fails to, in a child process that says nothing. Returns whether the child has lived to its end.
+bool survives_reading(const fs::path& file) {
+    std::array<int, 2> pipe{};
+    if (::pipe(pipe.data()) != 0) throw IoError(file.string(), "cannot read: no pipe to a child process");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const rlimit no_core{};
+        setrlimit(RLIMIT_CORE, &no_core);
+        if (const int null = ::open("/dev/null", O_WRONLY); null >= 0) ::dup2(null, STDERR_FILENO);
+        std::signal(SIGABRT, SIG_DFL);
+        try {
+            CgnsReader(file).read();
+        } catch (...) {
+            // The parent meets the same error, and reports it.
+        }
+        const bool told = ::write(pipe[1], "1", 1) == 1;
+        ::_exit(told ? 0 : 1);
+    }
+    ::close(pipe[1]);
+    char answer = 0;
+    ssize_t bytes = 0;
+    while (child > 0 && (bytes = ::read(pipe[0], &answer, 1)) < 0 && errno == EINTR) continue;
+    ::close(pipe[0]);
+    if (child < 0) throw IoError(file.string(), "cannot read: no child process");
+    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
+    return bytes == 1;
+}
+
 }  // namespace
 
 Mesh read_cgns(const fs::path& file) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) throw IoError(file.string(), "cannot read: no such file");
     const std::lock_guard lock(cgns_lock());
+    // The library ends the process by assertions where an ADF file is damaged, so a child process tries it before.
+    if (is_adf(file) && !survives_reading(file))
+        throw InputError({file.string(), 0, {}},
+                         "the file is damaged: the CGNS library breaks off on it (adf2hdf makes HDF5 of a sound one)");
     return CgnsReader(file).read();
 }
 

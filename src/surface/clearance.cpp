@@ -22,6 +22,7 @@ Point farthest_against(Point direction, const Box& box) {
 }  // namespace
 
 ClearanceSearch::ClearanceSearch(const Geometry& geometry) {
+    std::vector<Box> outlines;
     for (const Element& element : geometry.elements) {
         const std::vector<Point>& p = element.points;
         ElementWalls& walls = elements_.emplace_back();
@@ -34,34 +35,38 @@ ClearanceSearch::ClearanceSearch(const Geometry& geometry) {
         }
         walls.tree = core::BoxTree(std::move(boxes));
         walls.normals = core::BoxTree::group_boxes(std::move(normals));
+        outlines.push_back(core::bounding_box(p));
     }
+    outlines_ = core::BoxTree(std::move(outlines));
 }
 
 double ClearanceSearch::clearance(std::size_t element, Point p, Point normal, double min_own_clearance,
                                   double max_clearance) const {
     double nearest = max_clearance;
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-        const ElementWalls& walls = elements_[e];
-        const auto distance_to = [&](const WallEdge& edge) { return core::distance_to_segment(p, edge.a, edge.b); };
-        if (e != element) {
-            nearest = walls.tree.min_distance(p, nearest, [&](std::size_t i) { return distance_to(walls.edges[i]); });
-            continue;
-        }
-        // Two walls of one element face each other where their normals meet. Neither the other side of the body nor the
-        // wall round a corner does.
-        const auto may_face_p = [&](const Box& box, std::size_t level, std::size_t i) {
-            return dot(farthest_against(-normal, box) - p, normal) > 0 &&
-                   dot(normal, farthest_against(normal, walls.normals[level][i])) < max_facing_product;
-        };
-        nearest = walls.tree.min_distance_among(p, nearest, min_own_clearance, may_face_p, [&](std::size_t i) {
-            const WallEdge& edge = walls.edges[i];
-            const Point towards = edge.middle - p;
-            const bool faces_p = dot(towards, normal) > 0 && dot(towards, edge.normal) < 0 &&
-                                 dot(normal, edge.normal) < max_facing_product;
-            return faces_p ? std::max(distance_to(edge), min_own_clearance) : HUGE_VAL;
-        });
-    }
-    return nearest;
+    return outlines_.min_distance(p, max_clearance, [&](std::size_t e) {
+        const std::vector<WallEdge>& edges = elements_[e].edges;
+        const auto distance_to = [&](std::size_t i) { return core::distance_to_segment(p, edges[i].a, edges[i].b); };
+        nearest = e == element ? own_clearance(elements_[e], p, normal, min_own_clearance, nearest)
+                               : elements_[e].tree.min_distance(p, nearest, distance_to);
+        return nearest;
+    });
+}
+
+double ClearanceSearch::own_clearance(const ElementWalls& walls, Point p, Point normal, double min_own_clearance,
+                                      double nearest) {
+    // Two walls of one element face each other where their normals meet. Neither the other side of the body nor the wall
+    // round a corner does.
+    const auto may_face_p = [&](const Box& box, std::size_t level, std::size_t i) {
+        return dot(farthest_against(-normal, box) - p, normal) > 0 &&
+               dot(normal, farthest_against(normal, walls.normals[level][i])) < max_facing_product;
+    };
+    return walls.tree.min_distance_among(p, nearest, min_own_clearance, may_face_p, [&](std::size_t i) {
+        const WallEdge& edge = walls.edges[i];
+        const Point towards = edge.middle - p;
+        const bool faces_p =
+            dot(towards, normal) > 0 && dot(towards, edge.normal) < 0 && dot(normal, edge.normal) < max_facing_product;
+        return faces_p ? std::max(core::distance_to_segment(p, edge.a, edge.b), min_own_clearance) : HUGE_VAL;
+    });
 }
 
 }  // namespace lamina::surface

@@ -31,7 +31,12 @@ private:
         core::BoxTree tree{{}};
         std::vector<std::vector<Box>> normals;  ///< boxes round the normals of each group of edges of the tree
     };
+    /// Returns the clearance that the walls of the element of p leave, at most `nearest`.
+    static double own_clearance(const ElementWalls& walls, Point p, Point normal, double min_own_clearance,
+                                double nearest);
+
     std::vector<ElementWalls> elements_;
+    core::BoxTree outlines_{{}};  ///< over the elements
 };
 
 }  // namespace lamina::surface
