@@ -52,7 +52,7 @@ struct Element {
     std::vector<std::string> transformations;  ///< what transformed() and flipped() did, in order
     std::vector<Warning> warnings;             ///< by the reader; their messages do not name the element
     std::vector<std::string> surface_notes;    ///< changes that prepare_surfaces() made to the points, and why
-    /// Whether the points are many exact samples of a curve, of which prepare_surfaces() takes as many as a wall needs.
+    /// Whether the points are many samples of a curve, exact or smoothed, of which prepare_surfaces() takes as many as a wall needs.
     bool samples_of_curve = false;
     /// Indices of points, ascending, that are corners however little the outline turns there: those that a flap makes,
     /// and where the two parts of the mean line of a NACA section meet.

@@ -34,6 +34,7 @@ enum class WarningCode {
     unused_seed,               ///< a hole or a region of a triangulation lies where it changes nothing
     marker_renamed,            ///< a marker has another name than it was given, which not every format takes
     area_jump,                 ///< the areas of neighbouring cells of the layer differ far too much
+    noise_smoothed,            ///< the points of an outline scatter like those of a scan, and were smoothed
 };
 
 /// Returns the stable name of a kind: "first_layer_lost".

@@ -1,4 +1,5 @@
 // lamina info: describes airfoils as they were read, repaired and prepared.
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "app/commands.hpp"
 #include "app/options.hpp"
 #include "app/standard_output.hpp"
+#include "app/table_option.hpp"
 
 namespace lamina::app {
 
@@ -17,8 +19,16 @@ void add_info_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "describe airfoils: what was read, repaired and detected");
     auto inputs = std::make_shared<std::vector<std::string>>();
     command->add_option("INPUT", *inputs, input_help);
-    command->callback([inputs] {
-        const MeshCase mesh_case = case_of_inputs(*inputs);
+    auto surface = std::make_shared<std::map<std::string, std::string>>();
+    for (const char* name : {"surface", "smooth", "spacing-max"})
+        add_table_option(*command, surface_option_table(), name, (*surface)[name]);
+    command->callback([inputs, surface] {
+        MeshCase mesh_case = case_of_inputs(*inputs);
+        for (const auto& [name, text] : *surface) {
+            if (text.empty()) continue;
+            set_by_name(surface_option_table(), name, text, mesh_case.options.surface);
+            mesh_case.given.push_back(name);
+        }
         require_consistent(mesh_case);
         const CaseOptions& options = mesh_case.options;
         Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);

@@ -28,8 +28,9 @@ std::string warning_name(WarningCode code) {
                                "flow_estimated",
                                "unused_seed",
                                "marker_renamed",
-                               "area_jump"};
-    static_assert(names.size() == static_cast<std::size_t>(WarningCode::area_jump) + 1);
+                               "area_jump",
+                               "noise_smoothed"};
+    static_assert(names.size() == static_cast<std::size_t>(WarningCode::noise_smoothed) + 1);
     return names[static_cast<std::size_t>(code)];
 }
 

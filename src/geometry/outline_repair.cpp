@@ -14,6 +14,7 @@
 #include "core/polygon.hpp"
 #include "core/segments.hpp"
 #include "geometry/folds.hpp"
+#include "geometry/scatter.hpp"
 #include "geometry/tail_crossing.hpp"
 
 namespace lamina::geometry {
@@ -179,6 +180,45 @@ void cut_crossed_tail(SourcePoints& points, Element& element) {
     }
 }
 
+/// Returns whether the ends of an open outline are no trailing edge: no farther apart than other neighbours, and the
+/// outline goes on from one to the other.
+bool goes_on_at_ends(const SourcePoints& points) {
+    constexpr std::size_t reach = 8;  // points
+    const std::size_t n = points.size();
+    if (n < 4 * reach) return false;
+    double longest = 0;
+    for (std::size_t i = 1; i < n; ++i) longest = std::max(longest, distance(points[i - 1].at, points[i].at));
+    const Point before = points[n - 1].at - points[n - 1 - reach].at, after = points[reach].at - points[0].at;
+    return distance(points[n - 1].at, points[0].at) <= longest &&
+           dot(before, after) > 0.5 * length(before) * length(after);
+}
+
+/// Smooths points that scatter about the outline as white noise does, and says so. The corners of outlines are found
+/// again later, as of any points.
+void remove_noise(SourcePoints& points, bool closed, Element& element) {
+    PointSequence sequence{{}, closed || goes_on_at_ends(points)};
+    for (const SourcePoint& p : points) sequence.points.push_back(p.at);
+    const std::optional<double> noise = white_noise(sequence);
+    if (!noise) return;
+    const std::vector<Point> smooth = without_noise(sequence, find_corners_above_noise(sequence, *noise), *noise);
+    double moved = 0;
+    Point farthest{};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (distance(points[i].at, smooth[i]) > moved) {
+            moved = distance(points[i].at, smooth[i]);
+            farthest = points[i].at;
+        }
+        points[i].at = smooth[i];
+    }
+    element.samples_of_curve = true;
+    const std::string message = fmt::format(
+        "the {} points scatter about the outline by {:.2g} (standard deviation), as those of a scan do; they were "
+        "smoothed, and moved by up to {:.2g}",
+        points.size(), *noise, moved);
+    warn(element, {},
+         {.code = WarningCode::noise_smoothed, .at = farthest, .number = *noise, .unit = "units", .message = message});
+}
+
 /// Throws InputError where an open outline came back to its start before its end.
 void check_closed_once(const SourcePoints& points, const std::string& file) {
     const SourcePoint &first = points.front(), &last = points.back();
@@ -256,6 +296,7 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     const bool closed = points.size() > 1 && distance(points.front().at, points.back().at) <= merge_tolerance(points);
     remove_duplicates(points, element.repairs);
     check_extent(points, file);
+    remove_noise(points, closed, element);
     const SourcePoint last = points.back();
     merge_crossed_neighbours(points, element.repairs);
     cut_flat_tail(points, element.repairs);

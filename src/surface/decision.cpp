@@ -274,7 +274,8 @@ Decision decide(const Element& e, std::size_t index, const ResamplingRequest& re
     if (options.treatment == SurfaceTreatment::resample) return all(EdgeTreatment::spline, "as requested");
     if (options.leading_edge_spacing || options.trailing_edge_spacing)
         return all(EdgeTreatment::spline, "a spacing is requested");
-    if (e.samples_of_curve) return all(EdgeTreatment::spline, "its formula is known");
+    if (e.samples_of_curve)
+        return all(EdgeTreatment::spline, e.format == "naca" ? "its formula is known" : "they were smoothed");
     if (e.format == "naca") return all(EdgeTreatment::keep, "generated points are exact");
     if (e.features.corners.size() == e.points.size())
         return all(EdgeTreatment::spline, "they are the corners of a polygon");
