@@ -43,6 +43,7 @@ struct Element {
     std::string file;             ///< as the user gave it; "naca:0012" for generated sections
     std::string title;            ///< the title line of the file, if it has one
     std::string format;           ///< "selig", "lednicer", "table", "xy", "csv", "naca" or "points"
+    std::string unit;             ///< the unit of length that the file names, such as "mm"; empty where it names none
     std::size_t points_read = 0;  ///< number of points in the file; 0 for generated sections
     /// The outline, counter-clockwise: the body lies on the left of every edge. The first point is not repeated.
     std::vector<Point> points;
@@ -69,10 +70,17 @@ struct Element {
 /// Bodies that are closed, simple and pairwise disjoint.
 struct Geometry {
     std::vector<Element> elements;  ///< in the order of the inputs
+    /// The box round the elements without GeometryOptions' rotations and flaps: its width is the chord of the
+    /// configuration before it is turned. Empty where nothing is turned, and where the configuration stood upright.
+    std::optional<Box> unturned_box{};
 };
 
 /// Returns the box round all elements.
 LAMINA_EXPORT Box bounding_box(const Geometry& geometry);
+
+/// Returns the box whose width is the reference chord, for reference_conditions(): Geometry::unturned_box, else
+/// bounding_box().
+LAMINA_EXPORT Box reference_box(const Geometry& geometry);
 
 /// Options of read_geometry().
 struct GeometryOptions {
@@ -82,7 +90,9 @@ struct GeometryOptions {
     /// Surface points of `naca:` inputs that do not give their number; 0: many samples of the formula, of which
     /// prepare_surfaces() takes as many as a wall needs (Element::samples_of_curve).
     std::size_t naca_points = 0;
-    bool flip = false;                              ///< whether the flow comes from the right: flipped()
+    bool close = false;        ///< whether open outlines are closed by straight edges, however long
+    bool mirror_half = false;  ///< whether files hold one half of symmetric sections, which is mirrored
+    bool flip = false;         ///< whether the flow comes from the right: flipped()
     std::vector<Transformation> transformations{};  ///< applied in this order, after the flip: transformed()
 };
 
@@ -100,17 +110,19 @@ LAMINA_EXPORT void validate(const GeometryOptions& options);
 /// has.
 LAMINA_EXPORT Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options = {});
 
-/// Reads one input of read_geometry() and repairs its elements, which do not have names yet. Throws as read_geometry()
-/// does.
-LAMINA_EXPORT std::vector<Element> read_input(const std::string& input, const GeometryOptions& options = {});
+/// Reads the inputs of read_geometry() and repairs their elements, which do not have names yet. Two files in a row that
+/// hold one surface each, with both ends in common, are one element. Throws as read_geometry() does.
+LAMINA_EXPORT std::vector<Element> read_inputs(std::span<const std::string> inputs,
+                                               const GeometryOptions& options = {});
 
 /// Returns the element of an outline in memory, which does not have a name yet. It may be anything that an outline in a
 /// file may be: closed or open at a base, of either direction, or the two surfaces one behind the other; it is repaired
 /// likewise. `source` stands for the file in messages, where lines are points, counted from 1. Throws InputError for
 /// points that cannot be repaired, among them numbers that are not finite or outside the exact range of predicates.hpp.
-LAMINA_EXPORT Element element_of_points(std::span<const Point> points, const std::string& source);
+LAMINA_EXPORT Element element_of_points(std::span<const Point> points, const std::string& source,
+                                        const GeometryOptions& options = {});
 
-/// Makes the geometry of elements from read_input() and element_of_points(): names, transforms and checks them. Throws
+/// Makes the geometry of elements from read_inputs() and element_of_points(): names, transforms and checks them. Throws
 /// as read_geometry() does.
 LAMINA_EXPORT Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options = {});
 

@@ -28,6 +28,8 @@ enum class WarningCode {
     crossing_tail_cut,         ///< surfaces that cross near the trailing edge were cut off at the crossing
     folded_outline,            ///< an outline runs back on itself; a point out of place was left out or exchanged
     ambiguous_section,         ///< the digits of a section are also those of another family, which no formula makes
+    half_section,              ///< an outline looks like half of a symmetric section
+    reynolds_implausible,      ///< velocity and viscosity do not seem to be in the units of the input
     no_triangles,              ///< a triangulation is empty: its points lie on one line, or its holes take all away
     unsuited_to_solver,        ///< the solver that the mesh is written for cannot use its cells
     flow_estimated,            ///< the panel method failed, and the flow is that along flat plates

@@ -51,14 +51,21 @@ std::vector<Section> sections_of(const nb::list& list) {
 Geometry geometry_of(const std::vector<Section>& sections, const GeometryOptions& options) {
     validate(options);
     std::vector<Element> elements;
+    std::vector<std::string> inputs;  // in a row, since two of them may hold the surfaces of one element
+    const auto read = [&] {
+        for (Element& element : read_inputs(inputs, options)) elements.push_back(std::move(element));
+        inputs.clear();
+    };
     for (const Section& section : sections) {
         if (const auto* input = std::get_if<std::string>(&section)) {
-            for (Element& element : read_input(*input, options)) elements.push_back(std::move(element));
+            inputs.push_back(*input);
         } else {
+            read();
             const auto& [source, points] = std::get<1>(section);
-            elements.push_back(element_of_points(points, source));
+            elements.push_back(element_of_points(points, source, options));
         }
     }
+    read();
     return make_geometry(std::move(elements), options);
 }
 

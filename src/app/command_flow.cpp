@@ -127,7 +127,7 @@ void flow(const FlowArguments& arguments) {
 
     const CaseOptions& options = mesh_case.options;
     Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
-    const ReferenceConditions reference = reference_conditions(conditions, bounding_box(geometry));
+    const ReferenceConditions reference = reference_conditions(conditions, reference_box(geometry));
     geometry = prepare_surfaces(std::move(geometry), options.surface, {}, reference.chord);
     const Flow flow = solve_flow(geometry, conditions);
     print_warnings_of_reader(geometry);

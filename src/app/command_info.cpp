@@ -18,21 +18,25 @@ namespace lamina::app {
 void add_info_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "describe airfoils: what was read, repaired and detected");
     auto inputs = std::make_shared<std::vector<std::string>>();
+    auto given = std::make_shared<std::map<std::string, std::string>>();
     command->add_option("INPUT", *inputs, input_help);
     auto surface = std::make_shared<std::map<std::string, std::string>>();
+    for (const char* name : {"close", "mirror-half", "flip"})
+        add_table_flag(*command, geometry_option_table(), name, (*given)[name]);
     for (const char* name : {"surface", "smooth", "spacing-max"})
         add_table_option(*command, surface_option_table(), name, (*surface)[name]);
-    command->callback([inputs, surface] {
+    command->callback([inputs, given, surface] {
         MeshCase mesh_case = case_of_inputs(*inputs);
+        for (const auto& [name, text] : *given)
+            set_by_name(geometry_option_table(), name, text, mesh_case.options.geometry);
         for (const auto& [name, text] : *surface) {
-            if (text.empty()) continue;
             set_by_name(surface_option_table(), name, text, mesh_case.options.surface);
-            mesh_case.given.push_back(name);
+            if (!text.empty()) mesh_case.given.push_back(name);
         }
         require_consistent(mesh_case);
         const CaseOptions& options = mesh_case.options;
         Geometry geometry = read_geometry(mesh_case.inputs, options.geometry);
-        const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(geometry));
+        const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
         const LayerGrowth growth = layer_growth(options.layer, conditions);
         const SpacingLimits limits = spacing_limits(options, growth);
         print_result(describe(prepare_surfaces(std::move(geometry), options.surface, limits, conditions.chord)));

@@ -145,7 +145,7 @@ std::vector<Member> plan_members(const FamilyArguments& arguments, const MeshCas
                                  const Geometry& geometry) {
     const int base = arguments.base_level.value_or(arguments.levels / 2);
     const CaseOptions options = options_with_files(mesh_case);
-    const ReferenceConditions conditions = reference_conditions(options.conditions, bounding_box(geometry));
+    const ReferenceConditions conditions = reference_conditions(options.conditions, reference_box(geometry));
     std::vector<Member> members;
     for (int level = 0; level < arguments.levels; ++level) {
         const double divisor = whole_power(arguments.ratio, level - base);

@@ -19,6 +19,13 @@ CLI::Option* add_table_option(CLI::App& command, const OptionTable<Options>& tab
     return command.add_option("--" + name, text, help_with_range(option))->type_name(option.metavar);
 }
 
+/// Adds a flag of a table to a command; the text is "true" where it is given.
+template <class Options>
+CLI::Option* add_table_flag(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
+                            std::string& text) {
+    return command.add_flag("--" + name + "{true}", text, find_row(table, name).help);
+}
+
 /// Sets an option of a table to a value from the command line; an empty text leaves the default. Throws UsageError
 /// "option --name: reason".
 template <class Options>

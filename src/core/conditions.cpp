@@ -12,7 +12,7 @@ OptionTable<FlowConditions> make_table() {
     OptionTableBuilder<FlowConditions> table("Flow");
     table.number("chord", "C",
                  "reference chord, in units of the input: what lengths in chords count; else the extent in x of the "
-                 "configuration",
+                 "configuration before --transform turns it",
                  positive_numbers, member_at(&FlowConditions::chord));
     table.number("alpha", "DEG",
                  "angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned "

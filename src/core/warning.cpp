@@ -23,6 +23,8 @@ std::string warning_name(WarningCode code) {
                                "crossing_tail_cut",
                                "folded_outline",
                                "ambiguous_section",
+                               "half_section",
+                               "reynolds_implausible",
                                "no_triangles",
                                "unsuited_to_solver",
                                "flow_estimated",

@@ -74,6 +74,18 @@ bool counts_rows(const Rows& rows, std::size_t column) {
     return counted >= min_rows;
 }
 
+/// Returns whether a column of whole numbers changes only where a column that counts rows starts again.
+bool numbers_curves(const Rows& rows, std::size_t column, std::size_t counter) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& values = rows[i]->values;
+        if (values[column] != std::floor(values[column])) return false;
+        if (i > 0 && values[counter] == rows[i - 1]->values[counter] + 1 &&
+            values[column] != rows[i - 1]->values[column])
+            return false;
+    }
+    return true;
+}
+
 double span(const Rows& rows, std::size_t column) {
     double low = rows[0]->values[column], high = low;
     for (const RowPoint* row : rows) {
@@ -207,7 +219,10 @@ private:
         if (left_.size() == 3 && counter == left_.begin() &&
             is_table_of_unit_steps(reduced_to(rows_, left_), document_.heading))
             return;
-        leave_out(*counter, "it counts the points");
+        const std::size_t number = *counter;
+        if (number > 0 && left_.size() > 3 && numbers_curves(rows_, number - 1, number))
+            leave_out(number - 1, "it numbers the curves");
+        leave_out(number, "it counts the points");
     }
 
     double largest_span() const {

@@ -48,9 +48,11 @@ private:
     const std::vector<TextRow>& rows_;
     const std::string& file_;
     CoordinateDocument document_;
-    std::string label_;        ///< text since the last block, the title of the next one
-    bool has_points_ = false;  ///< coordinates were read
-    bool in_run_ = false;      ///< the row before holds coordinates
+    std::string label_;         ///< text since the last block, the title of the next one
+    std::string column_label_;  ///< TextRow::label of the last row
+    bool has_points_ = false;   ///< coordinates were read
+    bool noted_commas_ = false;
+    bool in_run_ = false;  ///< the row before holds coordinates
     /// Whether a comment, and whether a text or a separator, stands between the last coordinates and this row.
     bool comment_between_ = false, text_between_ = false;
     std::size_t comma_separated_line_ = 0, decimal_comma_line_ = 0;  ///< the last ones; 0: none
@@ -88,10 +90,17 @@ private:
         }
         document_.csv |= row.has_separators;
         require_one_meaning_of_commas(row);
-        if (row.has_decimal_commas && document_.notes.empty())
+        require_one_unit(row);
+        if (row.has_label && !has_points_) read_about_labels(row);
+        if (row.has_decimal_commas && !std::exchange(noted_commas_, true))
             document_.notes.push_back(fmt::format("line {}: decimal commas read as points", row.line));
         CoordinateSection& section = document_.sections.back();
-        if (!in_run_) section.push_back({{}, std::exchange(label_, {}), comment_between_ && !text_between_});
+        if (in_run_ && row.label != column_label_) in_run_ = false;
+        if (!in_run_) {
+            if (label_.empty()) label_ = row.label;
+            section.push_back({{}, std::exchange(label_, {}), comment_between_ && !text_between_});
+        }
+        column_label_ = row.label;
         section.back().points.push_back({{{row.values[0], row.values[1]}, row.line}, row.number_count, row.values});
         has_points_ = true;
         in_run_ = true;
@@ -107,6 +116,23 @@ private:
             throw InputError({file_, row.line, {}},
                              fmt::format("commas separate numbers on line {}, but are decimal signs on line {}",
                                          comma_separated_line_, decimal_comma_line_));
+    }
+
+    /// Throws InputError where the numbers of the file have different units.
+    void require_one_unit(const TextRow& row) {
+        if (row.unit.empty() || row.unit == document_.unit) return;
+        if (!document_.unit.empty())
+            throw InputError({file_, row.line, {}},
+                             fmt::format("the unit is {} here, but {} before", row.unit, document_.unit));
+        document_.unit = row.unit;
+        document_.notes.push_back(fmt::format("line {}: the unit is {}, also that of the mesh", row.line, row.unit));
+    }
+
+    /// Says that the first column holds labels, and forgets its name.
+    void read_about_labels(const TextRow& row) {
+        document_.notes.push_back(fmt::format("line {}: first column ignored, it holds labels", row.line));
+        std::vector<std::string>& names = document_.column_names;
+        if (names.size() == row.number_count + 1) names.erase(names.begin());
     }
 
     void read_other(std::size_t i) {

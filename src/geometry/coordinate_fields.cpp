@@ -8,6 +8,7 @@
 
 #include "core/text.hpp"
 #include "geometry/characters.hpp"
+#include "geometry/length_units.hpp"
 
 namespace lamina::geometry {
 
@@ -30,6 +31,10 @@ Field make_field(std::string text) {
     const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), field.value);
     if (error == std::errc::invalid_argument) {
         field.kind = kind_of_text(s);
+    } else if (const auto unit = length_unit({end, static_cast<std::size_t>(s.data() + s.size() - end)});
+               unit && error == std::errc{} && std::isfinite(field.value)) {
+        field.kind = FieldKind::number;
+        field.unit = unit->name;
     } else if (end != s.data() + s.size()) {
         // "infinite" starts with "inf", but is a word.
         field.kind = is_letter(s[0]) ? FieldKind::word : FieldKind::number_like;
@@ -125,6 +130,18 @@ std::string_view without_outer_quotes(std::string_view line) {
     return trimmed(line.substr(1, line.size() - 2));
 }
 
+/// Joins units that stand as words behind all numbers of a line, as in "350.0 mm 0.44 mm", to these.
+void join_units(std::vector<Field>& fields) {
+    if (fields.size() < 4 || fields.size() % 2 != 0) return;
+    for (std::size_t i = 0; i < fields.size(); i += 2)
+        if (fields[i].kind != FieldKind::number || !length_unit(fields[i + 1].text)) return;
+    for (std::size_t i = 0; i < fields.size(); i += 2) {
+        fields[i].unit = length_unit(fields[i + 1].text)->name;
+        fields[i / 2] = fields[i];
+    }
+    fields.resize(fields.size() / 2);
+}
+
 /// Returns a text without the quotes round it, if there are any.
 std::string_view without_quotes(std::string_view text) {
     const bool is_quoted = text.size() > 1 && (text[0] == '"' || text[0] == '\'') && text.back() == text[0];
@@ -176,6 +193,7 @@ FieldList read_fields(std::string_view line) {
     result.has_separators = parts.has_separators;
     result.has_comma_separators = parts.has_comma_separators;
     for (std::string& text : parts.texts) result.fields.push_back(make_field(std::move(text)));
+    join_units(result.fields);
     return result;
 }
 

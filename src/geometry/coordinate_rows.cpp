@@ -10,6 +10,7 @@
 #include "geometry/brackets.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/coordinate_fields.hpp"
+#include "geometry/label_column.hpp"
 
 namespace lamina::geometry {
 
@@ -17,9 +18,10 @@ namespace {
 
 bool has_point(const Field& f) { return f.text.find('.') != std::string::npos; }
 
-/// Returns whether a field was written as a number.
+/// Returns whether a field was written as a number without a unit, as the titles of sections may hold them.
 bool is_numeric(const Field& f) {
-    return f.kind == FieldKind::number || f.kind == FieldKind::not_finite || f.kind == FieldKind::too_extreme;
+    return (f.kind == FieldKind::number && f.unit.empty()) || f.kind == FieldKind::not_finite ||
+           f.kind == FieldKind::too_extreme;
 }
 
 bool resembles_number(const Field& f) { return is_numeric(f) || f.kind == FieldKind::number_like; }
@@ -100,6 +102,7 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     while (row.number_count < fields.size() && fields[row.number_count].kind == FieldKind::number) {
         const Field& field = fields[row.number_count];
         if (row.number_count < row.values.size()) row.values[row.number_count] = field.value;
+        if (row.unit.empty()) row.unit = field.unit;
         row.has_fractions |= !is_whole(field.text);
         row.has_leading_zeros |=
             is_whole(field.text) && field.text.size() > 1 && field.text[0] == '0' && is_digit(field.text[1]);
@@ -176,6 +179,13 @@ private:
 
 }  // namespace
 
+TextRow read_row(std::string_view line, std::size_t number) {
+    TextRow row;
+    row.line = number;
+    read_text_or_numbers(line, false, row);
+    return row;
+}
+
 std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
         throw InputError({file, 1, {}}, "the text is UTF-16; save it as UTF-8 or ASCII");
@@ -197,6 +207,7 @@ std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
         if (end == std::string_view::npos) break;
         text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);
     }
+    read_label_column(rows);
     return rows;
 }
 

@@ -34,6 +34,9 @@ struct TextRow {
     bool has_separators = false;        ///< fields are separated by commas or semicolons (CSV)
     bool has_comma_separators = false;  ///< fields are separated by commas
     bool has_decimal_commas = false;    ///< "0,5" was read as 0.5
+    bool has_label = false;             ///< a label stands before the numbers
+    std::string_view unit;              ///< of the numbers, such as "mm"; empty: none is written behind them
+    std::string label;                  ///< of the numbers, where it tells surfaces or elements apart
     std::vector<std::string> names;  ///< fields of a row without coordinates, in lower case: names of columns, perhaps
     /// Trimmed UTF-8 text of `text` and `comment` rows, and of `numbers` rows with a remark or without fractions.
     std::string text;
@@ -42,6 +45,9 @@ struct TextRow {
     /// Why a `text` row can only be a damaged pair of coordinates where the row before it holds coordinates.
     std::string damage_in_run;
 };
+
+/// Returns a row of a line that is neither blank nor a comment, as one that is not the first of its file.
+TextRow read_row(std::string_view line, std::size_t number);
 
 /// Returns the rows of a text: one for each line, or several for a line that lists points in brackets. Of very long runs of
 /// rows without numbers only the first ones and the last text stay. Lines end in LF,

@@ -9,4 +9,6 @@ Box bounding_box(const Geometry& geometry) {
     return box;
 }
 
+Box reference_box(const Geometry& geometry) { return geometry.unturned_box.value_or(bounding_box(geometry)); }
+
 }  // namespace lamina

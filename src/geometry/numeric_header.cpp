@@ -26,13 +26,14 @@ Box box_of(const PointRun& points) {
 
 bool is_count(double value) { return value >= 2 && value <= 1e8 && value == std::floor(value); }
 
-/// Returns whether all rows of a run have the same number of columns, other than that of a row before them.
+}  // namespace
+
 bool have_other_columns(const PointRun& run, const RowPoint& before) {
     return std::all_of(run.begin(), run.end(), [&](const RowPoint& p) { return p.columns == run[0].columns; }) &&
            run[0].columns != before.columns;
 }
 
-}  // namespace
+bool lies_far_from(Point p, const PointRun& points) { return distance_outside(p, box_of(points)) > extent(points); }
 
 std::optional<SurfaceCounts> read_counts(const PointRun& points, const std::string& file) {
     const Point p = points[0].at;

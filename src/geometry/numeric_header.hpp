@@ -16,6 +16,12 @@ struct SurfaceCounts {
     std::size_t total() const { return upper + lower; }
 };
 
+/// Returns whether all rows of a run have the same number of columns, other than that of a row before them.
+bool have_other_columns(const PointRun& run, const RowPoint& before);
+
+/// Returns whether a point lies outside of the box round others by more than the extent of that box.
+bool lies_far_from(Point p, const PointRun& points);
+
 /// Returns the counts of a Lednicer file where the first point of `points`, all that is left of a section, can only be
 /// such counts: whole numbers that either fit exactly or lie well outside the section itself. In per cent of the chord,
 /// (100, 2) may be a point. Throws InputError, which names `file`, for counts of more points than follow.

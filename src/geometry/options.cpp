@@ -14,6 +14,14 @@ OptionTable<GeometryOptions> make_table() {
         "marker names, one per element; else the stems of the files, or 'airfoil' for a single element; names that not "
         "every format takes are changed",
         member_at(&GeometryOptions::names));
+    table.flag("close", "close outlines whose ends lie apart by a straight edge, however long it is", true,
+               member_at(&GeometryOptions::close));
+    table
+        .flag("mirror-half",
+              "complete symmetric sections of which the files hold one half, from nose to tail: the other half is its "
+              "mirror image",
+              true, member_at(&GeometryOptions::mirror_half))
+        .excludes = {"close"};
     table.flag("flip",
                "exchange left and right of the whole configuration, for flow that comes from the right; before any "
                "--transform",

@@ -14,6 +14,7 @@
 #include "core/polygon.hpp"
 #include "core/segments.hpp"
 #include "geometry/folds.hpp"
+#include "geometry/half_section.hpp"
 #include "geometry/scatter.hpp"
 #include "geometry/tail_crossing.hpp"
 
@@ -164,6 +165,16 @@ void warn_of_folds(const SourcePoints& points, Element& element) {
                     coordinates(longest.second.at), 100 * longest.share)));
 }
 
+/// Says where an outline looks like one half of a symmetric section that its chord closes.
+void warn_of_half(const SourcePoints& points, Element& element) {
+    if (!is_closed_half(points)) return;
+    element.warnings.push_back({.code = WarningCode::half_section,
+                                .at = points[0].at,
+                                .message =
+                                    "one side is a single straight edge from nose to tail, as that of half a "
+                                    "symmetric section: --mirror-half adds the other half (--close: it is whole)"});
+}
+
 /// Cuts off a tail behind a crossing of the two surfaces, and says so.
 void cut_crossed_tail(SourcePoints& points, Element& element) {
     while (const std::optional<TailCut> cut = cut_crossing_tail(points)) {
@@ -246,21 +257,29 @@ bool is_side_of_plate(const SourcePoints& points) {
     return false;
 }
 
+/// Throws InputError for an outline that is too far open, which says what may be done.
+[[noreturn]] void refuse_open(const SourcePoints& points, const std::string& file) {
+    const SourcePoint &first = points.front(), &last = points.back();
+    const std::string remedy = symmetry_line(points) ? ", or --mirror-half if this is half of a symmetric section" : "";
+    throw InputError(
+        {file, last.line, last.at},
+        fmt::format("the outline is open: its end is {:.3g} away from its start {} on line {}, too far to "
+                    "be closed by a base edge; where a straight edge belongs there, repeat the first point "
+                    "at the end or give --close{}",
+                    distance(last.at, first.at), coordinates(first.at), first.line, remedy));
+}
+
 /// Divides the edge from the last point back to the first into edges about as long as the shorter of its neighbours.
-/// Throws InputError where that edge is too long to be a base.
-void close_outline(SourcePoints& points, const std::string& file, std::vector<std::string>& repairs) {
+/// Throws InputError where that edge is too long to be a base, unless `at_any_length`.
+void close_outline(SourcePoints& points, const std::string& file, bool at_any_length,
+                   std::vector<std::string>& repairs) {
     constexpr double max_edges = 64;
     check_closed_once(points, file);
     const SourcePoint last = points.back(), first = points.front();
     const double base = distance(last.at, first.at);
     double perimeter = 0;
     for (std::size_t i = 1; i < points.size(); ++i) perimeter += distance(points[i - 1].at, points[i].at);
-    if (base > 0.5 * perimeter && !is_side_of_plate(points))
-        throw InputError(
-            {file, last.line, last.at},
-            fmt::format("the outline is open: its end is {:.3g} away from its start {} on line {}, too far "
-                        "to be closed by a base edge",
-                        base, coordinates(first.at), first.line));
+    if (base > 0.5 * perimeter && !at_any_length && !is_side_of_plate(points)) refuse_open(points, file);
     const double neighbour =
         std::min(distance(points[0].at, points[1].at), distance(points[points.size() - 2].at, points.back().at));
     const auto edges = static_cast<std::size_t>(std::clamp(std::floor(base / neighbour + 0.5), 1.0, max_edges));
@@ -284,11 +303,12 @@ bool is_clockwise(const SourcePoints& points) {
 
 }  // namespace
 
-Element repair_outline(const RawOutline& outline, const std::string& file) {
+Element repair_outline(const RawOutline& outline, const std::string& file, const GeometryOptions& options) {
     Element element;
     element.file = file;
     element.title = outline.title;
     element.format = outline.format;
+    element.unit = outline.unit;
     element.points_read = outline.points.size();
     element.repairs = outline.notes;
 
@@ -302,8 +322,9 @@ Element repair_outline(const RawOutline& outline, const std::string& file) {
     cut_flat_tail(points, element.repairs);
     mend_folds(points, closed, element);
     cut_crossed_tail(points, element);
-    if (!closed && points.back().at == last.at) close_outline(points, file, element.repairs);
+    if (!closed && points.back().at == last.at) close_outline(points, file, options.close, element.repairs);
     warn_of_folds(points, element);
+    if (closed && !options.close) warn_of_half(points, element);
     if (is_clockwise(points)) {
         std::reverse(points.begin() + 1, points.end());
         const std::string line = points[0].line > 0 ? fmt::format("line {}: ", points[0].line) : "";

@@ -12,6 +12,7 @@
 #include "geometry/columns.hpp"
 #include "geometry/coordinate_blocks.hpp"
 #include "geometry/join_blocks.hpp"
+#include "geometry/numbered_curves.hpp"
 #include "geometry/numeric_header.hpp"
 #include "geometry/point_runs.hpp"
 #include "geometry/surface_table.hpp"
@@ -24,11 +25,12 @@ namespace {
 class SectionAssembler {
 public:
     SectionAssembler(CoordinateSection section, const CoordinateDocument& document, const std::string& file,
-                     std::vector<RawOutline>& outlines)
-        : section_(std::move(section)), document_(document), file_(file), outlines_(outlines) {}
+                     bool keep_open, std::vector<RawOutline>& outlines)
+        : section_(std::move(section)), document_(document), file_(file), keep_open_(keep_open), outlines_(outlines) {}
 
     void assemble() {
         if (section_.empty()) return;
+        divide_curves();
         if (outlines_.empty()) drop_numeric_title();
         ColumnReading columns = choose_columns(section_, document_, file_);
         for (std::string& note : columns.notes) notes_.push_back(std::move(note));
@@ -47,6 +49,7 @@ private:
     CoordinateSection section_;  ///< blocks that have no outline yet
     const CoordinateDocument& document_;
     const std::string& file_;
+    bool keep_open_;  ///< whether open runs are outlines, as options say
     std::vector<RawOutline>& outlines_;
     std::vector<std::string> notes_;  ///< for the next outline
 
@@ -56,6 +59,12 @@ private:
         outline.title = title;
         outline.format = format;
         outline.notes = std::exchange(notes_, {});
+    }
+
+    /// Divides files of curves, and leaves out lines that are no outlines.
+    void divide_curves() {
+        for (const auto divide : {remove_auxiliary_lines, divide_counted_curves, divide_numbered_curves})
+            for (std::string& note : divide(section_)) notes_.push_back(std::move(note));
     }
 
     /// Makes the first row a title where it cannot be anything else.
@@ -129,6 +138,8 @@ private:
         } else if (i + 1 < section_.size() && are_two_surfaces(points, section_[i + 1].points)) {
             add(join_surfaces(points, section_[i + 1].points), title, "lednicer");
             return 2;
+        } else if (keep_open_) {
+            add(points, title, "");
         } else {
             throw InputError({file_, points.front().line, points.front().at},
                              fmt::format("the points of lines {} to {} are neither a closed outline nor one of two "
@@ -166,17 +177,23 @@ private:
 
 }  // namespace
 
-std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, const std::string& file) {
-    CoordinateDocument document = split_into_blocks(rows, file);
+std::vector<RawOutline> assemble_outlines(CoordinateDocument document, const std::string& file, bool keep_open) {
     std::vector<RawOutline> outlines;
     for (CoordinateSection& section : document.sections)
-        SectionAssembler(std::move(section), document, file, outlines).assemble();
-    if (outlines.empty()) refuse_without_coordinates(rows, file);
-
-    for (RawOutline& outline : outlines)
+        SectionAssembler(std::move(section), document, file, keep_open, outlines).assemble();
+    if (outlines.empty()) return outlines;
+    for (RawOutline& outline : outlines) {
+        outline.unit = document.unit;
         if (outline.format.empty()) outline.format = document.csv ? "csv" : document.titled ? "selig" : "xy";
+    }
     if (outlines[0].title.empty()) outlines[0].title = document.first_comment;
     outlines[0].notes.insert(outlines[0].notes.begin(), document.notes.begin(), document.notes.end());
+    return outlines;
+}
+
+std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, const std::string& file, bool keep_open) {
+    std::vector<RawOutline> outlines = assemble_outlines(split_into_blocks(rows, file), file, keep_open);
+    if (outlines.empty()) refuse_without_coordinates(rows, file);
     return outlines;
 }
 

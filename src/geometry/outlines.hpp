@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/coordinate_blocks.hpp"
 #include "geometry/coordinate_rows.hpp"
 #include "geometry/source_point.hpp"
 
@@ -17,11 +18,16 @@ struct RawOutline {
     std::vector<SourcePoint> points;
     std::string title;
     std::string format;              ///< as in Element
+    std::string unit;                ///< as in Element
     std::vector<std::string> notes;  ///< decisions of the reader that its user should know
 };
 
-/// Returns the outlines of a file. Throws InputError, which names `file`, where the rows cannot be understood as
+/// Returns the outlines of a document; none where it has no coordinates. Throws InputError as below.
+std::vector<RawOutline> assemble_outlines(CoordinateDocument document, const std::string& file, bool keep_open);
+
+/// Returns the outlines of a file. An open run is one only where it is the only one of its section, or `keep_open`. Throws InputError, which names `file`, where the rows cannot be understood as
 /// outlines.
-std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, const std::string& file);
+std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, const std::string& file,
+                                          bool keep_open = false);
 
 }  // namespace lamina::geometry

@@ -1,15 +1,37 @@
 #include "geometry/parse_airfoil.hpp"
 
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "geometry/coordinate_rows.hpp"
+#include "geometry/half_section.hpp"
+#include "geometry/other_formats.hpp"
 #include "geometry/outline_repair.hpp"
-#include "geometry/outlines.hpp"
 
 namespace lamina::geometry {
 
-std::vector<Element> parse_airfoil(std::string_view text, const std::string& file) {
+std::vector<RawOutline> read_outlines(std::string_view text, const std::string& file, const GeometryOptions& options) {
+    const bool keep_open = options.close || options.mirror_half;
+    refuse_drawings(text, file);
+    std::optional<CoordinateDocument> document = read_gmsh_points(text, file);
+    if (!document) document = read_plot3d(text);
+    std::vector<RawOutline> outlines = document ? assemble_outlines(std::move(*document), file, keep_open)
+                                                : assemble_outlines(read_rows(text, file), file, keep_open);
+    if (options.mirror_half)
+        for (RawOutline& outline : outlines) {
+            outline.points = mirrored_half(std::move(outline.points), file);
+            outline.notes.push_back(
+                fmt::format("line {}: half of a symmetric section, mirrored", outline.points[0].line));
+        }
+    return outlines;
+}
+
+std::vector<Element> parse_airfoil(std::string_view text, const std::string& file, const GeometryOptions& options) {
     std::vector<Element> elements;
-    for (const RawOutline& outline : assemble_outlines(read_rows(text, file), file))
-        elements.push_back(repair_outline(outline, file));
+    for (const RawOutline& outline : read_outlines(text, file, options))
+        elements.push_back(repair_outline(outline, file, options));
     return elements;
 }
 

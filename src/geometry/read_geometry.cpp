@@ -1,6 +1,7 @@
 // The stage "read" as a whole: inputs -> named and checked elements.
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,8 @@
 #include "core/text.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/element_names.hpp"
+#include "geometry/half_section.hpp"
+#include "geometry/joined_files.hpp"
 #include "geometry/naca.hpp"
 #include "geometry/orientation_warnings.hpp"
 #include "geometry/outline_repair.hpp"
@@ -71,6 +74,20 @@ std::string meant_section(const std::string& input) {
     return std::string(naca_prefix) + input.substr(digits);
 }
 
+/// Returns Geometry::unturned_box of a geometry that is to be transformed. A section that stands upright is turned to
+/// lie in the flow, and its chord is that of the turned one.
+std::optional<Box> unturned_box(const Geometry& geometry, const std::vector<Transformation>& transformations) {
+    constexpr double upright = 2;  // height over length, as for the warning of swapped columns
+    const auto turns = [](const Transformation& t) {
+        return std::holds_alternative<Rotation>(t.change) || std::holds_alternative<FlapDeflection>(t.change);
+    };
+    if (std::none_of(transformations.begin(), transformations.end(), turns)) return std::nullopt;
+    std::vector<Transformation> others;
+    std::remove_copy_if(transformations.begin(), transformations.end(), std::back_inserter(others), turns);
+    const Box box = bounding_box(transformed(geometry, others));
+    return box.height() > upright * box.width() ? std::nullopt : std::optional(box);
+}
+
 /// Returns the contents of an airfoil file. An error says where the name was probably meant to be a section.
 std::string contents_of(const std::string& input) {
     try {
@@ -94,12 +111,29 @@ std::vector<Element> read_airfoil(const std::filesystem::path& file) {
     return make_geometry(parse_airfoil(read_file(file, max_text_bytes), file.string()), {}).elements;
 }
 
-std::vector<Element> read_input(const std::string& input, const GeometryOptions& options) {
-    if (input.starts_with(naca_prefix)) return {read_naca(input, options.naca_points)};
-    return parse_airfoil(contents_of(input), input_name(input));
+std::vector<Element> read_inputs(std::span<const std::string> inputs, const GeometryOptions& options) {
+    std::vector<Element> elements;
+    std::vector<OutlinesOfFile> files;  // in a row
+    const auto repair = [&] {
+        join_files(files);
+        for (const auto& [file, outlines] : files)
+            for (const RawOutline& outline : outlines) elements.push_back(repair_outline(outline, file, options));
+        files.clear();
+    };
+    for (const std::string& input : inputs) {
+        if (input.starts_with(naca_prefix)) {
+            repair();
+            elements.push_back(read_naca(input, options.naca_points));
+        } else {
+            const std::string file = input_name(input);
+            files.push_back({file, read_outlines(contents_of(input), file, options)});
+        }
+    }
+    repair();
+    return elements;
 }
 
-Element element_of_points(std::span<const Point> points, const std::string& source) {
+Element element_of_points(std::span<const Point> points, const std::string& source, const GeometryOptions& options) {
     PointRun run;
     run.reserve(points.size());
     for (const Point p : points) {
@@ -113,7 +147,8 @@ Element element_of_points(std::span<const Point> points, const std::string& sour
     RawOutline outline;
     outline.points.assign(run.begin(), run.end());
     outline.format = "points";
-    return repair_outline(outline, source);
+    if (options.mirror_half) outline.points = mirrored_half(std::move(outline.points), source);
+    return repair_outline(outline, source, options);
 }
 
 Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& options) {
@@ -122,6 +157,7 @@ Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& opt
     Geometry geometry{std::move(elements)};
     name_elements(geometry.elements, options);
     if (options.flip) geometry = flipped(std::move(geometry));
+    geometry.unturned_box = unturned_box(geometry, options.transformations);
     geometry = transformed(std::move(geometry), options.transformations);
     check_simple(geometry);
     add_orientation_warnings(geometry, options.flip);
@@ -130,10 +166,7 @@ Geometry make_geometry(std::vector<Element> elements, const GeometryOptions& opt
 
 Geometry read_geometry(std::span<const std::string> inputs, const GeometryOptions& options) {
     validate(options);
-    std::vector<Element> elements;
-    for (const std::string& input : inputs)
-        for (Element& element : read_input(input, options)) elements.push_back(std::move(element));
-    return make_geometry(std::move(elements), options);
+    return make_geometry(read_inputs(inputs, options), options);
 }
 
 }  // namespace lamina

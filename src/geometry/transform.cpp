@@ -49,6 +49,7 @@ struct Change {
 
     std::string operator()(const Scaling& s) const {
         map_points(element, [&](Point p) { return s.center + s.factor * (p - s.center); });
+        if (s.factor != 1) element.unit.clear();
         return fmt::format("scaled by {} about {}", s.factor, coordinates(s.center));
     }
     std::string operator()(const Rotation& r) const {

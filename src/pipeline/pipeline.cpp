@@ -521,7 +521,7 @@ MadeMesh run(const Geometry& given, const CaseOptions& given_options, const Dest
     StageSeconds seconds;
     clock.lap();
 
-    const ReferenceConditions conditions = reference_conditions(given_options.conditions, bounding_box(given));
+    const ReferenceConditions conditions = reference_conditions(given_options.conditions, reference_box(given));
     const CaseOptions options = with_tunnel_sizes(given_options, conditions.chord);
     require_surface_points_within(options, given.elements.size(), destination.cost());
     LayerGrowth growth = layer_growth(options.layer, conditions);

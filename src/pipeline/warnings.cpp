@@ -15,6 +15,7 @@
 #include "pipeline/area_jumps.hpp"
 #include "pipeline/assemble.hpp"
 #include "pipeline/ray_plan.hpp"
+#include "pipeline/reynolds_doubt.hpp"
 
 namespace lamina::pipeline {
 
@@ -241,6 +242,16 @@ void warn_of_first_height(const MeshResult& result, const LayerOptions& options,
                                                height, share, chord)});
 }
 
+/// Says where the Reynolds number is that of no flow, or velocity and viscosity are in other units than the coordinates.
+void warn_of_reynolds(const MeshResult& result, const FlowConditions& conditions, std::vector<Warning>& warnings) {
+    const std::string& unit = result.geometry.elements.front().unit;
+    if (const auto doubt = doubt_of_reynolds(conditions, result.conditions, unit))
+        warnings.push_back({.code = WarningCode::reynolds_implausible,
+                            .number = *result.conditions.reynolds,
+                            .unit = "Reynolds number",
+                            .message = *doubt});
+}
+
 void warn_of_large_angles(const MeshResult& result, const WorstPlaces& worst, const Mesh& layer,
                           std::vector<Warning>& warnings) {
     constexpr double max_isotropic = 145;
@@ -362,6 +373,7 @@ std::vector<Warning> find_warnings(const MeshResult& result, const CaseOptions& 
     add_reader_warnings(result.geometry, warnings);
     if (options.assemble.base_marker) warn_of_base_markers(result.geometry, warnings);
     warn_of_surfaces(result.geometry, options.surface, warnings);
+    warn_of_reynolds(result, options.conditions, warnings);
     warn_of_first_height(result, options.layer, warnings);
     warn_of_topology(result, warnings);
     warn_of_first_layer(result, layer, warnings);

@@ -1,0 +1,24 @@
+// Texts that are no lists of points, one in a line: PLOT3D, the points of Gmsh's .geo, and drawings.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "geometry/coordinate_blocks.hpp"
+
+namespace lamina::geometry {
+
+/// Throws InputError, which says how to export points, for DXF, SVG, IGES and STEP.
+void refuse_drawings(std::string_view text, const std::string& file);
+
+/// Reads the points of Gmsh's geometry files, in the order in which lines and splines join them. Loops that contain all
+/// others are far fields, and left out, as points on no curve are. Returns nothing for other texts. Throws InputError for
+/// points that are no numbers and for outlines with curves that do not pass through their points.
+std::optional<CoordinateDocument> read_gmsh_points(std::string_view text, const std::string& file);
+
+/// Reads curves of PLOT3D grids, in two or three dimensions, one block or several: all x, then all y. The text must hold
+/// exactly as many numbers as its first ones announce. Returns nothing for other texts, among them rows of two numbers.
+std::optional<CoordinateDocument> read_plot3d(std::string_view text);
+
+}  // namespace lamina::geometry

@@ -1,0 +1,222 @@
+// Formats of other programs, half sections, surfaces in two files and outlines that options close.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <lamina/error.hpp>
+#include <lamina/geometry.hpp>
+
+#include "geometry/parse_airfoil.hpp"
+#include "support/geometry_fixtures.hpp"
+
+namespace lamina::formats_test {
+namespace {
+
+const std::vector<Point> upper{{0, 0}, {0.2, 0.06}, {0.5, 0.07}, {0.75, 0.04}, {1, 0}},
+    lower{{0, 0}, {0.2, -0.04}, {0.5, -0.05}, {0.75, -0.03}, {1, 0}};
+
+Geometry of_text(const std::string& content, const GeometryOptions& options = {}) {
+    return make_geometry(geometry::parse_airfoil(content, "sample.dat", options), options);
+}
+
+/// Returns lines that `line(i, point)` makes of points, where i counts from 1.
+std::string lines_of(const std::vector<Point>& points, const std::function<std::string(std::size_t, Point)>& line) {
+    std::string text;
+    for (std::size_t i = 0; i < points.size(); ++i) text += line(i + 1, points[i]) + "\n";
+    return text;
+}
+
+std::string xyz(std::size_t, Point p) { return fmt::format("{} {} 0", p.x, p.y); }
+
+std::vector<Point> reversed(std::vector<Point> points) {
+    std::reverse(points.begin(), points.end());
+    return points;
+}
+
+std::string message_of(const std::string& content) {
+    try {
+        of_text(content);
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "accepted";
+}
+
+TEST(Formats, CurvesOfIcem) {
+    for (const std::vector<Point>& first : {upper, reversed(upper)})
+        EXPECT_EQ(of_text("5 2\n" + lines_of(first, xyz) + lines_of(lower, xyz)).elements[0].points, fixtures::loop);
+    EXPECT_EQ(of_text("8 1\n" + lines_of(fixtures::loop, xyz)).elements[0].points, fixtures::loop);
+}
+
+TEST(Formats, CurvesOfDesignModeler) {
+    const auto row = [](int curve) {
+        return [=](std::size_t i, Point p) { return fmt::format("{}\t{}\t{}\t{}\t0", curve, i, p.x, p.y); };
+    };
+    const auto flap = [&](std::size_t i, Point p) { return fmt::format("2 {} {} {} 0", i, p.x + 2, p.y); };
+    const std::string closed = lines_of(fixtures::loop, row(1)) + "1 0\n";
+    for (const std::string header : {"", "#group\tpoint\tx\ty\tz\n"}) {
+        EXPECT_EQ(of_text(header + closed).elements[0].points, fixtures::loop);
+        EXPECT_EQ(of_text(header + closed + lines_of(fixtures::loop, flap) + "2 0\n").elements.size(), 2u);
+        EXPECT_EQ(of_text(header + lines_of(upper, row(1)) + lines_of(lower, row(2))).elements[0].points,
+                  fixtures::loop);
+    }
+}
+
+TEST(Formats, Labels) {
+    const auto named = [](std::size_t i, Point p) { return fmt::format("P{} {} {}", i, p.x, p.y); };
+    const auto on = [](const std::string& side) {
+        return [=](std::size_t, Point p) { return fmt::format("\"{}\",{},{}", side, p.x, p.y); };
+    };
+    EXPECT_EQ(of_text(lines_of(fixtures::loop, named)).elements[0].points, fixtures::loop);
+    EXPECT_EQ(of_text("side,x,y\n" + lines_of(upper, on("upper")) + lines_of(lower, on("lower"))).elements[0].points,
+              fixtures::loop);
+    EXPECT_NE(message_of(lines_of(fixtures::loop, named) + "P9 0.9 nan\n").find("no label and two numbers"),
+              std::string::npos);
+}
+
+TEST(Formats, Units) {
+    const auto row = [](std::size_t, Point p) { return fmt::format("{}mm\t{}mm\t0mm", p.x, p.y); };
+    const auto spaced = [](std::size_t, Point p) { return fmt::format("{} in {} in", p.x, p.y); };
+    const Element e = of_text(lines_of(fixtures::loop, row)).elements[0];
+    EXPECT_EQ(e.points, fixtures::loop);
+    EXPECT_EQ(e.unit, "mm");
+    EXPECT_EQ(of_text("wing\n" + lines_of(fixtures::loop, spaced)).elements[0].unit, "in");
+    EXPECT_EQ(of_text("\"x [mm]\";\"y [mm]\"\n" + fixtures::loop_lines).elements[0].unit, "mm");
+    EXPECT_NE(message_of("1mm 0mm\n.5mm .1mm\n0cm 0cm\n").find("the unit is cm here, but mm before"),
+              std::string::npos);
+    GeometryOptions options;
+    options.transformations = {parse_transformation("all:scale:0.001")};
+    EXPECT_EQ(of_text(lines_of(fixtures::loop, row), options).elements[0].unit, "");
+}
+
+TEST(Formats, CamberAndChordLinesAreLeftOut) {
+    const std::string text = "Name,sample\nChord(mm),1\n\nAirfoil surface,\nX(mm),Y(mm)\n" +
+                             lines_of(fixtures::loop, [](auto, Point p) { return fmt::format("{},{}", p.x, p.y); }) +
+                             "\nCamber line,\nX(mm),Y(mm)\n0,0\n0.5,0.01\n1,0\n\nChord line,\nX(mm),Y(mm)\n0,0\n1,0\n";
+    const Geometry geometry = of_text(text);
+    ASSERT_EQ(geometry.elements.size(), 1u);
+    EXPECT_EQ(geometry.elements[0].points, fixtures::loop);
+    EXPECT_EQ(geometry.elements[0].unit, "mm");
+}
+
+TEST(Formats, Plot3d) {
+    const auto coordinates = [](const std::vector<Point>& points, bool with_z) {
+        std::string text;
+        std::size_t written = 0;
+        const auto write = [&](double value) { text += fmt::format("{}{}", value, ++written % 5 == 0 ? "\n" : " "); };
+        for (const Point p : points) write(p.x);
+        for (const Point p : points) write(p.y);
+        if (with_z)
+            for (std::size_t i = 0; i < points.size(); ++i) write(0);
+        return text + "\n";
+    };
+    EXPECT_EQ(of_text("1\n8 1 1\n" + coordinates(fixtures::loop, true)).elements[0].points, fixtures::loop);
+    EXPECT_EQ(of_text("8 1\n" + coordinates(fixtures::loop, false)).elements[0].points, fixtures::loop);
+    EXPECT_EQ(of_text("2\n5 1 1 5 1 1\n" + coordinates(upper, true) + coordinates(lower, true)).elements[0].points,
+              fixtures::loop);
+}
+
+TEST(Formats, PointsOfGmsh) {
+    const std::string points = lines_of(fixtures::loop, [](std::size_t i, Point p) {
+        return fmt::format("Point({}) = {{{}, {}, 0, lc}};", i, p.x, p.y);
+    });
+    for (const std::string curves :
+         {"", "Spline(1) = {1:8};\nLine(2) = {8, 1};\n", "Line(3)={1:5}; Spline(9)={1,8:5};\n"})
+        EXPECT_EQ(of_text("lc = 0.1; // size\n" + points + curves).elements[0].points, fixtures::loop) << curves;
+    const std::string far =
+        "Point(20)={-9,-9,0};Point(21)={9,-9,0};Point(22)={9,9,0};Point(23)={-9,9,0};\n"
+        "Line(20)={20,21};Line(21)={21,22};Line(22)={22,23};Line(23)={23,20};\n";
+    const Geometry with_far_field = of_text(far + points + "Spline(1) = {1:8, 1};\n");
+    ASSERT_EQ(with_far_field.elements.size(), 1u);
+    EXPECT_EQ(with_far_field.elements[0].points, fixtures::loop);
+    EXPECT_NE(message_of(points + "BSpline(1) = {1:8,1};\n").find("BSpline(1) does not pass through"),
+              std::string::npos);
+    EXPECT_NE(message_of(points + "Line(1) = {1:999999999};\n").find("there is no point 9"), std::string::npos);
+}
+
+TEST(Formats, DrawingsSayHowToExport) {
+    EXPECT_NE(message_of("  0\nSECTION\n  2\nHEADER\n").find("a DXF drawing"), std::string::npos);
+    EXPECT_NE(message_of("<svg xmlns=''><path d='M 1,0 L 0,0'/></svg>").find("an SVG drawing"), std::string::npos);
+    EXPECT_NE(message_of("ISO-10303-21;\nHEADER;\n").find("a STEP file"), std::string::npos);
+    EXPECT_NE(message_of(fmt::format("{:<72}S{:>7}\n", "start", 1)).find("an IGES file"), std::string::npos);
+}
+
+TEST(HalfSections, AreMirrored) {
+    GeometryOptions options;
+    options.mirror_half = true;
+    std::vector<Point> whole = reversed(upper);
+    for (std::size_t i = 1; i + 1 < upper.size(); ++i) whole.push_back({upper[i].x, -upper[i].y});
+    const auto row = [](std::size_t, Point p) { return fmt::format("{} {}", p.x, p.y); };
+    for (const std::vector<Point>& half : {upper, reversed(upper)}) {
+        EXPECT_EQ(of_text(lines_of(half, row), options).elements[0].points, whole);
+        EXPECT_EQ(of_text(lines_of(half, row) + row(0, half[0]) + "\n", options).elements[0].points, whole);
+    }
+    std::vector<Point> blunt = upper;
+    blunt.back().y = 0.01;
+    EXPECT_EQ(of_text(lines_of(blunt, row), options).elements[0].points.front(), (Point{1, 0.01}));
+    EXPECT_THROW(of_text(fixtures::selig, options), InputError);
+    const std::string refusal = message_of(lines_of(upper, row));
+    EXPECT_NE(refusal.find("--mirror-half if this is half"), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find("repeat the first point at the end or give --close"), std::string::npos) << refusal;
+}
+
+TEST(HalfSections, ThatAreClosedAreWarnedOf) {
+    std::string text = "half\n";
+    for (int i = 0; i <= 20; ++i) {
+        const double x = 1 - i * i / 400.0;
+        text += fmt::format("{} {}\n", 1 - x, 0.2 * std::sqrt(1 - x) * x);
+    }
+    const std::vector<Warning> warnings = of_text(text + "0 0\n").elements[0].warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].code, WarningCode::half_section);
+    EXPECT_TRUE(of_text("car\n4 .3\n4 .9\n3 1.4\n.05 .75\n0 .3\n4 .3\n").elements[0].warnings.empty());
+    EXPECT_TRUE(of_text("flat\n0 0\n0.2 0.06\n0.5 0.07\n1 0\n0 0\n").elements[0].warnings.empty());
+}
+
+TEST(OpenOutlines, AreClosedOnRequest) {
+    GeometryOptions options;
+    options.close = true;
+    const Element e = of_text("arc\n1 0\n0.75 0.08\n0.5 0.1\n0.25 0.08\n0 0\n", options).elements[0];
+    EXPECT_EQ(e.points.size(), 8u);
+    EXPECT_EQ(std::count_if(e.points.begin(), e.points.end(), [](Point p) { return p.y == 0; }), 5);
+}
+
+TEST(TwoFiles, OfUpperAndLowerSurfaceAreOneElement) {
+    const test::TemporaryFolder folder;
+    const auto row = [](std::size_t, Point p) { return fmt::format("{} {}", p.x, p.y); };
+    for (const std::vector<Point>& a : {upper, reversed(upper)})
+        for (const std::vector<Point>& b : {lower, reversed(lower)}) {
+            const std::vector<std::string> inputs{folder.write("upper.dat", lines_of(a, row)).string(),
+                                                  folder.write("lower.dat", lines_of(b, row)).string(), "naca:0012"};
+            GeometryOptions options;
+            options.transformations = {parse_transformation("naca0012:shift:3,0")};
+            const Geometry geometry = read_geometry(inputs, options);
+            ASSERT_EQ(geometry.elements.size(), 2u);
+            EXPECT_EQ(geometry.elements[0].points, fixtures::loop);
+            EXPECT_EQ(geometry.elements[0].name, "upper");
+        }
+}
+
+TEST(ReferenceBox, IsThatBeforeElementsAreTurned) {
+    const auto width = [](const std::string& change, const std::string& input = "naca:0012") {
+        GeometryOptions options;
+        options.transformations = {parse_transformation(change)};
+        const std::vector<std::string> inputs{input};
+        return reference_box(read_geometry(inputs, options)).width();
+    };
+    EXPECT_EQ(width("all:rotate:-10"), 1);
+    EXPECT_EQ(width("all:rotate:60"), 1);
+    EXPECT_EQ(width("all:flap:20:0.75,0"), 1);
+    EXPECT_EQ(width("all:scale:2"), 2);
+    const test::TemporaryFolder folder;
+    const auto upright = [](std::size_t, Point p) { return fmt::format("{} {}", p.y, p.x); };
+    EXPECT_EQ(width("all:rotate:90", folder.write("up.dat", lines_of(fixtures::loop, upright)).string()), 1);
+}
+
+}  // namespace
+}  // namespace lamina::formats_test
