@@ -70,7 +70,9 @@ struct Flow {
     /// Whether the panel method failed. Then the speed is that of the free stream everywhere, which makes the boundary
     /// layers those of flat plates; sides begin where the outline is farthest from its trailing edge.
     bool estimated = false;
-    std::vector<Warning> warnings;  ///< why flow is an estimate: WarningCode::flow_estimated
+    /// Why the flow is an estimate (WarningCode::flow_estimated), or that it does not stay at the walls
+    /// (WarningCode::flow_separates).
+    std::vector<Warning> warnings;
 };
 
 /// Returns the flow along the same walls in which all elements have this share of their lift, as viscous flow has less

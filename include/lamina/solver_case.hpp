@@ -10,6 +10,7 @@
 
 #include <lamina/conditions.hpp>
 #include <lamina/export.hpp>
+#include <lamina/flow.hpp>
 #include <lamina/mesh.hpp>
 #include <lamina/option.hpp>
 #include <lamina/point.hpp>
@@ -64,15 +65,24 @@ struct SolverCaseFile {
 
 /// Returns the files of a case without the mesh. They do not depend on the machine. Walls of the mesh are its markers
 /// of the kind wall, and its far field is all markers of that kind. Throws OptionError where the Reynolds number is
-/// missing, or the Mach number of a compressible flow is missing or out of range, and MeshError where the mesh has no
-/// wall or no far field.
+/// missing, or the Mach number of a compressible flow is missing or out of range, MeshError where the mesh has no wall or
+/// no far field, and UsageError for SU2 where most cells of the layer are triangles: with the scheme of its case SU2
+/// diverges on them or finds a negative drag.
 LAMINA_EXPORT std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh,
                                                             const SolverConditions& conditions,
                                                             const SolverCaseOptions& options = {});
 
 /// Returns WarningCode::unsuited_to_solver where most cells of the mesh's layer are triangles: simpleFoam diverges on
-/// them within 35 iterations, and SU2 with the scheme of its case, too.
+/// them within 35 iterations. For SU2 there is no such case at all (solver_case_files()).
 LAMINA_EXPORT std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh);
+
+/// The Mach number of a case of SU2 where none is given.
+inline constexpr double default_case_mach = 0.15;
+
+/// Returns WarningCode::unsuited_speed where the settings of a case are not made for this Mach number: above 0.5, and
+/// where the flow is expected to be supersonic along more than 0.05 chords of the walls, by the pressures of the
+/// incompressible flow before the mesh (null where there is none) and Karman and Tsien's rule.
+LAMINA_EXPORT std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const Flow* flow);
 
 /// Returns the names of all files of a case in this folder. The first is the mesh, or the folder that it is in.
 LAMINA_EXPORT std::vector<std::filesystem::path> solver_case_outputs(FlowSolver solver,

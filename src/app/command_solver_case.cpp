@@ -1,5 +1,6 @@
 // lamina case: makes a mesh and writes it with everything that a flow solver needs beside it.
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -46,13 +47,23 @@ SolverConditions solver_conditions(const MeshResult& result, const CaseOptions& 
             .wall_functions = result.y_plus && result.y_plus->y_plus > least_y_plus_of_wall_functions};
 }
 
+/// Returns what the solver makes of the mesh and of the speed.
+std::vector<Warning> warnings_of_case(FlowSolver solver, const MeshResult& result, const SolverCaseOptions& options) {
+    std::vector<Warning> warnings = find_solver_warnings(solver, result.mesh);
+    if (solver == FlowSolver::openfoam && !options.compressible) return warnings;
+    std::vector<Warning> of_speed = find_speed_warnings(solver, result.conditions.mach.value_or(default_case_mach),
+                                                        result.flow ? &*result.flow : nullptr);
+    std::move(of_speed.begin(), of_speed.end(), std::back_inserter(warnings));
+    return warnings;
+}
+
 MeshDestination destination_of_case(FlowSolver solver, const MeshCase& mesh_case, const SolverCaseOptions& options) {
     const std::string folder = mesh_case.outputs.front();
     MeshDestination destination;
     for (const auto& file : solver_case_outputs(solver, folder, options))
         destination.files.push_back({file, "option --output " + folder});
     destination.require_writable = [=] { check_solver_case_writable(solver, folder, options); };
-    destination.warnings = [=](const Mesh& mesh) { return find_solver_warnings(solver, mesh); };
+    destination.warnings = [=](const MeshResult& result) { return warnings_of_case(solver, result, options); };
     destination.write = [=, &mesh_case](const MeshResult& result) {
         write_solver_case(solver, result.mesh, solver_conditions(result, mesh_case.options), folder, options);
     };
@@ -85,6 +96,9 @@ void make_case(const CaseArguments& arguments) {
     options.compressible = mesh_case.options.conditions.mach.has_value();
     apply_preferences(solver, mesh_case);
     require_consistent(mesh_case);
+    if (const LayerOptions& layer = mesh_case.options.layer;
+        solver == FlowSolver::su2 && layer.enabled && layer.topology != LayerTopology::quads)
+        throw OptionError("layer-topology", "must be quads in a case of SU2, which finds wrong forces on triangles");
     if (const FlowConditions& flow = mesh_case.options.conditions; !flow.reynolds && !flow.velocity)
         throw OptionError("reynolds", "a case needs it, or velocity and viscosity");
     if (arguments.family->levels == 1) {

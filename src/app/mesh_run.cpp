@@ -84,8 +84,9 @@ MeshDestination destination_of_outputs(const MeshCase& mesh_case) {
     destination.require_writable = [&mesh_case] {
         for (const std::string& output : mesh_case.outputs) check_writable(output, write_options(mesh_case));
     };
-    destination.warnings = [&mesh_case](const Mesh& mesh) {
-        return is_for_openfoam(mesh_case) ? find_solver_warnings(FlowSolver::openfoam, mesh) : std::vector<Warning>{};
+    destination.warnings = [&mesh_case](const MeshResult& result) {
+        return is_for_openfoam(mesh_case) ? find_solver_warnings(FlowSolver::openfoam, result.mesh)
+                                          : std::vector<Warning>{};
     };
     destination.write = [&mesh_case](const MeshResult& result) {
         for (const std::string& output : mesh_case.outputs) write_mesh(result.mesh, output, write_options(mesh_case));
@@ -113,7 +114,7 @@ void require_whole(const MeshCase& mesh_case) {
 }
 
 void add_warnings_of_readers(const MeshDestination& destination, MeshResult& result) {
-    std::vector<Warning> of_readers = destination.warnings(result.mesh);
+    std::vector<Warning> of_readers = destination.warnings(result);
     std::move(of_readers.begin(), of_readers.end(), std::back_inserter(result.warnings));
 }
 

@@ -17,10 +17,10 @@ namespace lamina::app {
 
 /// The destination of the mesh of a run. The files beside it (files_beside_mesh) are no part of it.
 struct MeshDestination {
-    std::vector<RunFile> files;                                 ///< that are written
-    std::function<void()> require_writable;                     ///< throws where they certainly cannot be written
-    std::function<std::vector<Warning>(const Mesh&)> warnings;  ///< about what the readers make of the mesh
-    std::function<void(const MeshResult&)> write;               ///< writes them
+    std::vector<RunFile> files;                                       ///< that are written
+    std::function<void()> require_writable;                           ///< throws where they certainly cannot be written
+    std::function<std::vector<Warning>(const MeshResult&)> warnings;  ///< about what the readers make of the mesh
+    std::function<void(const MeshResult&)> write;                     ///< writes them
 };
 
 /// Returns how a case writes its mesh files.

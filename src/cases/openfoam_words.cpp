@@ -108,7 +108,9 @@ Words openfoam_words(const CaseFlow& flow) {
     words["NU"] = number(flow.viscosity);
     words["CHORD"] = number(flow.chord);
     words["AREA"] = number(flow.chord * openfoam_span);
-    words["ALPHA"] = number(flow.alpha_deg);
+    // At each step lift swings by 0.2 per degree before it settles.
+    constexpr double step_of_angles = 1;
+    words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));
     words["DRAG_DIRECTION"] = vector(flow.direction.x, flow.direction.y);
     words["LIFT_DIRECTION"] = vector(-flow.direction.y, flow.direction.x);
     // Lift acts a quarter of the chord behind the nose of a thin section.

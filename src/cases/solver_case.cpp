@@ -37,7 +37,7 @@ struct SolverEntry {
 
 constexpr std::array solver_entries{
     SolverEntry{FlowSolver::openfoam, "simpleFoam", "openfoam", "openfoam", "", 100, openfoam_words},
-    SolverEntry{FlowSolver::su2, "SU2_CFD", "su2", "su2", "mesh.su2", 500, su2_words},
+    SolverEntry{FlowSolver::su2, "SU2_CFD", "su2", "su2", "mesh.su2", 5000, su2_words},
 };
 
 const SolverEntry& entry_of(FlowSolver solver) {
@@ -49,9 +49,11 @@ fs::path mesh_file(const SolverEntry& entry, const fs::path& folder) {
     return *entry.mesh == '\0' ? folder : folder / entry.mesh;
 }
 
-/// Returns whether the case has this file: fields of the other turbulence model are left out, and without
+/// Returns whether the solver's case has this file: fields of the other turbulence model are left out, and without
 /// compressibility what describes a gas.
-bool belongs_to_case(std::string_view name, const SolverCaseOptions& options) {
+bool belongs_to_case(const Template& file, const SolverEntry& entry, const SolverCaseOptions& options) {
+    const std::string_view name = file.name;
+    if (file.solver != entry.name && file.solver != "common") return false;
     constexpr std::array of_gas{"0/T",
                                 "0/alphat",
                                 "constant/thermophysicalProperties",
@@ -70,6 +72,14 @@ std::vector<std::string> names_of_markers(const Mesh& mesh, MarkerKind kind) {
     for (const Marker& marker : mesh.markers)
         if (marker.kind == kind) names.push_back(marker.name);
     return names;
+}
+
+/// Returns the number of triangles of the mesh's layer where most of its cells are triangles, else 0.
+std::ptrdiff_t thin_triangles(const Mesh& mesh) {
+    if (mesh.region.empty()) return 0;
+    const auto triangles_end = mesh.region.begin() + static_cast<std::ptrdiff_t>(mesh.triangles.size());
+    const auto triangles = std::count(mesh.region.begin(), triangles_end, Region::layer);
+    return triangles > std::count(triangles_end, mesh.region.end(), Region::layer) ? triangles : 0;
 }
 
 /// Returns the foremost vertex of the walls, the lowest of several.
@@ -92,12 +102,11 @@ CaseFlow case_flow(FlowSolver solver, const Mesh& mesh, const SolverConditions& 
     if (options.compressible && !mach) throw OptionError("mach", "a compressible flow needs it");
     if (options.compressible && solver == FlowSolver::openfoam && !(*mach > 0 && *mach < 1))
         throw OptionError("mach", fmt::format("must be above 0 and below 1 in a case of OpenFOAM, not {}", *mach));
-    constexpr double default_mach = 0.15;
     CaseFlow flow;
     flow.chord = chord;
     flow.alpha_deg = alpha_deg;
     flow.reynolds = *reynolds;
-    flow.mach = mach.value_or(default_mach);
+    flow.mach = mach.value_or(default_case_mach);
     flow.compressible = options.compressible;
     flow.velocity = conditions.velocity.value_or(1);
     flow.viscosity = flow.velocity * chord / *reynolds;
@@ -145,20 +154,22 @@ double far_field_for(FlowSolver solver) { return entry_of(solver).far_field; }
 
 std::vector<SolverCaseFile> solver_case_files(FlowSolver solver, const Mesh& mesh, const SolverConditions& conditions,
                                               const SolverCaseOptions& options) {
+    if (solver == FlowSolver::su2 && thin_triangles(mesh) > 0)
+        throw UsageError(
+            "a case of SU2 needs quadrilaterals in the layer, since SU2 finds wrong forces on triangles: "
+            "--layer-topology quads, with thinner or fewer layers where rows would cross");
     const SolverEntry& entry = entry_of(solver);
     const Words words = entry.words(case_flow(solver, mesh, conditions, options));
     std::vector<SolverCaseFile> files;
     for (const Template& file : templates())
-        if (file.solver == entry.name && belongs_to_case(file.name, options))
+        if (belongs_to_case(file, entry, options))
             files.push_back({fs::path(file.name), fill_in(file.text, words), file.text.starts_with("#!")});
     return files;
 }
 
 std::vector<Warning> find_solver_warnings(FlowSolver solver, const Mesh& mesh) {
-    if (mesh.region.empty()) return {};
-    const auto triangles_end = mesh.region.begin() + static_cast<std::ptrdiff_t>(mesh.triangles.size());
-    const auto triangles = std::count(mesh.region.begin(), triangles_end, Region::layer);
-    if (triangles <= std::count(triangles_end, mesh.region.end(), Region::layer)) return {};
+    const std::ptrdiff_t triangles = thin_triangles(mesh);
+    if (solver == FlowSolver::su2 || triangles == 0) return {};
     return {
         {.code = WarningCode::unsuited_to_solver,
          .number = static_cast<double>(triangles),
@@ -172,8 +183,7 @@ std::vector<fs::path> solver_case_outputs(FlowSolver solver, const fs::path& fol
     const SolverEntry& entry = entry_of(solver);
     std::vector<fs::path> outputs = output_files(mesh_file(entry, folder), {.format = entry.format});
     for (const Template& file : templates())
-        if (file.solver == entry.name && belongs_to_case(file.name, options))
-            outputs.push_back(folder / fs::path(file.name));
+        if (belongs_to_case(file, entry, options)) outputs.push_back(folder / fs::path(file.name));
     return outputs;
 }
 

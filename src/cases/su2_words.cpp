@@ -43,6 +43,11 @@ Words su2_words(const CaseFlow& flow) {
     words["CHORD"] = fmt::format("{}", flow.chord);
     words["MOMENT_X"] = fmt::format("{}", flow.moment_point.x);
     words["MOMENT_Y"] = fmt::format("{}", flow.moment_point.y);
+    // SU2 goes from 10 to 15 degrees at once, too; the lift swings by half of itself then.
+    constexpr double step_of_angles = 2.5;
+    words["ANGLES"] = fmt::format("{}", fmt::join(angles_to(flow.alpha_deg, step_of_angles), " "));
+    words["MAX_ITERATIONS"] = "5000";
+    words["WALL_NAMES"] = fmt::format("{}", fmt::join(flow.walls, " "));
     words["WALLS"] = fmt::format("{}", fmt::join(flow.walls, ", "));
     words["HEAT_FLUXES"] = walls_with(flow, "0.0");
     words["FAR_FIELDS"] = fmt::format("{}", fmt::join(flow.far_fields, ", "));

@@ -10,7 +10,7 @@ namespace lamina::cases {
 
 /// A file with placeholders such as @CHORD@.
 struct Template {
-    std::string_view solver;  ///< the folder under share/cases: "openfoam"
+    std::string_view solver;  ///< the folder under share/cases: "openfoam", or "common" for files of every solver
     std::string_view name;    ///< within that folder: "system/controlDict"
     std::string_view text;    ///< its contents
 };

@@ -29,6 +29,10 @@ struct CaseFlow {
     std::vector<std::string> symmetries;  ///< likewise, if any
 };
 
+/// Returns the angles of attack, in degrees, at which a case is solved one after the other, each from the flow at the one
+/// before and no more than a step away. The last one is the given one.
+std::vector<double> angles_to(double alpha_deg, double largest_step);
+
 /// Return the words for the files of each solver.
 Words openfoam_words(const CaseFlow& flow);
 Words su2_words(const CaseFlow& flow);

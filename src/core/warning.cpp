@@ -28,6 +28,8 @@ std::string warning_name(WarningCode code) {
                                "no_triangles",
                                "unsuited_to_solver",
                                "flow_estimated",
+                               "flow_separates",
+                               "unsuited_speed",
                                "unused_seed",
                                "marker_renamed",
                                "area_jump",

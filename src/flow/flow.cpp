@@ -14,6 +14,7 @@
 #include "flow/boundary_layer.hpp"
 #include "flow/contour.hpp"
 #include "flow/panel_system.hpp"
+#include "flow/separation.hpp"
 #include "flow/sides.hpp"
 
 namespace lamina::flow {
@@ -157,6 +158,8 @@ Flow solve_flow(const Geometry& geometry, const FlowConditions& conditions) {
         add_boundary_layer(element.upper, flow.chord / *reference.reynolds);
         add_boundary_layer(element.lower, flow.chord / *reference.reynolds);
     }
+    if (std::optional<Warning> wide; reference.reynolds && (wide = find_wide_wake(flow)))
+        flow.warnings.push_back(std::move(*wide));
     return flow;
 }
 

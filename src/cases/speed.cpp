@@ -1,0 +1,64 @@
+// Mach numbers for which the settings of the cases are not made.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <lamina/solver_case.hpp>
+
+#include "core/reproducible_math.hpp"
+
+namespace lamina {
+
+namespace {
+
+/// Returns the pressure coefficient at which flow of this Mach number, between 0 and 1, is as fast as sound: that of the
+/// same entropy and total enthalpy, for a ratio of specific heats of 1.4.
+double critical_pressure_coefficient(double mach) {
+    const double ratio = (1 + 0.2 * mach * mach) / 1.2;
+    return (core::pow_reproducible(ratio, 3.5) - 1) / (0.7 * mach * mach);
+}
+
+/// Returns whether flow of this Mach number, between 0 and 1, is expected to be faster than sound where incompressible
+/// flow has this pressure coefficient: T. von Karman, J. Aeronaut. Sci. 8 (1941), after H. S. Tsien.
+bool is_supersonic(double incompressible, double mach) {
+    const double b = std::sqrt(1 - mach * mach), divisor = b + mach * mach / (1 + b) * incompressible / 2;
+    return !(divisor > 0) || incompressible / divisor < critical_pressure_coefficient(mach);
+}
+
+/// Returns the length of all walls along which the flow is expected to be faster than sound.
+double supersonic_length(const Flow& flow, double mach) {
+    double length = 0;
+    for (const ElementFlow& element : flow.elements)
+        for (const auto* side : {&element.upper, &element.lower})
+            for (std::size_t i = 1; i < side->size(); ++i) {
+                const FlowPoint &a = (*side)[i - 1], &b = (*side)[i];
+                if (is_supersonic(0.5 * (a.pressure_coefficient + b.pressure_coefficient), mach)) length += b.s - a.s;
+            }
+    return length;
+}
+
+}  // namespace
+
+std::vector<Warning> find_speed_warnings(FlowSolver solver, double mach, const Flow* flow) {
+    // Up to Mach 0.5 pressures are within 15 % of those of the incompressible flow that the mesh is made for (Prandtl,
+    // Glauert). The CRM-HL at Mach 0.2 is supersonic along 0.026 chords by this measure, and its cases run.
+    constexpr double largest_mach = 0.5, longest = 0.05;
+    double length = 0;
+    if (flow != nullptr && !flow->estimated && mach > 0 && mach < 1)
+        length = supersonic_length(*flow, mach) / flow->chord;
+    if (mach <= largest_mach && length <= longest) return {};
+    const std::string where =
+        length > longest
+            ? fmt::format(", where the flow is expected to be supersonic along {:.2f} chords of the walls", length)
+            : "";
+    return {{.code = WarningCode::unsuited_speed,
+             .number = mach,
+             .unit = "Mach number",
+             .message = fmt::format(
+                 "Mach number {:.4g}{}: the settings of the case, sizes and far field are those of Mach "
+                 "{}, without shocks: give {} schemes and limiters for them",
+                 mach, where, default_case_mach, solver == FlowSolver::su2 ? "case.cfg" : "system/fvSchemes")}};
+}
+
+}  // namespace lamina
