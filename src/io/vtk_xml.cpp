@@ -241,7 +241,8 @@ std::string VtkXmlFile::inflated_bytes(ByteStream& stream, const std::string& na
     require_sound(blocks <= bytes_.size() / header_bytes_ && last <= block);
     // The whole size is known before anything is decompressed.
     if (blocks > 1 ? block > most / (blocks - 1) : (last > 0 ? last : block) > most)
-        fail(fmt::format("array '{}' would unpack to more values than the file announces", name));
+        fail(fmt::format("array '{}' has a broken header: it would unpack to more values than the file announces",
+                         name));
     std::vector<std::size_t> sizes(blocks);
     for (std::size_t& compressed : sizes) compressed = stream.read_number();
     std::string whole;
