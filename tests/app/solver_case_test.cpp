@@ -48,7 +48,7 @@ TEST(SolverCaseCommand, WritesAMeshInQuadsAndTheCase) {
     EXPECT_GT(mesh.quads.size(), mesh.triangles.size() / 4);
     const auto report = nlohmann::json::parse(folder.read("r.json"));
     EXPECT_EQ(report["warnings"].size(), 0u);
-    EXPECT_NE(folder.read("c/Allrun").find("alpha=4 "), std::string::npos);
+    EXPECT_NE(folder.read("c/Allrun").find("angles=\"4\" "), std::string::npos);
 }
 
 TEST(SolverCaseCommand, WritesSu2WithAFarFieldForAUniformStream) {
@@ -62,7 +62,7 @@ TEST(SolverCaseCommand, WritesSu2WithAFarFieldForAUniformStream) {
     const Mesh mesh = read_mesh(folder / "c/mesh.su2");
     double farthest = 0;
     for (const Point p : mesh.points) farthest = std::max(farthest, std::abs(p.y));
-    EXPECT_NEAR(farthest, 500, 1);
+    EXPECT_NEAR(farthest, 5000, 10);
 }
 
 /// Returns a word of a text that stands before a list in parentheses, and the words in it: "walls" of "walls (a b);".
@@ -260,15 +260,15 @@ double lift_of_wall_table(const fs::path& file, const Mesh& mesh, double alpha_d
     return force.y * std::cos(alpha) - force.x * std::sin(alpha);
 }
 
-/// Returns what Allrun's settled() says of blocks of iterations: means of lift, drag and moment, ranges of lift and drag.
+/// Returns what settled.awk says, with the numbers of Allrun, of blocks of iterations: means of lift, drag and moment, ranges of lift and drag.
 std::string settled(const TemporaryFolder& folder, const std::vector<std::array<double, 5>>& blocks) {
     std::string text;
     for (const auto& block : blocks) text += fmt::format("{:.8g}\n", fmt::join(block, " "));
     std::ofstream(folder / "blocks") << text;
     const std::string path = folder.path().string();
-    const std::string command = "cd '" + path +
-                                "' && sed -n '/^first=/p; /^settled() {/,/^}/p' c/Allrun > rule.sh && " +
-                                "sh -c '. ./rule.sh; settled < blocks > said' 2>&1";
+    const std::string command = "cd '" + path + "' && sed -n '/^first=/p' c/Allrun > rule.sh && . ./rule.sh && " +
+                                "awk -v tolerance=$tolerance -v cycle=$cycle -v blocks=$cycle_blocks -f c/settled.awk "
+                                "blocks > said";
     EXPECT_EQ(std::system(command.c_str()), 0);
     return folder.read("said");
 }
@@ -303,6 +303,97 @@ TEST(SolverCaseCommand, AllrunTellsSteadyStatesFromCyclesAndDrift) {
     EXPECT_EQ(settled(folder, falling), "");
     falling.push_back(falling.back());
     EXPECT_EQ(settled(folder, falling), "steady in the mean\n");
+}
+
+/// Runs the case of SU2 with a program in place of SU2_CFD whose lift is a tenth of the angle plus a fading part, and
+/// whose y+ is the number of the vertex. Returns the exit code of Allrun.
+int run_with_stand_in(const TemporaryFolder& folder, const std::string& amplitude) {
+    fs::create_directories(folder / "bin");
+    folder.write(
+        "bin/SU2_CFD",
+        "#!/bin/sh\n"
+        "[ \"$#\" = 1 ] && grep -E '^(AOA|ITER|RESTART_SOL|DISCARD_INFILES)=' \"$1\" | tr '\\n' ' ' >>asked\n"
+        "echo >>asked\n"
+        "awk -v amplitude=" +
+            amplitude +
+            " '/^AOA=/ { a = $2 } /^ITER=/ { n = $2 > 700 ? 700 : $2 } END {\n"
+            "  print \"\\\"Inner_Iter\\\",   \\\"CD\\\"   , \\\"CL\\\"  , \\\"CMz\\\" \"\n"
+            "  for (i = 0; i < n; ++i) print i \", 0.02, \" a / 10 + amplitude * (i % 2) \", -0.006\" }' \"$1\" "
+            ">history.csv\n"
+            "echo flow >restart_flow.dat\n"
+            "awk 'BEGIN { print \"\\\"Point\\\",\\\"x\\\",\\\"Y_Plus\\\"\"; for (i = 0; i < 3; ++i) print i \", 0.0, "
+            "\" "
+            "(i + 1) / 4 }' >surface_flow.csv\n");
+    const std::string path = folder.path().string();
+    const std::string command = "chmod +x '" + path + "/bin/SU2_CFD' && PATH='" + path + "/bin':$PATH '" + path +
+                                "/c/Allrun' > '" + path + "/said' 2>&1";
+    return WEXITSTATUS(std::system(command.c_str()));
+}
+
+TEST(SolverCaseCommand, Su2IsRunThroughItsAnglesAndSummedUp) {
+    const TemporaryFolder folder;
+    Words words = small_case("su2");
+    *std::find(words.begin(), words.end(), "4") = "15";
+    ASSERT_EQ(run_lamina(folder, words).exit_code, 0);
+    EXPECT_EQ(run_with_stand_in(folder, "0.0001"), 0) << folder.read("said");
+    EXPECT_EQ(folder.read("c/asked"),
+              "RESTART_SOL= NO DISCARD_INFILES= YES AOA= 10 ITER= 150 \n"
+              "RESTART_SOL= YES DISCARD_INFILES= YES AOA= 12.5 ITER= 150 \n"
+              "RESTART_SOL= YES DISCARD_INFILES= YES AOA= 15 ITER= 5000 \n");
+    auto result = nlohmann::json::parse(folder.read("c/result.json"));
+    EXPECT_EQ(result["steady"], true);
+    EXPECT_EQ(result["iterations"], 1000);
+    EXPECT_NEAR(result["CL"], 1.50005, 1e-6);
+    EXPECT_NEAR(result["CD"], 0.02, 1e-9);
+    EXPECT_NEAR(result["CM"], 0.006, 1e-9) << "nose up";
+    EXPECT_NEAR(result["y_plus"]["airfoil"]["largest"], 0.75, 1e-9);
+    EXPECT_NEAR(result["y_plus"]["airfoil"]["mean"], 0.5, 1e-9);
+    // Results are not written over, and Allclean removes them.
+    EXPECT_EQ(run_with_stand_in(folder, "0.1"), 1);
+    EXPECT_EQ(std::system(("'" + (folder / "c/Allclean").string() + "'").c_str()), 0);
+    EXPECT_EQ(run_with_stand_in(folder, "0.1"), 2) << folder.read("said");
+    result = nlohmann::json::parse(folder.read("c/result.json"));
+    EXPECT_EQ(result["steady"], false);
+    EXPECT_EQ(result["steady_in_the_mean"], false);
+}
+
+TEST(SolverCaseCommand, WarnsOfSpeedsAndOfFlowThatSeparates) {
+    const TemporaryFolder folder;
+    folder.write("diamond.dat", "1 0\n0.5 0.05\n0 0\n0.5 -0.05\n1 0\n");
+    const auto run = [&](const Words& more) {
+        Words words = more;
+        words.insert(words.end(),
+                     {"--reynolds", "1e6", "--quiet", "--y-plus", "2", "--growth", "1.4", "--gradation", "0.4"});
+        const ProgramRun done = run_lamina(folder, words);
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+        return done.err;
+    };
+    EXPECT_NE(run({"case", "su2", "diamond.dat", "--mach", "2", "-o", "a"}).find("Mach number 2"), std::string::npos);
+    EXPECT_NE(run({"case", "su2", "naca:0012", "--mach", "0.7", "-o", "b"}).find("Mach number 0.7"), std::string::npos);
+    EXPECT_EQ(run({"case", "su2", "naca:0012", "--alpha", "15", "-o", "c"}).find("Mach"), std::string::npos);
+    std::string circle;
+    for (int i = 0; i <= 120; ++i)
+        circle += fmt::format("{} {}\n", 0.5 + 0.5 * std::cos(std::acos(-1) * i / 60),
+                              0.5 * std::sin(std::acos(-1) * i / 60));
+    folder.write("circle.dat", circle);
+    for (const Words& stalled :
+         {Words{"naca:0012", "--alpha", "30"}, Words{"naca:0012", "--alpha", "-30"}, Words{"circle.dat"}}) {
+        Words words = stalled;
+        words.insert(words.begin(), "mesh");
+        words.insert(words.end(), {"-o", "m.su2"});
+        EXPECT_NE(run(words).find("stalled or bluff"), std::string::npos) << stalled.front();
+    }
+    for (const char* section : {"naca:0012", "naca:4415"})
+        for (const char* alpha : {"4", "15"})
+            EXPECT_EQ(run({"mesh", section, "--alpha", alpha, "-o", "m.su2"}).find("stalled"), std::string::npos)
+                << section << " " << alpha;
+}
+
+TEST(SolverCaseCommand, Su2IsRefusedTrianglesInTheLayer) {
+    const TemporaryFolder folder;
+    for (const char* topology : {"layered", "delaunay"})
+        expect_refused(folder, small_case("su2", {"--layer-topology", topology}), usage, "must be quads");
+    EXPECT_FALSE(fs::exists(folder / "c"));
 }
 
 // First order, then one block of second order: enough to see that files fit each other and residuals fall.

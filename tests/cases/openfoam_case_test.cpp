@@ -66,8 +66,13 @@ TEST(OpenFoamCase, DragFollowsTheStreamAndLiftIsUpwardsAcrossIt) {
     for (const double alpha : {-90.0, -7.0, 0.0, 10.0, 90.0}) {
         const auto files = openfoam_files(some_conditions(alpha));
         const std::string control = text_of(files, "system/controlDict");
-        const auto drag = numbers_in(value_of(control, "dragDir")), lift = numbers_in(value_of(control, "liftDir"));
-        const auto stream = numbers_in(value_of(text_of(files, "0/U"), "internalField"));
+        EXPECT_EQ(value_of(control, "dragDir"), "$dragDirection");
+        EXPECT_EQ(value_of(control, "liftDir"), "$liftDirection");
+        EXPECT_EQ(value_of(text_of(files, "0/U"), "internalField"), "uniform $streamVelocity");
+        const std::string directions = text_of(files, "system/stream");
+        const auto drag = numbers_in(value_of(directions, "dragDirection")),
+                   lift = numbers_in(value_of(directions, "liftDirection")),
+                   stream = numbers_in(value_of(directions, "streamVelocity"));
         const double radians = alpha * std::numbers::pi / 180;
         EXPECT_NEAR(drag.at(0), std::cos(radians), 1e-15);
         EXPECT_NEAR(drag.at(1), std::sin(radians), 1e-15);
@@ -178,6 +183,52 @@ TEST(SolverCase, RefusesWhatNoCaseCanBeMadeOf) {
         mesh.markers[missing].kind = MarkerKind::other;
         EXPECT_THROW(solver_case_files(FlowSolver::openfoam, mesh, some_conditions()), MeshError);
     }
+}
+
+TEST(SolverCase, LargeAnglesAreApproachedFromTenDegrees) {
+    const auto angles = [](FlowSolver solver, double alpha) {
+        const std::string run = text_of(solver_case_files(solver, case_mesh(), some_conditions(alpha)), "Allrun");
+        const std::size_t begin = run.find("angles=\"") + 8;
+        return run.substr(begin, run.find('"', begin) - begin);
+    };
+    for (const FlowSolver solver : {FlowSolver::openfoam, FlowSolver::su2}) {
+        for (const char* alone : {"0", "10", "12", "-12", "30.5", "90"})
+            EXPECT_EQ(angles(solver, std::stod(alone)), alone);
+    }
+    EXPECT_EQ(angles(FlowSolver::openfoam, 17), "10 11 12 13 14 15 16 17");
+    EXPECT_EQ(angles(FlowSolver::openfoam, -12.5), "-10 -10.8 -11.7 -12.5");
+    EXPECT_EQ(angles(FlowSolver::su2, 15), "10 12.5 15");
+    EXPECT_EQ(angles(FlowSolver::su2, -17), "-10 -12.3 -14.7 -17");
+}
+
+TEST(SolverCase, Su2GetsNoTrianglesInTheLayer) {
+    EXPECT_THROW(solver_case_files(FlowSolver::su2, test::annulus(), some_conditions()), UsageError);
+    EXPECT_NO_THROW(solver_case_files(FlowSolver::su2, case_mesh(), some_conditions()));
+}
+
+/// Returns the flow round NACA 0012, without boundary layers.
+Flow flow_of_section(double alpha_deg) {
+    return solve_flow(read_geometry(std::vector<std::string>{"naca:0012"}), {.alpha_deg = alpha_deg});
+}
+
+TEST(SolverCase, WarnsOfSpeedsThatItsSettingsAreNotMadeFor) {
+    const auto warned = [](double mach, double alpha_deg) {
+        const Flow flow = flow_of_section(alpha_deg);
+        const auto warnings = find_speed_warnings(FlowSolver::su2, mach, &flow);
+        EXPECT_TRUE(warnings.empty() || warnings[0].code == WarningCode::unsuited_speed);
+        return !warnings.empty();
+    };
+    // Critical at Mach 0.51 at 4 degrees, and at 0.29 at 10: there the flow is supersonic along 1 % of the chord.
+    for (const double alpha_deg : {0.0, 4.0, 10.0, 15.0}) {
+        EXPECT_FALSE(warned(0.15, alpha_deg)) << alpha_deg;
+        EXPECT_TRUE(warned(0.7, alpha_deg)) << alpha_deg;
+        EXPECT_TRUE(warned(2, alpha_deg)) << alpha_deg;
+    }
+    EXPECT_FALSE(warned(0.3, 10));
+    EXPECT_TRUE(warned(0.45, 10));
+    EXPECT_FALSE(warned(0.45, 0));
+    EXPECT_TRUE(find_speed_warnings(FlowSolver::openfoam, 0.3, nullptr).empty());
+    EXPECT_EQ(find_speed_warnings(FlowSolver::openfoam, 0.7, nullptr).size(), 1u);
 }
 
 TEST(SolverCase, WarnsOfThinTriangles) {

@@ -58,6 +58,14 @@ TEST(Su2Case, SaysTheFlow) {
     EXPECT_EQ(options["MARKER_HEATFLUX"], "( wall, 0.0 )");
     EXPECT_EQ(options["MARKER_FAR"], "( farfield )");
     EXPECT_EQ(options["MESH_FILENAME"], "mesh.su2");
+    // With these, and as SU2 8 has them, cases converge (docs/decisions/0038).
+    EXPECT_EQ(options["CFL_ADAPT_PARAM"], "( 0.5, 1.1, 10, 2000 )");
+    EXPECT_EQ(options["LINEAR_SOLVER_ERROR"], "0.1");
+    EXPECT_EQ(options["LINEAR_SOLVER_ITER"], "15");
+    EXPECT_EQ(options["DISCARD_INFILES"], "YES");
+    EXPECT_EQ(options["WRT_RESTART_COMPACT"], "NO");
+    EXPECT_NE(options["SCREEN_OUTPUT"].find("AVG_CFL, LINSOL_RESIDUAL"), std::string::npos);
+    EXPECT_NE(options["HISTORY_OUTPUT"].find("CFL_NUMBER, LINSOL"), std::string::npos);
     EXPECT_EQ(options["MARKER_WALL_FUNCTIONS"], "( wall, NO_WALL_FUNCTION )");
     conditions.reference.mach = 0.2;
     conditions.wall_functions = true;
