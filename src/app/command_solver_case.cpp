@@ -116,8 +116,8 @@ void add_case_command(CLI::App& app) {
     auto arguments = std::make_shared<CaseArguments>();
     command
         ->add_option("SOLVER", arguments->solver,
-                     "openfoam: simpleFoam, or rhoSimpleFoam with --mach, run by DIR/Allrun; su2: SU2_CFD, run with "
-                     "DIR/case.cfg")
+                     "openfoam: simpleFoam, or rhoSimpleFoam with --mach, run by DIR/Allrun; su2: SU2_CFD, run by "
+                     "DIR/Allrun")
         ->required()
         ->type_name("openfoam|su2");
     command
