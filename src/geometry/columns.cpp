@@ -195,6 +195,10 @@ private:
 
     bool read_table_by_names() {
         if (!roles_.empty()) table_ = read_named_table(copies(), roles_, file_);
+        const bool has_thickness =
+            column_with(roles_, ColumnRole::thickness) || column_with(roles_, ColumnRole::half_thickness);
+        // The camber that belongs to a thickness may have a name that is not known.
+        if (table_ && has_thickness && !column_with(roles_, ColumnRole::camber)) require_known_names();
         return table_.has_value();
     }
 
