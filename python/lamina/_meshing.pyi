@@ -38,6 +38,11 @@ def mesh(
     # marker names, one per element; else the stems of the files, or 'airfoil' for a single element; names that
     # not every format takes are changed
     names: str | Sequence[str | float] | None = None,
+    # close outlines whose ends lie apart by a straight edge, however long it is
+    close: bool | None = None,
+    # complete symmetric sections of which the files hold one half, from nose to tail: the other half is its
+    # mirror image
+    mirror_half: bool | None = None,
     # exchange left and right of the whole configuration, for flow that comes from the right; before any
     # --transform
     flip: bool | None = None,
@@ -46,7 +51,7 @@ def mesh(
     # its hinge at X,Y, downwards); may be given several times, in order
     transform: str | float | Sequence[str | float] | None = None,
     # reference chord, in units of the input: what lengths in chords count; else the extent in x of the
-    # configuration; > 0
+    # configuration before --transform turns it; > 0
     chord: float | None = None,
     # angle of attack, in degrees: the flow comes from the left and rises at this angle; nothing is turned
     # (--flip is for flow from the right); >= -90 and <= 90 [0]
@@ -72,7 +77,7 @@ def mesh(
     # geometric, where a ratio of 1.05 to 1.5 makes the last layer as high as the rays stand apart; aflr, 5
     # layers of H, then each 1.05, 1.05^2, ... 1.5, 1.5 ... times as high as the one below [geometric]
     growth_law: Literal["geometric", "polynomial", "exponential", "adaptive", "aflr"] | None = None,
-    # number of layers; auto: on each ray up to cells as high as wide; >= 1 and <= 65535 [30]
+    # number of layers; auto: on each ray up to cells as high as wide; >= 1 and <= 65535 [auto]
     layers: int | Literal["auto"] | None = None,
     # total height beyond which no layer goes; > 0
     thickness: float | str | None = None,

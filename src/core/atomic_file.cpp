@@ -118,7 +118,7 @@ void write_files_atomically(std::span<const fs::path> targets,
         files.push_back(behind_links(target));
         const fs::path beside = folder_of(files.back());
         if (!folders.contains(beside)) clear_folders_of_dead_processes(files.back());
-        temporaries.push_back(folders.try_emplace(beside, target).first->second.path() / files.back().filename());
+        temporaries.push_back(folders.try_emplace(beside, files.back()).first->second.path() / files.back().filename());
     }
     work_on(targets.front(), [&] {
         write(temporaries);
@@ -143,8 +143,7 @@ void write_folder_atomically(const fs::path& target, const std::function<void(co
         const fs::path folder = temporary.path() / "new";
         fs::create_directory(folder);
         write(folder);
-        for (const fs::directory_entry& file : fs::directory_iterator(folder))
-            keep_permissions(target / file.path().filename(), file.path());
+        for (const std::string& file : names_in(folder)) keep_permissions(target / file, folder / file);
         keep_permissions(target, folder);
         put_in_place(folder, target, temporary.path());
     });

@@ -18,6 +18,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include <lamina/error.hpp>
 
@@ -211,6 +212,20 @@ TemporaryFolder::~TemporaryFolder() {
         ::close(parent);
     }
     if (lock_ >= 0) ::close(lock_);
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    const int opened = ::open(folder.c_str(), folder_flags);
+    if (opened < 0) return names;
+    try {
+        for_each_entry(opened, [&](const char* name) { names.emplace_back(name); });
+    } catch (...) {
+        ::close(opened);
+        throw;
+    }
+    ::close(opened);
+    return names;
 }
 
 bool remove_own_temporary_folders(const char* folder) noexcept {

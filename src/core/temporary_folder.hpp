@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace lamina::core {
 
@@ -42,6 +43,10 @@ void clear_folders_of_dead_processes(const std::filesystem::path& target) noexce
 /// Removes the temporary folders of this process in a folder. Returns whether there were any. On Linux it allocates no
 /// memory from the second call on. Never throws.
 bool remove_own_temporary_folders(const char* folder) noexcept;
+
+/// Returns the names of the files and folders in a folder; none where it cannot be read. Lack of memory is an exception:
+/// std::filesystem::directory_iterator ends the process then.
+std::vector<std::string> names_in(const std::filesystem::path& folder);
 
 /// Keeps other processes that use it from exchanging files beside `target` at the same time, as far as the file system
 /// can lock a folder: waits for them, but not for long, since anyone may lock it.

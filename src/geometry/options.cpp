@@ -16,12 +16,10 @@ OptionTable<GeometryOptions> make_table() {
         member_at(&GeometryOptions::names));
     table.flag("close", "close outlines whose ends lie apart by a straight edge, however long it is", true,
                member_at(&GeometryOptions::close));
-    table
-        .flag("mirror-half",
-              "complete symmetric sections of which the files hold one half, from nose to tail: the other half is its "
-              "mirror image",
-              true, member_at(&GeometryOptions::mirror_half))
-        .excludes = {"close"};
+    table.flag("mirror-half",
+               "complete symmetric sections of which the files hold one half, from nose to tail: the other half is its "
+               "mirror image",
+               true, member_at(&GeometryOptions::mirror_half));
     table.flag("flip",
                "exchange left and right of the whole configuration, for flow that comes from the right; before any "
                "--transform",
@@ -46,6 +44,10 @@ const OptionTable<GeometryOptions>& geometry_option_table() {
     return table;
 }
 
-void validate(const GeometryOptions& options) { require_in_range(geometry_option_table(), options); }
+void validate(const GeometryOptions& options) {
+    require_in_range(geometry_option_table(), options);
+    if (options.close && options.mirror_half)
+        throw OptionError("mirror_half", "excludes closing the half by a straight edge (close)");
+}
 
 }  // namespace lamina

@@ -175,7 +175,7 @@ TEST(BadInput, GrowthLawsThatLackSomething) {
 
 TEST(BadInput, FarFieldsThatAreTooSmallOrTooLarge) {
     const TemporaryFolder folder;
-    expect_refused(folder, mesh_naca_with({"--far-field", "0.2"}), usage, "--far-field: leaves no room");
+    expect_refused(folder, mesh_naca_with({"--far-field", "0.2"}), usage, "--far-field: leaves 0 units");
     for (const char* size : {"1e13", "1e15u", "1e30"})
         expect_refused(folder, mesh_naca_with({"--far-field", size}), usage, "--far-field: is more than 1e12 times");
     expect_refused(folder, mesh_naca_with({"--far-field-outline", "-1e15,-1e15,1e15,-1e15,0,1e15"}), usage,

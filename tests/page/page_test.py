@@ -199,11 +199,11 @@ class Pages(unittest.TestCase):
                 self.expect_small(page, {"cells": cells})
 
     def test_several_meshes_get_several_pages(self):
-        few = ["--first-height", "1e-3", "--layers", 3, "--far-field", 5, "--surface", "keep", "--quiet"]
+        few = ["--first-height", "1e-3", "--layers", 3, "--far-field", 5, "--quiet"]
         done = run("family", "naca:0012:60", *few, "--levels", 2, "--surface", "resample", "-o",
                    self.folder / "m_{level}.su2", "--html", self.folder / "m.html", code=2)
         self.assertIn("--html", done.stderr)
-        run("batch", "naca:0012:60", "naca:2412:60", *few, "-o", self.folder / "{name}.su2", "--html",
+        run("batch", "naca:0012:60", "naca:2412:60", *few, "--surface", "keep", "-o", self.folder / "{name}.su2", "--html",
             self.folder / "{name}.html")
         pages = sorted(self.folder.glob("*.html"))
         self.assertEqual(len(pages), 2)
