@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -16,7 +17,6 @@
 
 #include "geometry/characters.hpp"
 #include "geometry/column_names.hpp"
-#include "geometry/join_blocks.hpp"
 
 namespace lamina::geometry {
 
@@ -42,7 +42,7 @@ bool names_both_surfaces(const CoordinateDocument& document) {
 
 /// Returns the rows that hold coordinates. Throws InputError where they differ in their number of columns.
 Rows coordinate_rows(CoordinateSection& section, const CoordinateDocument& document, const std::string& file) {
-    std::size_t most = 0;
+    std::uint32_t most = 0;
     for (const CoordinateBlock& block : section)
         for (const RowPoint& row : block.points) most = std::max(most, row.columns);
     const bool may_be_short = most > 2 && names_both_surfaces(document);
@@ -101,16 +101,19 @@ bool is_constant(const Rows& rows, std::size_t column, double largest_span) {
     return span(rows, column) <= tolerance * largest_span;
 }
 
-/// Returns the rows with three columns alone, as a table has them.
+/// Returns a row with some columns alone.
+RowPoint reduced_to(const RowPoint& row, const Columns& columns) {
+    RowPoint reduced{row, std::min(row.columns, static_cast<std::uint32_t>(columns.size())), {}};
+    for (std::size_t c = 0; c < columns.size(); ++c) reduced.values.set(c, row.values[columns[c]]);
+    reduced.at = {reduced.values[0], reduced.values[1]};
+    return reduced;
+}
+
+/// Returns the rows with some columns alone, as a table has them.
 PointRun reduced_to(const Rows& rows, const Columns& columns) {
     PointRun reduced;
     reduced.reserve(rows.size());
-    for (const RowPoint* row : rows) {
-        RowPoint& point = reduced.emplace_back(*row);
-        point.columns = std::min(row->columns, columns.size());
-        for (std::size_t c = 0; c < columns.size(); ++c) point.values[c] = row->values[columns[c]];
-        point.at = {point.values[0], point.values[1]};
-    }
+    for (const RowPoint* row : rows) reduced.push_back(reduced_to(*row, columns));
     return reduced;
 }
 
@@ -299,10 +302,11 @@ void check_range(const PointRun& points, const std::string& file) {
 ColumnReading choose_columns(CoordinateSection& section, const CoordinateDocument& document, const std::string& file) {
     const Rows rows = coordinate_rows(section, document, file);
     if (rows.empty()) return {};
+    std::size_t points = 0;
+    for (const CoordinateBlock& block : section) points += block.points.size();
     ColumnChooser chooser(rows, document, file);
-    chooser.choose(rows.size() == all_points(section).size());
-    const PointRun chosen = reduced_to(rows, chooser.left());
-    for (std::size_t i = 0; i < rows.size(); ++i) *rows[i] = chosen[i];
+    chooser.choose(rows.size() == points);
+    for (RowPoint* row : rows) *row = reduced_to(*row, chooser.left());
     ColumnReading reading = chooser.take();
     if (reading.table) {
         check_range(reading.table->upper, file);

@@ -1,8 +1,9 @@
 // Rows of an airfoil file -> blocks: runs of coordinates without anything between them.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,14 @@ namespace lamina::geometry {
 
 /// A point with the numbers of its row.
 struct RowPoint : SourcePoint {
-    std::size_t columns = 2;                   ///< how many numbers the row has
-    std::array<double, max_columns> values{};  ///< these numbers; x and y are the first two until columns are chosen
+    std::uint32_t columns = 2;  ///< how many numbers the row has
+    RowValues values{};         ///< these numbers; x and y are the first two until columns are chosen
 };
 
 using PointRun = std::vector<RowPoint>;
+
+/// Points of a run that stand elsewhere. Files may have millions of them, so that they are not copied to be looked at.
+using PointSpan = std::span<const RowPoint>;
 
 /// Coordinates that follow each other without a blank line, comment, label or separator between them.
 struct CoordinateBlock {
@@ -48,6 +52,6 @@ struct CoordinateDocument {
 
 /// Divides rows into blocks and sections. Throws InputError, which names `file`, for damaged coordinates and rows of
 /// more than `max_columns` numbers.
-CoordinateDocument split_into_blocks(const std::vector<TextRow>& rows, const std::string& file);
+CoordinateDocument split_into_blocks(const TextRows& rows, const std::string& file);
 
 }  // namespace lamina::geometry

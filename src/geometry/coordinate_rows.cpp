@@ -1,6 +1,7 @@
 #include "geometry/coordinate_rows.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
@@ -101,8 +102,8 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     const std::vector<Field>& fields = list.fields;
     while (row.number_count < fields.size() && fields[row.number_count].kind == FieldKind::number) {
         const Field& field = fields[row.number_count];
-        if (row.number_count < row.values.size()) row.values[row.number_count] = field.value;
-        if (row.unit.empty()) row.unit = field.unit;
+        if (row.number_count < max_columns) row.values.set(row.number_count, field.value);
+        if (!field.unit.empty() && row.words().unit.empty()) row.change_words().unit = field.unit;
         row.has_fractions |= !is_whole(field.text);
         row.has_leading_zeros |=
             is_whole(field.text) && field.text.size() > 1 && field.text[0] == '0' && is_digit(field.text[1]);
@@ -116,41 +117,42 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     if (row.number_count >= 2) {
         row.kind = RowKind::numbers;
         row.has_decimal_points = has_point(fields[0]) && has_point(fields[1]);
-        if (row.has_remark || !row.has_fractions) row.text = printable(line);
+        if (row.has_remark || !row.has_fractions) row.change_words().text = printable(line);
         return;
     }
     row.kind = RowKind::text;
-    row.text = printable(line);
-    row.names = read_names(line);
+    RowWords& words = row.change_words();
+    words.text = printable(line);
+    words.names = read_names(line);
     if (fields.empty()) return;
-    if (must_be_coordinates(fields, is_first_row)) row.damage = describe_damage(fields);
-    if (must_be_coordinates_in_run(fields)) row.damage_in_run = describe_damage(fields);
+    if (must_be_coordinates(fields, is_first_row)) words.damage = describe_damage(fields);
+    if (must_be_coordinates_in_run(fields)) words.damage_in_run = describe_damage(fields);
 }
 
 void read_comment(std::string_view line, TextRow& row) {
     row.kind = RowKind::comment;
     const std::size_t start = line.find_first_not_of("#!;%/ \t");
     if (start == std::string_view::npos) return;
-    row.text = printable(line.substr(start));
-    row.names = read_names(line.substr(start));
+    row.change_words().text = printable(line.substr(start));
+    row.change_words().names = read_names(line.substr(start));
 }
 
 /// Reads one line, which is the first row where only blank lines and comments stand before it. It has several rows
 /// where it lists several points in brackets.
-void read_line(std::string_view line, std::size_t number, bool is_first_row, std::vector<TextRow>& rows) {
-    TextRow row;
-    row.line = number;
+void read_line(std::string_view line, std::size_t number, bool is_first_row, TextRows& rows) {
     line = trimmed(line);
+    const auto add_row = [&]() -> TextRow& {
+        rows.emplace_back().line = static_cast<std::uint32_t>(number);
+        return rows.back();
+    };
     if (line.empty() || (!starts_comment(line) && has_brackets_alone(line))) {
-        rows.push_back(std::move(row));
+        add_row();
     } else if (starts_comment(line)) {
-        read_comment(line, row);
-        rows.push_back(std::move(row));
+        read_comment(line, add_row());
     } else if (const auto listed = rows_in_brackets(without_clear_comment(line)); !listed.empty()) {
-        for (const std::string& text : listed) read_text_or_numbers(text, is_first_row, rows.emplace_back(row));
+        for (const std::string& text : listed) read_text_or_numbers(text, is_first_row, add_row());
     } else {
-        read_text_or_numbers(line, is_first_row, row);
-        rows.push_back(std::move(row));
+        read_text_or_numbers(line, is_first_row, add_row());
     }
 }
 
@@ -159,14 +161,14 @@ void read_line(std::string_view line, std::size_t number, bool is_first_row, std
 class RowThinner {
 public:
     /// Looks at the rows from `first` on, which were just added.
-    void thin(std::vector<TextRow>& rows, std::size_t first) {
+    void thin(TextRows& rows, std::size_t first) {
         if (rows.size() - first != 1 || rows.back().kind == RowKind::numbers) {
             between_ = 0;
             return;
         }
         if (++between_ <= max_rows_between) return;
         TextRow& before = rows[first - 1];
-        const bool replaces = rows.back().kind == RowKind::text && before.damage.empty();
+        const bool replaces = rows.back().kind == RowKind::text && before.words().damage.empty();
         if (replaces && before.kind != RowKind::text) return;
         if (replaces) before = std::move(rows.back());
         rows.pop_back();
@@ -177,21 +179,44 @@ private:
     std::size_t between_ = 0;  ///< rows since the last numbers
 };
 
+/// Forgets the texts of rows of numbers that no reader asks for. They are titles only before the first points, of which
+/// the very first one may turn out to be a title itself, and notes only where they have an arrow.
+class TextForgetter {
+public:
+    /// Looks at the next row.
+    void forget(TextRow& row) {
+        constexpr std::size_t most_titles = 2;
+        constexpr std::size_t min_domain = 4;  // numbers of a row that gives the domain of MSES
+        if (row.kind != RowKind::numbers || row.has_arrow) return;
+        if (points_ >= most_titles && row.own_words) {
+            row.own_words->text = {};
+            if (row.own_words->unit.empty()) row.own_words.reset();
+        }
+        if (!row.has_remark && row.number_count < min_domain && !is_separator(row)) ++points_;
+    }
+
+private:
+    std::size_t points_ = 0;  ///< rows that can only be points, or the number in the place of the title
+};
+
 }  // namespace
+
+bool is_separator(const TextRow& row) { return row.values[0] == 999.0 && row.values[1] == 999.0; }
 
 TextRow read_row(std::string_view line, std::size_t number) {
     TextRow row;
-    row.line = number;
+    row.line = static_cast<std::uint32_t>(number);
     read_text_or_numbers(line, false, row);
     return row;
 }
 
-std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
+TextRows read_rows(std::string_view text, const std::string& file) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
         throw InputError({file, 1, {}}, "the text is UTF-16; save it as UTF-8 or ASCII");
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of UTF-8
-    std::vector<TextRow> rows;
+    TextRows rows;
     RowThinner thinner;
+    TextForgetter forgetter;
     bool is_first_row = true;
     std::size_t number = 0;
     while (!text.empty()) {
@@ -203,6 +228,7 @@ std::vector<TextRow> read_rows(std::string_view text, const std::string& file) {
         const std::size_t before = rows.size();
         read_line(with_plain_signs(line), number, is_first_row, rows);
         thinner.thin(rows, before);
+        for (std::size_t i = before; i < rows.size(); ++i) forgetter.forget(rows[i]);
         if (rows.back().kind != RowKind::blank && rows.back().kind != RowKind::comment) is_first_row = false;
         if (end == std::string_view::npos) break;
         text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);

@@ -126,9 +126,9 @@ private:
         if (s.kind == "Point" && s.list.size() >= 2) {
             RowPoint p;
             p.line = s.line;
-            p.values[0] = number(s.list[0], s.line);
-            p.values[1] = number(s.list[1], s.line);
-            p.at = {p.values[0], p.values[1]};
+            p.at = {number(s.list[0], s.line), number(s.list[1], s.line)};
+            p.values.set(0, p.at.x);
+            p.values.set(1, p.at.y);
             const long id = whole(s.number, s.line);
             if (points_.insert_or_assign(id, p).second) order_.push_back(id);
         } else if (s.kind == "Line" || s.kind == "Spline") {

@@ -103,10 +103,10 @@ void join_continued_blocks(CoordinateSection& section) {
     section = std::move(joined);
 }
 
-PointRun all_points(const CoordinateSection& section) {
-    PointRun points;
-    for (const CoordinateBlock& block : section) append(points, block.points);
-    return points;
+PointSpan all_points(const CoordinateSection& section, PointRun& copies) {
+    if (section.size() == 1) return section[0].points;
+    for (const CoordinateBlock& block : section) append(copies, block.points);
+    return copies;
 }
 
 std::size_t remove_blocks(CoordinateSection& section, std::size_t points) {

@@ -16,8 +16,8 @@ void join_commented_blocks(CoordinateSection& section);
 /// as a neighbouring step.
 void join_continued_blocks(CoordinateSection& section);
 
-/// Returns the points of all blocks.
-PointRun all_points(const CoordinateSection& section);
+/// Returns the points of all blocks: those of the only one, or `copies` of those of several.
+PointSpan all_points(const CoordinateSection& section, PointRun& copies);
 
 /// Removes the first points of a section, as many as whole blocks have. Returns how many of them remain in the first
 /// block that is left.

@@ -24,7 +24,7 @@ PointRun lone_surface(const OutlinesOfFile& file) {
 }
 
 /// Returns the outline of two surfaces that may run either way; nothing where they do not have both ends in common.
-std::optional<PointRun> joined(PointRun a, PointRun b) {
+std::optional<std::vector<SourcePoint>> joined(PointRun a, PointRun b) {
     if (a.empty() || b.empty()) return std::nullopt;
     if (!are_two_surfaces(a, b)) std::reverse(b.begin(), b.end());
     if (!are_two_surfaces(a, b)) return std::nullopt;
@@ -43,14 +43,14 @@ std::optional<PointRun> joined(PointRun a, PointRun b) {
 void join_files(std::vector<OutlinesOfFile>& files) {
     std::vector<OutlinesOfFile> result;
     for (OutlinesOfFile& file : files) {
-        const std::optional<PointRun> run =
+        std::optional<std::vector<SourcePoint>> run =
             result.empty() ? std::nullopt : joined(lone_surface(result.back()), lone_surface(file));
         if (!run) {
             result.push_back(std::move(file));
             continue;
         }
         RawOutline& outline = result.back().outlines[0];
-        outline.points.assign(run->begin(), run->end());
+        outline.points = std::move(*run);
         outline.notes.push_back(fmt::format("joined with the other surface, from {}", file.file));
         std::copy(file.outlines[0].notes.begin(), file.outlines[0].notes.end(), std::back_inserter(outline.notes));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -30,42 +31,43 @@ std::string_view behind_first_field(std::string_view text) {
 /// Returns the numbers behind the label of a row of text, as a row of their own; nothing for other rows.
 std::optional<TextRow> labelled_row(const TextRow& row) {
     if (row.kind != RowKind::text || row.number_count > 0) return std::nullopt;
-    TextRow numbers = read_row(behind_first_field(row.text), row.line);
+    TextRow numbers = read_row(behind_first_field(row.words().text), row.line);
     if (numbers.kind != RowKind::numbers) return std::nullopt;
     numbers.has_label = true;
-    numbers.label = printable(read_fields(row.text).fields[0].text);
+    numbers.change_words().label = printable(read_fields(row.words().text).fields[0].text);
     return numbers;
 }
 
 /// Returns whether a row of text that is no labelled row was meant as one: numbers stand beside a field that is none.
 bool is_damaged(const TextRow& row) {
     if (row.kind != RowKind::text) return false;
-    const FieldList rest = read_fields(behind_first_field(row.text));
+    const FieldList rest = read_fields(behind_first_field(row.words().text));
     return rest.fields.size() == 2 && std::any_of(rest.fields.begin(), rest.fields.end(),
                                                   [](const Field& f) { return f.kind != FieldKind::word; });
 }
 
 /// Returns whether each label of some rows stays the same for several of them.
-bool labels_divide(const std::vector<TextRow>& rows) {
+bool labels_divide(const TextRows& rows) {
     std::size_t same = min_rows, changes = 0;
-    const TextRow* previous = nullptr;
+    const std::string* previous = nullptr;
     for (const TextRow& row : rows) {
-        if (row.label.empty()) continue;
-        if (!previous || row.label == previous->label) {
+        const std::string& label = row.words().label;
+        if (label.empty()) continue;
+        if (!previous || label == *previous) {
             same = previous ? same + 1 : 1;
         } else {
             if (same < min_rows) return false;
             same = 1;
             ++changes;
         }
-        previous = &row;
+        previous = &label;
     }
     return changes > 0 && same >= min_rows;
 }
 
 }  // namespace
 
-void read_label_column(std::vector<TextRow>& rows) {
+void read_label_column(TextRows& rows) {
     const auto is_numbers = [](const TextRow& row) { return row.kind == RowKind::numbers; };
     const auto number_rows = std::count_if(rows.begin(), rows.end(), is_numbers);
     if (number_rows > 1) return;
@@ -79,12 +81,14 @@ void read_label_column(std::vector<TextRow>& rows) {
             *row = std::move(*labelled);
             in_rows = true;
         } else if (in_rows && is_damaged(*row)) {
-            row->damage_in_run = row->damage =
-                fmt::format("'{}' is no label and two numbers, as other rows are", row->text);
+            RowWords& words = row->change_words();
+            words.damage_in_run = words.damage =
+                fmt::format("'{}' is no label and two numbers, as other rows are", words.text);
         }
     }
     if (labels_divide(rows)) return;
-    for (TextRow& row : rows) row.label.clear();
+    for (TextRow& row : rows)
+        if (row.own_words) row.own_words->label.clear();
 }
 
 }  // namespace lamina::geometry

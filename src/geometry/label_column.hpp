@@ -11,6 +11,6 @@ namespace lamina::geometry {
 /// least three and no other rows of numbers, but perhaps one before them, which counts them. Labels that stay the same
 /// for three rows or more, all along, are those of surfaces or elements, and remain as TextRow::label; others number or
 /// name single points.
-void read_label_column(std::vector<TextRow>& rows);
+void read_label_column(TextRows& rows);
 
 }  // namespace lamina::geometry

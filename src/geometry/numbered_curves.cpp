@@ -64,7 +64,7 @@ private:
         if (curves_.empty() || is_closed_ || row.values[0] != curve_ || row.values[1] != 0) return false;
         is_closed_ = true;
         RowPoint closing = curves_.back().front();
-        closing.values[1] = point_ + 1;
+        closing.values.set(1, point_ + 1);
         curves_.back().push_back(closing);
         notes_.push_back(fmt::format("line {}: '{} 0' closes curve {}", row.line, curve_, curve_));
         return true;
@@ -82,35 +82,39 @@ bool names_auxiliary_line(const std::string& title) {
 }  // namespace
 
 std::vector<std::string> divide_counted_curves(CoordinateSection& section) {
-    const PointRun rows = all_points(section);
+    PointRun copies;
+    const PointSpan rows = all_points(section, copies);
     if (rows.empty() || rows[0].columns != 2) return {};
     const double points = rows[0].values[0], curves = rows[0].values[1],
                  available = static_cast<double>(rows.size() - 1);
     const bool fits = is_whole(points) && is_whole(curves) && points >= 2 && curves >= 1 &&
                       points * curves == available && points + curves != available;
     if (!fits) return {};
-    const PointRun rest(rows.begin() + 1, rows.end());
+    const PointSpan rest = rows.subspan(1);
     const bool is_apart = have_other_columns(rest, rows[0]) || (curves >= 2 && lies_far_from(rows[0].at, rest));
     if (!is_apart) return {};
     const auto step = static_cast<std::ptrdiff_t>(points);
+    const std::size_t line = rows[0].line;
     CoordinateSection divided;
     for (auto at = rest.begin(); at != rest.end(); at += step)
         divided.push_back({{at, at + step}, divided.empty() ? title_of(section) : std::string(), false});
     section = std::move(divided);
-    return {fmt::format("line {}: {} curve{} of {} points", rows[0].line, curves, curves == 1 ? "" : "s", points)};
+    return {fmt::format("line {}: {} curve{} of {} points", line, curves, curves == 1 ? "" : "s", points)};
 }
 
 std::vector<std::string> divide_numbered_curves(CoordinateSection& section) {
     constexpr std::size_t min_rows = 3;
-    const PointRun rows = all_points(section);
     NumberedRows numbered;
-    for (const RowPoint& row : rows)
-        if (!numbered.take(row)) return {};
-    if (rows.size() < min_rows || !numbered.says_more()) return {};
-    CoordinateSection divided;
-    for (PointRun& curve : numbered.curves())
-        divided.push_back({std::move(curve), divided.empty() ? title_of(section) : std::string(), false});
-    section = std::move(divided);
+    std::size_t rows = 0;
+    for (const CoordinateBlock& block : section)
+        for (const RowPoint& row : block.points) {
+            if (!numbered.take(row)) return {};
+            ++rows;
+        }
+    if (rows < min_rows || !numbered.says_more()) return {};
+    std::string title = title_of(section);
+    section.clear();
+    for (PointRun& curve : numbered.curves()) section.push_back({std::move(curve), std::exchange(title, {}), false});
     return std::move(numbered.notes());
 }
 

@@ -18,7 +18,7 @@ double distance_outside(Point p, const Box& box) {
     return std::max({box.lower.x - p.x, p.x - box.upper.x, box.lower.y - p.y, p.y - box.upper.y});
 }
 
-Box box_of(const PointRun& points) {
+Box box_of(PointSpan points) {
     Box box;
     for (const RowPoint& p : points) box.include(p.at);
     return box;
@@ -28,21 +28,20 @@ bool is_count(double value) { return value >= 2 && value <= 1e8 && value == std:
 
 }  // namespace
 
-bool have_other_columns(const PointRun& run, const RowPoint& before) {
+bool have_other_columns(PointSpan run, const RowPoint& before) {
     return std::all_of(run.begin(), run.end(), [&](const RowPoint& p) { return p.columns == run[0].columns; }) &&
            run[0].columns != before.columns;
 }
 
-bool lies_far_from(Point p, const PointRun& points) { return distance_outside(p, box_of(points)) > extent(points); }
+bool lies_far_from(Point p, PointSpan points) { return distance_outside(p, box_of(points)) > extent(points); }
 
-std::optional<SurfaceCounts> read_counts(const PointRun& points, const std::string& file) {
+std::optional<SurfaceCounts> read_counts(PointSpan points, const std::string& file) {
     const Point p = points[0].at;
     if (!is_count(p.x) || !is_count(p.y)) return std::nullopt;
     const std::size_t available = points.size() - 1;
     const SurfaceCounts counts{static_cast<std::size_t>(p.x), static_cast<std::size_t>(p.y)};
     const std::size_t total = counts.total();
-    const PointRun rest(points.begin() + 1,
-                        points.begin() + 1 + static_cast<std::ptrdiff_t>(std::min(total, available)));
+    const PointSpan rest = points.subspan(1, std::min(total, available));
     const Box box = box_of(rest);
     if (rest.empty() || box.contains(p)) return std::nullopt;
     const double outside = distance_outside(p, box);
@@ -55,11 +54,11 @@ std::optional<SurfaceCounts> read_counts(const PointRun& points, const std::stri
     return std::nullopt;
 }
 
-std::optional<std::string> why_title(const PointRun& points, const CoordinateDocument& document) {
+std::optional<std::string> why_title(PointSpan points, const CoordinateDocument& document) {
     constexpr std::size_t min_rows = 3;
     if (document.first_row.empty() || points.size() <= min_rows) return std::nullopt;
     const RowPoint& first = points[0];
-    const PointRun rest(points.begin() + 1, points.end());
+    const PointSpan rest = points.subspan(1);
     const double a = first.values[0], b = first.values[1], available = static_cast<double>(rest.size());
     const bool may_be_counts = first.columns == 2 && is_count(a) && is_count(b);
     const bool is_one_loop = is_loop(rest) && !find_second_surface(rest);

@@ -27,25 +27,6 @@ using SourcePoints = std::vector<SourcePoint>;
 /// Returns the distance below which neighbours are the same point, written with different rounding.
 double merge_tolerance(const SourcePoints& points) { return 1e-12 * extent(points); }
 
-void remove_duplicates(SourcePoints& points, std::vector<std::string>& repairs) {
-    const double tolerance = merge_tolerance(points);
-    SourcePoints kept;
-    for (const SourcePoint& p : points) {
-        if (kept.empty() || distance(kept.back().at, p.at) > tolerance) {
-            kept.push_back(p);
-        } else {
-            repairs.push_back(
-                fmt::format("line {}: duplicate of line {} removed {}", p.line, kept.back().line, coordinates(p.at)));
-        }
-    }
-    while (kept.size() > 1 && distance(kept.front().at, kept.back().at) <= tolerance) {
-        repairs.push_back(fmt::format("line {}: closing point merged with line {} {}", kept.back().line,
-                                      kept.front().line, coordinates(kept.back().at)));
-        kept.pop_back();
-    }
-    points = std::move(kept);
-}
-
 /// Throws InputError for fewer than three points and for points on one line.
 void check_extent(const SourcePoints& points, const std::string& file) {
     const InputPlace place{file, points.empty() ? 0 : points[0].line, {}};
@@ -56,6 +37,36 @@ void check_extent(const SourcePoints& points, const std::string& file) {
         return orient2d(points[0].at, points[1].at, p.at) == 0;
     });
     if (flat) throw InputError(place, fmt::format("all {} points lie on one line", points.size()));
+}
+
+/// Returns the points without those that repeat the one before them or, at the end, the first one. Throws InputError as
+/// above: before it says what was removed, since that may be millions of lines.
+SourcePoints without_duplicates(const SourcePoints& points, const std::string& file,
+                                std::vector<std::string>& repairs) {
+    const double tolerance = merge_tolerance(points);
+    const auto repeats = [&](const SourcePoint& a, const SourcePoint& b) { return distance(a.at, b.at) <= tolerance; };
+    SourcePoints kept;
+    for (const SourcePoint& p : points)
+        if (kept.empty() || !repeats(kept.back(), p)) kept.push_back(p);
+    const std::size_t duplicates = points.size() - kept.size();
+    std::vector<std::string> closing;
+    while (kept.size() > 1 && repeats(kept.front(), kept.back())) {
+        closing.push_back(fmt::format("line {}: closing point merged with line {} {}", kept.back().line,
+                                      kept.front().line, coordinates(kept.back().at)));
+        kept.pop_back();
+    }
+    check_extent(kept, file);
+    repairs.reserve(repairs.size() + duplicates + closing.size());
+    const SourcePoint* last = nullptr;
+    for (const SourcePoint& p : points) {
+        if (!last || !repeats(*last, p))
+            last = &p;
+        else
+            repairs.push_back(
+                fmt::format("line {}: duplicate of line {} removed {}", p.line, last->line, coordinates(p.at)));
+    }
+    repairs.insert(repairs.end(), closing.begin(), closing.end());
+    return kept;
 }
 
 /// Merges neighbours that are too near to each other to be seen apart and whose other edges cross. Rounding to a few
@@ -312,10 +323,9 @@ Element repair_outline(const RawOutline& outline, const std::string& file, const
     element.points_read = outline.points.size();
     element.repairs = outline.notes;
 
-    SourcePoints points = outline.points;
-    const bool closed = points.size() > 1 && distance(points.front().at, points.back().at) <= merge_tolerance(points);
-    remove_duplicates(points, element.repairs);
-    check_extent(points, file);
+    const SourcePoints& given = outline.points;
+    const bool closed = given.size() > 1 && distance(given.front().at, given.back().at) <= merge_tolerance(given);
+    SourcePoints points = without_duplicates(given, file, element.repairs);
     remove_noise(points, closed, element);
     const SourcePoint last = points.back();
     merge_crossed_neighbours(points, element.repairs);

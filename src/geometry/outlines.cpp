@@ -53,9 +53,9 @@ private:
     std::vector<RawOutline>& outlines_;
     std::vector<std::string> notes_;  ///< for the next outline
 
-    void add(const PointRun& points, const std::string& title, const std::string& format) {
+    void add(std::vector<SourcePoint> points, const std::string& title, const std::string& format) {
         RawOutline& outline = outlines_.emplace_back();
-        outline.points.assign(points.begin(), points.end());
+        outline.points = std::move(points);
         outline.title = title;
         outline.format = format;
         outline.notes = std::exchange(notes_, {});
@@ -69,7 +69,8 @@ private:
 
     /// Makes the first row a title where it cannot be anything else.
     void drop_numeric_title() {
-        const std::optional<std::string> reason = why_title(all_points(section_), document_);
+        PointRun copies;
+        const std::optional<std::string> reason = why_title(all_points(section_, copies), document_);
         if (!reason) return;
         CoordinateBlock& block = section_[0];
         notes_.push_back(fmt::format("line {}: '{}' taken as a title, not as coordinates: {}", block.points[0].line,
@@ -90,7 +91,8 @@ private:
     /// Adds the outline whose surfaces follow their counts at the start of the section, and removes its blocks. Returns
     /// whether there are counts.
     bool add_counted_surfaces() {
-        const PointRun rest = all_points(section_);
+        PointRun copies;
+        const PointSpan rest = all_points(section_, copies);
         const std::optional<SurfaceCounts> counts = read_counts(rest, file_);
         if (!counts) return false;
         const auto first = rest.begin() + 1, second = first + static_cast<std::ptrdiff_t>(counts->upper);
@@ -134,12 +136,12 @@ private:
             const auto second = points.begin() + static_cast<std::ptrdiff_t>(*second_surface);
             add(join_surfaces({points.begin(), second}, {second, points.end()}), title, "lednicer");
         } else if (is_loop(points) || section_.size() == 1) {
-            add(points, title, "");
+            add({points.begin(), points.end()}, title, "");
         } else if (i + 1 < section_.size() && are_two_surfaces(points, section_[i + 1].points)) {
             add(join_surfaces(points, section_[i + 1].points), title, "lednicer");
             return 2;
         } else if (keep_open_) {
-            add(points, title, "");
+            add({points.begin(), points.end()}, title, "");
         } else {
             throw InputError({file_, points.front().line, points.front().at},
                              fmt::format("the points of lines {} to {} are neither a closed outline nor one of two "
@@ -158,21 +160,23 @@ private:
     }
 };
 
-/// Throws InputError, which shows a line that may have been meant as coordinates.
-[[noreturn]] void refuse_without_coordinates(const std::vector<TextRow>& rows, const std::string& file) {
+/// Returns the error for rows without outlines, which shows a line that may have been meant as coordinates.
+InputError error_without_coordinates(const TextRows& rows, const std::string& file) {
     constexpr std::size_t most_shown = 60;  // bytes
-    if (rows.empty()) throw InputError({file, 0, {}}, "the file is empty");
+    if (rows.empty()) return InputError({file, 0, {}}, "the file is empty");
     const auto has_fraction = [](const TextRow& row) {
-        const std::size_t point = row.text.find('.');
-        return row.kind == RowKind::text && point != std::string::npos && point + 1 < row.text.size() &&
-               is_digit(row.text[point + 1]);
+        const std::string& text = row.words().text;
+        const std::size_t point = text.find('.');
+        return row.kind == RowKind::text && point != std::string::npos && point + 1 < text.size() &&
+               is_digit(text[point + 1]);
     };
     const auto row = std::find_if(rows.begin(), rows.end(), has_fraction);
-    if (row == rows.end()) throw InputError({file, 0, {}}, "no coordinates found: no line starts with two numbers");
-    const bool is_long = row->text.size() > most_shown;
-    throw InputError({file, row->line, {}},
-                     fmt::format("no coordinates found: no line starts with two numbers; this one is '{}{}'",
-                                 printable(std::string_view(row->text).substr(0, most_shown)), is_long ? "..." : ""));
+    if (row == rows.end()) return InputError({file, 0, {}}, "no coordinates found: no line starts with two numbers");
+    const std::string& text = row->words().text;
+    const bool is_long = text.size() > most_shown;
+    return InputError({file, row->line, {}},
+                      fmt::format("no coordinates found: no line starts with two numbers; this one is '{}{}'",
+                                  printable(std::string_view(text).substr(0, most_shown)), is_long ? "..." : ""));
 }
 
 }  // namespace
@@ -191,9 +195,12 @@ std::vector<RawOutline> assemble_outlines(CoordinateDocument document, const std
     return outlines;
 }
 
-std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, const std::string& file, bool keep_open) {
-    std::vector<RawOutline> outlines = assemble_outlines(split_into_blocks(rows, file), file, keep_open);
-    if (outlines.empty()) refuse_without_coordinates(rows, file);
+std::vector<RawOutline> assemble_outlines(TextRows rows, const std::string& file, bool keep_open) {
+    CoordinateDocument document = split_into_blocks(rows, file);
+    const InputError refusal = error_without_coordinates(rows, file);
+    TextRows().swap(rows);  // they take as much as the points, of which copies are made
+    std::vector<RawOutline> outlines = assemble_outlines(std::move(document), file, keep_open);
+    if (outlines.empty()) throw refusal;
     return outlines;
 }
 

@@ -27,7 +27,6 @@ std::vector<RawOutline> assemble_outlines(CoordinateDocument document, const std
 
 /// Returns the outlines of a file. An open run is one only where it is the only one of its section, or `keep_open`. Throws InputError, which names `file`, where the rows cannot be understood as
 /// outlines.
-std::vector<RawOutline> assemble_outlines(const std::vector<TextRow>& rows, const std::string& file,
-                                          bool keep_open = false);
+std::vector<RawOutline> assemble_outlines(TextRows rows, const std::string& file, bool keep_open = false);
 
 }  // namespace lamina::geometry

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -112,8 +113,9 @@ std::optional<CoordinateDocument> read_plot3d(std::string_view text) {
         CoordinateBlock& block = document.sections[0].emplace_back();
         for (std::size_t i = 0; i < points; ++i) {
             RowPoint& p = block.points.emplace_back();
-            p.columns = layout->dimensions;
-            for (std::size_t k = 0; k < layout->dimensions; ++k) p.values[k] = numbers.values[start + k * points + i];
+            p.columns = static_cast<std::uint32_t>(layout->dimensions);
+            for (std::size_t k = 0; k < layout->dimensions; ++k)
+                p.values.set(k, numbers.values[start + k * points + i]);
             p.at = {p.values[0], p.values[1]};
             p.line = numbers.lines[start + i];
         }

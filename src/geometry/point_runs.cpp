@@ -6,20 +6,20 @@ namespace lamina::geometry {
 
 namespace {
 
-double run_length(const PointRun& points) {
+double run_length(PointSpan points) {
     double sum = 0;
     for (std::size_t i = 1; i < points.size(); ++i) sum += distance(points[i - 1].at, points[i].at);
     return sum;
 }
 
 /// Returns the distance from the last point to the first.
-double end_gap(const PointRun& points) { return distance(points.front().at, points.back().at); }
+double end_gap(PointSpan points) { return distance(points.front().at, points.back().at); }
 
 }  // namespace
 
-bool is_loop(const PointRun& points) { return points.size() >= 3 && end_gap(points) <= 0.5 * run_length(points); }
+bool is_loop(PointSpan points) { return points.size() >= 3 && end_gap(points) <= 0.5 * run_length(points); }
 
-bool are_two_surfaces(const PointRun& a, const PointRun& b) {
+bool are_two_surfaces(PointSpan a, PointSpan b) {
     if (a.size() < 2 || b.size() < 2) return false;
     const double size = std::max(extent(a), extent(b));
     if (end_gap(a) <= 0.5 * size || end_gap(b) <= 0.5 * size) return false;
@@ -28,14 +28,16 @@ bool are_two_surfaces(const PointRun& a, const PointRun& b) {
     return std::min(start_distance, end_distance) <= 0.1 * size && std::max(start_distance, end_distance) <= 0.5 * size;
 }
 
-PointRun join_surfaces(const PointRun& upper, const PointRun& lower) {
-    PointRun run(upper.rbegin(), upper.rend());
+std::vector<SourcePoint> join_surfaces(PointSpan upper, PointSpan lower) {
+    std::vector<SourcePoint> run;
+    run.reserve(upper.size() + lower.size());
+    run.assign(upper.rbegin(), upper.rend());
     const bool shared = run.back().at == lower.front().at;
     run.insert(run.end(), lower.begin() + (shared ? 1 : 0), lower.end());
     return run;
 }
 
-std::optional<std::size_t> find_second_surface(const PointRun& points) {
+std::optional<std::size_t> find_second_surface(PointSpan points) {
     // The step from the end of the first surface to the start of the second is the longest one.
     std::size_t second = 0;
     double max_step = -1;
@@ -47,8 +49,7 @@ std::optional<std::size_t> find_second_surface(const PointRun& points) {
         }
     }
     if (second < 3 || points.size() - second < 3) return std::nullopt;
-    const auto middle = points.begin() + static_cast<std::ptrdiff_t>(second);
-    if (!are_two_surfaces({points.begin(), middle}, {middle, points.end()})) return std::nullopt;
+    if (!are_two_surfaces(points.first(second), points.subspan(second))) return std::nullopt;
     return second;
 }
 

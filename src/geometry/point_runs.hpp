@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "geometry/coordinate_blocks.hpp"
 
@@ -11,17 +12,17 @@ namespace lamina::geometry {
 
 /// Returns whether the ends of a run lie so near to each other that closing it makes a body. A surface from the leading
 /// to the trailing edge is none.
-bool is_loop(const PointRun& points);
+bool is_loop(PointSpan points);
 
 /// Returns whether two runs have both ends in common, at least about, and run the same way, as the upper and the lower
 /// surface do.
-bool are_two_surfaces(const PointRun& a, const PointRun& b);
+bool are_two_surfaces(PointSpan a, PointSpan b);
 
 /// Returns one run over the upper surface from its end to its start, then over the lower surface. A first point that
 /// both have in common appears once.
-PointRun join_surfaces(const PointRun& upper, const PointRun& lower);
+std::vector<SourcePoint> join_surfaces(PointSpan upper, PointSpan lower);
 
 /// Returns where the second surface begins in a run of two surfaces one behind the other; empty for other runs.
-std::optional<std::size_t> find_second_surface(const PointRun& points);
+std::optional<std::size_t> find_second_surface(PointSpan points);
 
 }  // namespace lamina::geometry

@@ -140,12 +140,11 @@ Element element_of_points(std::span<const Point> points, const std::string& sour
         run.push_back({{p, run.size() + 1}});
         if (!in_exact_range(p)) throw InputError({source, run.size(), {}}, "no number, or outside the exact range");
     }
-    if (const auto second_surface = find_second_surface(run)) {
-        const auto second = run.begin() + static_cast<std::ptrdiff_t>(*second_surface);
-        run = join_surfaces({run.begin(), second}, {second, run.end()});
-    }
     RawOutline outline;
-    outline.points.assign(run.begin(), run.end());
+    if (const auto second = find_second_surface(run))
+        outline.points = join_surfaces(PointSpan(run).first(*second), PointSpan(run).subspan(*second));
+    else
+        outline.points.assign(run.begin(), run.end());
     outline.format = "points";
     if (options.mirror_half) outline.points = mirrored_half(std::move(outline.points), source);
     return repair_outline(outline, source, options);

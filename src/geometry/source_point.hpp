@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include <lamina/point.hpp>
 
@@ -18,8 +17,8 @@ struct SourcePoint {
 };
 
 /// Returns the longer side of the box round points, which are SourcePoints or derived from them; 0 without points.
-template <class PointWithSource>
-double extent(const std::vector<PointWithSource>& points) {
+template <class Points>
+double extent(const Points& points) {
     Box box;
     for (const SourcePoint& p : points) box.include(p.at);
     return points.empty() ? 0 : core::longer_side(box);

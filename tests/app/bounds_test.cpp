@@ -56,6 +56,7 @@ TEST(Bounds, MemoryOfReaders) {
                   {"info", "words.dat", repeated("a\n", 2'500'000)},
                   {"info", "comments.dat", repeated("a\n#\n", 1'200'000)},
                   {"info", "one_line.dat", repeated("1 ", 5'000'000)},
+                  {"info", "points.dat", repeated("1 1\n", 1'300'000)},
                   {"info", "letters.dat", repeated("a", 20'000'000)},
                   {"check", "bomb.vtu", vtu_that_claims(std::uint64_t{1} << 31, std::string(4'000'000, 'x'))},
                   {"check", "claim.vtu", vtu_that_claims(~std::uint64_t{0}, "x")},
