@@ -162,7 +162,7 @@ class RowThinner {
 public:
     /// Looks at the rows from `first` on, which were just added.
     void thin(TextRows& rows, std::size_t first) {
-        if (rows.size() - first != 1 || rows.back().kind == RowKind::numbers) {
+        if (rows.size() - first != 1 || rows.back().kind == RowKind::numbers || is_labelled(rows.back())) {
             between_ = 0;
             return;
         }

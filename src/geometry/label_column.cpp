@@ -67,14 +67,14 @@ bool labels_divide(const TextRows& rows) {
 
 }  // namespace
 
+bool is_labelled(const TextRow& row) { return labelled_row(row).has_value(); }
+
 void read_label_column(TextRows& rows) {
     const auto is_numbers = [](const TextRow& row) { return row.kind == RowKind::numbers; };
     const auto number_rows = std::count_if(rows.begin(), rows.end(), is_numbers);
     if (number_rows > 1) return;
     const auto start = number_rows == 0 ? rows.begin() : std::find_if(rows.begin(), rows.end(), is_numbers) + 1;
-    if (std::count_if(start, rows.end(), [](const TextRow& row) { return labelled_row(row).has_value(); }) <
-        static_cast<std::ptrdiff_t>(min_rows))
-        return;
+    if (std::count_if(start, rows.end(), is_labelled) < static_cast<std::ptrdiff_t>(min_rows)) return;
     bool in_rows = false;
     for (auto row = start; row != rows.end(); ++row) {
         if (std::optional<TextRow> labelled = labelled_row(*row)) {

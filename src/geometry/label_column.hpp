@@ -7,6 +7,9 @@
 
 namespace lamina::geometry {
 
+/// Returns whether a row of text consists of a label and two numbers or more.
+bool is_labelled(const TextRow& row);
+
 /// Makes rows of numbers of the text rows of a file that consist of a label and two numbers or more, where there are at
 /// least three and no other rows of numbers, but perhaps one before them, which counts them. Labels that stay the same
 /// for three rows or more, all along, are those of surfaces or elements, and remain as TextRow::label; others number or

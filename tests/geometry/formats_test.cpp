@@ -75,6 +75,14 @@ TEST(Formats, Labels) {
     EXPECT_EQ(of_text(lines_of(fixtures::loop, named)).elements[0].points, fixtures::loop);
     EXPECT_EQ(of_text("side,x,y\n" + lines_of(upper, on("upper")) + lines_of(lower, on("lower"))).elements[0].points,
               fixtures::loop);
+    std::string circle;
+    constexpr std::size_t points = 3000;
+    for (std::size_t i = 0; i < points; ++i) {
+        const double turn = 2 * M_PI * static_cast<double>(i) / points;
+        circle += named(i, {std::cos(turn), std::sin(turn)});
+        circle += '\n';
+    }
+    EXPECT_EQ(of_text(circle).elements[0].points.size(), points);
     EXPECT_NE(message_of(lines_of(fixtures::loop, named) + "P9 0.9 nan\n").find("no label and two numbers"),
               std::string::npos);
 }
