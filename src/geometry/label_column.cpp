@@ -16,7 +16,7 @@ namespace lamina::geometry {
 
 namespace {
 
-constexpr std::size_t min_rows = 3;
+constexpr std::size_t min_labelled_rows = 3;
 
 /// Returns the text behind the first field of a row and the separator that follows it.
 std::string_view behind_first_field(std::string_view text) {
@@ -48,7 +48,7 @@ bool is_damaged(const TextRow& row) {
 
 /// Returns whether each label of some rows stays the same for several of them.
 bool labels_divide(const TextRows& rows) {
-    std::size_t same = min_rows, changes = 0;
+    std::size_t same = min_labelled_rows, changes = 0;
     const std::string* previous = nullptr;
     for (const TextRow& row : rows) {
         const std::string& label = row.words().label;
@@ -56,13 +56,13 @@ bool labels_divide(const TextRows& rows) {
         if (!previous || label == *previous) {
             same = previous ? same + 1 : 1;
         } else {
-            if (same < min_rows) return false;
+            if (same < min_labelled_rows) return false;
             same = 1;
             ++changes;
         }
         previous = &label;
     }
-    return changes > 0 && same >= min_rows;
+    return changes > 0 && same >= min_labelled_rows;
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void read_label_column(TextRows& rows) {
     const auto number_rows = std::count_if(rows.begin(), rows.end(), is_numbers);
     if (number_rows > 1) return;
     const auto start = number_rows == 0 ? rows.begin() : std::find_if(rows.begin(), rows.end(), is_numbers) + 1;
-    if (std::count_if(start, rows.end(), is_labelled) < static_cast<std::ptrdiff_t>(min_rows)) return;
+    if (std::count_if(start, rows.end(), is_labelled) < static_cast<std::ptrdiff_t>(min_labelled_rows)) return;
     bool in_rows = false;
     for (auto row = start; row != rows.end(); ++row) {
         if (std::optional<TextRow> labelled = labelled_row(*row)) {

@@ -15,7 +15,7 @@ struct WrittenUnit {
 };
 
 constexpr LengthUnitName micrometre{"um", 1e-6}, millimetre{"mm", 1e-3}, centimetre{"cm", 1e-2}, metre{"m", 1},
-    inch{"in", 0.0254}, foot{"ft", 0.3048};
+    inch{"in", 0.0254}, feet{"ft", 0.3048};
 
 constexpr std::array<WrittenUnit, 14> units = {{{"um", micrometre},
                                                 {"\xC2\xB5m", micrometre},  // the micro sign
@@ -28,9 +28,9 @@ constexpr std::array<WrittenUnit, 14> units = {{{"um", micrometre},
                                                 {"in", inch},
                                                 {"inch", inch},
                                                 {"inches", inch},
-                                                {"ft", foot},
-                                                {"foot", foot},
-                                                {"feet", foot}}};
+                                                {"ft", feet},
+                                                {"foot", feet},
+                                                {"feet", feet}}};
 
 }  // namespace
 

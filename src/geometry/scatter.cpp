@@ -331,12 +331,12 @@ private:
 }  // namespace
 
 std::optional<double> white_noise(const PointSequence& sequence) {
-    constexpr std::size_t min_points = 100;             // fewer are never certain
+    constexpr std::size_t min_scattered = 100;          // fewer are never certain
     constexpr double min_turning = core::radians(0.2);  // what a flow solver overlooks
     constexpr double min_chord = 8;                     // in standard deviations, so that noise turns it little
     constexpr double scatter_of_median = 1.1664;        // standard deviation of the estimate times sqrt(n)
     const std::size_t n = sequence.points.size();
-    if (n < min_points) return {};
+    if (n < min_scattered) return {};
     std::size_t half_chord = 2;
     double noise = 0;
     for (;; half_chord *= 2) {

@@ -49,7 +49,7 @@ struct BorderForecast {
 
 /// Estimates the number of edges that the border gets above one element.
 BorderForecast forecast_border(const Geometry& walls, std::size_t element, const surface::ClearanceSearch& search,
-                               double min_spacing) {
+                               double shortest_edge) {
     // Measured in slots of 1e-4 to 1e-6 chords: opposing layers leave about a quarter of a gap to isotropic triangles,
     // and edges of the border are about as long as that.
     constexpr double edge_over_gap = 0.28;
@@ -57,7 +57,7 @@ BorderForecast forecast_border(const Geometry& walls, std::size_t element, const
     constexpr double max_parts = 128;
     const Element& wall = walls.elements[element];
     const std::vector<Point>& p = wall.points;
-    const double shortest = min_spacing * core::longer_side(core::bounding_box(p));
+    const double shortest = shortest_edge * core::longer_side(core::bounding_box(p));
     BorderForecast forecast;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const Point a = p[i], b = p[(i + 1) % p.size()];

@@ -66,7 +66,9 @@ void expect_good_transition(std::initializer_list<shapes::Outline> bodies, const
     const TransitionSummary& summary = result.check.transition;
     ASSERT_GT(ratios.size(), 50u);
     ASSERT_EQ(summary.edges, ratios.size());
-    const auto percentile = [&](std::size_t percent) { return ratios[(ratios.size() - 1) * percent / 100]; };
+    const auto percentile = [&areas = ratios](std::size_t percent) {
+        return areas[(areas.size() - 1) * percent / 100];
+    };
     EXPECT_NEAR(summary.p01_area_ratio / percentile(1), 1, 1e-9);
     EXPECT_NEAR(summary.median_area_ratio / percentile(50), 1, 1e-9);
     EXPECT_NEAR(summary.p99_area_ratio / percentile(99), 1, 1e-9);
