@@ -1,4 +1,5 @@
-// What the names in a header line say of the columns below it. This is the one table of the names that lamina knows.
+// Reads from the names in a header line what the columns below it hold. This is the one table of the names that lamina
+// knows.
 #pragma once
 
 #include <optional>
@@ -8,7 +9,7 @@
 
 namespace lamina::geometry {
 
-/// What a column holds.
+/// The quantity that a column holds.
 enum class ColumnRole {
     unknown,
     x,

@@ -10,7 +10,7 @@
 
 namespace lamina::geometry {
 
-/// What the columns of a section hold.
+/// The result of choose_columns(): what the columns of a section hold.
 struct ColumnReading {
     std::vector<std::string> notes;     ///< on what was decided
     std::optional<SurfaceTable> table;  ///< where the rows are a table of both surfaces

@@ -1,4 +1,4 @@
-// Where the areas of neighbouring cells of the layer differ most.
+// Finds the two neighbouring cells of the layer whose areas differ most.
 #pragma once
 
 #include <cstdint>
