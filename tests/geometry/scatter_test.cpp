@@ -29,15 +29,7 @@ Outline even_section(std::size_t points, double base) {
             0.6 * (0.2969 * std::sqrt(x) + x * (-0.1260 + x * (-0.3516 + x * (0.2843 - 0.1036 * x)))) + 0.5 * base * x;
         fine.push_back({x, (k <= 10000 ? half : -half) + 0.08 * x * (1 - x)});
     }
-    std::vector<double> s{0};
-    for (std::size_t i = 1; i < fine.size(); ++i) s.push_back(s.back() + distance(fine[i - 1], fine[i]));
-    Outline even;
-    for (std::size_t k = 0, i = 0; k < points; ++k) {
-        const double at = s.back() * static_cast<double>(k) / static_cast<double>(points - 1);
-        while (i + 2 < s.size() && s[i + 1] < at) ++i;
-        even.push_back(fine[i] + (at - s[i]) / (s[i + 1] - s[i]) * (fine[i + 1] - fine[i]));
-    }
-    return even;
+    return shapes::even_points(fine, points);
 }
 
 Outline scattered(Outline points, double noise, unsigned seed) {

@@ -20,6 +20,19 @@ using Outline = std::vector<Point>;
 
 inline constexpr double full_turn = 6.283185307179586;
 
+/// Returns points at equal distances along an open line, from its first point to its last one.
+inline Outline even_points(const Outline& fine, std::size_t points) {
+    std::vector<double> s{0};
+    for (std::size_t i = 1; i < fine.size(); ++i) s.push_back(s.back() + distance(fine[i - 1], fine[i]));
+    Outline even;
+    for (std::size_t k = 0, i = 0; k < points; ++k) {
+        const double at = s.back() * static_cast<double>(k) / static_cast<double>(points - 1);
+        while (i + 2 < s.size() && s[i + 1] < at) ++i;
+        even.push_back(fine[i] + (at - s[i]) / (s[i + 1] - s[i]) * (fine[i + 1] - fine[i]));
+    }
+    return even;
+}
+
 inline Outline ellipse(double a, double b, std::size_t n) {
     Outline outline;
     for (std::size_t i = 0; i < n; ++i) {

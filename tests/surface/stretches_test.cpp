@@ -234,15 +234,7 @@ Outline section_with_base(double base, std::size_t points) {
         const double half = naca_half_thickness(0.24, x, -0.1036) + 0.5 * base * x;
         fine.push_back({x, k <= 2000 ? half : -half});
     }
-    std::vector<double> s{0};
-    for (std::size_t i = 1; i < fine.size(); ++i) s.push_back(s.back() + distance(fine[i - 1], fine[i]));
-    Outline even;
-    for (std::size_t k = 0, i = 0; k < points; ++k) {
-        const double at = s.back() * static_cast<double>(k) / static_cast<double>(points - 1);
-        while (i + 2 < s.size() && s[i + 1] < at) ++i;
-        even.push_back(fine[i] + (at - s[i]) / (s[i + 1] - s[i]) * (fine[i + 1] - fine[i]));
-    }
-    return even;
+    return shapes::even_points(fine, points);
 }
 
 /// Returns the length of the longest edge at a corner of the base of an element.
