@@ -23,7 +23,8 @@ CLI::Option* add_table_option(CLI::App& command, const OptionTable<Options>& tab
 template <class Options>
 CLI::Option* add_table_flag(CLI::App& command, const OptionTable<Options>& table, const std::string& name,
                             std::string& text) {
-    return command.add_flag_callback("--" + name, [&text] { text = "true"; }, find_row(table, name).help);
+    return command.add_flag_callback(
+        "--" + name, [&text] { text = "true"; }, find_row(table, name).help);
 }
 
 /// Sets an option of a table to a value from the command line; an empty text leaves the default. Throws UsageError

@@ -94,7 +94,8 @@ TEST(TriangleFiles, RefusalsNameFileAndLine) {
     EXPECT_EQ(message("a.node", "2 3 0 0\n1 0 0 0\n2 1 0 0\n"), ":1: only two-dimensional vertices can be read");
     EXPECT_EQ(message("a.node", "999999999 2 0 0\n1 0 0\n"),
               ":1: number of vertices: 999999999, but the file is shorter than that");
-    EXPECT_EQ(message("a.node", "3 2\n1 0 0\n2 1 0\n3 0 0\n"), ":4: vertices 3 and 1 (line 2) are the same, which --merge takes for one (at 0, 0)");
+    EXPECT_EQ(message("a.node", "3 2\n1 0 0\n2 1 0\n3 0 0\n"),
+              ":4: vertices 3 and 1 (line 2) are the same, which --merge takes for one (at 0, 0)");
     EXPECT_EQ(message("a.node", "1 2\n1 0 0\n2 0 1\n"), ":3: something follows the last vertex");
     const std::string two = "2 2 0 0\n1 0 0\n2 1 0\n";
     EXPECT_EQ(message("a.poly", two), ":3: the file ends where the number of segments is expected");
