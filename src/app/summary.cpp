@@ -89,10 +89,12 @@ std::string fan_line(const MeshResult& result) {
     const bool is_warned_of = std::any_of(result.warnings.begin(), result.warnings.end(),
                                           [](const Warning& w) { return w.code == WarningCode::area_jump; });
     if (result.check.layer.max_neighbour_area_ratio <= much || is_warned_of) return {};
-    return summary_line("layer",
-                        "where rays fan out from a corner, first cells are as small as a first height is beside "
-                        "an edge of the wall (--spacing-te, or --wake-layers yes behind a trailing edge, for "
-                        "less)");
+    return summary_line(
+        "layer",
+        fmt::format("the first cells round sharp corners are that much smaller than those on the wall beside them: "
+                    "edges of two first heights even them out at trailing edges (--surface resample --spacing-te "
+                    "{:.2g}), refining rays at other corners (--corners refine)",
+                    2 * result.first_heights.front() / result.conditions.chord));
 }
 
 std::string coverage_line(const ElementCoverage& coverage) {

@@ -216,7 +216,7 @@ void warn_of_areas(const MeshResult& result, const LayerOptions& options, const 
     if (jumps.beside_fans.ratio > max_beside_fans)
         warn(jumps.beside_fans,
              "the first cells round a corner are {:.3g} times smaller than those on the wall beside it, at {}: shorter "
-             "edges there even them out (--surface resample, --spacing-te)");
+             "edges there even them out (--surface resample --spacing-te), or refining rays (--corners refine)");
     AreaJump elsewhere = jumps.elsewhere;
     // The search above sees no neighbours outside of the layer, and no fans in layers without rows.
     const bool knows_fans = options.topology != LayerTopology::delaunay && !result.layer_grid_refused;
