@@ -17,6 +17,7 @@
 #include "core/angles.hpp"
 #include "core/bounding_box.hpp"
 #include "core/segments.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/strip.hpp"
 
 namespace lamina::layers {
@@ -155,6 +156,7 @@ private:
 
 std::vector<CleftEnd> cleft_ends(const LayeredRays& rays) {
     std::vector<CleftEnd> found;
+    if (!uses("clefts")) return found;
     for (std::size_t e = 0; e < rays.set.elements(); ++e) {
         const CleftSearch search(rays, rays.set.begin[e], rays.set.begin[e + 1]);
         for (std::size_t i = rays.set.begin[e]; i < rays.set.begin[e + 1]; ++i) {

@@ -11,6 +11,7 @@
 #include "layers/front.hpp"
 #include "layers/layer_builder.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/target_length.hpp"
 
 namespace lamina::layers {
@@ -86,7 +87,8 @@ std::vector<std::vector<double>> whole_tops(const Rays& grown, const LayeredRays
             const FrontCorner &a = corners[e][k], &b = corners[e][(k + 1) % corners[e].size()];
             const std::optional<TopCell> cell = top_cell(rays, a, b);
             const bool suits = cell && of_grid && grown.resampled[e] && (is_flat(*cell) || is_high(*cell));
-            whole_up_to[e].push_back(suits || leans_by_its_width(rays, a, b) ? whole_top : target_slack);
+            const bool whole = uses("whole_tops") && (suits || leans_by_its_width(rays, a, b));
+            whole_up_to[e].push_back(whole ? whole_top : target_slack);
         }
     return whole_up_to;
 }

@@ -15,6 +15,7 @@
 
 #include "core/angles.hpp"
 #include "core/reproducible_math.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
 #include "layers/normal_smoothing.hpp"
 
@@ -58,6 +59,7 @@ double max_tilt_between_edges(double turning, OutlineKind kind, double first_hei
 }
 
 void shift_rays_of_corners(std::span<const char> jagged, const LayerHeights& heights, RaySet& set) {
+    if (!uses("corner_shifts")) return;
     const RayNeighbours neighbours(set);
     std::size_t element = 0;
     for (std::size_t i = 0; i < set.lines.size(); ++i) {

@@ -12,6 +12,7 @@
 #include "core/box_tree.hpp"
 #include "core/segments.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
 
 namespace lamina::layers {
@@ -45,7 +46,7 @@ public:
     CountLowering& operator=(const CountLowering&) = delete;
 
     std::vector<std::uint32_t> run() && {
-        for (double scale : {raised_scale, 1.0}) {
+        for (double scale : {uses("raised_scale") ? raised_scale : 1.0, 1.0}) {
             do {
                 lower_locally();
             } while (lower_where_fronts_meet(scale) || lower_round_other_elements());
@@ -92,6 +93,7 @@ private:
     bool open_notches() {
         const std::vector<std::uint32_t> before = counts_;
         bool changed = false;
+        if (!uses("notches")) return false;
         for (std::size_t i = 0; i < set_.lines.size(); ++i) {
             const std::size_t left = previous(i), right = next(i);
             if (before[left] <= before[i] && before[right] <= before[i]) continue;

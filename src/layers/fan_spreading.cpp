@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "core/angles.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/outline_walk.hpp"
 
 namespace lamina::layers {
@@ -257,7 +258,7 @@ void spread_fans(std::span<const RayVertex> outline, std::span<const double> hei
             for (const bool ahead : {false, true})
                 spread({outline, heights, before, {outline.size(), i, ahead}}, max_ray_angle, vertices);
     for (WallVertex& vertex : vertices)
-        if (vertex.fan) close_sliver(vertex);
+        if (vertex.fan && uses("close_sliver")) close_sliver(vertex);
 }
 
 void widen_narrow_columns(std::span<const RayVertex> outline, std::span<const double> heights,

@@ -15,6 +15,7 @@
 #include "layers/layered_rays.hpp"
 #include "layers/least_heights.hpp"
 #include "layers/low_fans.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/rays.hpp"
 #include "layers/sharp_corners.hpp"
 #include "layers/truncation.hpp"
@@ -127,7 +128,7 @@ void count_layers_on_all_rays(Rays& rays) {
     for (int round = 0;; ++round) {
         shift_rays_of_corners(rays.jagged, rays.heights, rays.set);
         fit_and_count_layers(rays);
-        if (round == max_rounds) return;
+        if (round == max_rounds || !uses("lower_first")) return;
         const auto share = [&](std::size_t i) { return rays.counts[i] == 0 ? 0.5 : 1; };
         if (!lower_first_layers(rays, share)) return;
     }
@@ -139,12 +140,12 @@ void grow_from(const Geometry& geometry, std::span<const DividedWake> wakes, con
     rays.heights = make_heights(rays.set, rays.growth);
     require_sensible_scale(bounding_box(geometry), rays.growth, rays.heights);
     rays.limits = height_limits(rays.set, rays.heights);
-    if (!options.fan_rays)
+    if (!options.fan_rays && uses("low_fans"))
         replace_rays(leave_out_rays_of_low_fans(rays.set, rays.jagged, rays.heights, rays.limits), rays);
-    for (int insertion = 0; insertion < max_insertions && !options.fan_rays; ++insertion)
+    for (int insertion = 0; insertion < max_insertions && !options.fan_rays && uses("insert_rays"); ++insertion)
         if (!replace_rays(insert_rays_where_counts_change(rays.set, rays.jagged, rays.heights, rays.limits), rays))
             break;
-    fit_first_layers(rays);
+    if (uses("fit_first")) fit_first_layers(rays);
     count_layers_on_all_rays(rays);
 }
 

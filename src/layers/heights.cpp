@@ -12,6 +12,7 @@
 #include "layers/growth_laws.hpp"
 #include "layers/isotropy.hpp"
 #include "layers/least_heights.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/narrow_columns.hpp"
 #include "layers/neighbours.hpp"
 
@@ -105,7 +106,7 @@ LayerHeights heights_up_to_isotropy(const RaySet& set, std::span<const double> s
                                     const std::vector<double>& unstretched, const LayerGrowth& growth) {
     const std::vector<double> least = growth.least_heights.empty() ? std::vector<double>() : least_heights(set);
     std::vector<double> front = heights_of_isotropy(set, unstretched, least, growth.fineness);
-    if (!least.empty()) level_slants(set, slants, unstretched[1], front);
+    if (!least.empty() && uses("level_slants")) level_slants(set, slants, unstretched[1], front);
     const std::vector<double> max_spacings = least.empty()
                                                  ? std::vector<double>(front.size(), HUGE_VAL)
                                                  : largest_spacings(set, front, unstretched[1], growth.fineness);
@@ -218,7 +219,7 @@ LayerHeights make_heights(const RaySet& set, const LayerGrowth& growth) {
         const RaySet own{
             {lines + static_cast<std::ptrdiff_t>(set.begin[e]), lines + static_cast<std::ptrdiff_t>(set.begin[e + 1])},
             {0, set.begin[e + 1] - set.begin[e]}};
-        const std::vector<double> slants = slants_of(own);
+        const std::vector<double> slants = uses("slants") ? slants_of(own) : std::vector<double>(own.lines.size(), 1.0);
         const LayerHeights heights = slanted(slants, upright_heights(own, slants, growth_on_element(growth, e)));
         for (std::size_t i = 0; i < own.lines.size(); ++i) {
             columns.push_back(heights.column(i));

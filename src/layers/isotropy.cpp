@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
 
 namespace lamina::layers {
@@ -175,6 +176,25 @@ double bisect(double low, double high, Below below) {
     return low;
 }
 
+/// Leads largest spacings over to narrow columns. A column has at most front / spacing layers, so that one in
+/// (1 + spacing / front) of them is one layer. Where the front rises, numbers would grow with it: there the number itself
+/// falls by one.
+void lead_over(const RaySet& set, const RayDistances& rays, std::span<const double> front,
+               std::vector<double>& spacings) {
+    lower_to_neighbours(set, spacings, [&](std::size_t from, std::size_t to) {
+        const double width = rays.between(from, to, std::min(front[from], front[to]));
+        const double widths = width / spacings[from];
+        const double upright = std::clamp((widths - no_change) / (full_change - no_change), 0.0, 1.0);
+        // Rows rise towards `to`. Where rays lean to that side, too, cells would be sheared by both.
+        const double lean = std::max(tangent_of_lean(set.lines[from], set.lines[to]), 0.0);
+        const double layers = std::min(upright, widths * max_row_slope(lean));
+        const double number = front[from] / spacings[from] - layers;
+        if (!(number > 1)) return HUGE_VAL;
+        return std::max(spacings[from] * (1 + layers * spacings[from] / std::max(front[from], front[to])),
+                        front[to] / number);
+    });
+}
+
 }  // namespace
 
 std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const double> heights,
@@ -189,14 +209,15 @@ std::vector<double> heights_of_isotropy(const RaySet& set, std::span<const doubl
     for (std::size_t i = 0; i < front.size(); ++i)
         if (!rays.inside_fan(i)) front[i] = isotropic_height(rays, i, heights, opening(i));
     fill_fans(set, front);
-    for (int round = 0; round < 2; ++round) take_medians(rays, front);
-    raise_over_fans(set, rays, front);
+    if (uses("medians"))
+        for (int round = 0; round < 2; ++round) take_medians(rays, front);
+    if (uses("raise_over_fans")) raise_over_fans(set, rays, front);
     if (!least.empty()) raise_to(least, set, rays, fineness, front);
     end_wakes();
     lower_to_neighbours(set, front, [&](std::size_t from, std::size_t to) {
         return front[from] + max_front_slope * rays.between(from, to, front[from]);
     });
-    round_kinks(rays, front);
+    if (uses("round_kinks")) round_kinks(rays, front);
     for (std::size_t i = 0; i < front.size(); ++i)
         front[i] = std::clamp(front[i], opening(i) * heights[1], opening(i) * heights.back());
     end_wakes();
@@ -222,20 +243,7 @@ std::vector<double> largest_spacings(const RaySet& set, std::span<const double> 
     };
     // Without this bound one very narrow column would ask for low cells on hundreds of columns beside it.
     bound_layers();
-    // A column has at most front / spacing layers, so that one in (1 + spacing / front) of them is one layer. Where the
-    // front rises, numbers would grow with it: there the number itself falls by one.
-    lower_to_neighbours(set, spacings, [&](std::size_t from, std::size_t to) {
-        const double width = rays.between(from, to, std::min(front[from], front[to]));
-        const double widths = width / spacings[from];
-        const double upright = std::clamp((widths - no_change) / (full_change - no_change), 0.0, 1.0);
-        // Rows rise towards `to`. Where rays lean to that side, too, cells would be sheared by both.
-        const double lean = std::max(tangent_of_lean(set.lines[from], set.lines[to]), 0.0);
-        const double layers = std::min(upright, widths * max_row_slope(lean));
-        const double number = front[from] / spacings[from] - layers;
-        if (!(number > 1)) return HUGE_VAL;
-        return std::max(spacings[from] * (1 + layers * spacings[from] / std::max(front[from], front[to])),
-                        front[to] / number);
-    });
+    if (uses("spacings_lead")) lead_over(set, rays, front, spacings);
     bound_layers();
     return spacings;
 }

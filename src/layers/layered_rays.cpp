@@ -9,6 +9,7 @@
 #include "layers/counts.hpp"
 #include "layers/fit_heights.hpp"
 #include "layers/heights.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/taper.hpp"
 #include "layers/truncation.hpp"
 
@@ -65,7 +66,7 @@ void fit_and_count_layers(Rays& rays) {
             if (rays.fitted.column(i).stretch.factor != 1)
                 rays.limits[i] = std::min(rays.limits[i], rays.heights.full_height(i));
         rays.counts = layer_counts(rays.set, rays.limits, rays.fitted);
-        if (round == max_rounds || !lower_limits_of_lowered_rays(rays)) break;
+        if (round == max_rounds || !uses("limits_of_lowered") || !lower_limits_of_lowered_rays(rays)) break;
     }
     taper_columns(rays);
 }

@@ -31,6 +31,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
 #include "layers/rows.hpp"
 
@@ -195,6 +196,7 @@ std::uint32_t number_on_narrow_column(const RayChoices& ray, double width) {
 
 void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd> ends,
                                    std::vector<std::uint32_t>& counts) {
+    if (!uses("cheapest_counts")) return;
     for (std::size_t e = 0; e < set.elements(); ++e) {
         const std::size_t begin = set.begin[e], n = set.begin[e + 1] - begin;
         std::vector<RayChoices> choices = wanted_numbers(set, ends, counts, e);
@@ -207,7 +209,7 @@ void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd>
             if (!free[k] || k == first) continue;
             choices[k].range = choices[k].end->layers;
             const double width = std::sqrt(choices[k].row.width * choices[k + 1 < n ? k + 1 : 0].row.width);
-            choices[k].wanted = number_on_narrow_column(choices[k], width);
+            if (uses("more_on_narrow")) choices[k].wanted = number_on_narrow_column(choices[k], width);
         }
         std::rotate(choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(first), choices.end());
         choices.push_back(choices.front());
@@ -217,6 +219,7 @@ void keep_counts_on_narrow_columns(const RaySet& set, std::span<const ColumnEnd>
 }
 
 void lower_ends_beside_changes(const RaySet& set, std::span<const std::uint32_t> counts, std::span<ColumnEnd> ends) {
+    if (!uses("lower_ends")) return;
     const RayNeighbours rays(set);
     const auto lower = [&](std::size_t fewer, std::size_t more, std::size_t beyond) {
         if (counts[more] != counts[fewer] + 1 || counts[fewer] == 0 || !ends[fewer].cut) return;

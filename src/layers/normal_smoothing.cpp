@@ -11,6 +11,7 @@
 #include "core/reproducible_math.hpp"
 #include "layers/corner_shifts.hpp"
 #include "layers/heights.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/short_faces.hpp"
 
 namespace lamina::layers {
@@ -220,8 +221,9 @@ void smooth_normals(std::span<const RayVertex> outline, const LayerGrowth& growt
     if (!concave && growth.least_heights.empty()) return;
     const std::vector<TiltableRay> rays =
         tiltable_rays(outline, height_to_keep_clear(outline, growth), growth.first_height, kind, vertices);
-    for (int round = 0; round < rounds; ++round) tilt(rays);
-    spread_corners(rays, max_angle);
+    if (uses("tilt"))
+        for (int round = 0; round < rounds; ++round) tilt(rays);
+    if (uses("spread_corners")) spread_corners(rays, max_angle);
     for (WallVertex& vertex : vertices)
         if (!vertex.fan) vertex.tilt[1] = vertex.tilt[0];
 }

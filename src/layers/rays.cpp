@@ -8,6 +8,7 @@
 #include "layers/even_columns.hpp"
 #include "layers/fan_spreading.hpp"
 #include "layers/intermediate_rays.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/normal_smoothing.hpp"
 
 namespace lamina::layers {
@@ -112,12 +113,12 @@ std::vector<RayLine> make_rays(std::span<const RayVertex> outline, OutlineKind k
     const bool has_plain_corners = !smooth && options.corners == CornerRays::fan && !options.fan_rays;
     smooth_normals(outline, growth, has_plain_corners ? max_angle : core::pi, kind, vertices);
     if (!heights.empty() && !options.fan_rays && !has_wake(outline)) {
-        spread_fans(outline, heights, max_angle, vertices);
+        if (uses("spread_fans")) spread_fans(outline, heights, max_angle, vertices);
         // What leaves the widest column of a stretch alone would leave the wedges at corners of ice.
-        if (!jagged) widen_narrow_columns(outline, heights, vertices);
-        even_columns(outline, kind, heights, growth, vertices);
+        if (!jagged && uses("widen_narrow")) widen_narrow_columns(outline, heights, vertices);
+        if (uses("even_columns")) even_columns(outline, kind, heights, growth, vertices);
     }
-    if (jagged && !options.fan_rays) close_narrow_fans(max_angle, vertices);
+    if (jagged && !options.fan_rays && uses("close_narrow_fans")) close_narrow_fans(max_angle, vertices);
     std::vector<RayLine> rays;
     rays.reserve(2 * outline.size());
     for (std::size_t i = 0; i < outline.size(); ++i) {

@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "core/angles.hpp"
+#include "layers/mechanisms.hpp"
 
 namespace lamina::layers {
 
@@ -75,7 +76,7 @@ std::size_t reach_of_corner(const Outline& outline, std::size_t i, double first_
 }  // namespace
 
 void leave_out_sharp_corners(double first_height, std::vector<RayVertex>& outline) {
-    if (outline.size() < 8) return;
+    if (outline.size() < 8 || !uses("sharp_corners")) return;
     struct Corner {
         std::size_t at, reach;
         bool meets(const Corner& next) const { return at + reach > next.at - next.reach; }

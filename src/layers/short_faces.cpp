@@ -18,6 +18,7 @@
 #include <numeric>
 
 #include "core/angles.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/outline_walk.hpp"
 
 namespace lamina::layers {
@@ -53,6 +54,7 @@ std::vector<double> lacking_angles(const OutlineWalk& walk, std::span<const RayV
 
 std::vector<double> openings_on_short_faces(std::span<const RayVertex> outline, std::span<const WallVertex> vertices) {
     std::vector<double> openings(outline.size(), 0.0);
+    if (!uses("short_faces")) return openings;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         if (!is_foot(vertices[i])) continue;
         for (const bool ahead : {false, true}) {

@@ -26,6 +26,7 @@
 #include "core/predicates.hpp"
 #include "layers/heights.hpp"
 #include "layers/layered_rays.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
 #include "layers/rows.hpp"
 
@@ -204,7 +205,7 @@ void taper_heights(double taper, std::span<double> heights) {
 }
 
 void taper_columns(Rays& rays) {
-    if (rays.growth.layers) return;
+    if (rays.growth.layers || !uses("taper")) return;
     const LayerHeights untapered = rays.fitted;
     std::vector<double> wanted = tapers(layered_rays(rays), rays.topology == LayerTopology::quads);
     do {

@@ -17,6 +17,7 @@
 #include "core/box_tree.hpp"
 #include "core/parallel.hpp"
 #include "core/segments.hpp"
+#include "layers/mechanisms.hpp"
 #include "layers/neighbours.hpp"
 
 namespace lamina::layers {
@@ -245,6 +246,7 @@ void smooth_limits(const RaySet& set, const LayerHeights& heights, std::vector<d
         const double height = std::min(limits[from], heights.full_height(from));
         return limits[from] + max_limit_slope * apart(from, to, height);
     });
+    if (!uses("end_slope")) return;
     std::vector<double> ends(limits.size());
     for (std::size_t i = 0; i < ends.size(); ++i) ends[i] = std::min(limits[i], heights.full_height(i));
     lower_to_neighbours(set, ends, [&](std::size_t from, std::size_t to) {
@@ -270,7 +272,7 @@ std::vector<double> height_limits(const RaySet& set, const LayerHeights& heights
     }
     if (std::all_of(limits.begin(), limits.end(), [](double limit) { return limit == HUGE_VAL; })) return limits;
     smooth_limits(set, heights, limits);
-    allow_first_layers(heights, limits);
+    if (uses("allow_first")) allow_first_layers(heights, limits);
     return limits;
 }
 

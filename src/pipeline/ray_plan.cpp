@@ -9,6 +9,7 @@
 #include <lamina/error.hpp>
 
 #include "decoupling/far_field.hpp"
+#include "layers/mechanisms.hpp"
 #include "pipeline/wake_sizes.hpp"
 
 namespace lamina::pipeline {
@@ -124,7 +125,7 @@ RayPlan plan_rays(Geometry geometry, const ReferenceConditions& conditions, cons
 void refine_walls_below_borders(const Geometry& given, const CaseOptions& options, SpacingLimits limits,
                                 const LayerGrowth& growth, RayPlan& plan) {
     constexpr int max_rounds = 3;
-    if (!options.layer.enabled) return;
+    if (!options.layer.enabled || !layers::uses("refine_walls")) return;
     for (int round = 0; round < max_rounds; ++round) {
         const std::vector<WallSpacing> finer =
             wall_spacings(plan.rays, wall_border_options(options, plan.conditions.chord, plan.requests.at_borders));
@@ -141,7 +142,8 @@ void end_columns_below_obtuse_cells(const CaseOptions& options, RayPlan& plan) {
     // Cells far from the wall go first: what ends below cells in a cleft can be worse than these, and would hide the gain.
     constexpr std::uint16_t far_from_wall = 10, above_first = 1;
     // Where all layers are made, nothing is in their way; equal numbers of layers are a promise.
-    if (!options.layer.enabled || options.layer.fan_rays || all_layers_fit(plan.rays)) return;
+    if (!layers::uses("end_obtuse") || !options.layer.enabled || options.layer.fan_rays || all_layers_fit(plan.rays))
+        return;
     const auto obtuse_cells_of = [&](const Rays& rays) {
         const Layer layer =
             close_border(rays, border_options(options, plan.conditions.chord, plan.requests.at_borders));
@@ -174,7 +176,7 @@ bool make_room_at_narrow_triangles(std::span<const mesh::NarrowTriangle> narrow,
                                    RayPlan& plan) {
     // Where no layer is thinned, the borders' edges become this share of the circles' radii.
     constexpr double edge_share = 0.3;
-    if (!options.layer.enabled || narrow.empty()) return false;
+    if (!options.layer.enabled || narrow.empty() || !layers::uses("make_room")) return false;
     const std::vector<Circle> places = circles_round_unexcused(narrow);
     std::vector<std::size_t> ends(places.size(), 0);
     if (thin) ends = shorten_rays(places, plan.rays);
