@@ -22,7 +22,7 @@ namespace lamina::geometry {
 
 namespace {
 
-using Rows = std::vector<RowPoint*>;
+using Rows = std::vector<RowPoint*>;       ///< in a section
 using Columns = std::vector<std::size_t>;  ///< indices of columns
 
 constexpr std::array<std::string_view, max_columns> ordinals = {"first", "second", "third",   "fourth",
@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, max_columns> ordinals = {"first", "second
 
 /// Returns whether a row may hold the counts of a Lednicer file.
 bool may_be_counts(const RowPoint& row) {
-    const double a = row.values[0], b = row.values[1];
+    const double a = row[0], b = row[1];
     return row.columns == 2 && a >= 2 && b >= 2 && a == std::floor(a) && b == std::floor(b);
 }
 
@@ -42,14 +42,13 @@ bool names_both_surfaces(const CoordinateDocument& document) {
 
 /// Returns the rows that hold coordinates. Throws InputError where they differ in their number of columns.
 Rows coordinate_rows(CoordinateSection& section, const CoordinateDocument& document, const std::string& file) {
-    std::uint32_t most = 0;
-    for (const CoordinateBlock& block : section)
-        for (const RowPoint& row : block.points) most = std::max(most, row.columns);
+    std::uint16_t most = 0;
+    for (const RowPoint& row : section.points) most = std::max(most, row.columns);
     const bool may_be_short = most > 2 && names_both_surfaces(document);
     Rows rows;
-    for (CoordinateBlock& block : section)
-        for (RowPoint& row : block.points)
-            if (most == 2 || may_be_short || !may_be_counts(row)) rows.push_back(&row);
+    rows.reserve(section.points.size());
+    for (RowPoint& row : section.points)
+        if (most == 2 || may_be_short || !may_be_counts(row)) rows.push_back(&row);
     for (const RowPoint* row : rows)
         if (row->columns != rows[0]->columns && !(may_be_short && row->columns == 2))
             throw InputError({file, row->line, row->at}, fmt::format("{} numbers where line {} has {}", row->columns,
@@ -62,12 +61,12 @@ Rows coordinate_rows(CoordinateSection& section, const CoordinateDocument& docum
 /// Returns whether a column counts the rows: whole numbers in steps of one, which may start again after some rows.
 bool counts_rows(const Rows& rows, std::size_t column) {
     constexpr std::size_t min_rows = 3;  // of one count
-    const double first = rows[0]->values[column];
+    const double first = (*rows[0])[column];
     if (first != std::floor(first)) return false;
     std::size_t counted = 1;
     for (std::size_t i = 1; i < rows.size(); ++i) {
-        const double value = rows[i]->values[column];
-        const bool goes_on = value == rows[i - 1]->values[column] + 1, starts_again = value == first;
+        const double value = (*rows[i])[column];
+        const bool goes_on = value == (*rows[i - 1])[column] + 1, starts_again = value == first;
         if (!goes_on && (!starts_again || counted < min_rows)) return false;
         counted = goes_on ? counted + 1 : 1;
     }
@@ -77,20 +76,18 @@ bool counts_rows(const Rows& rows, std::size_t column) {
 /// Returns whether a column of whole numbers changes only where a column that counts rows starts again.
 bool numbers_curves(const Rows& rows, std::size_t column, std::size_t counter) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const auto& values = rows[i]->values;
-        if (values[column] != std::floor(values[column])) return false;
-        if (i > 0 && values[counter] == rows[i - 1]->values[counter] + 1 &&
-            values[column] != rows[i - 1]->values[column])
-            return false;
+        const RowPoint& row = *rows[i];
+        if (row[column] != std::floor(row[column])) return false;
+        if (i > 0 && row[counter] == (*rows[i - 1])[counter] + 1 && row[column] != (*rows[i - 1])[column]) return false;
     }
     return true;
 }
 
 double span(const Rows& rows, std::size_t column) {
-    double low = rows[0]->values[column], high = low;
+    double low = (*rows[0])[column], high = low;
     for (const RowPoint* row : rows) {
-        low = std::min(low, row->values[column]);
-        high = std::max(high, row->values[column]);
+        low = std::min(low, (*row)[column]);
+        high = std::max(high, (*row)[column]);
     }
     return high - low;
 }
@@ -101,27 +98,20 @@ bool is_constant(const Rows& rows, std::size_t column, double largest_span) {
     return span(rows, column) <= tolerance * largest_span;
 }
 
-/// Returns a row with some columns alone.
-RowPoint reduced_to(const RowPoint& row, const Columns& columns) {
-    RowPoint reduced{row, std::min(row.columns, static_cast<std::uint32_t>(columns.size())), {}};
-    for (std::size_t c = 0; c < columns.size(); ++c) reduced.values.set(c, row.values[columns[c]]);
-    reduced.at = {reduced.values[0], reduced.values[1]};
-    return reduced;
-}
-
-/// Returns the rows with some columns alone, as a table has them.
-PointRun reduced_to(const Rows& rows, const Columns& columns) {
-    PointRun reduced;
-    reduced.reserve(rows.size());
-    for (const RowPoint* row : rows) reduced.push_back(reduced_to(*row, columns));
-    return reduced;
+/// Returns copies of some rows.
+PointRun copies_of(const Rows& rows) {
+    PointRun run;
+    run.reserve(rows.size());
+    for (const RowPoint* row : rows) run.push_back(*row);
+    return run;
 }
 
 /// Returns whether three columns are a table although the first one counts the rows, as x may in per cent of the chord:
 /// the surfaces meet at the nose, which x and y of a point seldom do, and are thickest before the tail.
-bool is_table_of_unit_steps(const PointRun& run, const std::string& heading) {
+bool is_table_of_unit_steps(const PointRun& run, const std::array<std::size_t, 3>& columns,
+                            const std::string& heading) {
     constexpr double nose_share = 0.01, tail_share = 0.9;  // of the largest thickness
-    const std::optional<SurfaceTable> table = read_surface_table(run, heading);
+    const std::optional<SurfaceTable> table = read_surface_table(run, columns, heading);
     if (!table) return false;
     const auto thickness = [&](std::size_t i) { return table->upper[i].at.y - table->lower[i].at.y; };
     double largest = 0;
@@ -197,20 +187,12 @@ private:
     }
 
     bool read_table_by_names() {
-        if (!roles_.empty()) table_ = read_named_table(copies(), roles_, file_);
+        if (!roles_.empty()) table_ = read_named_table(copies_of(rows_), roles_, file_);
         const bool has_thickness =
             column_with(roles_, ColumnRole::thickness) || column_with(roles_, ColumnRole::half_thickness);
         // The camber that belongs to a thickness may have a name that is not known.
         if (table_ && has_thickness && !column_with(roles_, ColumnRole::camber)) require_known_names();
         return table_.has_value();
-    }
-
-    /// Returns the rows as a run of points.
-    PointRun copies() const {
-        PointRun run;
-        run.reserve(rows_.size());
-        for (const RowPoint* row : rows_) run.push_back(*row);
-        return run;
     }
 
     void leave_out(std::size_t column, const std::string& reason) {
@@ -224,7 +206,7 @@ private:
             std::find_if(left_.begin(), left_.end(), [&](std::size_t c) { return counts_rows(rows_, c); });
         if (counter == left_.end()) return;
         if (left_.size() == 3 && counter == left_.begin() &&
-            is_table_of_unit_steps(reduced_to(rows_, left_), document_.heading))
+            is_table_of_unit_steps(copies_of(rows_), {left_[0], left_[1], left_[2]}, document_.heading))
             return;
         const std::size_t number = *counter;
         if (number > 0 && left_.size() > 3 && numbers_curves(rows_, number - 1, number))
@@ -247,9 +229,9 @@ private:
         const bool named = document_.heading.find("upper") != std::string::npos &&
                            document_.heading.find("lower") != std::string::npos;
         if (left_.size() == 3 && (!has_constant || named))
-            table_ = read_surface_table(reduced_to(rows_, left_), document_.heading);
+            table_ = read_surface_table(copies_of(rows_), {left_[0], left_[1], left_[2]}, document_.heading);
         else if (left_.size() == 4 && !has_constant)
-            table_ = read_paired_table(reduced_to(rows_, left_));
+            table_ = read_paired_table(copies_of(rows_), {left_[0], left_[1], left_[2], left_[3]});
         if (table_ && !named) require_known_names();
         return table_.has_value();
     }
@@ -259,7 +241,7 @@ private:
         const Columns candidates(left_.rbegin(), left_.rend());
         for (const std::size_t c : candidates)
             if (left_.size() > 2 && is_constant(rows_, c, largest))
-                leave_out(c, fmt::format("{} throughout", rows_[0]->values[c]));
+                leave_out(c, fmt::format("{} throughout", (*rows_[0])[c]));
     }
 
     /// Throws InputError where a header names columns that are left and its names do not say how to read them.
@@ -277,7 +259,7 @@ private:
     }
 
     [[noreturn]] void refuse_columns() const {
-        const auto differs = [&](const RowPoint* row) { return row->values[left_[2]] != rows_[0]->values[left_[2]]; };
+        const auto differs = [&](const RowPoint* row) { return (*row)[left_[2]] != (*rows_[0])[left_[2]]; };
         const RowPoint* row = *std::find_if(rows_.begin(), rows_.end(), differs);
         const std::string reason = left_.size() == 3
                                        ? " (and no table of x, upper and lower ordinates: x falls, or the "
@@ -302,17 +284,18 @@ void check_range(const PointRun& points, const std::string& file) {
 ColumnReading choose_columns(CoordinateSection& section, const CoordinateDocument& document, const std::string& file) {
     const Rows rows = coordinate_rows(section, document, file);
     if (rows.empty()) return {};
-    std::size_t points = 0;
-    for (const CoordinateBlock& block : section) points += block.points.size();
     ColumnChooser chooser(rows, document, file);
-    chooser.choose(rows.size() == points);
-    for (RowPoint* row : rows) *row = reduced_to(*row, chooser.left());
+    chooser.choose(rows.size() == section.points.size());
+    for (RowPoint* row : rows) {
+        row->at = {(*row)[chooser.left()[0]], (*row)[chooser.left()[1]]};
+        row->columns = 2;
+    }
     ColumnReading reading = chooser.take();
     if (reading.table) {
         check_range(reading.table->upper, file);
         check_range(reading.table->lower, file);
     } else {
-        for (const CoordinateBlock& block : section) check_range(block.points, file);
+        check_range(section.points, file);
     }
     return reading;
 }

@@ -11,7 +11,6 @@
 #include "geometry/brackets.hpp"
 #include "geometry/characters.hpp"
 #include "geometry/coordinate_fields.hpp"
-#include "geometry/label_column.hpp"
 
 namespace lamina::geometry {
 
@@ -102,8 +101,8 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     const std::vector<Field>& fields = list.fields;
     while (row.number_count < fields.size() && fields[row.number_count].kind == FieldKind::number) {
         const Field& field = fields[row.number_count];
-        if (row.number_count < max_columns) row.values.set(row.number_count, field.value);
-        if (!field.unit.empty() && row.words().unit.empty()) row.change_words().unit = field.unit;
+        if (row.number_count < max_columns) row.values[row.number_count] = field.value;
+        if (row.unit.empty()) row.unit = field.unit;
         row.has_fractions |= !is_whole(field.text);
         row.has_leading_zeros |=
             is_whole(field.text) && field.text.size() > 1 && field.text[0] == '0' && is_digit(field.text[1]);
@@ -117,87 +116,24 @@ void read_text_or_numbers(std::string_view line, bool is_first_row, TextRow& row
     if (row.number_count >= 2) {
         row.kind = RowKind::numbers;
         row.has_decimal_points = has_point(fields[0]) && has_point(fields[1]);
-        if (row.has_remark || !row.has_fractions) row.change_words().text = printable(line);
+        if (row.has_remark || !row.has_fractions) row.text = printable(line);
         return;
     }
     row.kind = RowKind::text;
-    RowWords& words = row.change_words();
-    words.text = printable(line);
-    words.names = read_names(line);
+    row.text = printable(line);
+    row.names = read_names(line);
     if (fields.empty()) return;
-    if (must_be_coordinates(fields, is_first_row)) words.damage = describe_damage(fields);
-    if (must_be_coordinates_in_run(fields)) words.damage_in_run = describe_damage(fields);
+    if (must_be_coordinates(fields, is_first_row)) row.damage = describe_damage(fields);
+    if (must_be_coordinates_in_run(fields)) row.damage_in_run = describe_damage(fields);
 }
 
 void read_comment(std::string_view line, TextRow& row) {
     row.kind = RowKind::comment;
     const std::size_t start = line.find_first_not_of("#!;%/ \t");
     if (start == std::string_view::npos) return;
-    row.change_words().text = printable(line.substr(start));
-    row.change_words().names = read_names(line.substr(start));
+    row.text = printable(line.substr(start));
+    row.names = read_names(line.substr(start));
 }
-
-/// Reads one line, which is the first row where only blank lines and comments stand before it. It has several rows
-/// where it lists several points in brackets.
-void read_line(std::string_view line, std::size_t number, bool is_first_row, TextRows& rows) {
-    line = trimmed(line);
-    const auto add_row = [&]() -> TextRow& {
-        rows.emplace_back().line = static_cast<std::uint32_t>(number);
-        return rows.back();
-    };
-    if (line.empty() || (!starts_comment(line) && has_brackets_alone(line))) {
-        add_row();
-    } else if (starts_comment(line)) {
-        read_comment(line, add_row());
-    } else if (const auto listed = rows_in_brackets(without_clear_comment(line)); !listed.empty()) {
-        for (const std::string& text : listed) read_text_or_numbers(text, is_first_row, add_row());
-    } else {
-        read_text_or_numbers(line, is_first_row, add_row());
-    }
-}
-
-/// Leaves out rows without numbers where more than `max_rows_between` of them follow each other: only the first ones and the
-/// last text tell anything, and a file of empty lines or words must not take many times its size.
-class RowThinner {
-public:
-    /// Looks at the rows from `first` on, which were just added.
-    void thin(TextRows& rows, std::size_t first) {
-        if (rows.size() - first != 1 || rows.back().kind == RowKind::numbers || is_labelled(rows.back())) {
-            between_ = 0;
-            return;
-        }
-        if (++between_ <= max_rows_between) return;
-        TextRow& before = rows[first - 1];
-        const bool replaces = rows.back().kind == RowKind::text && before.words().damage.empty();
-        if (replaces && before.kind != RowKind::text) return;
-        if (replaces) before = std::move(rows.back());
-        rows.pop_back();
-    }
-
-private:
-    static constexpr std::size_t max_rows_between = 1000;
-    std::size_t between_ = 0;  ///< rows since the last numbers
-};
-
-/// Forgets the texts of rows of numbers that no reader asks for. They are titles only before the first points, of which
-/// the very first one may turn out to be a title itself, and notes only where they have an arrow.
-class TextForgetter {
-public:
-    /// Looks at the next row.
-    void forget(TextRow& row) {
-        constexpr std::size_t most_titles = 2;
-        constexpr std::size_t min_domain = 4;  // numbers of a row that gives the domain of MSES
-        if (row.kind != RowKind::numbers || row.has_arrow) return;
-        if (points_ >= most_titles && row.own_words) {
-            row.own_words->text = {};
-            if (row.own_words->unit.empty()) row.own_words.reset();
-        }
-        if (!row.has_remark && row.number_count < min_domain && !is_separator(row)) ++points_;
-    }
-
-private:
-    std::size_t points_ = 0;  ///< rows that can only be points, or the number in the place of the title
-};
 
 }  // namespace
 
@@ -205,36 +141,56 @@ bool is_separator(const TextRow& row) { return row.values[0] == 999.0 && row.val
 
 TextRow read_row(std::string_view line, std::size_t number) {
     TextRow row;
-    row.line = static_cast<std::uint32_t>(number);
+    row.line = number;
     read_text_or_numbers(line, false, row);
     return row;
 }
 
-TextRows read_rows(std::string_view text, const std::string& file) {
+RowReader::RowReader(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-        throw InputError({file, 1, {}}, "the text is UTF-16; save it as UTF-8 or ASCII");
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of UTF-8
-    TextRows rows;
-    RowThinner thinner;
-    TextForgetter forgetter;
-    bool is_first_row = true;
-    std::size_t number = 0;
-    while (!text.empty()) {
-        const std::size_t end = text.find_first_of("\r\n");
-        const std::string_view line = text.substr(0, end);
-        ++number;
-        if (line.find('\0') != std::string_view::npos)
-            throw InputError({file, number, {}}, "not a text file (NUL byte)");
-        const std::size_t before = rows.size();
-        read_line(with_plain_signs(line), number, is_first_row, rows);
-        thinner.thin(rows, before);
-        for (std::size_t i = before; i < rows.size(); ++i) forgetter.forget(rows[i]);
-        if (rows.back().kind != RowKind::blank && rows.back().kind != RowKind::comment) is_first_row = false;
-        if (end == std::string_view::npos) break;
-        text.remove_prefix(text.substr(end).starts_with("\r\n") ? end + 2 : end + 1);
+        throw InputError({file_, 1, {}}, "the text is UTF-16; save it as UTF-8 or ASCII");
+    if (text.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);  // the byte order mark of UTF-8
+}
+
+std::optional<TextRow> RowReader::next() {
+    TextRow row;
+    if (listed_ && next_listed_ < listed_->size()) {
+        row.line = line_;
+        read_text_or_numbers((*listed_)[next_listed_++], false, row);
+        return row;
     }
-    read_label_column(rows);
-    return rows;
+    listed_.reset();
+    if (rest_.empty()) return std::nullopt;
+    const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(end);
+    rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(rest_.size(), 1));
+    ++line_;
+    if (line.find('\0') != std::string_view::npos) throw InputError({file_, line_, {}}, "not a text file (NUL byte)");
+    row = read_line(trimmed(with_plain_signs(line)));
+    if (row.kind != RowKind::blank && row.kind != RowKind::comment) is_first_row_ = false;
+    return row;
+}
+
+/// Reads the first row of a trimmed line.
+TextRow RowReader::read_line(std::string_view line) {
+    TextRow row;
+    row.line = line_;
+    if (line.empty()) return row;
+    if (starts_comment(line)) {
+        read_comment(line, row);
+        return row;
+    }
+    if (has_brackets_alone(line)) return row;
+    std::vector<std::string> listed = rows_in_brackets(without_clear_comment(line));
+    if (listed.empty()) {
+        read_text_or_numbers(line, is_first_row_, row);
+        return row;
+    }
+    read_text_or_numbers(listed[0], is_first_row_, row);
+    listed_ = std::make_shared<const std::vector<std::string>>(std::move(listed));
+    next_listed_ = 1;
+    return row;
 }
 
 }  // namespace lamina::geometry

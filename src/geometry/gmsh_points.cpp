@@ -85,9 +85,9 @@ public:
         CoordinateDocument document;
         document.sections.clear();
         if (curves_.empty()) {
-            document.sections.push_back({{run_of(order_), {}, false}});
+            document.sections.push_back({run_of(order_), {{}}, {}});
         } else {
-            for (const std::vector<long>& chain : chains()) document.sections.push_back({{run_of(chain), {}, false}});
+            for (const std::vector<long>& chain : chains()) document.sections.push_back({run_of(chain), {{}}, {}});
         }
         if (document.sections.empty() || (other_.line > 0 && has_open(document)))
             throw InputError({file_, other_.line, {}},
@@ -125,10 +125,8 @@ private:
     void take(const Statement& s) {
         if (s.kind == "Point" && s.list.size() >= 2) {
             RowPoint p;
-            p.line = s.line;
+            p.line = static_cast<std::uint32_t>(s.line);
             p.at = {number(s.list[0], s.line), number(s.list[1], s.line)};
-            p.values.set(0, p.at.x);
-            p.values.set(1, p.at.y);
             const long id = whole(s.number, s.line);
             if (points_.insert_or_assign(id, p).second) order_.push_back(id);
         } else if (s.kind == "Line" || s.kind == "Spline") {
@@ -200,14 +198,14 @@ private:
 
     static bool has_open(const CoordinateDocument& document) {
         return std::any_of(document.sections.begin(), document.sections.end(), [](const CoordinateSection& section) {
-            return section[0].points.front().at != section[0].points.back().at;
+            return section.points.front().at != section.points.back().at;
         });
     }
 
     static void leave_out_far_field(CoordinateDocument& document) {
         const auto box_of = [](const CoordinateSection& section) {
             Box box;
-            for (const RowPoint& p : section[0].points) box.include(p.at);
+            for (const RowPoint& p : section.points) box.include(p.at);
             return box;
         };
         const auto contains_all = [&](const CoordinateSection& outer) {
@@ -222,7 +220,7 @@ private:
         const auto outer = std::find_if(document.sections.begin(), document.sections.end(), contains_all);
         if (outer == document.sections.end()) return;
         document.notes.push_back(
-            fmt::format("line {}: the loop round all others left out, as a far field", (*outer)[0].points[0].line));
+            fmt::format("line {}: the loop round all others left out, as a far field", outer->points[0].line));
         document.sections.erase(outer);
     }
 };

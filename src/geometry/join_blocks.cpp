@@ -5,16 +5,15 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/growing_run.hpp"
 #include "geometry/point_runs.hpp"
 
 namespace lamina::geometry {
 
 namespace {
 
-void append(PointRun& run, const PointRun& more) { run.insert(run.end(), more.begin(), more.end()); }
-
 /// Returns whether the step from the end of a to the start of b is at most twice as long as a neighbouring step.
-bool steps_evenly(const PointRun& a, const PointRun& b) {
+bool steps_evenly(PointSpan a, PointSpan b) {
     double neighbour = 0;
     if (a.size() > 1) neighbour = distance(a[a.size() - 2].at, a.back().at);
     if (b.size() > 1) neighbour = std::max(neighbour, distance(b[0].at, b[1].at));
@@ -22,99 +21,103 @@ bool steps_evenly(const PointRun& a, const PointRun& b) {
 }
 
 /// Returns whether b continues a, so that only a blank line divides one run.
-bool continues(const PointRun& a, const PointRun& b) {
+bool continues(const GrowingRun& run, PointSpan b) {
+    const PointSpan a = run.points();
     if (a.size() > 1 && a.front().at == a.back().at) return false;
-    if (is_loop(b) || (is_loop(a) && b.size() > a.size())) return false;
+    if (is_loop(b) || (b.size() > a.size() && run.is_loop())) return false;
     return steps_evenly(a, b);
 }
 
-/// Returns where a second surface begins in a run that steps back from the end of the first one to its start.
-std::optional<std::size_t> start_of_second_surface(const PointRun& run) {
-    const double size = extent(run);
-    for (std::size_t i = 2; i < run.size(); ++i)
-        if (distance(run[i - 1].at, run[0].at) > 0.5 * size && distance(run[i].at, run[0].at) <= 0.1 * size &&
-            distance(run[i - 1].at, run[i].at) > 0.5 * size)
-            return i;
-    return std::nullopt;
-}
-
 /// Returns how far the end of a run is from completing an outline; infinity where the run is too short for one.
-double gap_of_outline(const PointRun& run) {
-    if (const auto second = start_of_second_surface(run)) return distance(run[*second - 1].at, run.back().at);
-    return is_loop(run) ? distance(run.front().at, run.back().at) : HUGE_VAL;
+double gap_of_outline(GrowingRun& growing) {
+    const PointSpan run = growing.points();
+    if (const auto second = growing.return_to_start()) return distance(run[*second - 1].at, run.back().at);
+    return growing.is_loop() ? distance(run.front().at, run.back().at) : HUGE_VAL;
 }
 
 /// Returns whether a run is a whole outline, so that the points behind it belong to another one.
-bool ends_before(const PointRun& run, const PointRun& next) {
+bool ends_before(GrowingRun& growing, PointSpan next) {
     constexpr double clear_share = 0.1;
+    const PointSpan run = growing.points();
+    if (run.size() < 3) return false;
     const double step = distance(run.back().at, next.front().at);
-    if (run.size() < 3 || step == 0) return false;
+    if (step == 0) return false;
     const bool is_closed = run.front().at == run.back().at;
     if (!is_closed && next.size() < 3 && steps_evenly(run, next)) return false;  // quick, for many comments
     if (is_closed && is_loop(next)) return true;
-    const double gap = gap_of_outline(run);
+    const double gap = gap_of_outline(growing);
     return gap < step && (gap <= clear_share * step || !steps_evenly(run, next) || is_loop(next));
 }
 
-/// Returns whether the first point of a run belongs to no outline: the rest is a loop that it does not help to close,
-/// and the step from it is long.
-bool starts_with_lone_point(const PointRun& run) {
-    if (run.size() < 4) return false;
-    const Point lone = run[0].at, first = run[1].at, last = run.back().at;
-    return distance(last, lone) > distance(last, first) && distance(lone, first) > 2 * distance(first, run[2].at) &&
-           is_loop({run.begin() + 1, run.end()}) && !find_second_surface(run);
-}
+/// A run of blocks that comments divide. It may start with a single point that is none of the outline behind it.
+class CommentedRun {
+public:
+    /// The run that has the points from `first` on, and none yet.
+    CommentedRun(PointSpan points, std::size_t first, bool starts_alone)
+        : whole_(points, first), rest_(points, std::min(first + 1, points.size())), starts_alone_(starts_alone) {}
+
+    void grow_to(std::size_t end) {
+        whole_.grow_to(end);
+        rest_.grow_to(end);
+    }
+
+    /// Returns whether the first point belongs to no outline: the rest is a loop that it does not help to close, and the
+    /// step from it is long.
+    bool starts_with_lone_point() const {
+        const PointSpan run = whole_.points();
+        if (!starts_alone_ || run.size() < 4) return false;
+        const Point lone = run[0].at, first = run[1].at, last = run.back().at;
+        return distance(last, lone) > distance(last, first) && distance(lone, first) > 2 * distance(first, run[2].at) &&
+               rest_.is_loop() && !whole_.second_surface();
+    }
+
+    bool is_complete_before(PointSpan next) {
+        return ends_before(whole_, next) || (starts_with_lone_point() && ends_before(rest_, next));
+    }
+
+private:
+    GrowingRun whole_, rest_;  ///< the latter without the first point
+    bool starts_alone_;
+};
 
 }  // namespace
 
 void join_commented_blocks(CoordinateSection& section) {
-    const bool all_single = section.size() > 2 && std::all_of(section.begin(), section.end(), [](const auto& block) {
-                                return block.points.size() == 1;
-                            });
-    CoordinateSection joined;
-    for (std::size_t i = 0; i < section.size();) {
-        CoordinateBlock block = std::move(section[i]);
-        const bool starts_alone = block.points.size() == 1;
-        const auto is_complete = [&] {
-            const PointRun &run = block.points, &next = section[i].points;
-            return ends_before(run, next) ||
-                   (starts_alone && starts_with_lone_point(run) && ends_before({run.begin() + 1, run.end()}, next));
+    const std::size_t n = section.blocks.size();
+    const bool all_single = n > 2 && section.points.size() == n;
+    std::vector<CoordinateBlock> joined;
+    for (std::size_t i = 0; i < n;) {
+        CoordinateBlock block = section.blocks[i];
+        CommentedRun run(section.points, block.first, section.block(i).size() == 1);
+        const auto end_of = [&](std::size_t k) {
+            return k + 1 < n ? section.blocks[k + 1].first : section.points.size();
         };
-        const auto goes_on = [&] { return (all_single || section[i].after_comment) && !is_complete(); };
-        for (++i; i < section.size() && goes_on(); ++i) append(block.points, section[i].points);
-        if (starts_alone && starts_with_lone_point(block.points)) {
-            joined.push_back({{block.points[0]}, {}, block.after_comment});
-            block.points.erase(block.points.begin());
+        run.grow_to(end_of(i));
+        const auto goes_on = [&] {
+            return (all_single || section.blocks[i].after_comment) && !run.is_complete_before(section.block(i));
+        };
+        for (++i; i < n && goes_on(); ++i) run.grow_to(end_of(i));
+        if (run.starts_with_lone_point()) {
+            joined.push_back({block.first, 0, 0, block.after_comment});
+            ++block.first;
         }
-        joined.push_back(std::move(block));
+        joined.push_back(block);
     }
-    section = std::move(joined);
+    section.blocks = std::move(joined);
 }
 
 void join_continued_blocks(CoordinateSection& section) {
-    CoordinateSection joined;
-    for (CoordinateBlock& block : section) {
-        if (!joined.empty() && continues(joined.back().points, block.points)) {
-            append(joined.back().points, block.points);
-        } else {
-            joined.push_back(std::move(block));
+    std::vector<CoordinateBlock> joined;
+    std::optional<GrowingRun> last;
+    for (std::size_t i = 0; i < section.blocks.size(); ++i) {
+        const std::size_t first = section.blocks[i].first;
+        if (!last || !continues(*last, section.block(i))) {
+            joined.push_back(section.blocks[i]);
+            last.emplace(section.points, first);
         }
+        last->grow_to(first + section.block(i).size());
     }
-    section = std::move(joined);
-}
-
-PointSpan all_points(const CoordinateSection& section, PointRun& copies) {
-    if (section.size() == 1) return section[0].points;
-    for (const CoordinateBlock& block : section) append(copies, block.points);
-    return copies;
-}
-
-std::size_t remove_blocks(CoordinateSection& section, std::size_t points) {
-    while (points > 0 && points >= section[0].points.size()) {
-        points -= section[0].points.size();
-        section.erase(section.begin());
-    }
-    return points;
+    section.blocks = std::move(joined);
 }
 
 }  // namespace lamina::geometry

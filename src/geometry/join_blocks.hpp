@@ -1,8 +1,6 @@
 // Blocks of coordinates that only blank lines and comments divide -> blocks that are whole runs.
 #pragma once
 
-#include <cstddef>
-
 #include "geometry/coordinate_blocks.hpp"
 
 namespace lamina::geometry {
@@ -15,12 +13,5 @@ void join_commented_blocks(CoordinateSection& section);
 /// Joins blocks that blank lines divide where one continues the other: the step between them is at most twice as long
 /// as a neighbouring step.
 void join_continued_blocks(CoordinateSection& section);
-
-/// Returns the points of all blocks: those of the only one, or `copies` of those of several.
-PointSpan all_points(const CoordinateSection& section, PointRun& copies);
-
-/// Removes the first points of a section, as many as whole blocks have. Returns how many of them remain in the first
-/// block that is left.
-std::size_t remove_blocks(CoordinateSection& section, std::size_t points);
 
 }  // namespace lamina::geometry

@@ -31,64 +31,85 @@ std::string_view behind_first_field(std::string_view text) {
 /// Returns the numbers behind the label of a row of text, as a row of their own; nothing for other rows.
 std::optional<TextRow> labelled_row(const TextRow& row) {
     if (row.kind != RowKind::text || row.number_count > 0) return std::nullopt;
-    TextRow numbers = read_row(behind_first_field(row.words().text), row.line);
+    TextRow numbers = read_row(behind_first_field(row.text), row.line);
     if (numbers.kind != RowKind::numbers) return std::nullopt;
     numbers.has_label = true;
-    numbers.change_words().label = printable(read_fields(row.words().text).fields[0].text);
+    numbers.label = printable(read_fields(row.text).fields[0].text);
     return numbers;
 }
 
 /// Returns whether a row of text that is no labelled row was meant as one: numbers stand beside a field that is none.
 bool is_damaged(const TextRow& row) {
     if (row.kind != RowKind::text) return false;
-    const FieldList rest = read_fields(behind_first_field(row.words().text));
+    const FieldList rest = read_fields(behind_first_field(row.text));
     return rest.fields.size() == 2 && std::any_of(rest.fields.begin(), rest.fields.end(),
                                                   [](const Field& f) { return f.kind != FieldKind::word; });
 }
 
-/// Returns whether each label of some rows stays the same for several of them.
-bool labels_divide(const TextRows& rows) {
-    std::size_t same = min_labelled_rows, changes = 0;
-    const std::string* previous = nullptr;
-    for (const TextRow& row : rows) {
-        const std::string& label = row.words().label;
-        if (label.empty()) continue;
-        if (!previous || label == *previous) {
-            same = previous ? same + 1 : 1;
-        } else {
-            if (same < min_labelled_rows) return false;
-            same = 1;
-            ++changes;
+/// Looks at labels one after the other.
+class LabelCount {
+public:
+    void add(const std::string& label) {
+        ++count_;
+        if (label.empty()) return;
+        if (same_ > 0 && label != last_) {
+            stay_ &= same_ >= min_labelled_rows;
+            same_ = 0;
+            ++changes_;
         }
-        previous = &label;
+        ++same_;
+        last_ = label;
     }
-    return changes > 0 && same >= min_labelled_rows;
-}
+
+    std::size_t count() const { return count_; }
+
+    /// Returns whether each label stays the same for several rows, and there are several labels.
+    bool divide() const { return changes_ > 0 && stay_ && same_ >= min_labelled_rows; }
+
+private:
+    std::size_t count_ = 0, same_ = 0, changes_ = 0;
+    bool stay_ = true;
+    std::string last_;
+};
 
 }  // namespace
 
-bool is_labelled(const TextRow& row) { return labelled_row(row).has_value(); }
+LabelledRowReader::LabelledRowReader(std::string_view text, const std::string& file) : rows_(text, file) {
+    find_labels(rows_);
+}
 
-void read_label_column(TextRows& rows) {
-    const auto is_numbers = [](const TextRow& row) { return row.kind == RowKind::numbers; };
-    const auto number_rows = std::count_if(rows.begin(), rows.end(), is_numbers);
-    if (number_rows > 1) return;
-    const auto start = number_rows == 0 ? rows.begin() : std::find_if(rows.begin(), rows.end(), is_numbers) + 1;
-    if (std::count_if(start, rows.end(), is_labelled) < static_cast<std::ptrdiff_t>(min_labelled_rows)) return;
-    bool in_rows = false;
-    for (auto row = start; row != rows.end(); ++row) {
-        if (std::optional<TextRow> labelled = labelled_row(*row)) {
-            *row = std::move(*labelled);
-            in_rows = true;
-        } else if (in_rows && is_damaged(*row)) {
-            RowWords& words = row->change_words();
-            words.damage_in_run = words.damage =
-                fmt::format("'{}' is no label and two numbers, as other rows are", words.text);
+void LabelledRowReader::find_labels(RowReader rows) {
+    std::size_t number_rows = 0;
+    LabelCount labels;
+    while (const std::optional<TextRow> row = rows.next()) {
+        if (row->kind == RowKind::numbers) {
+            if (++number_rows > 1) return;
+            labels = {};
+        } else if (const std::optional<TextRow> labelled = labelled_row(*row)) {
+            labels.add(labelled->label);
         }
     }
-    if (labels_divide(rows)) return;
-    for (TextRow& row : rows)
-        if (row.own_words) row.own_words->label.clear();
+    has_labels_ = labels.count() >= min_labelled_rows;
+    labels_divide_ = labels.divide();
+    is_counted_ = number_rows == 1;
+}
+
+std::optional<TextRow> LabelledRowReader::next() {
+    std::optional<TextRow> row = rows_.next();
+    if (!has_labels_ || !row) return row;
+    if (row->kind == RowKind::numbers) {
+        is_counted_ = false;
+    } else if (is_counted_) {
+        return row;
+    } else if (std::optional<TextRow> labelled = labelled_row(*row)) {
+        row = std::move(labelled);
+        in_labelled_rows_ = true;
+        if (!labels_divide_) row->label.clear();
+    } else if (in_labelled_rows_ && is_damaged(*row)) {
+        row->damage_in_run = row->damage =
+            fmt::format("'{}' is no label and two numbers, as other rows are", row->text);
+    }
+    return row;
 }
 
 }  // namespace lamina::geometry

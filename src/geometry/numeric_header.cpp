@@ -59,7 +59,7 @@ std::optional<std::string> why_title(PointSpan points, const CoordinateDocument&
     if (document.first_row.empty() || points.size() <= min_rows) return std::nullopt;
     const RowPoint& first = points[0];
     const PointSpan rest = points.subspan(1);
-    const double a = first.values[0], b = first.values[1], available = static_cast<double>(rest.size());
+    const double a = first[0], b = first[1], available = static_cast<double>(rest.size());
     const bool may_be_counts = first.columns == 2 && is_count(a) && is_count(b);
     const bool is_one_loop = is_loop(rest) && !find_second_surface(rest);
     if (may_be_counts && a + b == available && !(document.has_leading_zeros && is_one_loop)) return std::nullopt;

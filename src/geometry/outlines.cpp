@@ -8,7 +8,6 @@
 
 #include <lamina/error.hpp>
 
-#include "geometry/characters.hpp"
 #include "geometry/columns.hpp"
 #include "geometry/coordinate_blocks.hpp"
 #include "geometry/join_blocks.hpp"
@@ -29,18 +28,17 @@ public:
         : section_(std::move(section)), document_(document), file_(file), keep_open_(keep_open), outlines_(outlines) {}
 
     void assemble() {
-        if (section_.empty()) return;
+        if (section_.points.empty()) return;
         divide_curves();
         if (outlines_.empty()) drop_numeric_title();
         ColumnReading columns = choose_columns(section_, document_, file_);
         for (std::string& note : columns.notes) notes_.push_back(std::move(note));
         if (columns.table) return add_table(*columns.table);
-        while (!section_.empty() && add_counted_surfaces()) {
-        }
+        add_counted_surfaces();
         join_commented_blocks(section_);
         join_continued_blocks(section_);
         drop_lone_points();
-        for (std::size_t i = 0; i < section_.size();) i += add_blocks(i);
+        for (std::size_t i = 0; i < section_.blocks.size();) i += add_blocks(i);
         if (!notes_.empty() && !outlines_.empty())
             outlines_.back().notes.insert(outlines_.back().notes.end(), notes_.begin(), notes_.end());
     }
@@ -69,76 +67,81 @@ private:
 
     /// Makes the first row a title where it cannot be anything else.
     void drop_numeric_title() {
-        PointRun copies;
-        const std::optional<std::string> reason = why_title(all_points(section_, copies), document_);
+        const std::optional<std::string> reason = why_title(section_.points, document_);
         if (!reason) return;
-        CoordinateBlock& block = section_[0];
-        notes_.push_back(fmt::format("line {}: '{}' taken as a title, not as coordinates: {}", block.points[0].line,
+        notes_.push_back(fmt::format("line {}: '{}' taken as a title, not as coordinates: {}", section_.points[0].line,
                                      document_.first_row, *reason));
-        std::string title = block.title.empty() ? document_.first_row : block.title;
-        block.points.erase(block.points.begin());
-        if (block.points.empty()) section_.erase(section_.begin());
-        section_[0].title = std::move(title);
+        const std::string title = section_.title(0);
+        section_.remove_first_point();
+        section_.set_title(0, title.empty() ? document_.first_row : title);
     }
 
     /// Adds the outline of a table of both surfaces.
     void add_table(const SurfaceTable& table) {
         notes_.push_back(fmt::format("line {}: table of {}, joined at the first row",
                                      std::min(table.upper.front().line, table.upper.back().line), table.contents));
-        add(join_surfaces(table.upper, table.lower), section_[0].title, "table");
+        add(join_surfaces(table.upper, table.lower), section_.title(0), "table");
     }
 
-    /// Adds the outline whose surfaces follow their counts at the start of the section, and removes its blocks. Returns
-    /// whether there are counts.
-    bool add_counted_surfaces() {
-        PointRun copies;
-        const PointSpan rest = all_points(section_, copies);
-        const std::optional<SurfaceCounts> counts = read_counts(rest, file_);
-        if (!counts) return false;
-        const auto first = rest.begin() + 1, second = first + static_cast<std::ptrdiff_t>(counts->upper);
-        const auto end = second + static_cast<std::ptrdiff_t>(counts->lower);
-        add(join_surfaces({first, second}, {second, end}), section_[0].title, "lednicer");
-        if (remove_blocks(section_, counts->total() + 1) > 0)
-            throw InputError(
-                {file_, end->line, end->at},
-                fmt::format("a point beyond the {} that the counts of line {} announce (put # before that line if "
-                            "it is a title)",
-                            counts->total(), rest[0].line));
-        return true;
+    /// Adds the outlines whose surfaces follow their counts at the start of the section, and removes their blocks.
+    void add_counted_surfaces() {
+        std::size_t used = 0;  // blocks
+        while (used < section_.blocks.size()) {
+            const PointSpan rest = PointSpan(section_.points).subspan(section_.blocks[used].first);
+            const std::optional<SurfaceCounts> counts = read_counts(rest, file_);
+            if (!counts) break;
+            const auto first = rest.begin() + 1, second = first + static_cast<std::ptrdiff_t>(counts->upper);
+            const auto end = second + static_cast<std::ptrdiff_t>(counts->lower);
+            add(join_surfaces({first, second}, {second, end}), section_.title(used), "lednicer");
+            const std::size_t next = section_.blocks[used].first + counts->total() + 1;
+            while (used < section_.blocks.size() && section_.blocks[used].first < next) ++used;
+            const std::size_t end_of_block =
+                used < section_.blocks.size() ? section_.blocks[used].first : section_.points.size();
+            if (end_of_block > next)
+                throw InputError({file_, end->line, end->at},
+                                 fmt::format("a point beyond the {} that the counts of line {} announce (put # before "
+                                             "that line if it is a title)",
+                                             counts->total(), rest[0].line));
+        }
+        std::vector<bool> removed(section_.blocks.size());
+        std::fill_n(removed.begin(), used, true);
+        section_.remove_blocks(removed);
     }
 
     /// Drops a reference point before the outline and a point left over after it. Throws InputError for further ones.
     void drop_lone_points() {
-        if (section_.size() < 2) return;
+        if (section_.blocks.size() < 2) return;
         std::size_t dropped = 0;
-        std::erase_if(section_, [&](const CoordinateBlock& block) {
-            if (block.points.size() > 1) return false;
-            const RowPoint& p = block.points[0];
+        std::vector<bool> removed;
+        for (std::size_t i = 0; i < section_.blocks.size(); ++i) {
+            removed.push_back(section_.block(i).size() == 1);
+            if (!removed.back()) continue;
+            const RowPoint& p = section_.block(i)[0];
             if (++dropped > 2) throw InputError({file_, p.line, p.at}, "a lone point that belongs to no outline");
             notes_.push_back(
                 fmt::format("line {}: lone point left out, not part of an outline {}", p.line, coordinates(p.at)));
-            return true;
-        });
+        }
+        section_.remove_blocks(removed);
     }
 
     /// Returns whether the document says that the one surface of its section stands for both, which meet at y = 0.
-    bool stands_for_both_surfaces(const PointRun& points) const {
-        return document_.symmetry_line > 0 && section_.size() == 1 && !is_loop(points) && points.front().at.y == 0;
+    bool stands_for_both_surfaces(PointSpan points) const {
+        return document_.symmetry_line > 0 && section_.blocks.size() == 1 && !is_loop(points) &&
+               points.front().at.y == 0;
     }
 
     /// Adds the outline that begins with block i. Returns the number of blocks that it has.
     std::size_t add_blocks(std::size_t i) {
-        const PointRun& points = section_[i].points;
-        const std::string& title = section_[i].title;
+        const PointSpan points = section_.block(i);
+        const std::string title = section_.title(i);
         if (stands_for_both_surfaces(points)) {
             add_mirrored(points, title);
         } else if (const auto second_surface = find_second_surface(points)) {
-            const auto second = points.begin() + static_cast<std::ptrdiff_t>(*second_surface);
-            add(join_surfaces({points.begin(), second}, {second, points.end()}), title, "lednicer");
-        } else if (is_loop(points) || section_.size() == 1) {
+            add(join_surfaces(points.first(*second_surface), points.subspan(*second_surface)), title, "lednicer");
+        } else if (is_loop(points) || section_.blocks.size() == 1) {
             add({points.begin(), points.end()}, title, "");
-        } else if (i + 1 < section_.size() && are_two_surfaces(points, section_[i + 1].points)) {
-            add(join_surfaces(points, section_[i + 1].points), title, "lednicer");
+        } else if (i + 1 < section_.blocks.size() && are_two_surfaces(points, section_.block(i + 1))) {
+            add(join_surfaces(points, section_.block(i + 1)), title, "lednicer");
             return 2;
         } else if (keep_open_) {
             add({points.begin(), points.end()}, title, "");
@@ -151,8 +154,8 @@ private:
         return 1;
     }
 
-    void add_mirrored(const PointRun& points, const std::string& title) {
-        PointRun lower = points;
+    void add_mirrored(PointSpan points, const std::string& title) {
+        PointRun lower(points.begin(), points.end());
         for (RowPoint& p : lower) p.at.y = -p.at.y;
         notes_.push_back(fmt::format("line {}: symmetric section, the surface given stands for both, mirrored at y = 0",
                                      document_.symmetry_line));
@@ -160,23 +163,13 @@ private:
     }
 };
 
-/// Returns the error for rows without outlines, which shows a line that may have been meant as coordinates.
-InputError error_without_coordinates(const TextRows& rows, const std::string& file) {
-    constexpr std::size_t most_shown = 60;  // bytes
-    if (rows.empty()) return InputError({file, 0, {}}, "the file is empty");
-    const auto has_fraction = [](const TextRow& row) {
-        const std::string& text = row.words().text;
-        const std::size_t point = text.find('.');
-        return row.kind == RowKind::text && point != std::string::npos && point + 1 < text.size() &&
-               is_digit(text[point + 1]);
-    };
-    const auto row = std::find_if(rows.begin(), rows.end(), has_fraction);
-    if (row == rows.end()) return InputError({file, 0, {}}, "no coordinates found: no line starts with two numbers");
-    const std::string& text = row->words().text;
-    const bool is_long = text.size() > most_shown;
-    return InputError({file, row->line, {}},
-                      fmt::format("no coordinates found: no line starts with two numbers; this one is '{}{}'",
-                                  printable(std::string_view(text).substr(0, most_shown)), is_long ? "..." : ""));
+/// Returns the error for a document without outlines, which shows a line that may have been meant as coordinates.
+InputError error_without_coordinates(const CoordinateDocument& document, const std::string& file) {
+    if (!document.has_rows) return InputError({file, 0, {}}, "the file is empty");
+    const std::string message = "no coordinates found: no line starts with two numbers";
+    if (document.fraction_line == 0) return InputError({file, 0, {}}, message);
+    return InputError({file, document.fraction_line, {}},
+                      fmt::format("{}; this one is '{}'", message, document.fraction_text));
 }
 
 }  // namespace
@@ -185,22 +178,13 @@ std::vector<RawOutline> assemble_outlines(CoordinateDocument document, const std
     std::vector<RawOutline> outlines;
     for (CoordinateSection& section : document.sections)
         SectionAssembler(std::move(section), document, file, keep_open, outlines).assemble();
-    if (outlines.empty()) return outlines;
+    if (outlines.empty()) throw error_without_coordinates(document, file);
     for (RawOutline& outline : outlines) {
         outline.unit = document.unit;
         if (outline.format.empty()) outline.format = document.csv ? "csv" : document.titled ? "selig" : "xy";
     }
     if (outlines[0].title.empty()) outlines[0].title = document.first_comment;
     outlines[0].notes.insert(outlines[0].notes.begin(), document.notes.begin(), document.notes.end());
-    return outlines;
-}
-
-std::vector<RawOutline> assemble_outlines(TextRows rows, const std::string& file, bool keep_open) {
-    CoordinateDocument document = split_into_blocks(rows, file);
-    const InputError refusal = error_without_coordinates(rows, file);
-    TextRows().swap(rows);  // they take as much as the points, of which copies are made
-    std::vector<RawOutline> outlines = assemble_outlines(std::move(document), file, keep_open);
-    if (outlines.empty()) throw refusal;
     return outlines;
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "geometry/coordinate_blocks.hpp"
-#include "geometry/coordinate_rows.hpp"
 #include "geometry/source_point.hpp"
 
 namespace lamina::geometry {
@@ -22,11 +21,8 @@ struct RawOutline {
     std::vector<std::string> notes;  ///< decisions of the reader that its user should know
 };
 
-/// Returns the outlines of a document; none where it has no coordinates. Throws InputError as below.
+/// Returns the outlines of a document. An open run is one only where it is the only one of its section, or `keep_open`.
+/// Throws InputError, which names `file`, where there are no coordinates or they cannot be understood as outlines.
 std::vector<RawOutline> assemble_outlines(CoordinateDocument document, const std::string& file, bool keep_open);
-
-/// Returns the outlines of a file. An open run is one only where it is the only one of its section, or `keep_open`. Throws InputError, which names `file`, where the rows cannot be understood as
-/// outlines.
-std::vector<RawOutline> assemble_outlines(TextRows rows, const std::string& file, bool keep_open = false);
 
 }  // namespace lamina::geometry

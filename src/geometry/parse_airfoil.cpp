@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/coordinate_rows.hpp"
+#include "geometry/coordinate_blocks.hpp"
 #include "geometry/half_section.hpp"
 #include "geometry/other_formats.hpp"
 #include "geometry/outline_repair.hpp"
@@ -17,8 +17,8 @@ std::vector<RawOutline> read_outlines(std::string_view text, const std::string& 
     refuse_drawings(text, file);
     std::optional<CoordinateDocument> document = read_gmsh_points(text, file);
     if (!document) document = read_plot3d(text);
-    std::vector<RawOutline> outlines = document ? assemble_outlines(std::move(*document), file, keep_open)
-                                                : assemble_outlines(read_rows(text, file), file, keep_open);
+    if (!document) document = read_blocks(text, file);
+    std::vector<RawOutline> outlines = assemble_outlines(std::move(*document), file, keep_open);
     if (options.mirror_half)
         for (RawOutline& outline : outlines) {
             outline.points = mirrored_half(std::move(outline.points), file);

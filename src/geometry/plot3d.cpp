@@ -17,7 +17,7 @@ namespace {
 /// The numbers of a text, and whether all its lines but the first hold two: such lines are points, not PLOT3D.
 struct Numbers {
     std::vector<double> values;
-    std::vector<std::size_t> lines;  ///< of each number
+    std::vector<std::uint32_t> lines;  ///< of each number
 };
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ','; }
@@ -25,7 +25,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' |
 /// Returns all numbers of a text; none where it holds anything else.
 Numbers numbers_of(std::string_view text) {
     Numbers numbers;
-    std::size_t line = 1;
+    std::uint32_t line = 1;
     const char* at = text.data();
     const char* const end = at + text.size();
     while (at != end) {
@@ -108,16 +108,16 @@ std::optional<CoordinateDocument> read_plot3d(std::string_view text) {
     const std::optional<Layout> layout = find_layout(numbers.values);
     if (!layout) return std::nullopt;
     CoordinateDocument document;
+    CoordinateSection& section = document.sections[0];
     std::size_t start = layout->start;
     for (const std::size_t points : layout->points) {
-        CoordinateBlock& block = document.sections[0].emplace_back();
-        for (std::size_t i = 0; i < points; ++i) {
-            RowPoint& p = block.points.emplace_back();
-            p.columns = static_cast<std::uint32_t>(layout->dimensions);
-            for (std::size_t k = 0; k < layout->dimensions; ++k)
-                p.values.set(k, numbers.values[start + k * points + i]);
-            p.at = {p.values[0], p.values[1]};
-            p.line = numbers.lines[start + i];
+        section.blocks.push_back({static_cast<std::uint32_t>(section.points.size())});
+        for (std::size_t i = start; i < start + points; ++i) {
+            RowPoint& p = section.points.emplace_back();
+            p.at = {numbers.values[i], numbers.values[i + points]};
+            p.line = numbers.lines[i];
+            p.columns = static_cast<std::uint16_t>(layout->dimensions);
+            if (p.columns == 3) p.further = document.numbers.add({&numbers.values[i + 2 * points], 1});
         }
         start += points * layout->dimensions;
     }

@@ -19,9 +19,10 @@ double end_gap(PointSpan points) { return distance(points.front().at, points.bac
 
 bool is_loop(PointSpan points) { return points.size() >= 3 && end_gap(points) <= 0.5 * run_length(points); }
 
-bool are_two_surfaces(PointSpan a, PointSpan b) {
+bool are_two_surfaces(PointSpan a, PointSpan b) { return are_two_surfaces(a, b, std::max(extent(a), extent(b))); }
+
+bool are_two_surfaces(PointSpan a, PointSpan b, double size) {
     if (a.size() < 2 || b.size() < 2) return false;
-    const double size = std::max(extent(a), extent(b));
     if (end_gap(a) <= 0.5 * size || end_gap(b) <= 0.5 * size) return false;
     const double start_distance = distance(a.front().at, b.front().at),
                  end_distance = distance(a.back().at, b.back().at);

@@ -1,6 +1,7 @@
 // The stage "read" as a whole: inputs -> named and checked elements.
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -116,8 +117,12 @@ std::vector<Element> read_inputs(std::span<const std::string> inputs, const Geom
     std::vector<OutlinesOfFile> files;  // in a row
     const auto repair = [&] {
         join_files(files);
-        for (const auto& [file, outlines] : files)
-            for (const RawOutline& outline : outlines) elements.push_back(repair_outline(outline, file, options));
+        std::size_t count = elements.size();
+        for (const OutlinesOfFile& file : files) count += file.outlines.size();
+        elements.reserve(count);
+        for (auto& [file, outlines] : files)
+            for (RawOutline& outline : outlines)  // which is freed: a file may have many thousands
+                elements.push_back(repair_outline(std::exchange(outline, {}), file, options));
         files.clear();
     };
     for (const std::string& input : inputs) {
@@ -137,7 +142,7 @@ Element element_of_points(std::span<const Point> points, const std::string& sour
     PointRun run;
     run.reserve(points.size());
     for (const Point p : points) {
-        run.push_back({{p, run.size() + 1}});
+        run.push_back({{p, static_cast<std::uint32_t>(run.size() + 1)}});
         if (!in_exact_range(p)) throw InputError({source, run.size(), {}}, "no number, or outside the exact range");
     }
     RawOutline outline;

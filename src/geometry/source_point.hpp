@@ -1,7 +1,7 @@
 // Points with the lines of the file that hold them.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include <lamina/point.hpp>
@@ -12,7 +12,7 @@ namespace lamina::geometry {
 
 struct SourcePoint {
     Point at;
-    std::size_t line = 0;    ///< counts from 1; 0: not in the file
+    std::uint32_t line = 0;  ///< counts from 1; 0: not in the file
     bool is_corner = false;  ///< whether it is one of Element::given_corners
 };
 

@@ -14,9 +14,11 @@ namespace lamina::geometry {
 
 namespace {
 
-/// Returns whether all rows of a run have so many columns.
-bool has_columns(const PointRun& points, std::size_t columns) {
-    return std::all_of(points.begin(), points.end(), [&](const RowPoint& p) { return p.columns == columns; });
+/// Returns whether all rows have these columns.
+template <std::size_t N>
+bool have_columns(PointSpan rows, const std::array<std::size_t, N>& columns) {
+    const std::size_t last = *std::max_element(columns.begin(), columns.end());
+    return std::all_of(rows.begin(), rows.end(), [&](const RowPoint& p) { return p.columns > last; });
 }
 
 /// Returns the first row whose x does not go on in the direction of the first two; the end where x is monotone.
@@ -40,11 +42,11 @@ bool names_lower_first(const std::string& heading) {
 
 /// Returns the points of a surface whose coordinates stand in two columns. Rows that end before them have none: the two
 /// surfaces of a table may differ in their number of points.
-PointRun surface_in(const PointRun& rows, std::size_t x, std::size_t y) {
+PointRun surface_in(PointSpan rows, std::size_t x, std::size_t y) {
     PointRun surface;
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(surface),
                  [&](const RowPoint& p) { return p.columns > std::max(x, y); });
-    for (RowPoint& p : surface) p.at = {p.values[x], p.values[y]};
+    for (RowPoint& p : surface) p.at = {p[x], p[y]};
     return surface;
 }
 
@@ -80,10 +82,9 @@ SurfaceTable table_of_thickness(const PointRun& rows, std::size_t x, std::size_t
                                 std::optional<std::size_t> camber) {
     SurfaceTable table{rows, rows, {}};
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const auto& values = rows[i].values;
-        const double middle = camber ? values[*camber] : 0, half = factor * values[thickness];
-        table.upper[i].at = {values[x], middle + half};
-        table.lower[i].at = {values[x], middle - half};
+        const double middle = camber ? rows[i][*camber] : 0, half = factor * rows[i][thickness];
+        table.upper[i].at = {rows[i][x], middle + half};
+        table.lower[i].at = {rows[i][x], middle - half};
     }
     const std::string half = factor == 1 ? "half thickness" : "thickness",
                       at = factor == 1 ? "+- half thickness" : "+- thickness / 2";
@@ -112,17 +113,24 @@ std::optional<SurfaceTable> table_by_roles(const PointRun& rows, const std::vect
 
 }  // namespace
 
-std::optional<SurfaceTable> read_surface_table(const PointRun& points, const std::string& heading) {
-    if (points.size() < 5 || !has_columns(points, 3) || !is_monotone(points) || !rises(points)) return std::nullopt;
+std::optional<SurfaceTable> read_surface_table(PointSpan rows, const std::array<std::size_t, 3>& columns,
+                                               const std::string& heading) {
+    const auto [x, first, second] = columns;
+    const auto falls = [x = x](const RowPoint& a, const RowPoint& b) { return !(b[x] > a[x]); };
+    if (rows.size() < 5 || !have_columns(rows, columns) ||
+        std::adjacent_find(rows.begin(), rows.end(), falls) != rows.end())
+        return std::nullopt;
     const bool lower_first = names_lower_first(heading);
-    PointRun upper = surface_in(points, 0, lower_first ? 2 : 1), lower = surface_in(points, 0, lower_first ? 1 : 2);
+    PointRun upper = surface_in(rows, x, lower_first ? second : first),
+             lower = surface_in(rows, x, lower_first ? first : second);
     if (!are_apart(upper, lower, 1) && !are_apart(upper, lower, -1)) return std::nullopt;
     return table_of_ordinates(std::move(upper), std::move(lower));
 }
 
-std::optional<SurfaceTable> read_paired_table(const PointRun& points) {
-    if (points.size() < 3 || !has_columns(points, 4)) return std::nullopt;
-    SurfaceTable table{surface_in(points, 0, 1), surface_in(points, 2, 3), "the coordinates of both surfaces"};
+std::optional<SurfaceTable> read_paired_table(PointSpan rows, const std::array<std::size_t, 4>& columns) {
+    if (rows.size() < 3 || !have_columns(rows, columns)) return std::nullopt;
+    SurfaceTable table{surface_in(rows, columns[0], columns[1]), surface_in(rows, columns[2], columns[3]),
+                       "the coordinates of both surfaces"};
     if (!is_monotone(table.upper) || !is_monotone(table.lower) || rises(table.upper) != rises(table.lower))
         return std::nullopt;
     run_from_nose(table.upper);

@@ -72,7 +72,8 @@ struct Change {
     std::string operator()(const FlapDeflection& f) const {
         std::vector<SourcePoint> outline;
         for (std::size_t i = 0; i < element.points.size(); ++i)
-            outline.push_back({element.points[i], element.lines.empty() ? 0 : element.lines[i]});
+            outline.push_back(
+                {element.points[i], element.lines.empty() ? 0 : static_cast<std::uint32_t>(element.lines[i])});
         for (const std::size_t corner : element.given_corners) outline[corner].is_corner = true;
         outline = with_deflected_flap(outline, f, element);
         element.points.clear();

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -58,6 +60,19 @@ TEST(Bounds, MemoryOfReaders) {
                   {"info", "one_line.dat", repeated("1 ", 5'000'000)},
                   {"info", "points.dat", repeated("1 1\n", 1'300'000)},
                   {"info", "letters.dat", repeated("a", 20'000'000)},
+                  {"info", "zigzag.dat", repeated("1 1\n1 2\n2 2\n", 400'000)},
+                  {"info", "three_columns.dat", repeated("1 1 1\n", 900'000)},
+                  {"info", "four_columns.dat", repeated("1 1 1 1\n", 700'000)},
+                  {"info", "six_columns.dat", repeated("1 1 1 1 1 1\n", 500'000)},
+                  {"info", "labels.dat", repeated("a 1 1\n", 900'000)},
+                  {"info", "lasting_labels.dat", repeated("a 1 1\na 1 2\na 2 2\nb 3 3\nb 3 4\nb 4 4\n", 150'000)},
+                  {"info", "remarks.dat", repeated("1 1 a\n", 900'000)},
+                  {"info", "notes.dat", "1 1\na\n" + repeated("1->2\n", 1'000'000)},
+                  {"info", "blank_lines.dat", repeated("1 1\n\n2 1\n\n2 2\n\n", 300'000)},
+                  {"info", "comment_lines.dat", repeated("1 1\n#\n2 1\n#\n2 2\n#\n", 300'000)},
+                  {"info", "titles.dat", repeated("1 1\na\n", 900'000)},
+                  {"info", "separators.dat", repeated("1 1\n999 999\n", 450'000)},
+                  {"info", "brackets.dat", repeated("(1,1),", 900'000)},
                   {"check", "bomb.vtu", vtu_that_claims(std::uint64_t{1} << 31, std::string(4'000'000, 'x'))},
                   {"check", "claim.vtu", vtu_that_claims(~std::uint64_t{0}, "x")},
                   {"check", "count.su2", "NDIME= 2\nNELEM= 1000000000\n5 0 1 2 0\nNPOIN= 3\n"},
@@ -115,18 +130,47 @@ std::string octagons(std::size_t count) {
     return text;
 }
 
-TEST(Bounds, TimeOfManyElements) {
+/// A spiral whose points stand alone between such lines. A short step follows each long one.
+std::string spiral(std::size_t count, const std::string& line) {
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double angle = 2.0 * static_cast<double>(i / 2) + (i % 2 == 0 ? 0 : 1e-4),
+                     radius = 1 + static_cast<double>(i) / static_cast<double>(count);
+        text += fmt::format("{:.6f} {:.6f}\n{}\n", radius * std::cos(angle), radius * std::sin(angle), line);
+    }
+    return text;
+}
+
+/// Expects the seconds that the program needs for `content(n)` to grow about as n does.
+void expect_linear_time(std::size_t few, const std::function<std::string(std::size_t)>& content) {
     const TemporaryFolder folder;
-    constexpr std::size_t few = 500, times = 4;
+    constexpr std::size_t times = 4;
     std::vector<double> seconds;
     for (const std::size_t count : {few, times * few}) {
-        folder.write("many.dat", octagons(count));
+        folder.write("many.dat", content(count));
         const double before = seconds_of_children();
-        EXPECT_EQ(run_lamina(folder, {"info", "many.dat"}).exit_code, 0);
+        const int exit_code = run_lamina(folder, {"info", "many.dat"}).exit_code;
+        EXPECT_TRUE(exit_code == 0 || exit_code == bad_input) << exit_code;
         seconds.push_back(seconds_of_children() - before);
     }
     constexpr double start_up = 0.1, allowance = 2;  // a quadratic step made it 16 times
     EXPECT_LT(seconds[1], allowance * times * (seconds[0] + start_up));
+}
+
+TEST(Bounds, TimeOfManyElements) { expect_linear_time(500, octagons); }
+
+TEST(Bounds, TimeOfManyCountedElements) {
+    expect_linear_time(5'000,
+                       [](std::size_t n) { return repeated("3 3\n0 0\n.5 .1\n1 0\n\n0 0\n.5 -.1\n1 0\n\n", n); });
+}
+
+TEST(Bounds, TimeOfManyComments) {
+    for (const std::string line : {"#", ""}) {
+        SCOPED_TRACE(line);
+        expect_linear_time(20'000, [&](std::size_t n) { return spiral(n, line); });
+        expect_linear_time(
+            50'000, [&](std::size_t n) { return repeated(fmt::format("1 1\n{0}\n2 1\n{0}\n2 2\n{0}\n", line), n); });
+    }
 }
 
 }  // namespace
