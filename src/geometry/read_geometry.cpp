@@ -117,9 +117,6 @@ std::vector<Element> read_inputs(std::span<const std::string> inputs, const Geom
     std::vector<OutlinesOfFile> files;  // in a row
     const auto repair = [&] {
         join_files(files);
-        std::size_t count = elements.size();
-        for (const OutlinesOfFile& file : files) count += file.outlines.size();
-        elements.reserve(count);
         for (auto& [file, outlines] : files)
             for (RawOutline& outline : outlines)  // which is freed: a file may have many thousands
                 elements.push_back(repair_outline(std::exchange(outline, {}), file, options));

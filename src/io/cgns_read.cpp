@@ -15,6 +15,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdint>
+#include <exception>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -280,32 +281,69 @@ bool is_adf(const fs::path& file) {
     return in.good() && found == name;
 }
 
-/// Reads the file, or fails to, in a child process that says nothing. Returns whether the child has lived to its end.
-bool survives_reading(const fs::path& file) {
+/// Limits the memory of this process to what it has and what a file of this size may need in proportion.
+void limit_memory(const fs::path& file) {
+    constexpr rlim_t bytes_per_byte = 20, allowance = 100'000'000;
+    rlim_t pages = 0;
+    std::error_code unknown;
+    const auto bytes = fs::file_size(file, unknown);
+    if (unknown || !(std::ifstream("/proc/self/statm") >> pages)) return;  // a system without it
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0) return;
+    const auto page = static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+    limit.rlim_cur = std::min(limit.rlim_cur, pages * page + allowance + bytes_per_byte * bytes);
+    ::setrlimit(RLIMIT_AS, &limit);
+}
+
+/// Opens a file, reads it if `whole`, and sends "+", or "-" and the reason why that fails, to the parent process. Sends
+/// nothing where the library ends the process.
+[[noreturn]] void try_in_child(const fs::path& file, bool whole, int pipe) {
+    const rlimit no_core{};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    if (const int null = ::open("/dev/null", O_WRONLY); null >= 0) ::dup2(null, STDERR_FILENO);
+    for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) std::signal(signal, SIG_DFL);
+    limit_memory(file);
+    std::string answer = "+";
+    try {
+        CgnsReader reader(file);
+        if (whole) reader.read();
+    } catch (const InputError& error) {
+        answer = "-" + error.reason();
+    } catch (const std::exception& error) {
+        answer = std::string("-") + error.what();
+    }
+    const bool told = ::write(pipe, answer.data(), answer.size()) == static_cast<ssize_t>(answer.size());
+    ::_exit(told ? 0 : 1);
+}
+
+/// Returns what a child process sends that tries the file.
+std::string answer_of_child(const fs::path& file, bool whole) {
     std::array<int, 2> pipe{};
     if (::pipe(pipe.data()) != 0) throw IoError(file.string(), "cannot read: no pipe to a child process");
     const pid_t child = ::fork();
-    if (child == 0) {
-        const rlimit no_core{};
-        setrlimit(RLIMIT_CORE, &no_core);
-        if (const int null = ::open("/dev/null", O_WRONLY); null >= 0) ::dup2(null, STDERR_FILENO);
-        std::signal(SIGABRT, SIG_DFL);
-        try {
-            CgnsReader(file).read();
-        } catch (...) {
-            // The parent meets the same error, and reports it.
-        }
-        const bool told = ::write(pipe[1], "1", 1) == 1;
-        ::_exit(told ? 0 : 1);
-    }
+    if (child == 0) try_in_child(file, whole, pipe[1]);
     ::close(pipe[1]);
-    char answer = 0;
+    std::string answer;
+    std::array<char, 512> part{};
     ssize_t bytes = 0;
-    while (child > 0 && (bytes = ::read(pipe[0], &answer, 1)) < 0 && errno == EINTR) continue;
+    while (child > 0 && ((bytes = ::read(pipe[0], part.data(), part.size())) > 0 || (bytes < 0 && errno == EINTR)))
+        if (bytes > 0) answer.append(part.data(), static_cast<std::size_t>(bytes));
     ::close(pipe[0]);
     if (child < 0) throw IoError(file.string(), "cannot read: no child process");
     while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
-    return bytes == 1;
+    return answer;
+}
+
+/// Throws InputError for a file that the library cannot open. It ends the process where sizes in a file are damaged, and
+/// unpacks texts and lists of any size, so that a child process tries it before. The arrays of HDF5 files are checked by
+/// the library, those of ADF files by nobody.
+void require_sound(const fs::path& file) {
+    const bool adf = is_adf(file);
+    const std::string answer = answer_of_child(file, adf);
+    if (answer.starts_with('+')) return;
+    if (answer.size() > 1) throw InputError({file.string(), 0, {}}, answer.substr(1));
+    throw InputError({file.string(), 0, {}}, fmt::format("the file is damaged: the CGNS library breaks off on it{}",
+                                                         adf ? " (adf2hdf makes HDF5 of a sound one)" : ""));
 }
 
 }  // namespace
@@ -314,10 +352,7 @@ Mesh read_cgns(const fs::path& file) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) throw IoError(file.string(), "cannot read: no such file");
     const std::lock_guard lock(cgns_lock());
-    // The library ends the process by assertions where an ADF file is damaged, so a child process tries it before.
-    if (is_adf(file) && !survives_reading(file))
-        throw InputError({file.string(), 0, {}},
-                         "the file is damaged: the CGNS library breaks off on it (adf2hdf makes HDF5 of a sound one)");
+    require_sound(file);
     return CgnsReader(file).read();
 }
 

@@ -47,11 +47,12 @@ public:
         if (!value) fail(fmt::format("{} expected, found '{}'", meaning, word.substr(0, 30)));
         return *value;
     }
-    /// Reads "N (" and returns N. Fails where the rest of the file is too short for N entries, so that no damaged count
-    /// asks for memory.
-    std::size_t begin_list(const char* meaning) {
+    /// Reads "N (" and returns N. Fails where the rest of the file is too short for N entries of `min_bytes` each, with
+    /// what divides them, so that no damaged count asks for memory.
+    std::size_t begin_list(const char* meaning, std::size_t min_bytes) {
         const auto n = number<std::size_t>(meaning);
-        if (n > bytes_.size() - at_) fail(fmt::format("{}: {}, but the file is shorter than that", meaning, n));
+        if (n > (bytes_.size() - at_) / min_bytes)
+            fail(fmt::format("{}: {}, but the file is shorter than that", meaning, n));
         expect("(");
         return n;
     }

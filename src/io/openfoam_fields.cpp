@@ -68,7 +68,8 @@ CellValues read_values(const fs::path& file) {
     std::size_t count = 1;
     if (!result.uniform) {
         in.next();  // List<scalar> or List<vector>
-        count = in.begin_list("number of values");
+        count = in.begin_list("number of values", result.components == 1 ? std::string_view("0 ").size()
+                                                                         : std::string_view("(0 0 0)").size());
     }
     result.values.reserve(count * result.components);
     for (std::size_t i = 0; i < count; ++i) read_tuple(in, result.components, result.values);

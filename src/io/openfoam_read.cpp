@@ -63,7 +63,7 @@ private:
     void read_points() {
         FoamWords in(folder_ / "points");
         in.read_header("vectorField");
-        const std::size_t n = in.begin_list("number of points");
+        const std::size_t n = in.begin_list("number of points", std::string_view("(0 0 0)").size());
         std::vector<std::array<double, 3>> points(n);
         for (auto& point : points) {
             in.expect("(");
@@ -92,7 +92,7 @@ private:
     std::vector<std::uint32_t> read_cells(const char* name) {
         FoamWords in(folder_ / name);
         in.read_header("labelList");
-        std::vector<std::uint32_t> cells(in.begin_list("number of faces"));
+        std::vector<std::uint32_t> cells(in.begin_list("number of faces", std::string_view("0 ").size()));
         for (std::uint32_t& cell : cells) cell = in.number<std::uint32_t>("cell");
         in.end_list();
         return cells;
@@ -100,7 +100,7 @@ private:
     void read_patches() {
         FoamWords in(folder_ / "boundary");
         in.read_header("polyBoundaryMesh");
-        patches_.resize(in.begin_list("number of patches"));
+        patches_.resize(in.begin_list("number of patches", std::string_view("a{nFaces 0;startFace 0;}").size()));
         for (FoamPatch& patch : patches_) {
             patch = read_patch(in);
             if (patch.start > owner_.size() || patch.faces > owner_.size() - patch.start)
@@ -113,25 +113,27 @@ private:
 
     static FoamPatch read_patch(FoamWords& in) {
         FoamPatch patch;
+        bool has_faces = false, has_start = false;
         patch.name = in.next();
         in.expect("{");
         for (std::string_view key; (key = in.next()) != "}";) {
             if (key == "type")
                 patch.type = in.next();
-            else if (key == "nFaces")
+            else if (has_faces |= key == "nFaces"; key == "nFaces")
                 patch.faces = in.number<std::size_t>("nFaces");
-            else if (key == "startFace")
+            else if (has_start |= key == "startFace"; key == "startFace")
                 patch.start = in.number<std::size_t>("startFace");
             for (std::string_view rest; (rest = in.next()) != ";";)
                 if (rest.empty()) in.fail("the patch does not end");
         }
+        if (!has_faces || !has_start) in.fail(fmt::format("patch '{}' has no nFaces or no startFace", patch.name));
         return patch;
     }
 
     void read_faces() {
         FoamWords in(folder_ / "faces");
         in.read_header("faceList");
-        const std::size_t n = in.begin_list("number of faces");
+        const std::size_t n = in.begin_list("number of faces", std::string_view("3(0 0 0)").size());
         if (n != owner_.size()) in.fail(fmt::format("{} faces, but {} owners", n, owner_.size()));
         const std::size_t boundary = patches_.empty() ? n : patches_.front().start;
         std::size_t patch = 0;

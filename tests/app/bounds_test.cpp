@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -85,6 +86,12 @@ TEST(Bounds, MemoryOfReaders) {
                   {"check", "tags.vtu", repeated("<a>", 1'700'000)},
                   {"delaunay", "count.node", poly_count},
                   {"delaunay", "count.poly", poly_count},
+                  {"check", "elements.ele", "1000000000 3 0\n1 1 2 3\n"},
+                  {"check", "elements.ele", "2000000 3 0\n1 1 2 3\n" + repeated("\n", 4'000'000)},
+                  {"delaunay", "attributes.node", "3 2 1000000000 0\n1 0 0\n2 1 0\n3 0 1\n"},
+                  {"delaunay", "segments.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n1000000000 0\n1 1 2\n"},
+                  {"delaunay", "holes.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n0 0\n1000000000\n1 .2 .2\n"},
+                  {"delaunay", "regions.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n0 0\n0\n1000000000\n1 .2 .2 1\n"},
                   {"delaunay", "newlines.node", repeated("\n", 5'000'000)},
                   {"mesh", "newlines.toml", repeated("\n", 5'000'000)},
                   {"mesh", "keys.toml", repeated("a.", 40'000) + "a = 1\n"},
@@ -93,6 +100,7 @@ TEST(Bounds, MemoryOfReaders) {
                   {"mesh", "inline.toml", "x = {" + repeated("a.", 40'000) + "a = 1}\n"},
                   {"mesh", "arrays.toml", "x = " + repeated("[", 40'000)},
                   {"mesh", "behind_string.toml", "x = '''\n\"'''\n" + repeated("a.", 40'000) + "a = 1\n"}};
+    folder.write("elements.node", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n");
     for (const auto& input : inputs) {
         folder.write(input.name, input.content);
         const std::size_t room = start + 100'000 + 20 * input.content.size() / 1024;
@@ -103,6 +111,48 @@ TEST(Bounds, MemoryOfReaders) {
         EXPECT_TRUE(run.exit_code == bad_input || run.exit_code == 2)
             << input.name << ": " << run.exit_code << ' ' << run.signal << ' ' << run.err;
         EXPECT_EQ(run.err.find("memory"), std::string::npos) << input.name << ": " << run.err;
+    }
+}
+
+/// A file of a polyMesh.
+std::string foam(const std::string& type, const std::string& contents, const std::string& format = "ascii") {
+    return "FoamFile { format " + format + "; class " + type + "; }\n" + contents;
+}
+
+TEST(Bounds, MemoryOfPolyMeshes) {
+    if (LAMINA_SANITIZED) GTEST_SKIP() << "sanitizers take terabytes of address space";
+    const TemporaryFolder folder;
+    const std::size_t start = room_to_start(folder);
+    const std::string lie = "1000000000 (", padding = repeated(" ", 4'000'000);
+    const struct {
+        const char* name;
+        std::string content;
+    } files[] = {{"points", foam("vectorField", lie)},
+                 {"points", foam("vectorField", lie, "binary")},
+                 {"points", foam("vectorField", "4000000 ((0 0 0)" + padding)},
+                 {"owner", foam("labelList", lie)},
+                 {"owner", foam("labelList", lie, "binary")},
+                 {"owner", foam("labelList", "4000000 (0" + padding)},
+                 {"neighbour", foam("labelList", lie)},
+                 {"boundary", foam("polyBoundaryMesh", lie)},
+                 {"boundary", foam("polyBoundaryMesh", "4000000 (a{}" + padding)},
+                 {"boundary", foam("polyBoundaryMesh", "1000000 (" + repeated("a{}", 1'000'000) + ")")},
+                 {"faces", foam("faceList", lie)},
+                 {"faces", foam("faceList", lie, "binary")},
+                 {"faces", foam("faceList", "1 (4000000000(0 1 2))")}};
+    std::filesystem::create_directory(folder / "polyMesh");
+    for (const auto& [name, content] : files) {
+        folder.write("polyMesh/points", foam("vectorField", "3 ((0 0 0) (1 0 0) (0 1 0))"));
+        folder.write("polyMesh/owner", foam("labelList", "1 (0)"));
+        folder.write("polyMesh/neighbour", foam("labelList", "0 ()"));
+        folder.write("polyMesh/boundary", foam("polyBoundaryMesh", "1 (a { type empty; nFaces 1; startFace 0; })"));
+        folder.write("polyMesh/faces", foam("faceList", "1 (3(0 1 2))"));
+        folder.write(std::string("polyMesh/") + name, content);
+        const std::size_t room = start + 100'000 + 20 * content.size() / 1024;
+        const ProgramRun run = run_lamina_in_memory(folder, {"check", "polyMesh"}, room);
+        EXPECT_EQ(run.exit_code, bad_input) << name << ": " << run.signal << ' ' << run.err;
+        EXPECT_NE(run.err.find(name), std::string::npos) << run.err;
+        EXPECT_EQ(run.err.find("memory"), std::string::npos) << name << ": " << run.err;
     }
 }
 

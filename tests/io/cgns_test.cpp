@@ -1,7 +1,11 @@
 // The contents of CGNS files, as the CGNS library reads them.
+#include <cgns_io.h>
 #include <cgnslib.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -129,6 +133,55 @@ TEST(Cgns, SurvivesDamagedAdfFiles) {
         }
     }
     EXPECT_GT(refused, 0u);
+}
+
+/// Gives a node of a CGNS file so many bytes or numbers, which are not written and take no room in it.
+void declare_size(const std::filesystem::path& file, const char* node, const char* type, cgsize_t size) {
+    int cgio = 0;
+    double root = 0, id = 0;
+    ASSERT_EQ(cgio_open_file(file.c_str(), CGIO_MODE_MODIFY, CGIO_FILE_HDF5, &cgio), CGIO_ERR_NONE);
+    ASSERT_EQ(cgio_get_root_id(cgio, &root), CGIO_ERR_NONE);
+    ASSERT_EQ(cgio_get_node_id(cgio, root, node, &id), CGIO_ERR_NONE) << node;
+    ASSERT_EQ(cgio_set_dimensions(cgio, id, type, 1, &size), CGIO_ERR_NONE) << node;
+    ASSERT_EQ(cgio_close_file(cgio), CGIO_ERR_NONE);
+}
+
+/// Returns the most memory in kB that this process, or a child of it, has ever used.
+long peak(int whose) {
+    rusage usage{};
+    getrusage(whose, &usage);
+    return usage.ru_maxrss;
+}
+
+// The library unpacks texts and lists of any size when it opens a file, and writes some of them into short arrays.
+TEST(Cgns, DeclaredSizesAskForNoMemory) {
+    const TemporaryFolder folder;
+    const long before = std::max(peak(RUSAGE_SELF), peak(RUSAGE_CHILDREN));
+    constexpr cgsize_t many = 400'000'000;
+    const struct {
+        const char *node, *type;
+    } nodes[] = {{"/Base", "I4"},
+                 {"/Base/Zone", "I4"},
+                 {"/Base/Zone/ZoneType", "C1"},
+                 {"/Base/Zone/GridCoordinates/CoordinateX", "R8"},
+                 {"/Base/Zone/isotropic_triangles", "I4"},
+                 {"/Base/Zone/isotropic_triangles/ElementRange", "I4"},
+                 {"/Base/Zone/isotropic_triangles/ElementConnectivity", "I4"},
+                 {"/Base/Zone/ZoneBC/wall", "C1"},
+                 {"/Base/Zone/ZoneBC/wall/PointRange", "I4"},
+                 {"/Base/Zone/ZoneBC/wall/FamilyName", "C1"},
+                 {"/Base/Zone/ZoneBC/wall/GridLocation", "C1"},
+                 {"/Base/wall/FamBC", "C1"}};
+    Mesh mesh = tiny();
+    mesh.region = {Region::isotropic, Region::layer};
+    for (const auto& [node, type] : nodes) {
+        SCOPED_TRACE(node);
+        write_mesh(mesh, folder / "m.cgns");
+        declare_size(folder / "m.cgns", node, type, many);
+        EXPECT_THROW(read_mesh(folder / "m.cgns"), InputError);
+    }
+    constexpr long allowance = 150'000;
+    EXPECT_LT(std::max(peak(RUSAGE_SELF), peak(RUSAGE_CHILDREN)), before + allowance);
 }
 
 }  // namespace
