@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -26,7 +30,7 @@ bool is_dxf(std::string_view text) {
         code = take_line(text);
         value = take_line(text);
     }
-    return code == "0" && value == "SECTION";
+    return (code == "0" && value == "SECTION") || code.starts_with("AutoCAD Binary DXF");
 }
 
 /// Returns whether a text is IGES: lines of 80 columns, the first of which belong to the start section.
@@ -36,29 +40,115 @@ bool is_iges(std::string_view text) {
     return line.size() == 80 && line[section_column] == 'S' && line.ends_with('1');
 }
 
+bool is_blank(char c) { return is_space(c) || c == '\n' || c == '\r'; }
+
+/// Returns whether an object follows somewhere: an opening brace and a name.
+bool has_object(std::string_view text) {
+    for (std::size_t at = text.find('{'); at != std::string_view::npos; at = text.find('{', at + 1)) {
+        const auto next = std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at) + 1, text.end(), is_blank);
+        if (next != text.end() && (*next == '"' || *next == '\'' || is_letter(*next))) return true;
+    }
+    return false;
+}
+
+/// A list of JSON that holds no other list.
+struct InnerList {
+    std::size_t numbers = 0;
+    bool has_lines = false;  ///< whether it stands in several lines
+};
+
+/// Returns the first lists of a text that hold no other list, at most three; nothing where a list is none of JSON.
+std::vector<InnerList> first_inner_lists(std::string_view text) {
+    std::vector<InnerList> lists;
+    while (lists.size() < 3) {
+        const std::size_t close = text.find(']');
+        if (close == std::string_view::npos) break;
+        const std::size_t open = text.rfind('[', close);
+        if (open != std::string_view::npos) {
+            const std::string_view list = text.substr(open + 1, close - open - 1);
+            InnerList& inner = lists.emplace_back();
+            std::size_t commas = 0;
+            bool in_number = false;
+            for (const char c : list) {
+                const bool divides = is_blank(c) || c == ',';
+                inner.numbers += !divides && !in_number ? 1 : 0;
+                commas += c == ',' ? 1 : 0;
+                inner.has_lines |= c == '\n' || c == '\r';
+                in_number = !divides;
+            }
+            if (inner.numbers != commas + 1) return {};  // MATLAB's rows, for example
+        }
+        text.remove_prefix(close + 1);
+    }
+    return lists;
+}
+
+/// Returns whether a text may be JSON.
+bool starts_json(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    const auto first = std::find_if_not(text.begin(), text.end(), is_blank);
+    return first != text.end() && (*first == '[' || *first == '{');
+}
+
+/// Returns whether a text is JSON that lists all x, then all y. Points have two or three numbers; a list of pairs stands
+/// in several lines.
+bool is_json_of_axes(std::string_view text) {
+    if (!starts_json(text)) return false;
+    const std::vector<InnerList> lists = first_inner_lists(text);
+    if (lists.empty() || lists[0].has_lines || lists[0].numbers < 3) return false;
+    return lists.size() < 3 || (lists[0].numbers > 3 && has_object(text));
+}
+
+/// Returns whether a text that cannot be read is JSON that lists no points, or each number of them on a line of its own.
+bool is_json_without_points(std::string_view text) {
+    if (!starts_json(text)) return false;
+    const std::vector<InnerList> lists = first_inner_lists(text);
+    const bool lists_points = !lists.empty() && !lists[0].has_lines && (lists[0].numbers == 2 || lists[0].numbers == 3);
+    return has_object(text) ? !lists_points : !lists.empty() && lists[0].has_lines;
+}
+
 struct Drawing {
     const char* name;
     const char* advice;
+    std::array<const char*, 2> extensions;
     bool (*is_it)(std::string_view);
 };
 
 constexpr const char* flatten = "turn the outline into a polyline and export its vertices";
+constexpr const char* divide = "divide the curves and export the points";
 
-constexpr std::array<Drawing, 4> drawings = {
-    {{"a DXF drawing", flatten, is_dxf},
-     {"an SVG drawing", "flatten the path and export its points",
+constexpr std::array<Drawing, 5> drawings = {
+    {{"a DXF drawing, of which lamina reads no curves", flatten, {".dxf", ".DXF"}, is_dxf},
+     {"an SVG drawing, of which lamina reads no curves",
+      "flatten the path and export its points",
+      {".svg", ".SVG"},
       [](std::string_view text) { return text.substr(0, 4096).find("<svg") != std::string_view::npos; }},
-     {"an IGES file", "divide the curves and export the points", is_iges},
-     {"a STEP file", "divide the curves and export the points",
-      [](std::string_view text) { return trimmed(text.substr(0, 64)).starts_with("ISO-10303-21"); }}}};
+     {"an IGES file, of which lamina reads no curves", divide, {".igs", ".iges"}, is_iges},
+     {"a STEP file, of which lamina reads no curves",
+      divide,
+      {".stp", ".step"},
+      [](std::string_view text) { return trimmed(text.substr(0, 64)).starts_with("ISO-10303-21"); }},
+     {"JSON, of which lamina reads lists of points alone",
+      "print the points, in Python by 'for p in zip(d[\"x\"], d[\"y\"]): print(*p)'",
+      {".json", ".geojson"},
+      is_json_of_axes}}};
+
+[[noreturn]] void refuse(const Drawing& drawing, const std::string& file) {
+    throw InputError({file, 1, {}}, fmt::format("{}: {}, one line 'x y' each", drawing.name, drawing.advice));
+}
 
 }  // namespace
 
 void refuse_drawings(std::string_view text, const std::string& file) {
     for (const Drawing& drawing : drawings)
-        if (drawing.is_it(text))
-            throw InputError({file, 1, {}}, fmt::format("{}, of which lamina reads no curves: {}, one line 'x y' each",
-                                                        drawing.name, drawing.advice));
+        if (drawing.is_it(text)) refuse(drawing, file);
+}
+
+void refuse_unread_drawings(std::string_view text, const std::string& file) {
+    if (is_json_without_points(text)) refuse(drawings.back(), file);
+    const auto is_extension = [&](const char* extension) { return file.ends_with(extension); };
+    for (const Drawing& drawing : drawings)
+        if (std::any_of(drawing.extensions.begin(), drawing.extensions.end(), is_extension)) refuse(drawing, file);
 }
 
 }  // namespace lamina::geometry

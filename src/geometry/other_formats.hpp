@@ -9,8 +9,12 @@
 
 namespace lamina::geometry {
 
-/// Throws InputError, which says how to export points, for DXF, SVG, IGES and STEP.
+/// Throws InputError, which says how to export points, for DXF, SVG, IGES, STEP, and for JSON that lists all x and then
+/// all y.
 void refuse_drawings(std::string_view text, const std::string& file);
+
+/// Throws the same for a text that cannot be read otherwise, where it is JSON or the extension is that of one of these.
+void refuse_unread_drawings(std::string_view text, const std::string& file);
 
 /// Reads the points of Gmsh's geometry files, in the order in which lines and splines join them. Loops that contain all
 /// others are far fields, and left out, as points on no curve are. Returns nothing for other texts. Throws InputError for

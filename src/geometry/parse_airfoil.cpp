@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <lamina/error.hpp>
+
 #include "geometry/coordinate_blocks.hpp"
 #include "geometry/half_section.hpp"
 #include "geometry/other_formats.hpp"
@@ -12,13 +14,26 @@
 
 namespace lamina::geometry {
 
+namespace {
+
+std::vector<RawOutline> outlines_of_text(std::string_view text, const std::string& file, bool keep_open) {
+    refuse_drawings(text, file);
+    try {
+        std::optional<CoordinateDocument> document = read_gmsh_points(text, file);
+        if (!document) document = read_plot3d(text);
+        if (!document) document = read_blocks(text, file);
+        return assemble_outlines(std::move(*document), file, keep_open);
+    } catch (const InputError&) {
+        refuse_unread_drawings(text, file);
+        throw;
+    }
+}
+
+}  // namespace
+
 std::vector<RawOutline> read_outlines(std::string_view text, const std::string& file, const GeometryOptions& options) {
     const bool keep_open = options.close || options.mirror_half;
-    refuse_drawings(text, file);
-    std::optional<CoordinateDocument> document = read_gmsh_points(text, file);
-    if (!document) document = read_plot3d(text);
-    if (!document) document = read_blocks(text, file);
-    std::vector<RawOutline> outlines = assemble_outlines(std::move(*document), file, keep_open);
+    std::vector<RawOutline> outlines = outlines_of_text(text, file, keep_open);
     if (options.mirror_half)
         for (RawOutline& outline : outlines) {
             outline.points = mirrored_half(std::move(outline.points), file);

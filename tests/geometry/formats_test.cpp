@@ -154,6 +154,46 @@ TEST(Formats, DrawingsSayHowToExport) {
     EXPECT_NE(message_of(fmt::format("{:<72}S{:>7}\n", "start", 1)).find("an IGES file"), std::string::npos);
 }
 
+TEST(Formats, ExtensionsSayHowToExportWhatCannotBeRead) {
+    const std::vector<std::pair<std::string, std::string>> names{{"a.dxf", "a DXF drawing"},
+                                                                 {"a.SVG", "an SVG drawing"},
+                                                                 {"a.igs", "an IGES file"},
+                                                                 {"a.step", "a STEP file"},
+                                                                 {"a.json", "JSON"}};
+    for (const auto& [name, said] : names) {
+        try {
+            fixtures::read("{}\nnothing\n", name);
+            ADD_FAILURE() << name;
+        } catch (const InputError& error) {
+            EXPECT_EQ(error.reason().find(said), 0u) << error.what();
+        }
+        EXPECT_EQ(fixtures::read(fixtures::selig, name).elements.size(), 1u);
+    }
+}
+
+TEST(Formats, JsonSaysHowToExport) {
+    for (const std::string text :
+         {R"({"x": [1, 0.5, 0, 0.5], "y": [0, 0.1, 0, -0.1]})",
+          R"([{"x": 1, "y": 0}, {"x": 0.5, "y": 0.1}, {"x": 0, "y": 0}])",
+          "{\"x\": 1, \"y\": 0}\n{\"x\": 0.5, \"y\": 0.1}\n{\"x\": 0, \"y\": 0}\n",
+          "[\n  [\n    1.0,\n    0.0\n  ],\n  [\n    0.5,\n    0.1\n  ],\n  [\n    0,\n    0\n  ]\n]\n",
+          "[[1, 0.5, 0, 0.5], [0, 0.1, 0, -0.1]]", "[[1, 0.5, 0], [0, 0.1, 0]]", "[1, 0, 0.5, 0.1, 0, 0]",
+          "{x: [1, 0.5, 0], y: [0, 0.1, 0]}"}) {
+        const std::string message = message_of(text);
+        EXPECT_NE(message.find("JSON, of which lamina reads lists of points alone: print the points"),
+                  std::string::npos)
+            << text << '\n'
+            << message;
+    }
+    for (const std::string text :
+         {"\xEF\xBB\xBF\n {\n  \"name\": \"a\",\n  \"points\": [\n    [1, 0],\n    [0.5, 0.1],\n    [0, 0],\n    [0.5, "
+          "-0.1]\n  ]\n}\n",
+          "[\n 1, 0,\n 0.5, 0.1,\n 0, 0,\n 0.5, -0.1\n]\n", "[[1, 0], [0.5, 0.1], [0, 0], [0.5, -0.1]]",
+          "[[1, 0],\n[0.5, 0.1],\n[0, 0],\n[0.5, -0.1]]\n", "[1 0; 0.5 0.1; 0 0; 0.5 -0.1]",
+          "{1, 0},\n{0.5, 0.1},\n{0, 0},\n{0.5, -0.1}\n", "[\n  [1, 0],\n  [0.5, 0.1],\n  [0, 0],\n  [0.5, -0.1]\n]\n"})
+        EXPECT_EQ(of_text(text).elements[0].points.size(), 4u) << text;
+}
+
 TEST(HalfSections, AreMirrored) {
     GeometryOptions options;
     options.mirror_half = true;

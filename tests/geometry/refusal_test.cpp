@@ -60,8 +60,8 @@ TEST(Refusal, NothingToRead) {
 TEST(Refusal, FilesOfAnotherKindShowALine) {
     expect_refusal("NACA 0012\nx=1.0 y=0.0\nx=0.5 y=0.1\n", 2,
                    "no line starts with two numbers; this one is 'x=1.0 y=0.0'");
-    expect_refusal("[\n[\n1.0,\n0.0\n],\n[\n0.5,\n0.1\n]]\n", 3, "no line starts with two numbers; this one is '1.0,'");
-    expect_refusal("{\"x\": 1.0, \"y\": 0.0}\n{\"x\": 0.5, \"y\": 0.1}\n", 1, "no line starts with two numbers");
+    expect_refusal("[\n[\n1.0,\n0.0\n],\n[\n0.5,\n0.1\n]]\n", 1, "JSON, of which lamina reads lists of points alone");
+    expect_refusal("{\"x\": 1.0, \"y\": 0.0}\n{\"x\": 0.5, \"y\": 0.1}\n", 1, "JSON, of which lamina reads lists");
     expect_refusal("one\ntwo\n", 0, "no coordinates found: no line starts with two numbers");
 }
 
