@@ -79,7 +79,7 @@ struct RefineStats {
     std::size_t refused = 0;
     std::size_t below_bound = 0;  ///< triangles that stayed below the angle bound
     /// Triangles of `below_bound` at a corner below 60 degrees between two border edges, or, where segments may be split,
-    /// within rounding of a segment.
+    /// within rounding of a segment or between segments that nearly coincide.
     std::size_t exempt = 0;
     std::size_t oversized = 0;  ///< triangles that stayed above the size bound
     bool stopped = false;       ///< whether refinement ended because max_points did not suffice
@@ -145,9 +145,11 @@ struct ConstrainedRefinement {
 /// degrees less twice the angle bound, and where they keep a triangle beyond the bounds. Segments that meet at less
 /// than 90 degrees are split on common circles round their vertex, whose radii are powers of two. Triangles in a corner
 /// where segments meet at less than 60 degrees, and those whose shortest edge joins two such segments, are exempt from
-/// the angle bound (stats.exempt). So are triangles of a vertex closer to a segment than 1e-13 of the segment's
-/// coordinates, and of two vertices closer to each other than 1e-15 of theirs: nothing is split for their sake. Without
-/// rounding, no other angle stays below it: stats.refused counts the triangles that rounding, or split_segments = false,
+/// the angle bound (stats.exempt). A segment that others divide counts as a whole, and so do segments that continue each
+/// other straight on. Exempt, too, are triangles of a vertex closer to a segment than 1e-13 of the segment's coordinates,
+/// of two vertices closer to each other than 1e-15 of theirs, and, unless ConstrainedRefineOptions::conforming holds,
+/// triangles between segments that run beside each other for at least 1e4 times their distance: nothing is split for
+/// their sake. Without rounding, no other angle stays below it: stats.refused counts the triangles that rounding, or split_segments = false,
 /// kept from being mended. Throws as the other refine() does. Source: J. Ruppert, J. Algorithms 18 (1995), section 3 and
 /// "corner lopping"; lenses: J. R. Shewchuk, Comput. Geom. 22 (2002); exempt triangles: G. Miller, S. Pav, N. Walkington,
 /// Int. J. Comput. Geom. Appl. 15 (2005).

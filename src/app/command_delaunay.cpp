@@ -159,8 +159,8 @@ std::string delaunay_summary(const DelaunayResult& result, const DelaunayRunFact
                                    result.output.triangles.size(), facts.smallest_angle_deg);
     if (stats.below_bound > 0)
         text += fmt::format(
-            "  {} triangles have an angle below the bound ({} of them in sharp corners of the input, or "
-            "within rounding of a segment, where no triangulation can keep it)\n",
+            "  {} triangles have an angle below the bound ({} of them in sharp corners of the input, or between "
+            "segments that nearly coincide, where no triangulation of few triangles can keep it)\n",
             stats.below_bound, stats.exempt);
     if (result.merged_points > 0)
         text += fmt::format("  {} points were merged with earlier ones; no triangle has them\n", result.merged_points);

@@ -142,7 +142,10 @@ ConstrainedRefinement refine_input(const TriangleInput& input, const Constrained
     if (progress) progress({"refinement", result.estimate});
     ConstrainedRefinement mesh = refine(input.points, triangulation, size, options);
     // The sizes that stand for no bound are finite, and flat triangles have circles that are larger.
-    if (!bounds_areas(input, settings)) mesh.stats.oversized = 0;
+    if (!bounds_areas(input, settings)) {
+        mesh.stats.oversized = 0;
+        if (mesh.stats.below_bound == mesh.stats.exempt) mesh.stats.refused = 0;
+    }
     return mesh;
 }
 

@@ -258,14 +258,17 @@ void add_triangle(const ConstrainedInput& input, Index t, UndividedSums& sums) {
 }
 
 /// Adds what the angle bound asks for.
-void add_angles(const ConstrainedInput& input, const ConstrainedRefineOptions& options, RefinementEstimate& estimate) {
+void add_angles(const ConstrainedInput& input, const ConstrainedTriangulation& triangulation,
+                const ConstrainedRefineOptions& options, RefinementEstimate& estimate) {
     // Refinement makes this many triangles for each of the triangulation where there are no channels, as measured.
     constexpr double made_for_each = 2;
     // In channels it made 0.78 to 2.7 times the estimate (docs/decisions/0020).
     constexpr double certain_share = 0.5;
     const auto given = static_cast<double>(input.tris.size());
     AngleEstimate angles;
-    if (options.split_segments) angles = estimate_for_angles(input, options.refine.min_angle_deg);
+    if (options.split_segments)
+        angles = estimate_for_angles(input, {input.points, triangulation.segments, triangulation.parents, input.tris},
+                                     options.refine.min_angle_deg);
     estimate.by_angles = std::max(made_for_each * given, angles.in_channels + angles.growing);
     estimate.least_by_angles = std::max(given, certain_share * angles.in_channels);
 }
@@ -339,7 +342,7 @@ RefinementEstimate estimate_triangles(std::span<const Point> points, const Const
                                    : refined(0) * sums.min_triangles + refined_along_border * sums.border_edges;
     const auto given = static_cast<double>(triangulation.triangles.size());
     RefinementEstimate estimate{std::max(by_size, given), 0, 0};
-    if (options.refine.min_angle_deg > 0) add_angles(input, options, estimate);
+    if (options.refine.min_angle_deg > 0) add_angles(input, triangulation, options, estimate);
     return estimate;
 }
 

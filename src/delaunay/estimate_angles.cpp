@@ -40,7 +40,8 @@ struct Entrance {
 /// Measures how wide the channels beside constrained edges are.
 class ChannelSurvey {
 public:
-    explicit ChannelSurvey(const ConstrainedInput& input) : input_(input), budget_(1000 + 4 * input.tris.size()) {}
+    ChannelSurvey(const ConstrainedInput& input, const BorderLines& lines)
+        : input_(input), lines_(lines), budget_(1000 + 4 * input.tris.size()) {}
 
     /// Returns the integral of 1 / d over an edge, seen from its triangle t; 0 if that is not narrow.
     double along(Index t, unsigned e);
@@ -56,15 +57,17 @@ private:
     };
 
     const ConstrainedInput& input_;
+    const BorderLines& lines_;
     std::size_t budget_;  ///< triangles that may still be visited
     std::array<Index, 2> ends_{};
-    Entrance begin_{};  ///< the edge
+    Index line_ = no_index;  ///< the line of the edge
+    Entrance begin_{};       ///< the edge
     Point from_, extent_;
     double length_ = 0;
     std::priority_queue<Entrance> entrances_;
 
     Point point(Index v) const { return input_.points[v]; }
-    bool is_end(Index v) const { return v == ends_[0] || v == ends_[1]; }
+    bool is_left_alone(Index v) const;
     Place place(double t) { return {t, distance_from(from_ + t * extent_)}; }
     double between(Place from, Place to, int depth);
     double distance_from(Point p);
@@ -76,6 +79,7 @@ double ChannelSurvey::along(Index t, unsigned e) {
     constexpr double margin = 1e-3;
     const Tri& tri = input_.tris[t];
     ends_ = {tri.v[next(e)], tri.v[previous(e)]};
+    line_ = lines_.line_of_edge(ends_[0], ends_[1]);
     from_ = point(ends_[0]);
     extent_ = point(ends_[1]) - from_;
     if (squared_length(extent_) < min_slenderness * std::abs(cross(extent_, point(tri.v[e]) - from_))) return 0;
@@ -115,7 +119,8 @@ double ChannelSurvey::distance_from(Point p) {
         if (budget_ == 0) return HUGE_VAL;
         --budget_;
         const Tri& tri = input_.tris[at.triangle];
-        if (!is_end(tri.v[at.edge])) nearest = std::min(nearest, distance(p, point(tri.v[at.edge])));
+        const Index apex = tri.v[at.edge];
+        if (const double d = distance(p, point(apex)); d < nearest && !is_left_alone(apex)) nearest = d;
         for (const unsigned e : {next(at.edge), previous(at.edge)}) {
             const Index a = tri.v[next(e)], b = tri.v[previous(e)];
             if (tri.n[e].is_constrained())
@@ -129,10 +134,17 @@ double ChannelSurvey::distance_from(Point p) {
     return std::max(nearest, shortest_edge(magnitude(p), length_));
 }
 
-/// Returns the distance from p to a constrained edge; infinite if that is another side of a corner: edges that meet are
+/// Returns whether a vertex is an end of the edge, or is on another side of a sharp corner of its line, or on a chain that
+/// nearly coincides: a vertex in a corner asks for another one at the same distance from it, and for nothing between.
+bool ChannelSurvey::is_left_alone(Index v) const {
+    return v == ends_[0] || v == ends_[1] || lines_.nearly_coincide(line_, v) ||
+           lines_.facing_corner(input_.points, line_, v) != no_index;
+}
+
+/// Returns the distance from p to a constrained edge; infinite if that is another side of a corner: lines that meet are
 /// split at the same distances from their corner, and what lies between is not divided further.
 double ChannelSurvey::distance_to_border(Point p, Index a, Index b) const {
-    return is_end(a) || is_end(b) ? HUGE_VAL : core::distance_to_segment(p, point(a), point(b));
+    return lines_.meet(line_, lines_.line_of_edge(a, b)) ? HUGE_VAL : core::distance_to_segment(p, point(a), point(b));
 }
 
 /// The two nearest neighbours of a vertex.
@@ -172,13 +184,13 @@ double count_doublings(const ConstrainedInput& input) {
 
 }  // namespace
 
-AngleEstimate estimate_for_angles(const ConstrainedInput& input, double min_angle_deg) {
+AngleEstimate estimate_for_angles(const ConstrainedInput& input, const BorderLines& lines, double min_angle_deg) {
     // Triangles that grow from each part of an edge into the open, and for each doubling of lengths, as measured. They
     // grow slowly where the bound is high.
     constexpr double usual = 3.3, high_bound_deg = 28, more_per_degree = 1.5;
     const double growing = usual + more_per_degree * std::max(0.0, min_angle_deg - high_bound_deg);
     const double tangent = std::tan(core::radians(min_angle_deg));
-    ChannelSurvey survey(input);
+    ChannelSurvey survey(input, lines);
     AngleEstimate sum{0, growing * count_doublings(input)};
     for (Index t = 0; t < input.tris.size(); ++t) {
         for (unsigned e = 0; e < 3; ++e) {

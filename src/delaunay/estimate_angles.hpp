@@ -1,8 +1,7 @@
 // The number of triangles that a bound of the angles alone asks for.
 #pragma once
 
-#include <lamina/export.hpp>
-
+#include "delaunay/border_lines.hpp"
 #include "delaunay/constrained_input.hpp"
 
 namespace lamina::delaunay {
@@ -14,7 +13,7 @@ struct AngleEstimate {
 };
 
 /// Estimates the triangles once all angles reach the bound. Edges are cut into parts about as long as the channel beside
-/// them is wide.
-LAMINA_EXPORT AngleEstimate estimate_for_angles(const ConstrainedInput& input, double min_angle_deg);
+/// them is wide. `lines` are the borders of the input.
+AngleEstimate estimate_for_angles(const ConstrainedInput& input, const BorderLines& lines, double min_angle_deg);
 
 }  // namespace lamina::delaunay

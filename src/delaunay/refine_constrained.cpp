@@ -295,7 +295,7 @@ Outcome refine_round(const FieldPatches& filled, const RefinementTask& task, Ref
     way.diametral_circles = way.diametral_circles || options.conforming;
     SeamDomain seam = make_seam(task.input, filled);
     const std::size_t before = seam.domain.points.size();
-    BorderLines lines(task.input.points, task.triangulation.segments, task.input.tris);
+    BorderLines lines(task.input.points, task.triangulation.segments, task.triangulation.parents, task.input.tris);
     SplittingRefiner refiner(std::move(seam.domain), lines, task.input.sizes, options, way);
     refiner.refine();
     Outcome outcome{{}, refiner.kept_out(), refiner.vertices().size() - before};

@@ -40,7 +40,8 @@ SplittingRefiner::SplittingRefiner(SplittableDomain domain, BorderLines& lines, 
       fields_(std::move(domain.fields)),
       frozen_begin_(domain.frozen_begin),
       frozen_end_(domain.frozen_end),
-      may_split_(options.split_segments) {
+      may_split_(options.split_segments),
+      conforming_(options.conforming) {
     if (!points_.empty()) scale_ = unit_scale(core::longer_side(core::bounding_box(points_)));
     if (scale_ != 1)
         for (Point& p : points_) p = scale_ * p;
@@ -100,14 +101,18 @@ double SplittingRefiner::unresolved_distance(Index line) const {
     return line == no_index ? 0 : scale_ * lines_.unresolved_distance(line);
 }
 
-/// Returns whether a vertex is so near to the edge a-b of a line that no split helps.
-bool SplittingRefiner::is_within_rounding(Index a, Index b, Point p) const {
-    return core::distance_to_segment(p, points_[a], points_[b]) < unresolved_distance(lines_.line_of_edge(a, b));
+/// Returns whether a vertex is so near to the edge a-b of a line that no split helps, or on a chain that nearly coincides
+/// with that of the line.
+bool SplittingRefiner::is_left_alone(Index a, Index b, Index p) const {
+    const Index line = lines_.line_of_edge(a, b);
+    return core::distance_to_segment(points_[p], points_[a], points_[b]) < unresolved_distance(line) ||
+           (!conforming_ && lines_.nearly_coincide(line, p));
 }
 
 /// Returns whether a triangle is so flat beside the lines that its edges are part of, and that its vertices split, that
-/// no split makes its angles larger.
-bool SplittingRefiner::is_within_rounding(const Tri& tri) const {
+/// no split makes its angles larger, or lies between chains that nearly coincide.
+bool SplittingRefiner::is_left_alone(const Tri& tri) const {
+    if (!conforming_ && lines_.lies_between_coincident_chains(tri)) return true;
     double unresolved = 0;
     for (unsigned e = 0; e < 3; ++e) {
         unresolved = std::max(unresolved, unresolved_distance(lines_.line_of_vertex(tri.v[e])));
@@ -122,7 +127,7 @@ bool SplittingRefiner::is_within_rounding(const Tri& tri) const {
 
 bool SplittingRefiner::must_mend(Index t) const {
     const Tri& tri = tris_[t];
-    if (is_within_rounding(tri)) return false;
+    if (is_left_alone(tri)) return false;
     const unsigned e = shape_of(tri).shortest();
     return !lines_.join_shells(points_, {tri.v[next(e)], tri.v[previous(e)], tri.v[e]});
 }
@@ -193,7 +198,7 @@ double SplittingRefiner::share_at_split(Index t, unsigned e) const {
     const Index a = tri.v[next(e)], b = tri.v[previous(e)], opposite = tri.v[e];
     if (lines_.is_acute(a) || lines_.is_acute(b)) return 0;
     if (const Index line = lines_.line_of_vertex(opposite); line != no_index) {
-        if (lines_.have_common_end(line, lines_.line_of_edge(a, b))) return 0;
+        if (lines_.meet(line, lines_.line_of_edge(a, b))) return 0;
     } else if (opposite >= frozen_begin_) {
         return 0;
     }
@@ -219,7 +224,7 @@ void SplittingRefiner::queue_edges(Index t) {
         if (is_frozen(a, b)) continue;
         const Point u = points_[a] - points_[tri.v[e]], v = points_[b] - points_[tri.v[e]];
         const bool is_encroached =
-            encroaches(u, v, squared_length(u), squared_length(v)) && !is_within_rounding(a, b, points_[tri.v[e]]);
+            encroaches(u, v, squared_length(u), squared_length(v)) && !is_left_alone(a, b, tri.v[e]);
         if (is_encroached || is_too_long(t, a, b)) long_or_encroached_.push_back({t, a, b});
     }
 }
@@ -313,7 +318,7 @@ Point SplittingRefiner::clip(Point inside, Point p) const {
 
 /// Splits the edges that keep the circumcentre p from mending triangle t, and queues t again if it is still there.
 void SplittingRefiner::give_up(Index t, Point p) {
-    if (is_within_rounding(tris_[t])) return;
+    if (is_left_alone(tris_[t])) return;
     const QueuedTriangle entry{t, tris_[t].v[0]};
     p = clip(points_[tris_[t].v[0]], p);
     if (!(squared_length(p) < HUGE_VAL)) {
@@ -450,16 +455,15 @@ RefineStats SplittingRefiner::count_leftovers(double min_angle_deg) const {
     for (const Tri& tri : tris_) {
         const TriangleShape s = shape_of(tri);
         const unsigned e = s.shortest();
-        const bool within_rounding = is_within_rounding(tri);
-        stats.oversized += !within_rounding && is_oversized(tri, s);
+        const bool left_alone = is_left_alone(tri);
+        stats.oversized += !left_alone && is_oversized(tri, s);
         const double shortest = s.squared[e] * (1 + rounding);
         if (!is_angle_below(sine * sine, s.squared[0], s.squared[1], s.squared[2], shortest, s.area2)) continue;
         ++stats.below_bound;
         const Point middle = (1.0 / 3) * (points_[tri.v[0]] + points_[tri.v[1]] + points_[tri.v[2]]);
         const Index v = tri.v[next(e)], w = tri.v[previous(e)];
         stats.exempt +=
-            within_rounding || is_unresolved(points_[v], points_[w]) ||
-            lines_.join_sharp_lines(points_, {v, w, tri.v[e]}) ||
+            left_alone || is_unresolved(points_[v], points_[w]) || lines_.join_sharp_lines(points_, {v, w, tri.v[e]}) ||
             std::any_of(tri.v, tri.v + 3, [&](Index u) { return lines_.in_sharp_corner(points_, u, middle); });
     }
     count_refused(stats);

@@ -92,8 +92,8 @@ private:
     bool is_frozen(Index a, Index b) const { return !may_split_ || (is_frozen(a) && is_frozen(b)); }
     bool encroaches(Point a, Point b, double aa, double bb) const;
     double unresolved_distance(Index line) const;
-    bool is_within_rounding(Index a, Index b, Point p) const;
-    bool is_within_rounding(const Tri& tri) const;
+    bool is_left_alone(Index a, Index b, Index p) const;
+    bool is_left_alone(const Tri& tri) const;
     bool is_too_long(Index t, Index a, Index b) const;
     Point division_point(Index t, Index a, Index b) const;
     double share_in_corner(Index a, Index b, Index p) const;
@@ -114,6 +114,7 @@ private:
     std::vector<std::uint32_t> fields_;
     std::size_t frozen_begin_, frozen_end_;
     bool may_split_;
+    bool conforming_;
     double scale_ = 1;     ///< the coordinates of the refiner over those of the domain
     Box extent_;           ///< the box round all vertices
     double part_length_;   ///< the length of parts of an edge over the distance of a vertex

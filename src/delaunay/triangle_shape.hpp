@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <span>
 
 #include <lamina/point.hpp>
 
@@ -34,7 +34,7 @@ struct TriangleShape {
     double squared_sum() const { return squared[0] + squared[1] + squared[2]; }
 };
 
-inline TriangleShape shape_of(const std::vector<Point>& points, const Tri& t) {
+inline TriangleShape shape_of(std::span<const Point> points, const Tri& t) {
     const Point a = points[t.v[0]], b = points[t.v[1]], c = points[t.v[2]];
     return {{squared_length(c - b), squared_length(a - c), squared_length(b - a)}, cross(b - a, c - a)};
 }
