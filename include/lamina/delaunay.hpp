@@ -28,6 +28,9 @@ LAMINA_EXPORT const OptionTable<DecompositionOptions>& decomposition_option_tabl
 /// Throws OptionError where an option is out of range.
 LAMINA_EXPORT void validate(const DecompositionOptions& options);
 
+/// Returns the table of the options of constrained triangulation that are numbers.
+LAMINA_EXPORT const OptionTable<ConstrainedOptions>& constrained_option_table();
+
 // ---- refinement ----
 
 /// The circumcircles of refined triangles are at most as large as that of the equilateral triangle whose edge is this

@@ -50,7 +50,7 @@ ReadOnlyArray<std::uint32_t> delaunay(const PointsArgument& given) {
 /// Returns (Steiner points, triangles, segments, parents, what points are merged into).
 nb::tuple constrained_delaunay(const PointsArgument& given, const SegmentsArgument& given_segments,
                                const std::string& keep, const std::string& crossings, const PointsArgument& holes,
-                               std::optional<double> merge_distance) {
+                               std::optional<double> merge_distance, double drop_flat) {
     const std::vector<Point> points = points_of(given);
     const std::vector<Segment> segments = cells_of<Segment, 2>(given_segments);
     ConstrainedOptions options;
@@ -64,6 +64,7 @@ nb::tuple constrained_delaunay(const PointsArgument& given, const SegmentsArgume
         choice_of<Crossings>({{"refuse", Crossings::refuse}, {"insert", Crossings::insert}}, "crossings", crossings);
     options.holes = points_of(holes);
     options.merge_distance = merge_distance;
+    options.drop_flat = drop_flat;
     ConstrainedTriangulation result;
     run_unlocked([&] { result = triangulate(points, segments, options); });
     return nb::make_tuple(owning_array<double>(std::move(result.steiner_points)),
@@ -165,7 +166,7 @@ nb::tuple refine_triangulation(const PointsArgument& given, const TrianglesArgum
 void add_triangulations(nb::module_& module) {
     module.def("delaunay", &delaunay);
     module.def("constrained_delaunay", &constrained_delaunay, nb::arg("points"), nb::arg("segments"), nb::arg("keep"),
-               nb::arg("crossings"), nb::arg("holes"), nb::arg("merge_distance").none());
+               nb::arg("crossings"), nb::arg("holes"), nb::arg("merge_distance").none(), nb::arg("drop_flat"));
     module.def("constrain_triangles", &adopt_triangles);
     module.def("merge_points", [](const PointsArgument& points, double distance) {
         return owning_array<std::uint32_t>(merge_points(points_of(points), distance));

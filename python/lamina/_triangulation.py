@@ -175,7 +175,7 @@ def delaunay(points) -> Triangulation:
 
 
 def constrained_delaunay(points, segments, *, keep: str = "convex_hull", crossings: str = "refuse",
-                         holes=(), merge_distance: float | None = None) -> Triangulation:
+                         holes=(), merge_distance: float | None = None, drop_flat: float = 0) -> Triangulation:
     """Returns the constrained Delaunay triangulation of points and segments.
 
     segments: (k, 2) indices into `points`; they may overlap, repeat and run through points. keep: which triangles stay:
@@ -184,11 +184,13 @@ def constrained_delaunay(points, segments, *, keep: str = "convex_hull", crossin
     "non_zero" (fonts). crossings: "refuse" raises InputError where segments cross (`error.segments`),
     "insert" adds a Steiner point there. holes: (h, 2) coordinates, one point in each hole.
     merge_distance: points at most this far apart count as one (`merged_into`), 0: equal ones; None: equal points raise
-    InputError.
+    InputError. drop_flat: with keep="convex_hull", triangles within this share of the length of an edge of the convex
+    hull from that edge are dropped, such as 1e-10: rounding makes them of points on straight sides; 0: none is.
     """
     array = points_array(points)
     steiner, triangles, edges, parents, merged_into = _lamina.constrained_delaunay(
-        array, index_array(segments, 2, "segments"), keep, crossings, points_array(holes, "holes"), merge_distance)
+        array, index_array(segments, 2, "segments"), keep, crossings, points_array(holes, "holes"), merge_distance,
+        float(drop_flat))
     return Triangulation(_joined(array, steiner), triangles, edges, parents, len(array), merged_into=merged_into)
 
 

@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 struct DelaunayArguments {
     std::string file, format;
     std::string stem;
-    std::string min_angle, max_area, threads, max_triangles, max_memory;
+    std::string min_angle, max_area, drop_flat, threads, max_triangles, max_memory;
     CLI::Option* merge = nullptr;
     std::string report;
     bool quiet = false, strict = false;
@@ -88,6 +88,9 @@ DelaunaySettings settings_of(const DelaunayArguments& arguments) {
         if (!positive_numbers.contains(settings.max_area))
             throw UsageError("option --max-area: must be " + positive_numbers.text());
     }
+    ConstrainedOptions constrained;
+    set_by_name(constrained_option_table(), "drop-flat", arguments.drop_flat, constrained);
+    settings.drop_flat = constrained.drop_flat;
     if (!arguments.merge->empty()) {
         // Without a distance, the option holds what a switch does.
         const std::string text = arguments.merge->results().front();
@@ -136,6 +139,7 @@ Json delaunay_report(const DelaunayResult& result, const DelaunayRunFacts& facts
                    {"warnings", warnings_report(result.warnings)},
                    {"estimate", estimate_report(result.estimate)},
                    {"merged_points", result.merged_points},
+                   {"dropped_triangles", result.dropped_triangles},
                    {"zero_length_segments", result.zero_length_segments},
                    {"repeated_segments", result.repeated_segments},
                    {"seconds",
@@ -164,12 +168,25 @@ std::string delaunay_summary(const DelaunayResult& result, const DelaunayRunFact
             stats.below_bound, stats.exempt);
     if (result.merged_points > 0)
         text += fmt::format("  {} points were merged with earlier ones; no triangle has them\n", result.merged_points);
+    if (result.dropped_triangles > 0)
+        text += fmt::format("  {} flat triangles at the hull were dropped\n", result.dropped_triangles);
     if (result.zero_length_segments > 0)
         text += fmt::format("  {} segments from a vertex to itself were left out\n", result.zero_length_segments);
     if (result.repeated_segments > 0)
         text += fmt::format("  {} segments lie on earlier ones and change nothing\n", result.repeated_segments);
     if (stats.oversized > 0) text += fmt::format("  {} triangles are larger than asked for\n", stats.oversized);
     return text;
+}
+
+/// Returns why a word after --merge is no distance; empty if it is one.
+std::string require_merge_distance(const std::string& word) {
+    if (word.empty() || word == "true") return {};
+    try {
+        parse_real(word, "option --merge");
+    } catch (const UsageError&) {
+        return "takes " + word + " for its distance: write --merge=TOL, or FILE before --merge";
+    }
+    return {};
 }
 
 void run(const DelaunayArguments& arguments) {
@@ -236,13 +253,16 @@ void add_delaunay_command(CLI::App& app) {
         "--insert-crossings", arguments->settings.insert_crossings,
         "add a vertex where segments cross, which is an error otherwise, and lead segments through vertices "
         "that they miss by rounding alone");
+    add_table_option(*command, constrained_option_table(), "drop-flat", arguments->drop_flat);
     arguments->merge =
         command
             ->add_option(
                 "--merge",
                 "take points at most TOL apart, in units of the input, for the same, equal ones where TOL is left "
-                "out, and with --insert-crossings lead segments through vertices at most TOL away")
+                "out, and with --insert-crossings lead segments through vertices at most TOL away; write --merge=TOL, "
+                "or FILE before --merge")
             ->expected(0, 1)
+            ->check(&require_merge_distance, "")
             ->type_name("[TOL]");
     add_table_option(*command, case_option_table(), "threads", arguments->threads);
     add_table_option(*command, case_option_table(), "max-triangles", arguments->max_triangles);

@@ -61,11 +61,12 @@ ConstrainedTriangulation triangulate_points(const TriangleInput& input, Delaunay
 
 ConstrainedTriangulation triangulate_input(const TriangleInput& input, const DelaunaySettings& settings,
                                            DelaunayResult& result) {
-    if (input.segments.empty() && input.holes.empty() && !settings.merge_distance)
+    if (input.segments.empty() && input.holes.empty() && !settings.merge_distance && settings.drop_flat == 0)
         return triangulate_points(input, result);
     ConstrainedOptions options;
     options.holes = input.holes;
     options.merge_distance = settings.merge_distance;
+    options.drop_flat = settings.drop_flat;
     options.crossings = settings.insert_crossings ? Crossings::insert : Crossings::refuse;
     if (!input.segments.empty() && !settings.keep_hull) options.keep = KeptRegion::inside_segments;
     ConstrainedTriangulation triangulation = triangulate(input.points, input.segments, options);
@@ -315,6 +316,8 @@ std::vector<Warning> find_warnings(const TriangleOutput& output, const RefineSta
 
 DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& settings, const Progress& progress) {
     if (input.points.empty()) throw InputError({.file = input.point_file.string()}, "the file holds no points");
+    if (settings.drop_flat > 0 && !input.segments.empty() && !settings.keep_hull)
+        throw UsageError("option --drop-flat needs --keep-hull: without it, segments bound the triangles");
     DelaunayResult result;
     Stopwatch watch;
     require_triangulation_within(input, settings, progress, result);
@@ -323,6 +326,7 @@ DelaunayResult run_delaunay(TriangleInput input, const DelaunaySettings& setting
     result.triangulation_seconds = watch.lap();
     result.zero_length_segments = triangulation.zero_length_segments;
     result.repeated_segments = triangulation.repeated_segments;
+    result.dropped_triangles = triangulation.dropped_triangles;
     result.warnings = find_unused_holes(input, triangulation.idle_holes);
 
     ConstrainedRefinement mesh;

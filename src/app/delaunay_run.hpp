@@ -18,6 +18,7 @@ struct DelaunaySettings {
     double max_area = HUGE_VAL;              ///< largest area of a triangle, in squared units of the input
     bool keep_border = false;                ///< whether segments and boundary edges stay as they are
     bool keep_hull = false;                  ///< whether triangles outside the segments are kept
+    double drop_flat = 0;                    ///< as ConstrainedOptions::drop_flat
     std::optional<double> merge_distance{};  ///< points at most this far apart are merged
     bool insert_crossings = false;           ///< whether crossing segments get a vertex instead of being refused
     WorkLimits limits{};                     ///< runs beyond them are refused
@@ -29,6 +30,7 @@ struct DelaunayResult {
     RunEstimate estimate;  ///< made before the refinement, or before the triangulation where there is none
     std::vector<Warning> warnings;
     std::size_t merged_points = 0;                                ///< points of the input that others stand for
+    std::size_t dropped_triangles = 0;                            ///< flat triangles at the hull
     std::size_t zero_length_segments = 0, repeated_segments = 0;  ///< segments of the input that change nothing
     double triangulation_seconds = 0, refinement_seconds = 0;
     /// The pieces and the times of the threads, for points without segments.

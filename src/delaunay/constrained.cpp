@@ -4,6 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include <lamina/delaunay.hpp>
+#include <lamina/error.hpp>
+#include <lamina/option_builders.hpp>
 #include <lamina/triangulation.hpp>
 
 #include "core/arguments.hpp"
@@ -254,6 +257,9 @@ using namespace delaunay;
 ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
                                      const ConstrainedOptions& options) {
     core::require_exact_range(options.holes, "hole");
+    require_in_range(constrained_option_table(), options);
+    if (options.drop_flat > 0 && options.keep != KeptRegion::convex_hull)
+        throw OptionError("drop_flat", "needs the convex hull: without it, segments bound the triangles");
     ConstrainedTriangulation result;
     std::vector<Segment> merged_segments;
     std::span<const std::uint32_t> stand_in;
@@ -282,6 +288,7 @@ ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<co
     }
     TriangleSelection selection = select_kept(triangulated, options.keep, points.size());
     result.idle_holes = deselect_holes(points, options.holes, triangulated.tris, selection);
+    result.dropped_triangles = deselect_flat(points, options.drop_flat, triangulated.tris, selection);
     result.triangles = selected_triangles(triangulated.tris, selection);
     list_segments(triangulated, selection, options.keep == KeptRegion::convex_hull && options.holes.empty(), result);
     result.decomposition = triangulated.stats;

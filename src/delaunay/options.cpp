@@ -1,4 +1,4 @@
-// The table of the options of refinement.
+// The tables of the options of refinement and of constrained triangulation.
 #include <lamina/delaunay.hpp>
 
 #include <lamina/option_builders.hpp>
@@ -31,7 +31,24 @@ OptionTable<RefineOptions> make_refine_table() {
     return table.take();
 }
 
+OptionTable<ConstrainedOptions> make_constrained_table() {
+    // Triangles that are flatter by far than one degree are nobody's; what is higher is a shape.
+    constexpr double largest = 0.1;
+    OptionTableBuilder<ConstrainedOptions> table("Constrained triangulation");
+    table.number(
+        "drop-flat", "TOL",
+        "drop triangles within TOL times the length of an edge of the convex hull from that edge, which rounding "
+        "makes of points on straight sides, such as 1e-10; 0: none",
+        numbers_from_to(0, largest), member_at(&ConstrainedOptions::drop_flat));
+    return table.take();
+}
+
 }  // namespace
+
+const OptionTable<ConstrainedOptions>& constrained_option_table() {
+    static const OptionTable<ConstrainedOptions> table = make_constrained_table();
+    return table;
+}
 
 const OptionTable<RefineOptions>& refine_option_table() {
     static const OptionTable<RefineOptions> table = make_refine_table();

@@ -37,6 +37,10 @@ TriangleSelection select_region(OrderedTriangulation& triangulation, std::span<c
 std::vector<std::size_t> deselect_holes(std::span<const Point> points, std::span<const Point> seeds, const Tris& tris,
                                         TriangleSelection& selection);
 
+/// Takes flat triangles at the hull out of the selection (ConstrainedOptions::drop_flat). Returns their number.
+std::size_t deselect_flat(std::span<const Point> points, double drop_flat, const Tris& tris,
+                          TriangleSelection& selection);
+
 /// A triangle from which spread_values() starts, and its value.
 struct ValueSeed {
     Index triangle;

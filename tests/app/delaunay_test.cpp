@@ -234,5 +234,38 @@ TEST(DelaunayCommand, FilesWithoutPointsAreRefusedByThatName) {
     }
 }
 
+TEST(DelaunayCommand, MergeSaysHowToWriteItsDistance) {
+    const TemporaryFolder folder;
+    folder.write("same.node", "4 2 0 0\n1 0 0\n2 1 0\n3 0 1\n4 1 0\n");
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "--merge", "same.node"}).exit_code, 0);
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"delaunay", "--merge", "wide", "same.node"},
+                                                  {"delaunay", "same.node", "--merge", "wide"},
+                                                  {"delaunay", "--merge=wide", "same.node"}}) {
+        const ProgramRun run = run_lamina(folder, words);
+        EXPECT_EQ(run.exit_code, 2);
+        EXPECT_NE(run.err.find("write --merge=TOL, or FILE before --merge"), std::string::npos) << run.err;
+    }
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "--merge=0", "same.node"}).exit_code, 0);
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "--merge", "--keep-hull", "same.node"}).exit_code, 0);
+}
+
+TEST(DelaunayCommand, DropsFlatTrianglesAtTheHull) {
+    const TemporaryFolder folder;
+    folder.write("p.node", "5 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n5 0.5 1e-12\n");
+    folder.write("p.poly", "5 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n5 0.5 1e-12\n1 0\n1 5 3\n0\n");
+    const auto triangles_with = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"-o", "out", "--report", "r.json"});
+        const ProgramRun run = run_lamina(folder, words);
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        return nlohmann::json::parse(folder.read("r.json"))["triangles"].get<int>();
+    };
+    EXPECT_EQ(triangles_with({"delaunay", "p.node"}), 4);
+    EXPECT_EQ(triangles_with({"delaunay", "p.node", "--drop-flat", "1e-9"}), 3);
+    EXPECT_EQ(triangles_with({"delaunay", "p.poly", "--drop-flat", "1e-9", "--keep-hull"}), 3);
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "p.poly", "--drop-flat", "1e-9"}).exit_code, 2);
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "p.node", "--drop-flat", "-1"}).exit_code, 2);
+    EXPECT_EQ(run_lamina(folder, {"delaunay", "p.node", "--drop-flat", "0.5"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace lamina::test

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <lamina/delaunay.hpp>
+#include <lamina/delaunay_connectivity.hpp>
 #include <lamina/error.hpp>
 #include <lamina/predicates.hpp>
 
@@ -541,6 +542,69 @@ TEST(Constraints, SegmentsThatSplitOffOneEndAfterAnother) {
     points.push_back({2, 0});
     const Segments segments{segment(points.size() - 2, points.size() - 1)};
     expect_valid(points, triangulate(points, segments).triangles, segments);
+}
+
+/// Returns the points of a regular grid, rotated and moved, so that its sides are straight but for rounding.
+std::vector<Point> rotated_grid(int columns, int rows, double angle, Point offset) {
+    std::vector<Point> points;
+    const Point along{std::cos(angle), std::sin(angle)}, across{-along.y, along.x};
+    for (int i = 0; i < columns; ++i)
+        for (int k = 0; k < rows; ++k) points.push_back(offset + (0.1 * i) * along + (0.1 * k) * across);
+    return points;
+}
+
+TEST(DropFlat, GridsHaveTheTrianglesOfExactOnes) {
+    std::size_t flat = 0;
+    for (const double angle : {0.0, 0.1, 0.5, 1.0, 2.0, 3.0}) {
+        for (const Point offset : {Point{0, 0}, Point{1000, -3}}) {
+            for (const auto& [columns, rows] : {std::pair{2, 40}, {7, 5}, {30, 30}, {100, 3}}) {
+                const std::vector<Point> points = rotated_grid(columns, rows, angle, offset);
+                const std::size_t exact = 2 * std::size_t(columns - 1) * std::size_t(rows - 1);
+                const auto all = triangulate(points, {}, {});
+                const auto kept = triangulate(points, {}, {.drop_flat = 1e-9});
+                EXPECT_EQ(kept.triangles.size(), exact) << angle << " " << columns << " x " << rows;
+                EXPECT_EQ(all.triangles.size(), exact + kept.dropped_triangles);
+                EXPECT_EQ(all.triangles, triangulate(points, {}, {.drop_flat = 0}).triangles);
+                EXPECT_EQ(all.dropped_triangles, 0u);
+                EXPECT_TRUE(check_triangulation(points, kept.triangles).empty());
+                EXPECT_EQ(half_edges(points.size(), kept.triangles).size(), 3 * exact);
+                flat += kept.dropped_triangles;
+                std::vector<char> used(points.size(), 0);
+                for (const Triangle& t : kept.triangles)
+                    for (const VertexId v : t.v) used[v.index()] = 1;
+                EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
+            }
+        }
+    }
+    EXPECT_GT(flat, 100u);
+}
+
+TEST(DropFlat, KeepsSegmentsVerticesAndConnections) {
+    // A strip that is flat all over keeps its triangles, since each vertex is on the hull.
+    const std::vector<Point> strip{{0, 0}, {1, 0}, {1, 1e-12}, {0, 1e-12}};
+    EXPECT_EQ(triangulate(strip, {}, {.drop_flat = 1e-9}).triangles.size(), 2u);
+    // The point beside the lower side, and the segments to it.
+    std::vector<Point> points{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 1e-12}};
+    EXPECT_EQ(triangulate(points, {}, {}).triangles.size(), 4u);
+    EXPECT_EQ(triangulate(points, {}, {.drop_flat = 1e-9}).triangles.size(), 3u);
+    EXPECT_EQ(triangulate(points, {}, {.drop_flat = 1e-13}).triangles.size(), 4u);
+    std::vector<Segment> segments{{VertexId{0u}, VertexId{4u}}, {VertexId{4u}, VertexId{1u}}};
+    const auto beside = triangulate(points, segments, {.drop_flat = 1e-9});
+    EXPECT_EQ(beside.triangles.size(), 3u);
+    EXPECT_EQ(beside.segments, segments);
+    segments = {{VertexId{0u}, VertexId{1u}}};
+    EXPECT_EQ(triangulate(points, segments, {.drop_flat = 1e-9}).triangles.size(), 4u);
+    // It goes on as far as from the hull, not from the last triangle: a circle and what is round stay.
+    std::vector<Point> circle;
+    for (int i = 0; i < 1000; ++i) circle.push_back({std::cos(0.002 * M_PI * i), std::sin(0.002 * M_PI * i)});
+    EXPECT_EQ(triangulate(circle, {}, {.drop_flat = 1e-3}).triangles.size(), 998u);
+}
+
+TEST(DropFlat, RefusesWhatMakesNoSense) {
+    const std::vector<Point> points{{0, 0}, {1, 0}, {0, 1}};
+    for (const double share : {-1e-9, 0.2, double(NAN), HUGE_VAL})
+        EXPECT_THROW(triangulate(points, {}, {.drop_flat = share}), OptionError) << share;
+    EXPECT_THROW(triangulate(points, {}, {.keep = KeptRegion::inside_segments, .drop_flat = 1e-9}), OptionError);
 }
 
 }  // namespace

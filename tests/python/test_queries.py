@@ -231,3 +231,18 @@ def test_changes(generator):
     t.remove(0)
     empty = lamina.DynamicTriangulation()
     assert len(empty) == 0 and len(empty.triangles) == 0
+
+
+def test_flat_triangles_at_the_hull_are_dropped_on_request():
+    angle = 0.5
+    x, y = np.meshgrid(0.1 * np.arange(20), 0.1 * np.arange(10))
+    points = np.column_stack([np.cos(angle) * x.ravel() - np.sin(angle) * y.ravel(),
+                              np.sin(angle) * x.ravel() + np.cos(angle) * y.ravel()])
+    t = lamina.constrained_delaunay(points, [], drop_flat=1e-10)
+    assert len(t.triangles) == 2 * 19 * 9
+    assert len(lamina.constrained_delaunay(points, []).triangles) > len(t.triangles)
+    for wrong in (-1.0, 0.2):
+        with pytest.raises(lamina.OptionError):
+            lamina.constrained_delaunay(points, [], drop_flat=wrong)
+    with pytest.raises(lamina.OptionError):
+        lamina.constrained_delaunay(points, [], keep="inside_segments", drop_flat=1e-10)
