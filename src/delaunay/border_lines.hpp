@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -121,7 +121,10 @@ private:
     struct ChainCorner {
         Index first, second;  ///< the chains, the smaller number first
         Index vertex;
-        friend auto operator<=>(const ChainCorner&, const ChainCorner&) = default;
+        friend bool operator==(const ChainCorner&, const ChainCorner&) = default;
+        friend bool operator<(const ChainCorner& l, const ChainCorner& r) {
+            return std::tie(l.first, l.second, l.vertex) < std::tie(r.first, r.second, r.vertex);
+        }
     };
     void find_chain_corners();
     /// Returns the corners of two chains.
