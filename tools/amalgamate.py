@@ -25,6 +25,7 @@ PAIRS = {
     "lamina_delaunay": (
         ["triangulation", "error", "predicates", "threads"],
         ["core/error.cpp", "core/parallel_none.cpp", "delaunay/check_triangulation.cpp", "delaunay/constrained.cpp",
+         "delaunay/flat_triangles.cpp",
          "delaunay/merge_points.cpp", "delaunay/triangulate_whole.cpp"]),
     "lamina_delaunay_queries": (
         ["delaunay_connectivity", "delaunay_queries", "voronoi"],

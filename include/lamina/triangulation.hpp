@@ -88,6 +88,9 @@ enum class Crossings {
              ///< these units; coordinates of crossings below 1e-60 become 0 or 1e-60
 };
 
+/// The largest ConstrainedOptions::drop_flat: what is higher is a shape of its own.
+inline constexpr double max_drop_flat = 0.1;
+
 /// Options of constrained triangulation.
 struct ConstrainedOptions {
     KeptRegion keep = KeptRegion::convex_hull;  ///< the triangles that are kept
@@ -102,7 +105,7 @@ struct ConstrainedOptions {
     std::optional<double> merge_distance{};
     /// Triangles are dropped that lie, with all corners, within this share of the length of an edge of the convex hull from
     /// that edge: those that rounding makes of points on a straight side. It goes from the outside inwards. No segment, no
-    /// vertex and no connection is lost by it. 0: none is dropped. OptionError above 0.1, and unless KeptRegion::convex_hull
+    /// vertex and no connection is lost by it. 0: none is dropped. OptionError above max_drop_flat, and unless KeptRegion::convex_hull
     /// is kept: the boundary consists of segments otherwise.
     double drop_flat = 0;
     /// The pieces that points are divided into; empty: as triangulate() of points does without DecompositionOptions.

@@ -4,13 +4,12 @@
 #include <optional>
 #include <utility>
 
-#include <lamina/delaunay.hpp>
 #include <lamina/error.hpp>
-#include <lamina/option_builders.hpp>
 #include <lamina/triangulation.hpp>
 
 #include "core/arguments.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "delaunay/arguments.hpp"
 #include "delaunay/beside_edges.hpp"
 #include "delaunay/constrained_pieces.hpp"
@@ -257,7 +256,8 @@ using namespace delaunay;
 ConstrainedTriangulation triangulate(std::span<const Point> points, std::span<const Segment> segments,
                                      const ConstrainedOptions& options) {
     core::require_exact_range(options.holes, "hole");
-    require_in_range(constrained_option_table(), options);
+    if (!(options.drop_flat >= 0 && options.drop_flat <= max_drop_flat))
+        throw OptionError("drop_flat", core::concat("must be from 0 to ", max_drop_flat));
     if (options.drop_flat > 0 && options.keep != KeptRegion::convex_hull)
         throw OptionError("drop_flat", "needs the convex hull: without it, segments bound the triangles");
     ConstrainedTriangulation result;

@@ -32,14 +32,12 @@ OptionTable<RefineOptions> make_refine_table() {
 }
 
 OptionTable<ConstrainedOptions> make_constrained_table() {
-    // Triangles that are flatter by far than one degree are nobody's; what is higher is a shape.
-    constexpr double largest = 0.1;
     OptionTableBuilder<ConstrainedOptions> table("Constrained triangulation");
     table.number(
         "drop-flat", "TOL",
         "drop triangles within TOL times the length of an edge of the convex hull from that edge, which rounding "
         "makes of points on straight sides, such as 1e-10; 0: none",
-        numbers_from_to(0, largest), member_at(&ConstrainedOptions::drop_flat));
+        numbers_from_to(0, max_drop_flat), member_at(&ConstrainedOptions::drop_flat));
     return table.take();
 }
 
