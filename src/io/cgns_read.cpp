@@ -295,24 +295,34 @@ void limit_memory(const fs::path& file) {
     ::setrlimit(RLIMIT_AS, &limit);
 }
 
-/// Opens a file, reads it if `whole`, and sends "+", or "-" and the reason why that fails, to the parent process. Sends
-/// nothing where the library ends the process.
-[[noreturn]] void try_in_child(const fs::path& file, bool whole, int pipe) {
-    const rlimit no_core{};
-    ::setrlimit(RLIMIT_CORE, &no_core);
-    if (const int null = ::open("/dev/null", O_WRONLY); null >= 0) ::dup2(null, STDERR_FILENO);
-    for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) std::signal(signal, SIG_DFL);
-    limit_memory(file);
-    std::string answer = "+";
+/// Returns "+" for a file that can be opened, and read if `whole`, else "-" and the reason why not.
+std::string answer_for(const fs::path& file, bool whole) {
     try {
         CgnsReader reader(file);
         if (whole) reader.read();
     } catch (const InputError& error) {
-        answer = "-" + error.reason();
+        return "-" + error.reason();
     } catch (const std::exception& error) {
-        answer = std::string("-") + error.what();
+        return std::string("-") + error.what();
     }
-    const bool told = ::write(pipe, answer.data(), answer.size()) == static_cast<ssize_t>(answer.size());
+    return "+";
+}
+
+/// Tries a file, and sends the answer to the parent process. Sends nothing where the library ends the process, or memory is
+/// lacking for the answer. No exception leaves the child process, which would go on with the work of its parent.
+[[noreturn]] void try_in_child(const fs::path& file, bool whole, int pipe) noexcept {
+    const rlimit no_core{};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    if (const int null = ::open("/dev/null", O_WRONLY); null >= 0) ::dup2(null, STDERR_FILENO);
+    for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE}) std::signal(signal, SIG_DFL);
+    bool told = false;
+    try {
+        limit_memory(file);
+        const std::string answer = answer_for(file, whole);
+        told = ::write(pipe, answer.data(), answer.size()) == static_cast<ssize_t>(answer.size());
+    } catch (const std::exception&) {
+        told = false;
+    }
     ::_exit(told ? 0 : 1);
 }
 

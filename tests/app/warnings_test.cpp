@@ -134,8 +134,8 @@ TEST(LimitsOfTheProgram, RunsBeyondThemAreRefusedBeforeTheWork) {
     expect_refused_at_once(folder,
                            {"mesh", "naca:0012", "--surface-points", "1e7", "--max-memory", "18G", "-o", "m.su2"},
                            "option --surface-points: 10000000 asks for");
-    folder.write("strip.poly", "4 2 0 0\n1 0 0\n2 4e9 0\n3 4e9 0.5\n4 0 0.5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
-    expect_refused_at_once(folder, {"delaunay", "strip.poly", "--min-angle", "20.7", "--max-memory", "18G"},
+    folder.write("strip.poly", "4 2 0 0\n1 0 0\n2 4e3 0\n3 4e3 0.5\n4 0 0.5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+    expect_refused_at_once(folder, {"delaunay", "strip.poly", "--min-angle", "20.7", "--max-triangles", "2000"},
                            "--min-angle: 20.7, with segments so close together, asks for");
     expect_refused_at_once(folder, {"mesh", "naca:0012", "--max-triangles", "20000", "-o", "m.su2"}, "--max-triangles");
     expect_refused_at_once(folder, {"mesh", "naca:0012", "--max-triangles", "2e4", "-o", "m.su2"},
